@@ -1,0 +1,427 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The one file that sees every stage: runs them in order and keeps their results.
+#include "Schlieren.h"
+
+#include "Device/Parallel.h"
+#include "Film/Film.h"
+#include "Film/PixelMeans.h"
+#include "Medium/Medium.h"
+#include "Optics/AutomaticK.h"
+#include "Optics/Cutoffs.h"
+#include "Rays/CudaTracer.h"
+#include "Rays/Light.h"
+#include "Rays/Tracer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
+constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
+
+void validate(const Scene& scene)
+{
+  if (scene.samplesPerPixel < 1)
+  {
+    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
+      ", so no light is traced. Set it to 1 or more.");
+  }
+  if (!(scene.stepSize > 0) || !std::isfinite(scene.stepSize))
+  {
+    throw Error("StepSize is " + std::to_string(scene.stepSize) +
+      ", so rays cannot advance. Set it to a positive number of voxels (default 1).");
+  }
+  if (!std::isfinite(scene.knifeEdgeAngle))
+  {
+    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
+  }
+  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
+  {
+    throw Error("KScale is " + std::to_string(*scene.kScale) +
+      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
+      "bright "
+      "and dark use InvertCutoff.");
+  }
+  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
+  {
+    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
+      ". Set it to zero or more, in data units.");
+  }
+  if (scene.threads < 0)
+  {
+    throw Error("The number of threads is " + std::to_string(scene.threads) +
+      ". Set it to 1 or more, or to 0 for all cores.");
+  }
+}
+
+void validateLengthScale(double lengthScale)
+{
+  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
+  {
+    throw Error("LengthScale is " + std::to_string(lengthScale) +
+      ", but it is the length of one data unit in metres. Set it to a positive number.");
+  }
+}
+
+/// What a held medium was built from.
+struct MediumKey
+{
+  std::array<std::int64_t, 3> dimensions;
+  Vector origin;
+  Vector spacing;
+  std::array<double, 9> direction;
+  std::uint64_t version;
+  const void* samples;
+  std::optional<double> ambient;
+  Interpolation interpolation;
+  Precision precision;
+
+  auto tie() const
+  {
+    return std::tie(
+      dimensions, origin, spacing, direction, version, samples, ambient, interpolation, precision);
+  }
+};
+
+/// What held rays were traced with, the medium apart.
+struct RaysKey
+{
+  Frame frame;
+  int width, height;
+  double stepSize;
+  double lengthScale;
+  std::uint32_t seed;
+  Device device;
+
+  auto tie() const
+  {
+    return std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry,
+      frame.exit, width, height, stepSize, lengthScale, seed, device);
+  }
+};
+
+template <class Real>
+struct MediumOnDevices
+{
+  Medium<Real> medium;
+  std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
+};
+
+/// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
+/// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
+/// cutoffs, so that changing the cutoff traces nothing.
+std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
+{
+  const double depth = frame.exit - frame.entry;
+  const double furthest = std::max(depth, scene.screenDistance.value_or(depth));
+  const double pixels =
+    std::ceil((bound.displacement + furthest * bound.slope) / frame.pixelSize) + 1;
+  const double most = std::max(16, std::max(scene.view.width, scene.view.height) / 8);
+  return static_cast<std::int64_t>(pixels < most ? pixels : most);
+}
+
+/// The smallest deflection that is more than the rounding of the refractivity.
+template <class Real>
+double noiseFloor(const Medium<Real>& medium, const Field& field)
+{
+  const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
+  return medium.largestN *
+    (rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
+             : std::numeric_limits<double>::epsilon());
+}
+
+/// How far past the exit plane rays meet what the film shows: a screen, or (going back) the middle of
+/// the data, where the other cutoffs' camera is in focus. Data units.
+double filmDistance(const Scene& scene, const Frame& frame)
+{
+  const double depth = frame.exit - frame.entry;
+  return scene.cutoff == Cutoff::Shadowgraph ? scene.screenDistance.value_or(depth) : -0.5 * depth;
+}
+
+/// Adds one pass of rays to the film and to the means. `exits` covers `held`, of which the picture and
+/// `margin` pixels around it are used.
+template <class CutoffKind>
+void shade(const CutoffKind& cutoff, double distance, const RayExit* exits, const Pass& held,
+  std::int64_t margin, const Scene& scene, Image& image, Film& film, PixelMeans& means)
+{
+  const std::int64_t width = scene.view.width;
+  const std::int64_t height = scene.view.height;
+  const double perDataUnit = 1 / image.frame.pixelSize;
+  std::atomic<std::int64_t> traced{ 0 }, steps{ 0 }, lost{ 0 };
+  constexpr std::int64_t rowsPerPiece = 16;
+  parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      std::int64_t tracedHere = 0, stepsHere = 0, lostHere = 0;
+      for (std::int64_t row = begin - margin; row < end - margin; ++row)
+      {
+        for (std::int64_t column = -margin; column < width + margin; ++column)
+        {
+          const RayExit& exit =
+            exits[(row - held.firstRow) * held.columns + column - held.firstColumn];
+          tracedHere += exit.fate != RayFate::Missed ? 1 : 0;
+          lostHere += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
+          stepsHere += exit.steps;
+          if (column >= 0 && column < width && row >= 0 && row < height)
+          {
+            means.add(static_cast<std::size_t>(row * width + column), exit);
+          }
+          if (exit.reachesFilm())
+          {
+            const double* eps = exit.deflection;
+            const double perLength =
+              distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-300));
+            film.splat(static_cast<double>(column) + held.offset.column +
+                (exit.displacement[0] + perLength * eps[0]) * perDataUnit,
+              static_cast<double>(row) + held.offset.row +
+                (exit.displacement[1] + perLength * eps[1]) * perDataUnit,
+              cutoff.transmission(exit.deflection));
+          }
+        }
+      }
+      traced += tracedHere;
+      steps += stepsHere;
+      lost += lostHere;
+    });
+  image.raysTraced += traced;
+  image.stepsTaken += steps;
+  image.raysLost += lost;
+}
+
+} // namespace
+
+struct Bench::Stages
+{
+  Work work;
+
+  std::optional<MediumKey> mediumKey;
+  std::variant<std::monostate, MediumOnDevices<float>, MediumOnDevices<double>> medium;
+
+  std::optional<RaysKey> raysKey;
+  std::int64_t heldMargin = 0;
+  std::deque<std::vector<RayExit>> passes; ///< from pass 0 on
+  std::vector<RayExit> scratch;            ///< a pass that is not held
+
+  template <class Real>
+  MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
+
+  void prepareRays(const RaysKey& key, std::int64_t margin);
+
+  /// The rays of a pass, held or traced now; null if aborted.
+  template <class Real>
+  const RayExit* raysOf(std::int64_t number, const Pass& pass, MediumOnDevices<Real>& held,
+    const RayTask<Real>& task, const Scene& scene, const Monitor& monitor, Image& image);
+
+  template <class Real>
+  Image render(const Field& field, const Scene& scene, Device device, const Monitor& monitor);
+};
+
+template <class Real>
+MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
+{
+  const void* samples = field.singles != nullptr ? static_cast<const void*>(field.singles)
+                                                 : static_cast<const void*>(field.doubles);
+  const Grid& grid = field.grid;
+  const MediumKey key{ grid.dimensions, grid.origin, grid.spacing, grid.direction, field.version,
+    samples, field.ambient, scene.interpolation, scene.precision };
+  if (!mediumKey || mediumKey->tie() != key.tie())
+  {
+    // Given up first: two media at once might not fit.
+    mediumKey.reset();
+    raysKey.reset();
+    passes.clear();
+    medium = std::monostate{};
+    medium = MediumOnDevices<Real>{ buildMedium<Real>(field, scene.interpolation, scene.threads),
+      nullptr };
+    mediumKey = key;
+    ++work.mediumBuilds;
+  }
+  return std::get<MediumOnDevices<Real>>(medium);
+}
+
+void Bench::Stages::prepareRays(const RaysKey& key, std::int64_t margin)
+{
+  if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
+  {
+    passes.clear();
+    raysKey = key;
+    heldMargin = margin;
+  }
+}
+
+template <class Real>
+const RayExit* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
+  MediumOnDevices<Real>& held, const RayTask<Real>& task, const Scene& scene,
+  const Monitor& monitor, Image& image)
+{
+  if (static_cast<std::size_t>(number) < passes.size())
+  {
+    return passes[static_cast<std::size_t>(number)].data();
+  }
+  const auto start = std::chrono::steady_clock::now();
+  scratch.resize(static_cast<std::size_t>(pass.columns * pass.rows));
+  bool finished = false;
+  if (image.device == Device::Cuda)
+  {
+    if (!held.cuda)
+    {
+      held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
+    }
+    finished = held.cuda->trace(task, scene.interpolation, pass, scratch.data(), monitor);
+  }
+  else
+  {
+    finished = traceOnCpu(task, scene.interpolation, pass, scratch.data(), scene.threads, monitor);
+  }
+  image.traceSeconds +=
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!finished)
+  {
+    return nullptr;
+  }
+  work.raysTraced += std::count_if(scratch.begin(), scratch.end(),
+    [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
+
+  const std::size_t bytes = scratch.size() * sizeof(RayExit);
+  if (static_cast<std::size_t>(number) == passes.size() &&
+    (passes.size() + 1) * bytes <= mostHeldBytes)
+  {
+    passes.push_back(std::move(scratch));
+    scratch.clear();
+    return passes.back().data();
+  }
+  return scratch.data();
+}
+
+template <class Real>
+Image Bench::Stages::render(
+  const Field& field, const Scene& scene, Device device, const Monitor& monitor)
+{
+  Image aborted;
+  aborted.aborted = true;
+
+  const View& view = scene.view;
+  Image image;
+  image.width = view.width;
+  image.height = view.height;
+  image.frame = frameOf(field.grid, view);
+  image.device = device;
+  image.pathModel = "Refracted";
+
+  MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
+  image.ambient = held.medium.ambient;
+  const Light light = collimatedLight(field.grid, image.frame);
+  const DisplacementBound bound = boundDisplacement(held.medium, light);
+  image.displacementBound = bound.displacement;
+  const RayTask<Real> task = makeTask(held.medium, light, scene.stepSize, field.lengthScale);
+
+  const std::int64_t margin = marginFor(bound, scene, image.frame);
+  prepareRays(
+    { image.frame, view.width, view.height, scene.stepSize, field.lengthScale, scene.seed, device },
+    margin);
+  Pass pass{ -heldMargin, -heldMargin, view.width + 2 * heldMargin, view.height + 2 * heldMargin,
+    { 0, 0 } };
+  Film film(view.width, view.height,
+    (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel);
+  PixelMeans means(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+  const double distance = filmDistance(scene, image.frame);
+
+  for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
+  {
+    Monitor ofPass = monitor;
+    if (monitor.progress)
+    {
+      ofPass.progress = [&](double fraction)
+      { monitor.progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel); };
+    }
+    pass.offset = pixelOffset(number, scene.seed);
+    const RayExit* exits = raysOf(number, pass, held, task, scene, ofPass, image);
+    if (exits == nullptr || (monitor.aborted && monitor.aborted()))
+    {
+      return aborted;
+    }
+    if (scene.cutoff == Cutoff::Shadowgraph)
+    {
+      shade(Shadowgraph{}, distance, exits, pass, margin, scene, image, film, means);
+      continue;
+    }
+    if (number == 0)
+    {
+      image.kScale = scene.kScale
+        ? *scene.kScale
+        : automaticK(exits, pass, view.width, view.height, noiseFloor(held.medium, field));
+    }
+    shade(KnifeEdge::at(scene.knifeEdgeAngle, image.kScale, scene.invertCutoff), distance, exits,
+      pass, margin, scene, image, film, means);
+  }
+  scratch = {};
+  image.intensity = film.develop(scene.samplesPerPixel);
+  means.develop(image);
+  return image;
+}
+
+Bench::Bench()
+  : stages_(std::make_unique<Stages>())
+{
+}
+
+Bench::~Bench() = default;
+Bench::Bench(Bench&&) noexcept = default;
+Bench& Bench::operator=(Bench&&) noexcept = default;
+
+const Work& Bench::work() const { return stages_->work; }
+
+Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)
+{
+  validate(field.grid);
+  validateLengthScale(field.lengthScale);
+  validate(scene);
+  frameOf(field.grid, scene.view); // a bad view is told before the medium is built
+
+  std::string reason;
+  const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
+  if (scene.device == Device::Cuda && !hasCuda)
+  {
+    throw Error("Device is CUDA, but no CUDA device can be used: " + reason +
+      ". Set Device to Auto or CPU, or check the driver with nvidia-smi.");
+  }
+  const auto renderOn = [&](Device device)
+  {
+    return scene.precision == Precision::Single
+      ? stages_->render<float>(field, scene, device, monitor)
+      : stages_->render<double>(field, scene, device, monitor);
+  };
+  if (!hasCuda)
+  {
+    return renderOn(Device::Cpu);
+  }
+  try
+  {
+    return renderOn(Device::Cuda);
+  }
+  catch (const DeviceError& failure)
+  {
+    if (scene.device == Device::Cuda)
+    {
+      throw;
+    }
+    Image image = renderOn(Device::Cpu);
+    image.deviceNote = failure.what();
+    return image;
+  }
+}
+
+} // namespace schlieren

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Math/HostDevice.h"
+
+#include <cmath>
+
+namespace schlieren
+{
+
+template <class Real>
+struct Vec3
+{
+  Real x, y, z;
+
+  SCHLIEREN_HD Vec3& operator+=(const Vec3& b)
+  {
+    x += b.x;
+    y += b.y;
+    z += b.z;
+    return *this;
+  }
+
+  template <class Other>
+  SCHLIEREN_HD explicit operator Vec3<Other>() const
+  {
+    return { static_cast<Other>(x), static_cast<Other>(y), static_cast<Other>(z) };
+  }
+};
+
+template <class Real>
+SCHLIEREN_HD Vec3<Real> operator+(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+  return { a.x + b.x, a.y + b.y, a.z + b.z };
+}
+
+template <class Real>
+SCHLIEREN_HD Vec3<Real> operator-(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+template <class Real>
+SCHLIEREN_HD Vec3<Real> operator*(Real s, const Vec3<Real>& a)
+{
+  return { s * a.x, s * a.y, s * a.z };
+}
+
+/// Product component by component.
+template <class Real>
+SCHLIEREN_HD Vec3<Real> scaled(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+  return { a.x * b.x, a.y * b.y, a.z * b.z };
+}
+
+template <class Real>
+SCHLIEREN_HD Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class Real>
+SCHLIEREN_HD Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+template <class Real>
+SCHLIEREN_HD Real length(const Vec3<Real>& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+} // namespace schlieren

@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Medium/Medium.h"
+
+#include "Device/Parallel.h"
+#include "Medium/Solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// No transparent matter has an index near this; a larger |N| is a wrong array, unit or model.
+constexpr double largestPlausibleN = 10;
+
+template <class Value>
+struct Samples
+{
+  const Value* values;
+  const unsigned char* valid;
+
+  bool isGas(std::int64_t at) const
+  {
+    return (valid == nullptr || valid[at] != 0) && std::isfinite(values[at]);
+  }
+};
+
+/// Median over the gas on the six faces of the grid; where all of that is solid, over all gas. The
+/// median, because the gas around the flow fills most of the faces, while a mean is pulled by every
+/// jet or wake that passes through one.
+template <class Value>
+double boundaryMedian(const Samples<Value>& samples, const std::array<std::int64_t, 3>& n)
+{
+  std::vector<Value> values;
+  const auto add = [&](std::int64_t at)
+  {
+    if (samples.isGas(at))
+    {
+      values.push_back(samples.values[at]);
+    }
+  };
+  for (std::int64_t k = 0; k < n[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+    {
+      const bool wholeRow = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
+      for (std::int64_t i = 0; i < n[0]; i += wholeRow ? 1 : n[0] - 1)
+      {
+        add((k * n[1] + j) * n[0] + i);
+      }
+    }
+  }
+  if (values.empty())
+  {
+    for (std::int64_t at = 0; at < n[0] * n[1] * n[2]; ++at)
+    {
+      add(at);
+    }
+  }
+  if (values.empty())
+  {
+    return 0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+struct Range
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  std::int64_t gas = 0;
+};
+
+/// Copies the samples into the padded volume as nu, marks solids (with value 0) and finds the range.
+template <class Real, class Value>
+Range load(const Samples<Value>& samples, double ambient, Medium<Real>& medium, int threads)
+{
+  const auto [nx, ny, nz] = medium.volume.dimensions;
+  const double scale = 1 / (1 + ambient);
+  std::vector<Range> planes(static_cast<std::size_t>(nz));
+  parallelFor(nz, 1, threads,
+    [&, nx = nx, ny = ny](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t k = begin; k < end; ++k)
+      {
+        Range range;
+        for (std::int64_t j = 0; j < ny; ++j)
+        {
+          const std::int64_t row = (k * ny + j) * nx;
+          for (std::int64_t i = 0; i < nx; ++i)
+          {
+            Real nu = 0;
+            if (samples.isGas(row + i))
+            {
+              const double n = static_cast<double>(samples.values[row + i]);
+              range.lowest = std::min(range.lowest, n);
+              range.highest = std::max(range.highest, n);
+              ++range.gas;
+              nu = static_cast<Real>((n - ambient) * scale);
+            }
+            medium.volume.at(i, j, k) = nu;
+          }
+        }
+        planes[static_cast<std::size_t>(k)] = range;
+      }
+    });
+  Range total;
+  for (const Range& plane : planes)
+  {
+    total.lowest = std::min(total.lowest, plane.lowest);
+    total.highest = std::max(total.highest, plane.highest);
+    total.gas += plane.gas;
+  }
+  if (total.gas < nx * ny * nz)
+  {
+    medium.solid.assign((medium.volume.samples.size() + 31) / 32, 0);
+    for (std::int64_t k = 0; k < nz; ++k)
+    {
+      for (std::int64_t j = 0; j < ny; ++j)
+      {
+        for (std::int64_t i = 0; i < nx; ++i)
+        {
+          if (!samples.isGas((k * ny + j) * nx + i))
+          {
+            setBit(medium.solid, medium.volume.index(i, j, k), true);
+          }
+        }
+      }
+    }
+  }
+  return total;
+}
+
+void checkRange(const Range& range)
+{
+  if (range.gas == 0)
+  {
+    throw Error(
+      "The refractivity is invalid everywhere (NaN, infinite or masked), so there is no gas "
+      "for light to cross. Choose another array or check the data.");
+  }
+  const double largest = std::max(std::abs(range.lowest), std::abs(range.highest));
+  if (largest > largestPlausibleN || range.lowest <= -1)
+  {
+    throw Error("The refractivity n - 1 reaches from " + std::to_string(range.lowest) + " to " +
+      std::to_string(range.highest) +
+      ", which no transparent medium has (-1 < n - 1 <= 10 is accepted). Check the index model, "
+      "the "
+      "chosen array and its unit (density in kg/m^3; use the density scale to convert).");
+  }
+}
+
+/// Largest difference of neighbouring samples along each axis, ghosts included where they are used,
+/// and largest |sample|. The derivative of a linear or quadratic B-spline is a weighted mean of these
+/// differences, its value one of the samples, so that neither can be larger.
+template <class Real>
+void findBounds(Medium<Real>& medium, int threads)
+{
+  const PaddedVolume<Real>& volume = medium.volume;
+  const auto [nx, ny, nz] = volume.dimensions;
+  struct Bounds
+  {
+    double nu = 0, x = 0, y = 0, z = 0;
+  };
+  std::vector<Bounds> planes(static_cast<std::size_t>(nz + 2));
+  parallelFor(nz + 2, 1, threads,
+    [&, nx = nx, ny = ny, nz = nz](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t k = begin; k < end; ++k)
+      {
+        Real nu = 0, x = 0, y = 0, z = 0;
+        for (std::int64_t j = -1; j <= ny; ++j)
+        {
+          const Real* row = volume.samples.data() + volume.index(-1, j, k - 1);
+          const std::int64_t toY = j < ny ? volume.strides[1] : 0;
+          const std::int64_t toZ = k - 1 < nz ? volume.strides[2] : 0;
+          for (std::int64_t i = 0; i < nx + 2; ++i)
+          {
+            const std::int64_t toX = i < nx + 1 ? 1 : 0;
+            nu = std::max(nu, std::abs(row[i]));
+            x = std::max(x, std::abs(row[i + toX] - row[i]));
+            y = std::max(y, std::abs(row[i + toY] - row[i]));
+            z = std::max(z, std::abs(row[i + toZ] - row[i]));
+          }
+        }
+        planes[static_cast<std::size_t>(k)] = { static_cast<double>(nu), static_cast<double>(x),
+          static_cast<double>(y), static_cast<double>(z) };
+      }
+    });
+  for (const Bounds& plane : planes)
+  {
+    medium.largestNu = std::max(medium.largestNu, plane.nu);
+    medium.slope.x = std::max(medium.slope.x, plane.x);
+    medium.slope.y = std::max(medium.slope.y, plane.y);
+    medium.slope.z = std::max(medium.slope.z, plane.z);
+  }
+}
+
+template <class Real, class Value>
+Medium<Real> build(
+  const Field& field, const Value* values, Interpolation interpolation, int threads)
+{
+  const Samples<Value> samples{ values, field.valid };
+  Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {} };
+  if (field.ambient && !(*field.ambient > -1 && std::isfinite(*field.ambient)))
+  {
+    throw Error("The ambient refractivity " + std::to_string(*field.ambient) +
+      " means a refractive index of zero or less. Give n - 1 of the gas around the flow (air: "
+      "2.7e-4), "
+      "or let it be found from the domain's boundary.");
+  }
+  medium.ambient = field.ambient ? *field.ambient : boundaryMedian(samples, field.grid.dimensions);
+  const Range range = load(samples, medium.ambient, medium, threads);
+  checkRange(range);
+  medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
+  if (!medium.solid.empty())
+  {
+    fillSolids(medium.volume, medium.solid);
+  }
+  if (interpolation == Interpolation::Quadratic)
+  {
+    prefilterQuadratic(medium.volume, threads);
+  }
+  fillGhosts(medium.volume);
+  findBounds(medium, threads);
+  return medium;
+}
+
+} // namespace
+
+void validate(const Grid& grid)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::string name(1, "xyz"[axis]);
+    if (grid.dimensions[axis] < 2)
+    {
+      throw Error("The grid has " + std::to_string(grid.dimensions[axis]) + " point(s) along its " +
+        name +
+        " axis, so there is no depth for light to cross and no gradient to bend it. Give it at "
+        "least 2 points (for 2-D data: extrude it).");
+    }
+    if (grid.dimensions[axis] > std::numeric_limits<std::int32_t>::max() / 2)
+    {
+      throw Error("The grid has more than 2^30 points along its " + name +
+        " axis. Resample it to a coarser grid.");
+    }
+    if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis]))
+    {
+      throw Error("The grid's spacing along its " + name + " axis is " +
+        std::to_string(grid.spacing[axis]) +
+        "; it must be positive and finite. Check the data's spacing.");
+    }
+    if (!std::isfinite(grid.origin[axis]))
+    {
+      throw Error("The grid's origin is not finite. Check the data's origin.");
+    }
+  }
+  const std::array<double, 9>& d = grid.direction;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    for (std::size_t b = a; b < 3; ++b)
+    {
+      const double product = d[a] * d[b] + d[3 + a] * d[3 + b] + d[6 + a] * d[6 + b];
+      if (!(std::abs(product - (a == b ? 1 : 0)) < 1e-6))
+      {
+        throw Error(
+          "The grid's direction matrix is no rotation: its columns must be unit vectors at "
+          "right angles. Resample the data to a grid whose axes are.");
+      }
+    }
+  }
+}
+
+template <class Real>
+Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads)
+{
+  validate(field.grid);
+  if ((field.singles == nullptr) == (field.doubles == nullptr))
+  {
+    throw Error("A field needs either float or double samples.");
+  }
+  return field.singles != nullptr ? build<Real>(field, field.singles, interpolation, threads)
+                                  : build<Real>(field, field.doubles, interpolation, threads);
+}
+
+template <class Real>
+MediumView<Real> Medium<Real>::view() const
+{
+  return { volume.samples.data(), volume.strides[1], volume.strides[2],
+    { static_cast<Real>(volume.dimensions[0] - 1), static_cast<Real>(volume.dimensions[1] - 1),
+      static_cast<Real>(volume.dimensions[2] - 1) },
+    solid.empty() ? nullptr : solid.data() };
+}
+
+template struct Medium<float>;
+template struct Medium<double>;
+template Medium<float> buildMedium(const Field&, Interpolation, int);
+template Medium<double> buildMedium(const Field&, Interpolation, int);
+
+} // namespace schlieren

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Medium/Interpolation.h"
+#include "Medium/Prefilter.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// The medium: relative refractivity nu = (N - N_ref) / (1 + N_ref) ready for interpolation, and
+/// where it is solid.
+template <class Real>
+struct Medium
+{
+  PaddedVolume<Real> volume;
+  std::vector<std::uint32_t> solid; ///< one bit per sample, ghosts too; empty without solids
+
+  double ambient = 0;            ///< N_ref
+  double largestN = 0;           ///< largest |N|: what the samples' rounding is relative to
+  double largestNu = 0;          ///< no interpolated |nu| is larger (up to the spline's overshoot)
+  Vec3<double> slope{ 0, 0, 0 }; ///< no interpolated |d nu / d index| is larger, axis by axis
+
+  MediumView<Real> view() const;
+};
+
+/// Checks the grid of `field`. Throws Error.
+void validate(const Grid& grid);
+
+/// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they take values
+/// spread from the gas around them, so that they pull at no gradient next to them. Throws Error.
+template <class Real>
+Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads);
+
+} // namespace schlieren

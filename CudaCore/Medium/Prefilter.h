@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Samples on a grid of `dimensions` points with one layer of ghost points on each side.
+template <class Real>
+struct PaddedVolume
+{
+  explicit PaddedVolume(const std::array<std::int64_t, 3>& gridDimensions)
+    : dimensions(gridDimensions)
+    , strides{ 1, gridDimensions[0] + 2, (gridDimensions[0] + 2) * (gridDimensions[1] + 2) }
+    , samples(static_cast<std::size_t>(strides[2] * (gridDimensions[2] + 2)))
+  {
+  }
+
+  std::int64_t index(std::int64_t i, std::int64_t j, std::int64_t k) const
+  {
+    return (i + 1) + (j + 1) * strides[1] + (k + 1) * strides[2];
+  }
+
+  Real& at(std::int64_t i, std::int64_t j, std::int64_t k)
+  {
+    return samples[static_cast<std::size_t>(index(i, j, k))];
+  }
+
+  std::array<std::int64_t, 3> dimensions;
+  std::array<std::int64_t, 3> strides;
+  std::vector<Real> samples;
+};
+
+/// Replaces samples by the coefficients of the quadratic B-spline through them (Unser, Aldroubi &
+/// Eden 1993, "B-spline signal processing", eq. 2.3 for n = 2: s_i = (c_{i-1} + 6 c_i + c_{i+1}) / 8),
+/// solved exactly line by line. At both ends the coefficients go on as a parabola through the last
+/// three, which keeps the order of the interpolation (a mirror would force the gradient to 0 there).
+template <class Real>
+void prefilterQuadratic(PaddedVolume<Real>& volume, int threads);
+
+/// Fills the ghost layer by the same extrapolation (a straight line where there are but two points).
+template <class Real>
+void fillGhosts(PaddedVolume<Real>& volume);
+
+} // namespace schlieren

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Math/HostDevice.h"
+#include "Math/Units.h"
+
+#include <cmath>
+
+namespace schlieren
+{
+
+/// Knife edge (Settles 2001, ch. 3: dI/I = f eps / a, k = f/a): I = 1/2 + k (eps . edge normal),
+/// clamped to [0, 1]. Undisturbed light: 1/2.
+struct KnifeEdge
+{
+  double k;         ///< focal length by source width, f/a
+  double normal[2]; ///< (cos angle, sin angle)
+  bool inverted;    ///< the knife cuts from the other side: I becomes 1 - I
+
+  /// `degrees`: 0 measures the deflection along u, 90 along v. Exact at right angles, so that a knife
+  /// along one axis sees nothing of the other.
+  static KnifeEdge at(double degrees, double k, bool inverted)
+  {
+    const double turn = std::remainder(degrees, 360.0);
+    const double cosine = std::abs(turn) == 90 ? 0 : std::cos(turn * radiansPerDegree);
+    const double sine = std::abs(turn) == 180 ? 0 : std::sin(turn * radiansPerDegree);
+    return { k, { cosine, sine }, inverted };
+  }
+
+  SCHLIEREN_HD double transmission(const double (&deflection)[2]) const
+  {
+    const double along = deflection[0] * normal[0] + deflection[1] * normal[1];
+    const double change = inverted ? -k * along : k * along;
+    const double light = 0.5 + change;
+    return light > 0 ? (light < 1 ? light : 1) : 0;
+  }
+};
+
+/// No cutoff at all: every ray counts in full, and where rays land makes the picture.
+/// Undisturbed light: 1.
+struct Shadowgraph
+{
+  SCHLIEREN_HD double transmission(const double (&)[2]) const { return 1; }
+};
+
+} // namespace schlieren

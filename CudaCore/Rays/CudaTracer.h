@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Medium/Medium.h"
+#include "Rays/Tracer.h"
+
+#include <memory>
+
+namespace schlieren
+{
+
+/// The device is there but could not do the work (memory, driver); the CPU still can.
+class DeviceError : public Error
+{
+public:
+  using Error::Error;
+};
+
+/// Traces rays on the first CUDA device; holds the medium in its memory. Throws DeviceError.
+template <class Real>
+class CudaTracer
+{
+public:
+  explicit CudaTracer(const Medium<Real>& medium);
+  ~CudaTracer();
+
+  /// Traces a pass into host memory, as traceOnCpu does. Returns false if aborted.
+  bool trace(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
+    RayExit* exits, const Monitor& monitor);
+
+private:
+  struct DeviceMemory;
+  std::unique_ptr<DeviceMemory> memory_;
+};
+
+} // namespace schlieren

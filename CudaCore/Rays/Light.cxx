@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rays/Light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace schlieren
+{
+
+namespace
+{
+
+Vec3<double> vec(const Vector& a) { return { a[0], a[1], a[2] }; }
+
+Vector array(const Vec3<double>& a) { return { a.x, a.y, a.z }; }
+
+bool isFinite(const Vector& a)
+{
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+/// Components of a data-space vector along the grid's axes.
+Vec3<double> inGridAxes(const Grid& grid, const Vec3<double>& a)
+{
+  const std::array<double, 9>& d = grid.direction;
+  return { d[0] * a.x + d[3] * a.y + d[6] * a.z, d[1] * a.x + d[4] * a.y + d[7] * a.z,
+    d[2] * a.x + d[5] * a.y + d[8] * a.z };
+}
+
+/// Half the edges of the grid's box, along its own axes.
+Vec3<double> halfEdges(const Grid& grid)
+{
+  return { 0.5 * grid.spacing[0] * static_cast<double>(grid.dimensions[0] - 1),
+    0.5 * grid.spacing[1] * static_cast<double>(grid.dimensions[1] - 1),
+    0.5 * grid.spacing[2] * static_cast<double>(grid.dimensions[2] - 1) };
+}
+
+Vec3<double> centreOf(const Grid& grid)
+{
+  const std::array<double, 9>& d = grid.direction;
+  const Vec3<double> h = halfEdges(grid);
+  return vec(grid.origin) +
+    Vec3<double>{ d[0] * h.x + d[1] * h.y + d[2] * h.z, d[3] * h.x + d[4] * h.y + d[5] * h.z,
+      d[6] * h.x + d[7] * h.y + d[8] * h.z };
+}
+
+/// Half the extent of the grid's box along a unit vector.
+double halfExtent(const Grid& grid, const Vec3<double>& axis)
+{
+  const Vec3<double> a = inGridAxes(grid, axis);
+  const Vec3<double> h = halfEdges(grid);
+  return std::abs(a.x) * h.x + std::abs(a.y) * h.y + std::abs(a.z) * h.z;
+}
+
+/// A vector scaled to length 1 without overflow or underflow; zero stays zero.
+Vec3<double> unit(const Vec3<double>& a)
+{
+  const double largest = std::max({ std::abs(a.x), std::abs(a.y), std::abs(a.z) });
+  if (!(largest > 0))
+  {
+    return { 0, 0, 0 };
+  }
+  const Vec3<double> b = { a.x / largest, a.y / largest, a.z / largest };
+  return (1 / length(b)) * b;
+}
+
+/// Below this sine of the angle between them, ViewUp and ViewDirection count as parallel.
+constexpr double parallelSine = 1e-6;
+
+constexpr int largestSide = 32768;
+
+} // namespace
+
+Frame frameOf(const Grid& grid, const View& view)
+{
+  if (view.width < 1 || view.height < 1 || view.width > largestSide || view.height > largestSide)
+  {
+    throw Error("The image size " + std::to_string(view.width) + " x " +
+      std::to_string(view.height) + " is not possible. Set both sides of ImageSize to 1 ... " +
+      std::to_string(largestSide) + " pixels.");
+  }
+  if (!isFinite(view.viewDirection) || !isFinite(view.viewUp) ||
+    (view.focalPoint && !isFinite(*view.focalPoint)) || !std::isfinite(view.parallelScale))
+  {
+    throw Error(
+      "The view holds a number that is not finite. Set ViewDirection, ViewUp, FocalPoint and "
+      "ParallelScale to ordinary numbers.");
+  }
+  const Vec3<double> forward = unit(vec(view.viewDirection));
+  if (length(forward) == 0)
+  {
+    throw Error("ViewDirection is (0, 0, 0), so light has no direction. Set it to where the camera "
+                "looks, for example (0, 0, -1).");
+  }
+  const Vec3<double> right = cross(forward, unit(vec(view.viewUp)));
+  if (!(length(right) > parallelSine))
+  {
+    throw Error(
+      "ViewUp is zero or parallel to ViewDirection, so the picture has no upward direction. "
+      "Set ViewUp to another direction, for example (0, 1, 0) or (1, 0, 0).");
+  }
+  if (view.parallelScale < 0)
+  {
+    throw Error("ParallelScale is " + std::to_string(view.parallelScale) +
+      ", but it is half the height of the picture. Set it to a positive length, or to 0 to fit the "
+      "data.");
+  }
+
+  Frame frame;
+  const Vec3<double> u = unit(right);
+  const Vec3<double> v = cross(u, forward);
+  const Vec3<double> w = -1.0 * forward;
+  frame.u = array(u);
+  frame.v = array(v);
+  frame.w = array(w);
+
+  const double aspect = static_cast<double>(view.width) / view.height;
+  const double fit = std::max(halfExtent(grid, v), halfExtent(grid, u) / aspect);
+  const double halfHeight = view.parallelScale > 0 ? view.parallelScale : fit;
+  frame.pixelSize = 2 * halfHeight / view.height;
+  if (!(frame.pixelSize > 0) || !std::isfinite(frame.pixelSize))
+  {
+    throw Error("The picture has no extent: the data spans no area seen along ViewDirection. Set "
+                "ParallelScale, or look along another direction.");
+  }
+
+  const Vec3<double> centre = centreOf(grid);
+  const Vec3<double> focal = view.focalPoint ? vec(*view.focalPoint) : centre;
+  frame.origin = { dot(focal, u) - 0.5 * (view.width - 1) * frame.pixelSize,
+    dot(focal, v) - 0.5 * (view.height - 1) * frame.pixelSize };
+  frame.entry = dot(centre, w) - halfExtent(grid, w);
+  frame.exit = dot(centre, w) + halfExtent(grid, w);
+  return frame;
+}
+
+Light collimatedLight(const Grid& grid, const Frame& frame)
+{
+  const Vec3<double> u = vec(frame.u);
+  const Vec3<double> v = vec(frame.v);
+  const Vec3<double> w = vec(frame.w);
+  const Vec3<double> centre = centreOf(grid);
+
+  Light light{};
+  light.unit = std::min({ grid.spacing[0], grid.spacing[1], grid.spacing[2] });
+  light.u = inGridAxes(grid, u);
+  light.v = inGridAxes(grid, v);
+  light.w = inGridAxes(grid, w);
+  light.indexScale = { light.unit / grid.spacing[0], light.unit / grid.spacing[1],
+    light.unit / grid.spacing[2] };
+  light.perLength = scaled(light.indexScale, light.w);
+  const double pixel = frame.pixelSize / light.unit;
+  light.perColumn = pixel * scaled(light.indexScale, light.u);
+  light.perRow = pixel * scaled(light.indexScale, light.v);
+  light.depth = 2 * halfExtent(grid, w) / light.unit;
+
+  // From the centre, which is exact in index coordinates however far the origin is from zero.
+  const double a = (frame.origin[0] - dot(centre, u)) / light.unit;
+  const double b = (frame.origin[1] - dot(centre, v)) / light.unit;
+  light.corner = Vec3<double>{ 0.5 * static_cast<double>(grid.dimensions[0] - 1),
+    0.5 * static_cast<double>(grid.dimensions[1] - 1),
+    0.5 * static_cast<double>(grid.dimensions[2] - 1) } +
+    scaled(light.indexScale, a * light.u + b * light.v + (-0.5 * light.depth) * light.w);
+  return light;
+}
+
+PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
+{
+  if (pass == 0)
+  {
+    return { 0, 0 };
+  }
+  constexpr double plasticNumber = 1.32471795724474602596;
+  constexpr double passesPerSeed = 65537;
+  const double n = static_cast<double>(pass) + passesPerSeed * (static_cast<double>(seed) - 1);
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  return { fraction(0.5 + n / plasticNumber) - 0.5,
+    fraction(0.5 + n / (plasticNumber * plasticNumber)) - 0.5 };
+}
+
+} // namespace schlieren

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Math/HostDevice.h"
+
+#include <cstdint>
+
+namespace schlieren
+{
+
+enum class RayFate : std::int32_t
+{
+  Missed,  ///< never met the grid: undisturbed
+  Left,    ///< crossed the grid
+  Blocked, ///< ended in a solid
+  Trapped, ///< met the step limit inside the grid
+  Turned   ///< left the grid going back, away from the film
+};
+
+/// What a traced ray hands on; the only thing that optics and film see.
+struct RayExit
+{
+  double deflection[2];         ///< direction cosines along u and v
+  double displacement[2];       ///< on the exit plane, along u and v, data units
+  double opticalPathDifference; ///< metres, up to where the ray leaves the grid
+  RayFate fate;
+  std::int32_t steps;
+
+  SCHLIEREN_HD bool reachesFilm() const { return fate == RayFate::Missed || fate == RayFate::Left; }
+};
+
+/// Where in its pixel a ray starts, relative to the centre, in pixels.
+struct PixelOffset
+{
+  double column, row;
+};
+
+/// One ray for each of a rectangle of pixels (the picture and a margin around it), row by row.
+struct Pass
+{
+  std::int64_t firstColumn, firstRow;
+  std::int64_t columns, rows;
+  PixelOffset offset; ///< the same in all pixels
+};
+
+} // namespace schlieren

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The one public header of the tracer: a Field and a Scene in, an Image out.
+//
+// Vectors are in data coordinates. The picture's axes are u (right), v (up) and w, the direction the
+// light travels in, towards the viewer: w = -viewDirection, u = viewDirection x viewUp, v = u x
+// viewDirection, all of unit length. A point x lands at the picture coordinates (x.u, x.v).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace schlieren
+{
+
+using Vector = std::array<double, 3>;
+
+/// A mistake in what the caller asked for. what() is written for the user: problem, why, what to do.
+class Error : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class Interpolation
+{
+  Quadratic, ///< quadratic B-spline: 27 loads, continuous gradient, third-order values
+  Linear     ///< trilinear: 8 loads, gradient jumps from cell to cell (for drafts)
+};
+
+enum class Precision
+{
+  Single,
+  Double
+};
+
+enum class Device
+{
+  Auto, ///< CUDA where a device answers, else the CPU
+  Cpu,
+  Cuda ///< an error where no device answers
+};
+
+enum class Cutoff
+{
+  KnifeEdge,  ///< I = 1/2 + k (eps . (cos angle, sin angle)), clamped to [0, 1]
+  Shadowgraph ///< I = 1 for every ray; only where the rays land makes the picture
+};
+
+/// A regular grid of sample points. Point (i, j, k) lies at origin + direction (i hx, j hy, k hz).
+struct Grid
+{
+  std::array<std::int64_t, 3> dimensions{ 0, 0, 0 }; ///< points along each axis, at least 2
+  Vector origin{ 0, 0, 0 };                          ///< data units
+  Vector spacing{ 1, 1, 1 };                         ///< data units, positive
+  /// Rotation from grid axes to data coordinates, row-major (as in vtkImageData).
+  std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+};
+
+/// Refractivity N = n - 1 on a grid, x fastest. The arrays belong to the caller and are read during
+/// Bench::render only. Exactly one of the two sample pointers is set.
+struct Field
+{
+  Grid grid;
+  const float* singles = nullptr;
+  const double* doubles = nullptr;
+  const unsigned char* valid = nullptr; ///< 0 where solid or outside; null: only NaN is solid
+  std::optional<double> ambient;        ///< N outside; unset: median over the domain's boundary
+  double lengthScale = 1;               ///< metres per data unit
+  /// Changes whenever anything that the arrays hold has changed: the same version, the same data.
+  std::uint64_t version = 0;
+};
+
+/// An orthographic camera, as vtkCamera describes it, and its picture.
+struct View
+{
+  Vector viewDirection{ 0, 0, -1 };
+  Vector viewUp{ 0, 1, 0 };
+  std::optional<Vector> focalPoint; ///< unset: centre of the grid
+  double parallelScale = 0;         ///< half height of the picture, data units; 0: fit the grid
+  int width = 512;                  ///< pixels
+  int height = 512;                 ///< pixels
+};
+
+/// Everything about the bench that is not the medium.
+struct Scene
+{
+  View view;
+
+  Cutoff cutoff = Cutoff::KnifeEdge;
+  double knifeEdgeAngle = 0;            ///< degrees; 0 measures the deflection along u, 90 along v
+  bool invertCutoff = false;            ///< I becomes 1 - I (knife edge only)
+  std::optional<double> kScale;         ///< k = f/a; unset: 99th percentile of |eps| is full scale
+  std::optional<double> screenDistance; ///< exit plane to screen, data units; unset: one data depth
+
+  int samplesPerPixel = 4;
+  std::uint32_t seed = 1;
+
+  Interpolation interpolation = Interpolation::Quadratic;
+  Precision precision = Precision::Single;
+  double stepSize = 1; ///< voxels: length of one step measured in index space
+  Device device = Device::Auto;
+  int threads = 0; ///< CPU threads; 0: all cores this process may use
+};
+
+/// Where the picture of a view lies. u, v, w as above; half-open pixels, centres at origin + i size.
+struct Frame
+{
+  Vector u, v, w;
+  std::array<double, 2> origin{ 0, 0 }; ///< picture coordinates of the centre of pixel (0, 0)
+  double pixelSize = 1;                 ///< data units
+  double entry = 0, exit = 0;           ///< the grid's extent along w: x.w of both ends, data units
+};
+
+/// The picture and what is known about it. Arrays are row-major, bottom row first.
+struct Image
+{
+  int width = 0;
+  int height = 0;
+  Frame frame;
+
+  std::vector<float> intensity;              ///< per pixel; undisturbed: see Cutoff
+  std::vector<float> deflection;             ///< 2 per pixel: direction cosines along u and v
+  std::vector<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
+  std::vector<float> displacement;           ///< 2 per pixel: at the exit plane, data units
+  std::vector<float> blockedFraction;        ///< per pixel: share of rays that a solid stopped
+
+  Device device = Device::Cpu;  ///< where the rays were traced
+  std::string deviceNote;       ///< why Device::Auto left a device that answers; else empty
+  std::string pathModel;        ///< "Refracted"
+  double kScale = 0;            ///< the k used; 0 for a shadowgraph
+  double ambient = 0;           ///< the ambient refractivity used
+  std::int64_t raysTraced = 0;  ///< rays of this picture that crossed the grid
+  std::int64_t stepsTaken = 0;  ///< integration steps of these rays
+  std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
+  double traceSeconds = 0;      ///< spent tracing for this call; 0 when held rays were re-shaded
+  double displacementBound = 0; ///< no ray of this medium is displaced further, data units
+  bool aborted = false;         ///< the monitor asked to stop; all arrays are empty
+};
+
+/// How far a render has come, and whether to stop. Both are called by the calling thread only.
+struct Monitor
+{
+  std::function<void(double fraction)> progress;
+  std::function<bool()> aborted;
+};
+
+/// What a Bench has done so far: lets a caller (and the tests) see that nothing is done twice.
+struct Work
+{
+  std::int64_t mediumBuilds = 0;
+  std::int64_t raysTraced = 0;
+};
+
+/// Runs the stages in order and keeps their results until something upstream of them changes.
+/// Not thread-safe: one Bench is used by one thread at a time.
+class Bench
+{
+public:
+  Bench();
+  ~Bench();
+  Bench(Bench&&) noexcept;
+  Bench& operator=(Bench&&) noexcept;
+
+  /// The picture of `field` on the bench `scene`. Throws Error.
+  Image render(const Field& field, const Scene& scene, const Monitor& monitor = {});
+
+  const Work& work() const;
+
+private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+/// The picture plane of a view of a grid. Throws Error where the view is degenerate.
+Frame frameOf(const Grid& grid, const View& view);
+
+/// Whether a CUDA device answers. When it does not, `reason` (if given) says why.
+bool cudaAvailable(std::string* reason = nullptr);
+
+} // namespace schlieren

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Math/Units.h"
+#include "Schlieren.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace schlieren
+{
+
+/// A grid of n^3 points over the cube of half edge `half` around `centre`.
+inline Grid cube(std::int64_t n, double half, const Vector& centre = { 0, 0, 0 })
+{
+  Grid grid;
+  grid.dimensions = { n, n, n };
+  const double spacing = 2 * half / static_cast<double>(n - 1);
+  grid.spacing = { spacing, spacing, spacing };
+  grid.origin = { centre[0] - half, centre[1] - half, centre[2] - half };
+  return grid;
+}
+
+/// A medium sampled at the grid's points, and the memory for it.
+template <class Value>
+struct SampledField
+{
+  SampledField(const Grid& grid, const std::function<double(double, double, double)>& refractivity)
+  {
+    static std::uint64_t versions = 0;
+    field.grid = grid;
+    field.version = ++versions;
+    samples.reserve(
+      static_cast<std::size_t>(grid.dimensions[0] * grid.dimensions[1] * grid.dimensions[2]));
+    const std::array<double, 9>& d = grid.direction;
+    for (std::int64_t k = 0; k < grid.dimensions[2]; ++k)
+    {
+      for (std::int64_t j = 0; j < grid.dimensions[1]; ++j)
+      {
+        for (std::int64_t i = 0; i < grid.dimensions[0]; ++i)
+        {
+          const double x = static_cast<double>(i) * grid.spacing[0];
+          const double y = static_cast<double>(j) * grid.spacing[1];
+          const double z = static_cast<double>(k) * grid.spacing[2];
+          samples.push_back(
+            static_cast<Value>(refractivity(grid.origin[0] + d[0] * x + d[1] * y + d[2] * z,
+              grid.origin[1] + d[3] * x + d[4] * y + d[5] * z,
+              grid.origin[2] + d[6] * x + d[7] * y + d[8] * z)));
+        }
+      }
+    }
+    point();
+  }
+
+  SampledField(const SampledField&) = delete;
+  SampledField& operator=(const SampledField&) = delete;
+
+  std::vector<Value> samples;
+  Field field;
+
+private:
+  void point()
+  {
+    if constexpr (std::is_same_v<Value, float>)
+    {
+      field.singles = samples.data();
+    }
+    else
+    {
+      field.doubles = samples.data();
+    }
+  }
+};
+
+/// Picture coordinates of the centre of a pixel.
+struct PixelCentre
+{
+  double u, v;
+};
+inline PixelCentre centreOf(const Image& image, int column, int row)
+{
+  return { image.frame.origin[0] + column * image.frame.pixelSize,
+    image.frame.origin[1] + row * image.frame.pixelSize };
+}
+
+inline std::size_t pixelOf(const Image& image, int column, int row)
+{
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+    static_cast<std::size_t>(column);
+}
+
+inline const char* name(Device device) { return device == Device::Cuda ? "Cuda" : "Cpu"; }
+inline const char* name(Precision precision)
+{
+  return precision == Precision::Single ? "Single" : "Double";
+}
+
+/// For tests that run on both: where there is no device, the CUDA half says that it was skipped.
+class OnDevice : public testing::TestWithParam<Device>
+{
+protected:
+  void SetUp() override
+  {
+    std::string reason;
+    if (GetParam() == Device::Cuda && !cudaAvailable(&reason))
+    {
+      GTEST_SKIP() << "no CUDA device: " << reason;
+    }
+  }
+};
+
+inline auto bothDevices() { return testing::Values(Device::Cpu, Device::Cuda); }
+inline std::string deviceName(const testing::TestParamInfo<Device>& info)
+{
+  return name(info.param);
+}
+
+} // namespace schlieren

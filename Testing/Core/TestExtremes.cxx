@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Units, scales and sizes that must not matter, and media at the ends of the possible.
+#include "Fields.h"
+
+#include <algorithm>
+#include <random>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// A blob off the centre, as a shape that is 1 at its peak.
+double blob(double x, double y, double z)
+{
+  const double a = x - 0.1, b = y + 0.2, c = z - 0.05;
+  return std::exp(-(a * a + 2 * b * b + c * c) / 0.09);
+}
+
+Scene smallScene(Device device)
+{
+  Scene scene;
+  scene.device = device;
+  scene.view.viewDirection = { -0.3, 0.2, -0.9 };
+  scene.view.width = 48;
+  scene.view.height = 40;
+  scene.samplesPerPixel = 2;
+  return scene;
+}
+
+Image renderBlob(
+  double peak, double ambient, const Scene& scene, double lengthFactor = 1, double lengthScale = 1)
+{
+  SampledField<double> medium(cube(40, lengthFactor),
+    [&](double x, double y, double z)
+    { return ambient + peak * blob(x / lengthFactor, y / lengthFactor, z / lengthFactor); });
+  medium.field.ambient = ambient;
+  medium.field.lengthScale = lengthScale;
+  return Bench().render(medium.field, scene);
+}
+
+double largest(const std::vector<float>& values)
+{
+  double result = 0;
+  for (const float value : values)
+  {
+    result = std::max(result, std::abs(double{ value }));
+  }
+  return result;
+}
+
+/// Largest difference of `b` from `factor` times `a`, relative to the largest |b|.
+template <class Value>
+double difference(const std::vector<Value>& a, const std::vector<Value>& b, double factor)
+{
+  double worst = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    worst = std::max(worst, std::abs(double{ b[i] } - factor * double{ a[i] }));
+    size = std::max(size, std::abs(double{ b[i] }));
+  }
+  return worst / size;
+}
+
+class Extremes : public OnDevice
+{
+};
+
+TEST_P(Extremes, UnitOfLengthDoesNotBendLight)
+{
+  for (const double factor : { 1e-9, 1e-3, 1024., 1e6, 1e12 })
+  {
+    SCOPED_TRACE(factor);
+    const Scene scene = smallScene(GetParam());
+    const Image one = renderBlob(3e-4, 0, scene);
+    const Image scaled = renderBlob(3e-4, 0, scene, factor);
+    EXPECT_LT(difference(one.deflection, scaled.deflection, 1), 1e-6);
+    EXPECT_LT(difference(one.opticalPathDifference, scaled.opticalPathDifference, factor), 1e-6);
+    EXPECT_LT(difference(one.displacement, scaled.displacement, factor), 1e-5);
+    EXPECT_LT(difference(one.intensity, scaled.intensity, 1), 1e-4);
+  }
+}
+
+TEST_P(Extremes, LengthScaleScalesTheOpticalPathOnly)
+{
+  const Scene scene = smallScene(GetParam());
+  const Image one = renderBlob(3e-4, 0, scene);
+  const Image scaled = renderBlob(3e-4, 0, scene, 1, 1e-3);
+  EXPECT_EQ(one.deflection, scaled.deflection);
+  EXPECT_EQ(one.intensity, scaled.intensity);
+  EXPECT_LT(difference(one.opticalPathDifference, scaled.opticalPathDifference, 1e-3), 1e-12);
+}
+
+TEST_P(Extremes, AmbientOffsetDoesNotShow)
+{
+  Scene scene = smallScene(GetParam());
+  const Image vacuum = renderBlob(1e-5, 0, scene);
+  const Image air = renderBlob(1e-5, 2.7e-4, scene);
+  // eps scales with 1 / n_ref in the weak limit.
+  EXPECT_LT(difference(vacuum.deflection, air.deflection, 1 / 1.00027), 2e-6);
+  EXPECT_LT(difference(vacuum.opticalPathDifference, air.opticalPathDifference, 1), 2e-6);
+}
+
+TEST_P(Extremes, FaintestMediumGivesTheSamePicture)
+{
+  const Scene scene = smallScene(GetParam());
+  const Image reference = renderBlob(1e-4, 0, scene);
+  for (const double peak : { 1e-6, 1e-9, 1e-12, 1e-14, 1e-20 })
+  {
+    SCOPED_TRACE(peak);
+    const Image faint = renderBlob(peak, 0, scene);
+    // Second-order effects are of the order of the stronger deflection.
+    EXPECT_LT(difference(reference.deflection, faint.deflection, peak / 1e-4), 2e-3);
+    EXPECT_LT(difference(reference.intensity, faint.intensity, 1), 2e-3);
+    EXPECT_LT(
+      difference(reference.opticalPathDifference, faint.opticalPathDifference, peak / 1e-4), 2e-3);
+  }
+  // Between two faint ones only rounding is left.
+  const Image a = renderBlob(1e-10, 0, scene);
+  const Image b = renderBlob(1e-12, 0, scene);
+  EXPECT_LT(difference(a.deflection, b.deflection, 1e-2), 1e-6);
+  EXPECT_LT(difference(a.intensity, b.intensity, 1), 1e-5);
+}
+
+TEST_P(Extremes, SingleAgreesWithDouble)
+{
+  Scene scene = smallScene(GetParam());
+  for (const double peak : { 1e-10, 3e-4, 1e-2 })
+  {
+    SCOPED_TRACE(peak);
+    scene.precision = Precision::Single;
+    const Image single = renderBlob(peak, 0, scene);
+    scene.precision = Precision::Double;
+    const Image precise = renderBlob(peak, 0, scene);
+    EXPECT_LT(difference(precise.deflection, single.deflection, 1), 5e-6);
+    EXPECT_LT(difference(precise.opticalPathDifference, single.opticalPathDifference, 1), 5e-6);
+  }
+}
+
+TEST_P(Extremes, MirroredDataGivesTheMirroredPicture)
+{
+  Scene scene = smallScene(GetParam());
+  scene.view.viewDirection = { 0, 0, -1 };
+  scene.samplesPerPixel = 1;
+  scene.kScale = 500;
+  const SampledField<double> plain(
+    cube(33, 1), [](double x, double y, double z) { return 1e-4 * blob(x, y, z); });
+  const SampledField<double> mirrored(
+    cube(33, 1), [](double x, double y, double z) { return 1e-4 * blob(-x, y, z); });
+  const Image a = Bench().render(plain.field, scene);
+  scene.invertCutoff = true;
+  const Image b = Bench().render(mirrored.field, scene);
+  double deflection = 0, intensity = 0;
+  for (int row = 0; row < a.height; ++row)
+  {
+    for (int column = 0; column < a.width; ++column)
+    {
+      const std::size_t at = pixelOf(a, column, row);
+      const std::size_t mirror = pixelOf(a, a.width - 1 - column, row);
+      deflection =
+        std::max<double>(deflection, std::abs(a.deflection[2 * at] + b.deflection[2 * mirror]));
+      deflection = std::max<double>(
+        deflection, std::abs(a.deflection[2 * at + 1] - b.deflection[2 * mirror + 1]));
+      intensity = std::max<double>(intensity, std::abs(a.intensity[at] - b.intensity[mirror]));
+    }
+  }
+  EXPECT_LT(deflection, 1e-9);
+  EXPECT_LT(intensity, 1e-6);
+  EXPECT_GT(largest(a.deflection), 1e-4);
+}
+
+TEST_P(Extremes, VeryUnequalSpacings)
+{
+  // A column along y, sampled 1000 times more coarsely along y than along x and z.
+  Grid grid;
+  grid.dimensions = { 65, 5, 65 };
+  grid.spacing = { 1. / 32, 1000. / 32, 1. / 32 };
+  grid.origin = { -1, -62.5, -1 };
+  SampledField<double> medium(
+    grid, [](double x, double, double z) { return 1e-9 * std::exp(-(x * x + z * z) / 0.09); });
+  medium.field.ambient = 0;
+  Scene scene;
+  scene.device = GetParam();
+  scene.samplesPerPixel = 1;
+  scene.view.parallelScale = 0.9;
+  scene.view.width = scene.view.height = 50;
+  const Image image = Bench().render(medium.field, scene);
+  double worst = 0;
+  for (int column = 0; column < image.width; ++column)
+  {
+    const double x = centreOf(image, column, 25).u;
+    const double expected = -2 * std::sqrt(pi) * 1e-9 * x / 0.3 * std::exp(-x * x / 0.09);
+    worst = std::max(
+      worst, std::abs(image.deflection[2 * pixelOf(image, column, 25)] - expected) / 1.52e-9);
+  }
+  EXPECT_LT(worst, 5e-3); // the spline's gradient error at 9.6 points per radius is 4e-3
+  // Along the long side: five points, 125 data units.
+  scene.view.viewDirection = { 0, 1, 0 };
+  scene.view.viewUp = { 0, 0, 1 };
+  const Image along = Bench().render(medium.field, scene);
+  const double x = centreOf(along, 30, 25).u;
+  const double z = centreOf(along, 30, 25).v;
+  const double slope = -2 * x / 0.09 * 1e-9 * std::exp(-(x * x + z * z) / 0.09);
+  EXPECT_NEAR(
+    along.deflection[2 * pixelOf(along, 30, 25)], 125 * slope, 125 * 2e-2 * std::abs(slope));
+}
+
+TEST_P(Extremes, SmallestGrid)
+{
+  const SampledField<float> medium(
+    cube(2, 1), [](double x, double y, double) { return 1e-4 + 1e-5 * x + 2e-5 * y; });
+  const Image image = Bench().render(medium.field, smallScene(GetParam()));
+  EXPECT_GT(image.raysTraced, 0);
+  const std::size_t centre = pixelOf(image, image.width / 2, image.height / 2);
+  EXPECT_GT(image.deflection[2 * centre], 0);
+  EXPECT_GT(image.deflection[2 * centre + 1], 0);
+}
+
+/// Light in noise of glass-like strength goes everywhere; it must come to an end and leave numbers.
+TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anyIndex(-0.9, 3);
+  const SampledField<float> medium(
+    cube(24, 1), [&](double, double, double) { return anyIndex(random); });
+  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  {
+    Scene scene = smallScene(GetParam());
+    scene.interpolation = interpolation;
+    const Image image = Bench().render(medium.field, scene);
+    EXPECT_GT(image.raysLost, 0);
+    EXPECT_TRUE(std::isinf(image.displacementBound));
+    for (const std::vector<float>* values :
+      { &image.intensity, &image.deflection, &image.displacement })
+    {
+      EXPECT_TRUE(std::all_of(
+        values->begin(), values->end(), [](float value) { return std::isfinite(value); }));
+    }
+    EXPECT_LE(largest(image.deflection), 1);
+  }
+}
+
+TEST_P(Extremes, DisplacementStaysWithinItsBound)
+{
+  const Image image = renderBlob(0.003, 0, smallScene(GetParam()));
+  EXPECT_GT(largest(image.displacement), 0);
+  EXPECT_LE(largest(image.displacement), image.displacementBound);
+  EXPECT_LT(image.displacementBound, 100 * largest(image.displacement));
+}
+
+INSTANTIATE_TEST_SUITE_P(, Extremes, bothDevices(), deviceName);
+
+/// The same per-ray code runs on both; only the compilers' rounding differs.
+TEST(HostAndDevice, Agree)
+{
+  std::string reason;
+  if (!cudaAvailable(&reason))
+  {
+    GTEST_SKIP() << "no CUDA device: " << reason;
+  }
+  for (const Precision precision : { Precision::Single, Precision::Double })
+  {
+    for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+    {
+      Scene scene = smallScene(Device::Cpu);
+      scene.precision = precision;
+      scene.interpolation = interpolation;
+      const Image host = renderBlob(3e-4, 0, scene);
+      scene.device = Device::Cuda;
+      const Image device = renderBlob(3e-4, 0, scene);
+      // The double picture's deflection is stored in float, its optical path in double.
+      EXPECT_LT(difference(host.deflection, device.deflection, 1), 1e-5);
+      EXPECT_LT(difference(host.opticalPathDifference, device.opticalPathDifference, 1),
+        precision == Precision::Single ? 1e-5 : 1e-12);
+    }
+  }
+}
+
+} // namespace
+
+} // namespace schlieren

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Cutoffs, and the film on which light is summed up.
+#include "Fields.h"
+#include "Film/Film.h"
+#include "Optics/AutomaticK.h"
+#include "Optics/Cutoffs.h"
+#include "Rays/Light.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace schlieren
+{
+
+namespace
+{
+
+double sum(const std::vector<float>& picture)
+{
+  return std::accumulate(picture.begin(), picture.end(), 0.);
+}
+
+TEST(KnifeEdge, FollowsItsFormula)
+{
+  const double eps[2] = { 1e-4, -3e-4 };
+  EXPECT_DOUBLE_EQ(KnifeEdge::at(0, 1000, false).transmission(eps), 0.6);
+  EXPECT_DOUBLE_EQ(KnifeEdge::at(90, 1000, false).transmission(eps), 0.2);
+  EXPECT_DOUBLE_EQ(KnifeEdge::at(180, 1000, false).transmission(eps), 0.4);
+  EXPECT_DOUBLE_EQ(KnifeEdge::at(-90, 1000, false).transmission(eps), 0.8);
+  EXPECT_DOUBLE_EQ(KnifeEdge::at(360, 1000, false).transmission(eps), 0.6);
+  EXPECT_DOUBLE_EQ(KnifeEdge::at(0, 1000, true).transmission(eps), 0.4);
+  EXPECT_NEAR(KnifeEdge::at(45, 1000, false).transmission(eps), 0.5 - 0.2 * std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(KnifeEdge::at(0, 0, false).transmission(eps), 0.5);
+  EXPECT_EQ(KnifeEdge::at(0, 1e12, false).transmission(eps), 1);
+  EXPECT_EQ(KnifeEdge::at(90, 1e12, false).transmission(eps), 0);
+}
+
+TEST(AutomaticK, MapsThe99thPercentileToFullScale)
+{
+  constexpr int width = 25, height = 40;
+  const Pass pass{ -1, -1, width + 2, height + 2, { 0, 0 } };
+  // Rays in the margin are far stronger and must not count.
+  std::vector<RayExit> exits(
+    (width + 2) * (height + 2), RayExit{ { 9, 9 }, { 0, 0 }, 0, RayFate::Left, 1 });
+  int n = 0;
+  for (int row = 0; row < height; ++row)
+  {
+    for (int column = 0; column < width; ++column)
+    {
+      const double size = 1e-6 * n++;
+      exits[static_cast<std::size_t>((row + 1) * (width + 2) + column + 1)] =
+        RayExit{ { 0.6 * size, -0.8 * size }, { 0, 0 }, 0, RayFate::Left, 1 };
+    }
+  }
+  EXPECT_NEAR(automaticK(exits.data(), pass, width, height, 0), 0.5 / 989e-6, 1e-6 * 0.5 / 989e-6);
+  EXPECT_NEAR(automaticK(exits.data(), pass, width, height, 1), 0.5, 1e-15);
+  std::for_each(
+    exits.begin(), exits.end(), [](RayExit& exit) { exit.deflection[0] = exit.deflection[1] = 0; });
+  EXPECT_EQ(automaticK(exits.data(), pass, width, height, 0), 1);
+}
+
+TEST(Film, SharesARayAmongFourPixels)
+{
+  Film film(4, 3, 1);
+  film.splat(1.25, 0.5, 1);
+  const std::vector<float> picture = film.develop(1);
+  EXPECT_FLOAT_EQ(picture[1], 0.375f);
+  EXPECT_FLOAT_EQ(picture[2], 0.125f);
+  EXPECT_FLOAT_EQ(picture[5], 0.375f);
+  EXPECT_FLOAT_EQ(picture[6], 0.125f);
+  EXPECT_DOUBLE_EQ(sum(picture), 1);
+}
+
+TEST(Film, LosesNoLight)
+{
+  Film film(50, 40, 20000);
+  for (int i = 0; i < 20000; ++i)
+  {
+    film.splat(1 + 0.0023999 * i, 38 - 0.0017 * i, 0.37);
+  }
+  EXPECT_NEAR(sum(film.develop(1)), 20000 * 0.37, 20000 * 0.37 * 1e-6);
+}
+
+TEST(Film, DropsWhatFallsOutside)
+{
+  Film film(3, 3, 100);
+  for (const double place : { -1., 3., 1e300, -1e300, std::nan(""), HUGE_VAL })
+  {
+    film.splat(place, 1, 1);
+    film.splat(1, place, 1);
+  }
+  EXPECT_EQ(sum(film.develop(1)), 0);
+  film.splat(-0.75, 1, 1); // a quarter of it is on the film
+  EXPECT_DOUBLE_EQ(sum(film.develop(1)), 0.25);
+}
+
+TEST(Film, HoldsAllRaysOnOnePixel)
+{
+  const std::int64_t rays = std::int64_t{ 1 } << 22;
+  Film film(2, 2, rays);
+  for (std::int64_t i = 0; i < rays; ++i)
+  {
+    film.splat(1, 1, 1);
+  }
+  EXPECT_EQ(film.develop(static_cast<double>(rays))[3], 1);
+  // As many as 32768 x 32768 pixels x 1e6 samples, all in one place: the scale leaves room for them.
+  EXPECT_GE(std::ldexp(1., 63), std::ldexp(1., 30) * 1e6 * 2);
+}
+
+TEST(Light, FirstRayOfEachPixelIsItsCentre)
+{
+  for (const std::uint32_t seed : { 0u, 1u, 77u, 4294967295u })
+  {
+    EXPECT_EQ(pixelOffset(0, seed).column, 0);
+    EXPECT_EQ(pixelOffset(0, seed).row, 0);
+  }
+  EXPECT_NE(pixelOffset(1, 1).column, pixelOffset(1, 2).column);
+}
+
+/// A low-discrepancy sequence: each of 8 x 8 squares gets its share of 1024 rays, nearly.
+TEST(Light, PassesFillThePixelEvenly)
+{
+  for (const std::uint32_t seed : { 1u, 5u })
+  {
+    std::array<int, 64> counts{};
+    for (int pass = 0; pass < 1024; ++pass)
+    {
+      const PixelOffset offset = pixelOffset(pass, seed);
+      ASSERT_GE(offset.column, -0.5);
+      ASSERT_LT(offset.column, 0.5);
+      ASSERT_GE(offset.row, -0.5);
+      ASSERT_LT(offset.row, 0.5);
+      ++counts[static_cast<std::size_t>(
+        8 * std::floor(8 * (offset.row + 0.5)) + std::floor(8 * (offset.column + 0.5)))];
+    }
+    EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 12);
+    EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 20);
+  }
+}
+
+/// Undisturbed light is even to the last bit that shows, whatever the number of samples.
+TEST(Light, UndisturbedFilmIsEven)
+{
+  const SampledField<float> gas(cube(8, 1), [](double, double, double) { return 2.7e-4; });
+  for (const int samples : { 1, 2, 3, 4, 7, 64 })
+  {
+    Scene scene;
+    scene.device = Device::Cpu;
+    scene.view.width = 31;
+    scene.view.height = 17;
+    scene.view.viewDirection = { -1, -2, -3 };
+    scene.samplesPerPixel = samples;
+    for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph })
+    {
+      scene.cutoff = cutoff;
+      const float expected = cutoff == Cutoff::KnifeEdge ? 0.5f : 1.f;
+      const Image image = Bench().render(gas.field, scene);
+      EXPECT_TRUE(std::all_of(image.intensity.begin(), image.intensity.end(),
+        [&](float light) { return std::abs(light - expected) < 2e-7f; }));
+    }
+  }
+}
+
+/// A knife's picture of a gentle flow: I = 1/2 + k eps, and the automatic k uses the scale well.
+TEST(KnifeEdge, PictureFollowsTheDeflection)
+{
+  const SampledField<float> blob(cube(32, 1),
+    [](double x, double y, double z) { return 1e-8 * std::exp(-(x * x + y * y + z * z) / 0.1); });
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.view.width = scene.view.height = 50;
+  scene.samplesPerPixel = 1;
+  for (const double angle : { 0., 90., 30. })
+  {
+    scene.knifeEdgeAngle = angle;
+    const Image image = Bench().render(blob.field, scene);
+    const double c = std::cos(angle * pi / 180), s = std::sin(angle * pi / 180);
+    double worst = 0;
+    for (std::size_t pixel = 0; pixel < image.intensity.size(); ++pixel)
+    {
+      const double eps = c * image.deflection[2 * pixel] + s * image.deflection[2 * pixel + 1];
+      const double expected = std::clamp(0.5 + image.kScale * eps, 0., 1.);
+      worst = std::max(worst, std::abs(image.intensity[pixel] - expected));
+    }
+    EXPECT_LT(worst, 1e-5);
+    EXPECT_GT(*std::max_element(image.intensity.begin(), image.intensity.end()), 0.95f);
+  }
+}
+
+/// Light that a weak flow bends stays on a film that holds all of its surroundings.
+TEST(Shadowgraph, ConservesEnergy)
+{
+  const SampledField<float> blob(cube(32, 1),
+    [](double x, double y, double z) { return 1e-3 * std::exp(-(x * x + y * y + z * z) / 0.05); });
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.view.width = scene.view.height = 80;
+  scene.view.parallelScale = 1.5;
+  scene.screenDistance = 20;
+  const Image image = Bench().render(blob.field, scene);
+  const double pixels = 80. * 80.;
+  EXPECT_NEAR(sum(image.intensity), pixels, 1e-6 * pixels);
+  const auto [least, most] = std::minmax_element(image.intensity.begin(), image.intensity.end());
+  EXPECT_GT(*most - *least, 0.2f);
+}
+
+} // namespace
+
+} // namespace schlieren

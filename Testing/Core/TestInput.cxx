@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What cannot be done is told in one message, and the bench works on afterwards.
+#include "Fields.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+struct Mistake
+{
+  const char* label;
+  const char* says; ///< part of the message
+  std::function<void(Field&, Scene&)> make;
+};
+
+std::vector<Mistake> mistakes()
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  return {
+    { "no pixels", "ImageSize", [](Field&, Scene& s) { s.view.width = 0; } },
+    { "negative height", "ImageSize", [](Field&, Scene& s) { s.view.height = -3; } },
+    { "huge picture", "ImageSize", [](Field&, Scene& s) { s.view.height = 1 << 20; } },
+    { "no direction", "ViewDirection is (0, 0, 0)",
+      [](Field&, Scene& s) {
+        s.view.viewDirection = { 0, 0, 0 };
+      } },
+    { "parallel up", "parallel",
+      [](Field&, Scene& s) {
+        s.view.viewUp = { 0, 0, 3 };
+      } },
+    { "no up", "ViewUp",
+      [](Field&, Scene& s) {
+        s.view.viewUp = { 0, 0, 0 };
+      } },
+    { "NaN direction", "not finite", [=](Field&, Scene& s) { s.view.viewDirection[1] = nan; } },
+    { "NaN focal point", "not finite",
+      [=](Field&, Scene& s) {
+        s.view.focalPoint = Vector{ 0, nan, 0 };
+      } },
+    { "negative zoom", "ParallelScale", [](Field&, Scene& s) { s.view.parallelScale = -1; } },
+    { "negative k", "KScale", [](Field&, Scene& s) { s.kScale = -1; } },
+    { "NaN k", "KScale", [=](Field&, Scene& s) { s.kScale = nan; } },
+    { "NaN angle", "KnifeEdgeAngle", [=](Field&, Scene& s) { s.knifeEdgeAngle = nan; } },
+    { "screen in the flow", "ScreenDistance", [](Field&, Scene& s) { s.screenDistance = -2; } },
+    { "no samples", "SamplesPerPixel", [](Field&, Scene& s) { s.samplesPerPixel = 0; } },
+    { "no step", "StepSize", [](Field&, Scene& s) { s.stepSize = 0; } },
+    { "NaN step", "StepSize", [=](Field&, Scene& s) { s.stepSize = nan; } },
+    { "negative threads", "threads", [](Field&, Scene& s) { s.threads = -1; } },
+    { "flat grid", "1 point(s) along its y axis",
+      [](Field& f, Scene&) {
+        f.grid.dimensions = { 64, 1, 8 };
+      } },
+    { "empty grid", "0 point(s)",
+      [](Field& f, Scene&) {
+        f.grid.dimensions = { 0, 0, 0 };
+      } },
+    { "no spacing", "spacing along its z axis", [](Field& f, Scene&) { f.grid.spacing[2] = 0; } },
+    { "NaN spacing", "spacing", [=](Field& f, Scene&) { f.grid.spacing[0] = nan; } },
+    { "NaN origin", "origin", [=](Field& f, Scene&) { f.grid.origin[0] = nan; } },
+    { "sheared axes", "direction matrix", [](Field& f, Scene&) { f.grid.direction[1] = 0.5; } },
+    { "negative length", "LengthScale", [](Field& f, Scene&) { f.lengthScale = -1; } },
+    { "impossible ambient", "ambient", [](Field& f, Scene&) { f.ambient = -1; } },
+    { "NaN ambient", "ambient", [=](Field& f, Scene&) { f.ambient = nan; } },
+    { "no samples at all", "float or double", [](Field& f, Scene&) { f.singles = nullptr; } },
+  };
+}
+
+TEST(Input, EachMistakeIsToldAndForgotten)
+{
+  const SampledField<float> good(cube(8, 1), [](double x, double, double) { return 1e-4 * x; });
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.view.width = scene.view.height = 12;
+  Bench bench;
+  const Image reference = bench.render(good.field, scene);
+  for (const Mistake& mistake : mistakes())
+  {
+    SCOPED_TRACE(mistake.label);
+    Field badField = good.field;
+    Scene badScene = scene;
+    mistake.make(badField, badScene);
+    try
+    {
+      bench.render(badField, badScene);
+      ADD_FAILURE() << "no error";
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(mistake.says), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(bench.render(good.field, scene).intensity, reference.intensity);
+  }
+}
+
+void expectFieldError(double value, const char* says)
+{
+  SampledField<double> bad(cube(6, 1), [](double x, double, double) { return 1e-4 * x; });
+  std::fill(bad.samples.begin() + 7, bad.samples.end(), value);
+  if (!std::isfinite(value))
+  {
+    std::fill(bad.samples.begin(), bad.samples.end(), value);
+  }
+  try
+  {
+    Bench().render(bad.field, Scene());
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+  }
+}
+
+TEST(Input, FieldsThatAreNoMedium)
+{
+  expectFieldError(std::numeric_limits<double>::quiet_NaN(), "invalid everywhere");
+  expectFieldError(std::numeric_limits<double>::infinity(), "invalid everywhere");
+  expectFieldError(101325, "index model");
+  expectFieldError(-1, "index model");
+}
+
+TEST(Input, CudaWithoutADeviceIsAnError)
+{
+  if (cudaAvailable())
+  {
+    GTEST_SKIP() << "a CUDA device is there";
+  }
+  const SampledField<float> good(cube(8, 1), [](double x, double, double) { return 1e-4 * x; });
+  Scene scene;
+  scene.view.width = scene.view.height = 12;
+  scene.device = Device::Cuda;
+  try
+  {
+    Bench().render(good.field, scene);
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("no CUDA device can be used"), std::string::npos);
+  }
+  scene.device = Device::Auto;
+  EXPECT_EQ(Bench().render(good.field, scene).device, Device::Cpu);
+}
+
+} // namespace
+
+} // namespace schlieren

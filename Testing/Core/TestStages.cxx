@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Stages keep their results; pictures do not depend on how they came about.
+#include "Fields.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace schlieren
+{
+
+namespace
+{
+
+SampledField<float> blobField()
+{
+  return { cube(24, 1), [](double x, double y, double z) {
+            return 3e-4 * std::exp(-(x * x + 2 * y * y + z * z + x * y) / 0.1);
+          } };
+}
+
+Scene smallScene()
+{
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.view.width = 40;
+  scene.view.height = 30;
+  return scene;
+}
+
+void expectSamePicture(const Image& a, const Image& b)
+{
+  EXPECT_EQ(a.intensity, b.intensity);
+  EXPECT_EQ(a.deflection, b.deflection);
+  EXPECT_EQ(a.opticalPathDifference, b.opticalPathDifference);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.blockedFraction, b.blockedFraction);
+  EXPECT_EQ(a.kScale, b.kScale);
+  EXPECT_EQ(a.raysTraced, b.raysTraced);
+  EXPECT_EQ(a.stepsTaken, b.stepsTaken);
+}
+
+TEST(Stages, CutoffTracesNothing)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  Scene scene = smallScene();
+  bench.render(blob.field, scene);
+  const Work first = bench.work();
+  EXPECT_EQ(first.mediumBuilds, 1);
+  EXPECT_GT(first.raysTraced, 0);
+
+  scene.knifeEdgeAngle = 90;
+  Image image = bench.render(blob.field, scene);
+  EXPECT_EQ(image.traceSeconds, 0);
+  scene.kScale = 17;
+  bench.render(blob.field, scene);
+  scene.invertCutoff = true;
+  bench.render(blob.field, scene);
+  scene.cutoff = Cutoff::Shadowgraph;
+  image = bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, first.mediumBuilds);
+  EXPECT_EQ(bench.work().raysTraced, first.raysTraced);
+  expectSamePicture(image, Bench().render(blob.field, scene));
+}
+
+TEST(Stages, CameraKeepsTheMedium)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  Scene scene = smallScene();
+  bench.render(blob.field, scene);
+  const std::int64_t rays = bench.work().raysTraced;
+  scene.view.viewDirection = { 1, 0.2, -1 };
+  const Image image = bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, 1);
+  EXPECT_GT(bench.work().raysTraced, rays);
+  expectSamePicture(image, Bench().render(blob.field, scene));
+}
+
+TEST(Stages, NewDataRebuildTheMedium)
+{
+  SampledField<float> blob = blobField();
+  Bench bench;
+  const Scene scene = smallScene();
+  const Image before = bench.render(blob.field, scene);
+  std::for_each(blob.samples.begin(), blob.samples.end(), [](float& n) { n *= 2; });
+  ++blob.field.version;
+  const Image after = bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, 2);
+  EXPECT_NE(before.deflection, after.deflection);
+  blob.field.ambient = 1e-4;
+  bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, 3);
+}
+
+TEST(Stages, EverythingThatMattersTracesAgain)
+{
+  SampledField<float> blob = blobField();
+  Bench bench;
+  Scene scene = smallScene();
+  Image image = bench.render(blob.field, scene);
+  const auto expectFresh = [&](const char* what)
+  {
+    SCOPED_TRACE(what);
+    const std::int64_t rays = bench.work().raysTraced;
+    image = bench.render(blob.field, scene);
+    EXPECT_GT(bench.work().raysTraced, rays);
+    expectSamePicture(image, Bench().render(blob.field, scene));
+  };
+  scene.stepSize = 0.5;
+  expectFresh("step");
+  scene.seed = 2;
+  expectFresh("seed");
+  scene.view.width = 41;
+  expectFresh("size");
+  scene.view.parallelScale = 0.8;
+  expectFresh("zoom");
+  scene.precision = Precision::Double;
+  expectFresh("precision");
+  scene.interpolation = Interpolation::Linear;
+  expectFresh("interpolation");
+  blob.field.lengthScale = 0.001;
+  expectFresh("length scale");
+}
+
+TEST(Stages, MoreSamplesContinueTheSequence)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  Scene scene = smallScene();
+  scene.samplesPerPixel = 3;
+  bench.render(blob.field, scene);
+  const std::int64_t rays = bench.work().raysTraced;
+  scene.samplesPerPixel = 9;
+  const Image grown = bench.render(blob.field, scene);
+  Bench fresh;
+  expectSamePicture(grown, fresh.render(blob.field, scene));
+  EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced);
+  EXPECT_GT(bench.work().raysTraced, 2 * rays);
+  // Going back shows the first picture again and traces nothing.
+  const std::int64_t all = bench.work().raysTraced;
+  scene.samplesPerPixel = 3;
+  const Image back = bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().raysTraced, all);
+  expectSamePicture(back, Bench().render(blob.field, scene));
+}
+
+TEST(Stages, ThreadsDoNotChangeABit)
+{
+  SampledField<float> blob = blobField();
+  blob.samples[5000] = std::numeric_limits<float>::quiet_NaN();
+  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph })
+  {
+    Scene scene = smallScene();
+    scene.cutoff = cutoff;
+    scene.view.viewDirection = { -0.2, 0.4, -1 };
+    scene.threads = 1;
+    const Image one = Bench().render(blob.field, scene);
+    for (const int threads : { 2, 7 })
+    {
+      SCOPED_TRACE(threads);
+      scene.threads = threads;
+      expectSamePicture(one, Bench().render(blob.field, scene));
+    }
+  }
+}
+
+TEST(Stages, AbortLeavesNothingBroken)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  const Scene scene = smallScene();
+  int calls = 0;
+  Monitor monitor;
+  monitor.aborted = [&] { return ++calls > 3; };
+  const Image aborted = bench.render(blob.field, scene, monitor);
+  EXPECT_TRUE(aborted.aborted);
+  EXPECT_TRUE(aborted.intensity.empty());
+  const Image image = bench.render(blob.field, scene);
+  EXPECT_FALSE(image.aborted);
+  expectSamePicture(image, Bench().render(blob.field, scene));
+}
+
+TEST(Stages, ProgressGrowsToOne)
+{
+  const SampledField<float> blob = blobField();
+  Scene scene = smallScene();
+  scene.threads = 2;
+  std::vector<double> steps;
+  Monitor monitor;
+  monitor.progress = [&](double fraction) { steps.push_back(fraction); };
+  Bench().render(blob.field, scene, monitor);
+  ASSERT_GT(steps.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(steps.begin(), steps.end()));
+  EXPECT_GT(steps.front(), 0);
+  EXPECT_LE(steps.back(), 1);
+}
+
+} // namespace
+
+} // namespace schlieren
