@@ -21,10 +21,7 @@ __global__ void traceKernel(
   const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
   if (n < count)
   {
-    const std::int64_t ray = first + n;
-    exits[n] = traceRay<Interpolate>(task,
-      static_cast<double>(pass.firstColumn + ray % pass.columns) + pass.offset.column,
-      static_cast<double>(pass.firstRow + ray / pass.columns) + pass.offset.row);
+    exits[n] = traceRay<Interpolate>(task, pass.columnOf(first + n), pass.rowOf(first + n));
   }
 }
 

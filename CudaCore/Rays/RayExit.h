@@ -42,6 +42,18 @@ struct Pass
   std::int64_t firstColumn, firstRow;
   std::int64_t columns, rows;
   PixelOffset offset; ///< the same in all pixels
+
+  /// Where a ray starts, in pixels from the centre of pixel (0, 0).
+  SCHLIEREN_HD double columnOf(std::int64_t ray) const
+  {
+    const std::int64_t column = firstColumn + ray % columns;
+    return static_cast<double>(column) + offset.column;
+  }
+  SCHLIEREN_HD double rowOf(std::int64_t ray) const
+  {
+    const std::int64_t row = firstRow + ray / columns;
+    return static_cast<double>(row) + offset.row;
+  }
 };
 
 } // namespace schlieren

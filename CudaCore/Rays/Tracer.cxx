@@ -63,9 +63,7 @@ bool traceOnCpu(const RayTask<Real>& task, Interpolation interpolation, const Pa
     {
       for (std::int64_t ray = begin; ray < end; ++ray)
       {
-        exits[ray] = trace(task,
-          static_cast<double>(pass.firstColumn + ray % pass.columns) + pass.offset.column,
-          static_cast<double>(pass.firstRow + ray / pass.columns) + pass.offset.row);
+        exits[ray] = trace(task, pass.columnOf(ray), pass.rowOf(ray));
       }
     },
     monitor);
