@@ -158,6 +158,25 @@ void checkRange(const Range& range)
   }
 }
 
+/// Sets to zero what is too small to matter beside `largest` |nu|. The tails of a spline's coefficients
+/// fall by 5.8 a point and soon reach denormal numbers, on which a CPU is a hundred times slower.
+template <class Real>
+void cutTails(PaddedVolume<Real>& volume, double largest, int threads)
+{
+  constexpr double negligible = 1e-20;
+  const Real smallest = static_cast<Real>(negligible * largest);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  parallelFor(static_cast<std::int64_t>(volume.samples.size()), grain, threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        Real& sample = volume.samples[static_cast<std::size_t>(i)];
+        sample = std::abs(sample) < smallest ? 0 : sample;
+      }
+    });
+}
+
 /// Largest difference of neighbouring samples along each axis, ghosts included where they are used,
 /// and largest |sample|. The derivative of a linear or quadratic B-spline is a weighted mean of these
 /// differences, its value one of the samples, so that neither can be larger.
@@ -230,6 +249,9 @@ Medium<Real> build(
     prefilterQuadratic(medium.volume, threads);
   }
   fillGhosts(medium.volume);
+  cutTails(medium.volume,
+    std::max(range.highest - medium.ambient, medium.ambient - range.lowest) / (1 + medium.ambient),
+    threads);
   findBounds(medium, threads);
   return medium;
 }

@@ -171,6 +171,24 @@ TEST(Medium, AmbientIsTheMedianOfTheBoundary)
     static_cast<float>(buildMedium<float>(field.field, Interpolation::Linear, 1).ambient), 2.7e-4f);
 }
 
+/// The tails of a blob's coefficients end in zeros, not in denormal numbers.
+TEST(Medium, HoldsNoDenormals)
+{
+  const SampledField<float> field(
+    box(200, 6, 6), [](double x, double, double) { return x > 99 && x < 101 ? 1e-4 : 0; });
+  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  {
+    const Medium<float> medium = buildMedium<float>(field.field, interpolation, 1);
+    int zeros = 0;
+    for (const float sample : medium.volume.samples)
+    {
+      EXPECT_TRUE(sample == 0 || std::abs(sample) > 1e-30f);
+      zeros += sample == 0 ? 1 : 0;
+    }
+    EXPECT_GT(zeros, 1000);
+  }
+}
+
 TEST(Medium, ItsBoundsHold)
 {
   std::mt19937 random(13);
