@@ -1,0 +1,565 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSchlierenFilter.h"
+
+#include "vtkCellArray.h"
+#include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Schlieren.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+vtkStandardNewMacro(vtkSchlierenFilter);
+
+struct vtkSchlierenFilter::Internals
+{
+  schlieren::Bench Bench;
+  vtkNew<vtkImageData> Refractivity;
+
+  // What Refractivity was made from: the input, and Medium at that time (0: nothing yet).
+  std::vector<double> Input;
+  vtkMTimeType MediumTime = 0;
+};
+
+namespace
+{
+
+/// Share of the progress bar that belongs to finding the refractivity.
+constexpr double mediumShare = 0.2;
+
+/// Everything that a dataset's refractivity may depend on, so that equal numbers mean equal data: times
+/// of its arrays, and its geometry. Not the dataset's own time, which is a new one whenever a filter
+/// upstream hands the same arrays on.
+void describe(vtkDataSet* data, std::vector<double>& description)
+{
+  const auto addTime = [&description](vtkObject* object)
+  { description.push_back(object ? static_cast<double>(object->GetMTime()) : 0); };
+  for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(association);
+    description.push_back(attributes->GetNumberOfArrays());
+    addTime(attributes->GetScalars());
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      addTime(attributes->GetAbstractArray(i));
+    }
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    const int* extent = image->GetExtent();
+    description.insert(description.end(), extent, extent + 6);
+    description.insert(description.end(), image->GetOrigin(), image->GetOrigin() + 3);
+    description.insert(description.end(), image->GetSpacing(), image->GetSpacing() + 3);
+    const double* direction = image->GetDirectionMatrix()->GetData();
+    description.insert(description.end(), direction, direction + 9);
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    addTime(rectilinear->GetXCoordinates());
+    addTime(rectilinear->GetYCoordinates());
+    addTime(rectilinear->GetZCoordinates());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    const int* extent = structured->GetExtent();
+    description.insert(description.end(), extent, extent + 6);
+    addTime(structured->GetPoints());
+  }
+  else if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    addTime(unstructured->GetPoints());
+    addTime(unstructured->GetCells());
+    addTime(unstructured->GetCellTypesArray());
+  }
+  else
+  {
+    addTime(data);
+  }
+}
+
+std::vector<double> describe(vtkDataObject* input)
+{
+  std::vector<double> description;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      if (auto* leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
+      {
+        describe(leaf, description);
+      }
+    }
+  }
+  else if (auto* data = vtkDataSet::SafeDownCast(input))
+  {
+    describe(data, description);
+  }
+  return description;
+}
+
+/// Whether two array selections say the same.
+bool sameSelection(vtkInformation* a, vtkInformation* b)
+{
+  const auto name = [](vtkInformation* info)
+  {
+    const char* text =
+      info->Has(vtkDataObject::FIELD_NAME()) ? info->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+    return std::string(text ? text : "");
+  };
+  const auto number = [](vtkInformation* info, vtkInformationIntegerKey* key)
+  { return info->Has(key) ? info->Get(key) : -1; };
+  return name(a) == name(b) &&
+    number(a, vtkDataObject::FIELD_ASSOCIATION()) ==
+    number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
+    number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
+    number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+}
+
+schlieren::Grid gridFrom(vtkImageData* image)
+{
+  schlieren::Grid grid;
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  std::copy_n(dimensions, 3, grid.dimensions.begin());
+  std::copy_n(image->GetSpacing(), 3, grid.spacing.begin());
+  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, grid.direction.begin());
+  const int* extent = image->GetExtent();
+  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], grid.origin.data());
+  return grid;
+}
+
+schlieren::View viewFrom(vtkSchlierenFilter* self)
+{
+  schlieren::View view;
+  std::copy_n(self->GetViewDirection(), 3, view.viewDirection.begin());
+  std::copy_n(self->GetViewUp(), 3, view.viewUp.begin());
+  if (self->GetHasFocalPoint())
+  {
+    const double* point = self->GetFocalPoint();
+    view.focalPoint = schlieren::Vector{ point[0], point[1], point[2] };
+  }
+  view.parallelScale = self->GetParallelScale();
+  view.width = self->GetImageSize()[0];
+  view.height = self->GetImageSize()[1];
+  return view;
+}
+
+int threadsFrom(vtkSchlierenFilter* self)
+{
+  const char* limit = std::getenv("VTK_SMP_MAX_THREADS");
+  return self->GetNumberOfThreads() > 0 || !limit ? self->GetNumberOfThreads()
+                                                  : std::max(0, std::atoi(limit));
+}
+
+schlieren::Scene sceneFrom(vtkSchlierenFilter* self)
+{
+  schlieren::Scene scene;
+  scene.view = viewFrom(self);
+  scene.cutoff = self->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH
+    ? schlieren::Cutoff::Shadowgraph
+    : schlieren::Cutoff::KnifeEdge;
+  scene.knifeEdgeAngle = self->GetKnifeEdgeAngle();
+  scene.invertCutoff = self->GetInvertCutoff();
+  if (!self->GetAutoKScale())
+  {
+    scene.kScale = self->GetKScale();
+  }
+  if (!(self->GetScreenDistance() < 0)) // NaN too, which the core then reports
+  {
+    scene.screenDistance = self->GetScreenDistance();
+  }
+  scene.samplesPerPixel = self->GetSamplesPerPixel();
+  scene.seed = static_cast<std::uint32_t>(self->GetSeed());
+  scene.interpolation = self->GetInterpolation() == vtkSchlierenFilter::LINEAR
+    ? schlieren::Interpolation::Linear
+    : schlieren::Interpolation::Quadratic;
+  scene.precision = self->GetPrecision() == vtkSchlierenFilter::DOUBLE
+    ? schlieren::Precision::Double
+    : schlieren::Precision::Single;
+  scene.stepSize = self->GetStepSize();
+  switch (self->GetDevice())
+  {
+    case vtkSchlierenFilter::CPU:
+      scene.device = schlieren::Device::Cpu;
+      break;
+    case vtkSchlierenFilter::CUDA:
+      scene.device = schlieren::Device::Cuda;
+      break;
+    default:
+      scene.device = schlieren::Device::Auto;
+      break;
+  }
+  scene.threads = threadsFrom(self);
+  return scene;
+}
+
+template <class Array, class Value>
+vtkSmartPointer<Array> newArray(const char* name, const std::vector<Value>& values, int components)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  if (components == 2)
+  {
+    array->SetComponentName(0, "u");
+    array->SetComponentName(1, "v");
+  }
+  return array;
+}
+
+template <class Array, class Value>
+void addFieldValue(vtkImageData* output, const char* name, const Value& value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void setOutput(vtkImageData* output, const schlieren::Image& image)
+{
+  output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
+  output->SetOrigin(image.frame.origin[0], image.frame.origin[1], 0);
+  output->SetSpacing(image.frame.pixelSize, image.frame.pixelSize, image.frame.pixelSize);
+
+  vtkPointData* arrays = output->GetPointData();
+  arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1));
+  arrays->AddArray(newArray<vtkFloatArray>("Deflection", image.deflection, 2));
+  arrays->AddArray(
+    newArray<vtkDoubleArray>("OpticalPathDifference", image.opticalPathDifference, 1));
+  arrays->AddArray(newArray<vtkFloatArray>("Displacement", image.displacement, 2));
+  arrays->AddArray(newArray<vtkFloatArray>("BlockedFraction", image.blockedFraction, 1));
+
+  addFieldValue<vtkStringArray>(
+    output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
+  addFieldValue<vtkStringArray>(output, "PathModel", image.pathModel);
+  addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
+  addFieldValue<vtkDoubleArray>(output, "AmbientRefractivity", image.ambient);
+  addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);
+  addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
+  addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
+  addFieldValue<vtkDoubleArray>(output, "TraceSeconds", image.traceSeconds);
+  addFieldValue<vtkDoubleArray>(output, "DisplacementBound", image.displacementBound);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkSchlierenFilter::vtkSchlierenFilter()
+  : Inside(new Internals)
+{
+  this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
+}
+
+//------------------------------------------------------------------------------
+vtkSchlierenFilter::~vtkSchlierenFilter() = default;
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Medium:\n";
+  this->Medium->PrintSelf(os, indent.GetNextIndent());
+  os << indent << "LengthScale: " << this->LengthScale << "\n";
+  os << indent << "AutoAmbientRefractivity: " << this->AutoAmbientRefractivity << "\n";
+  os << indent << "AmbientRefractivity: " << this->AmbientRefractivity << "\n";
+  os << indent << "ViewDirection: " << this->ViewDirection[0] << " " << this->ViewDirection[1]
+     << " " << this->ViewDirection[2] << "\n";
+  os << indent << "ViewUp: " << this->ViewUp[0] << " " << this->ViewUp[1] << " " << this->ViewUp[2]
+     << "\n";
+  os << indent << "HasFocalPoint: " << this->HasFocalPoint << "\n";
+  os << indent << "FocalPoint: " << this->FocalPoint[0] << " " << this->FocalPoint[1] << " "
+     << this->FocalPoint[2] << "\n";
+  os << indent << "ParallelScale: " << this->ParallelScale << "\n";
+  os << indent << "ImageSize: " << this->ImageSize[0] << " " << this->ImageSize[1] << "\n";
+  os << indent << "Cutoff: " << this->Cutoff << "\n";
+  os << indent << "KnifeEdgeAngle: " << this->KnifeEdgeAngle << "\n";
+  os << indent << "InvertCutoff: " << this->InvertCutoff << "\n";
+  os << indent << "AutoKScale: " << this->AutoKScale << "\n";
+  os << indent << "KScale: " << this->KScale << "\n";
+  os << indent << "ScreenDistance: " << this->ScreenDistance << "\n";
+  os << indent << "StepSize: " << this->StepSize << "\n";
+  os << indent << "Interpolation: " << this->Interpolation << "\n";
+  os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << "\n";
+  os << indent << "Precision: " << this->Precision << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "Device: " << this->Device << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
+  os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetFocalPoint(double x, double y, double z)
+{
+  const double point[3] = { x, y, z };
+  if (!this->HasFocalPoint || !std::equal(point, point + 3, this->FocalPoint))
+  {
+    std::copy(point, point + 3, this->FocalPoint);
+    this->HasFocalPoint = true;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ClearFocalPoint()
+{
+  if (this->HasFocalPoint)
+  {
+    std::fill_n(this->FocalPoint, 3, 0.);
+    this->HasFocalPoint = false;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetPrecision(int precision)
+{
+  precision = std::clamp<int>(precision, SINGLE, DOUBLE);
+  if (this->Precision != precision)
+  {
+    this->Precision = precision;
+    this->Medium->SetDoublePrecision(precision == DOUBLE);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()
+{
+  return this->Inside->Bench.work().mediumBuilds;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
+{
+  return this->Inside->Bench.work().raysTraced;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkSchlierenFilter::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Medium->GetMTime());
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::PassArraySelections()
+{
+  for (const int index : { vtkRefractiveIndex::DENSITY, vtkRefractiveIndex::INDEX_ARRAY })
+  {
+    vtkInformation* selection = this->GetInputArrayInformation(index);
+    if (!sameSelection(selection, this->Medium->GetInputArrayInformation(index)))
+    {
+      this->Medium->SetInputArrayToProcess(index, selection);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::OnMediumProgress()
+{
+  this->UpdateProgress(mediumShare * this->Medium->GetProgress());
+  if (this->GetAbortExecute())
+  {
+    this->Medium->AbortExecuteOn();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
+{
+  Internals& inside = *this->Inside;
+  this->PassArraySelections();
+  std::vector<double> description = describe(input);
+  if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
+  {
+    return true;
+  }
+  inside.MediumTime = 0;
+  this->Medium->AbortExecuteOff();
+  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
+  this->Medium->Convert(input, inside.Refractivity);
+  if (this->Medium->GetAbortExecute())
+  {
+    return false;
+  }
+  inside.Input = std::move(description);
+  inside.MediumTime = this->Medium->GetMTime();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Render(vtkImageData* output)
+{
+  vtkImageData* refractivity = this->Inside->Refractivity;
+  vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
+  auto* floats = vtkFloatArray::SafeDownCast(values);
+  auto* doubles = vtkDoubleArray::SafeDownCast(values);
+  auto* valid =
+    vtkUnsignedCharArray::SafeDownCast(refractivity->GetPointData()->GetArray("vtkValidPointMask"));
+
+  schlieren::Field field;
+  field.grid = gridFrom(refractivity);
+  field.singles = floats ? floats->GetPointer(0) : nullptr;
+  field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
+  field.valid = valid->GetPointer(0);
+  if (!this->AutoAmbientRefractivity)
+  {
+    field.ambient = this->AmbientRefractivity;
+  }
+  field.lengthScale = this->LengthScale;
+  field.version = refractivity->GetMTime();
+
+  schlieren::Monitor monitor;
+  monitor.progress = [this](double fraction)
+  { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
+  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
+
+  const schlieren::Image image = this->Inside->Bench.render(field, sceneFrom(this), monitor);
+  if (image.aborted)
+  {
+    return false;
+  }
+  if (!image.deviceNote.empty())
+  {
+    vtkWarningMacro(<< image.deviceNote);
+  }
+  setOutput(output, image);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* outInfo = outputVector->GetInformationObject(0);
+  const int extent[6] = { 0, std::max(this->ImageSize[0], 1) - 1, 0,
+    std::max(this->ImageSize[1], 1) - 1, 0, 0 };
+  double origin[3] = { 0, 0, 0 };
+  double spacing[3] = { 1, 1, 1 };
+  try
+  {
+    // Where the picture lies depends on the input's points: RequestData corrects what is told here
+    // before the input has been produced.
+    if (vtkDataObject* input = vtkDataObject::GetData(inputVector[0]))
+    {
+      this->PassArraySelections();
+      vtkNew<vtkImageData> grid;
+      this->Medium->ComputeGrid(input, grid);
+      const schlieren::Frame frame = schlieren::frameOf(gridFrom(grid), viewFrom(this));
+      std::copy(frame.origin.begin(), frame.origin.end(), origin);
+      std::fill_n(spacing, 3, frame.pixelSize);
+    }
+  }
+  catch (const std::exception&) // RequestData will say it
+  {
+  }
+  outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
+  outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
+  vtkDataObject::SetActiveAttribute(
+    outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Intensity", vtkDataSetAttributes::SCALARS);
+  vtkDataObject::SetPointDataActiveScalarInfo(outInfo, VTK_FLOAT, 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
+{
+  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
+  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* outInfo = outputVector->GetInformationObject(0);
+  vtkImageData* output = vtkImageData::GetData(outInfo);
+  output->Initialize();
+
+  // One picture, made by the first process: from the whole input where its source gives every process
+  // all of it (as for images that are read), else from the first process's piece.
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    if (controller->GetLocalProcessId() > 0)
+    {
+      return 1;
+    }
+    if (!this->HasWarnedOfProcesses)
+    {
+      vtkWarningMacro(<< "Data that are distributed over several processes are not gathered: the "
+                         "picture shows what the first process holds. Use one process.");
+      this->HasWarnedOfProcesses = true;
+    }
+  }
+
+  this->SetAbortExecute(0); // it stays set after an abort
+  try
+  {
+    if (this->UpdateRefractivity(vtkDataObject::GetData(inputVector[0])) && this->Render(output))
+    {
+      outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
+      outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);
+    }
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro(<< "There is not enough memory for the refractivity grid or the picture. Use a "
+                     "coarser input, smaller SamplingDimensions or a smaller ImageSize.");
+  }
+  catch (const std::exception& problem)
+  {
+    vtkErrorMacro(<< problem.what());
+  }
+  output->Initialize();
+  return 1;
+}

@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSchlierenFilter
+ * @brief   the picture that a schlieren or shadowgraph bench takes of a flow
+ *
+ * Bends parallel light through the refractive index of a flow and produces a 2-D vtkImageData, in
+ * the plane z = 0, whose coordinates are those of the view: x = position . u, y = position . v in
+ * data units, where u points right and v up. So the picture of the default view lies over the data.
+ *
+ * Point arrays of the output, all from the rays that start in the pixel:
+ * - `Intensity` (float, active scalars): undisturbed light is 1/2 for a knife edge, 1 for a
+ *   shadowgraph;
+ * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
+ *   towards higher index;
+ * - `OpticalPathDifference` (double): metres, against undisturbed light;
+ * - `Displacement` (2 floats): sideways, at the plane where light leaves the data, data units;
+ * - `BlockedFraction` (float): share of the light that a solid stopped.
+ *
+ * Field data: `Device`, `PathModel`, `KScale` (the k used), `AmbientRefractivity` (the value used),
+ * `RaysTraced`, `RaysLost` (trapped in the medium or turned back by it), `StepsTaken`,
+ * `TraceSeconds` (0 where nothing had to be traced), `DisplacementBound` (data units).
+ *
+ * The input and the properties that describe the medium are those of vtkRefractiveIndex; an image
+ * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
+ * until something that it depends on changes: another cutoff, k or knife angle traces nothing,
+ * another view traces again but keeps the medium.
+ *
+ * Mistakes end in one error that says what to do, and an empty output.
+ *
+ * @sa vtkRefractiveIndex
+ */
+
+#ifndef vtkSchlierenFilter_h
+#define vtkSchlierenFilter_h
+
+#include "vtkImageAlgorithm.h"
+#include "vtkNew.h"                    // for vtkNew
+#include "vtkRefractiveIndex.h"        // for the properties handed on
+#include "vtkSchlierenFiltersModule.h" // for export macro
+
+#include <memory> // for std::unique_ptr
+
+/// A property that belongs to the inner vtkRefractiveIndex.
+#define vtkSchlierenMediumMacro(name, type)                              \
+  virtual void Set##name(type value) { this->Medium->Set##name(value); } \
+  virtual type Get##name() { return this->Medium->Get##name(); }
+
+class VTKSCHLIERENFILTERS_EXPORT vtkSchlierenFilter : public vtkImageAlgorithm
+{
+public:
+  static vtkSchlierenFilter* New();
+  vtkTypeMacro(vtkSchlierenFilter, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Cutoffs
+  {
+    KNIFE_EDGE = 0,
+    SHADOWGRAPH = 1
+  };
+
+  enum Interpolations
+  {
+    QUADRATIC = 0,
+    LINEAR = 1
+  };
+
+  enum Precisions
+  {
+    SINGLE = 0,
+    DOUBLE = 1
+  };
+
+  enum Devices
+  {
+    AUTO = 0,
+    CPU = 1,
+    CUDA = 2
+  };
+
+  ///@{
+  /**
+   * The medium: see vtkRefractiveIndex. The arrays are chosen with SetInputArrayToProcess in the same
+   * way (0: density, 1: index or refractivity).
+   */
+  vtkSchlierenMediumMacro(IndexModel, int);
+  vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
+  vtkSchlierenMediumMacro(DensityScale, double);
+  virtual void SetSamplingDimensions(int x, int y, int z)
+  {
+    this->Medium->SetSamplingDimensions(x, y, z);
+  }
+  virtual void SetSamplingDimensions(const int dimensions[3])
+  {
+    this->Medium->SetSamplingDimensions(dimensions);
+  }
+  virtual int* GetSamplingDimensions() VTK_SIZEHINT(3)
+  {
+    return this->Medium->GetSamplingDimensions();
+  }
+  ///@}
+
+  ///@{
+  /**
+   * Metres per unit of the data's coordinates. Default: 1. An error where it is not positive.
+   */
+  vtkSetMacro(LengthScale, double);
+  vtkGetMacro(LengthScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the refractivity around the data is the median over the domain's boundary. Default: on.
+   */
+  vtkSetMacro(AutoAmbientRefractivity, bool);
+  vtkGetMacro(AutoAmbientRefractivity, bool);
+  vtkBooleanMacro(AutoAmbientRefractivity, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Refractivity n - 1 around the data, where AutoAmbientRefractivity is off. Default: 0.
+   */
+  vtkSetMacro(AmbientRefractivity, double);
+  vtkGetMacro(AmbientRefractivity, double);
+  ///@}
+
+  ///@{
+  /**
+   * The direction one looks in, as in vtkCamera; light travels against it. Any length but 0.
+   * Default: (0, 0, -1).
+   */
+  vtkSetVector3Macro(ViewDirection, double);
+  vtkGetVector3Macro(ViewDirection, double);
+  ///@}
+
+  ///@{
+  /**
+   * What is up in the picture; not parallel to ViewDirection. Default: (0, 1, 0).
+   */
+  vtkSetVector3Macro(ViewUp, double);
+  vtkGetVector3Macro(ViewUp, double);
+  ///@}
+
+  ///@{
+  /**
+   * The point at the centre of the picture, data units. By default, and after ClearFocalPoint(), the
+   * data's centre; what GetFocalPoint() tells is then of no effect.
+   */
+  virtual void SetFocalPoint(double x, double y, double z);
+  virtual void SetFocalPoint(const double point[3])
+  {
+    this->SetFocalPoint(point[0], point[1], point[2]);
+  }
+  virtual void ClearFocalPoint();
+  vtkGetVector3Macro(FocalPoint, double);
+  vtkGetMacro(HasFocalPoint, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Half the height of the picture, data units; 0 (the default) fits the data.
+   */
+  vtkSetMacro(ParallelScale, double);
+  vtkGetMacro(ParallelScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * Width and height in pixels. Default: (512, 512).
+   */
+  vtkSetVector2Macro(ImageSize, int);
+  vtkGetVector2Macro(ImageSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * What turns deflections into light and dark, one of Cutoffs. Default: KNIFE_EDGE.
+   */
+  vtkSetClampMacro(Cutoff, int, KNIFE_EDGE, SHADOWGRAPH);
+  vtkGetMacro(Cutoff, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which deflection the knife edge measures, degrees: 0 (the default) along u, 90 along v.
+   */
+  vtkSetMacro(KnifeEdgeAngle, double);
+  vtkGetMacro(KnifeEdgeAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Turns the knife edge round: intensity I becomes 1 - I. Default: off.
+   */
+  vtkSetMacro(InvertCutoff, bool);
+  vtkGetMacro(InvertCutoff, bool);
+  vtkBooleanMacro(InvertCutoff, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether k is chosen so that the 99th percentile of the deflections is full scale. Default: on.
+   */
+  vtkSetMacro(AutoKScale, bool);
+  vtkGetMacro(AutoKScale, bool);
+  vtkBooleanMacro(AutoKScale, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Sensitivity k of the knife edge where AutoKScale is off: focal length over source width, so that
+   * the intensity is 1/2 + k times the deflection. Not negative. Default: 1000.
+   */
+  vtkSetMacro(KScale, double);
+  vtkGetMacro(KScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * For a shadowgraph: from the plane where light leaves the data to the screen, data units.
+   * Negative (default: -1): one data depth.
+   */
+  vtkSetMacro(ScreenDistance, double);
+  vtkGetMacro(ScreenDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Length of an integration step, voxels. Positive. Default: 1.
+   */
+  vtkSetMacro(StepSize, double);
+  vtkGetMacro(StepSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * What lies between the samples, one of Interpolations: QUADRATIC (the default) has a continuous
+   * gradient; LINEAR is faster and prints the grid into the picture.
+   */
+  vtkSetClampMacro(Interpolation, int, QUADRATIC, LINEAR);
+  vtkGetMacro(Interpolation, int);
+  ///@}
+
+  ///@{
+  /**
+   * Rays per pixel, at least 1. Default: 4.
+   */
+  vtkSetMacro(SamplesPerPixel, int);
+  vtkGetMacro(SamplesPerPixel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Floating-point numbers to trace with, one of Precisions. Default: SINGLE.
+   */
+  virtual void SetPrecision(int precision);
+  vtkGetMacro(Precision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Chooses the places of the rays within the pixels; the same seed gives the same picture.
+   * 0 to 2147483647. Default: 1.
+   */
+  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /**
+   * What computes, one of Devices: AUTO (the default) takes CUDA where a device answers, else the
+   * CPU; CUDA without a device is an error.
+   */
+  vtkSetClampMacro(Device, int, AUTO, CUDA);
+  vtkGetMacro(Device, int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads on the CPU; 0 (the default): VTK_SMP_MAX_THREADS where that is set, else all cores. The
+   * picture does not depend on it.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * What this filter has done since it was made: media built, and rays traced. They stand still where
+   * an update could use what was there.
+   */
+  vtkTypeInt64 GetMediumBuilds();
+  vtkTypeInt64 GetTotalRaysTraced();
+  ///@}
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkSchlierenFilter();
+  ~vtkSchlierenFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+private:
+  vtkSchlierenFilter(const vtkSchlierenFilter&) = delete;
+  void operator=(const vtkSchlierenFilter&) = delete;
+
+  struct Internals;
+
+  /// Hands the array selections on to Medium, which changes only if they have.
+  void PassArraySelections();
+  void OnMediumProgress();
+  /// Brings the refractivity up to date. False if aborted.
+  bool UpdateRefractivity(vtkDataObject* input);
+  /// Makes the picture from the refractivity. False if aborted.
+  bool Render(vtkImageData* output);
+
+  vtkNew<vtkRefractiveIndex> Medium;
+  std::unique_ptr<Internals> Inside;
+
+  double LengthScale = 1;
+  bool AutoAmbientRefractivity = true;
+  double AmbientRefractivity = 0;
+  double ViewDirection[3] = { 0, 0, -1 };
+  double ViewUp[3] = { 0, 1, 0 };
+  double FocalPoint[3] = { 0, 0, 0 };
+  bool HasFocalPoint = false;
+  double ParallelScale = 0;
+  int ImageSize[2] = { 512, 512 };
+  int Cutoff = KNIFE_EDGE;
+  double KnifeEdgeAngle = 0;
+  bool InvertCutoff = false;
+  bool AutoKScale = true;
+  double KScale = 1000;
+  double ScreenDistance = -1;
+  double StepSize = 1;
+  int Interpolation = QUADRATIC;
+  int SamplesPerPixel = 4;
+  int Precision = SINGLE;
+  int Seed = 1;
+  int Device = AUTO;
+  int NumberOfThreads = 0;
+
+  bool HasWarnedOfProcesses = false;
+};
+
+#undef vtkSchlierenMediumMacro
+
+#endif

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fixtures.h"
+
+#include "vtkMatrix3x3.h"
+
+namespace
+{
+
+vtkSmartPointer<vtkImageData> columnImage(int points)
+{
+  auto image = cube(points);
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
+void look(vtkSchlierenFilter* filter, const Vec& direction, const Vec& up)
+{
+  filter->SetViewDirection(direction.data());
+  filter->SetViewUp(up.data());
+}
+
+} // namespace
+
+TEST(GaussianColumn, MatchesClosedForm)
+{
+  auto filter = bench(columnImage(128));
+  filter->SetParallelScale(0.9); // so that no ray ends at the column's cut faces
+  filter->Update();
+  const ColumnErrors errors = compareWithColumn(filter, GaussianColumn());
+  EXPECT_LT(errors.deflection, 1e-3);
+  EXPECT_LT(errors.opticalPath, 1e-3);
+  RecordProperty("deflection", std::to_string(errors.deflection));
+  RecordProperty("opticalPath", std::to_string(errors.opticalPath));
+}
+
+// The closed form is that of the weak limit: at A = 2.7e-4 the tilt of the rays already lengthens their
+// way to the exit plane by 7e-4 of the optical path difference. A weak column leaves the grid's error.
+TEST(GaussianColumn, WeakColumnMatchesClosedFormClosely)
+{
+  const GaussianColumn weak{ 1e-7, 0.3 };
+  auto image = cube(128);
+  addPointArray(image, "N", weak);
+  auto filter = bench(image);
+  filter->SetParallelScale(0.9);
+  filter->Update();
+  const ColumnErrors errors = compareWithColumn(filter, weak);
+  RecordProperty("deflection", std::to_string(errors.deflection * 1e6) + "e-6");
+  RecordProperty("opticalPath", std::to_string(errors.opticalPath * 1e6) + "e-6");
+  EXPECT_LT(errors.deflection, 1e-3);
+  EXPECT_LT(errors.opticalPath, 2e-5);
+}
+
+TEST(GaussianColumn, DoublePrecisionMatchesClosedForm)
+{
+  auto filter = bench(columnImage(128), 32);
+  filter->SetParallelScale(0.9);
+  filter->SetPrecision(vtkSchlierenFilter::DOUBLE);
+  filter->Update();
+  const ColumnErrors errors = compareWithColumn(filter, GaussianColumn());
+  EXPECT_LT(errors.deflection, 1e-3);
+  EXPECT_LT(errors.opticalPath, 1e-3);
+}
+
+// Each view sees the column across: the closed form is the same, only its signs and axes change.
+TEST(GaussianColumn, SignsFollowTheView)
+{
+  const auto image = columnImage(96);
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  const std::pair<Vec, Vec> views[] = { { { 0, 0, -1 }, { 0, 1, 0 } }, { { 0, 0, 1 }, { 0, 1, 0 } },
+    { { 1, 0, 0 }, { 0, 1, 0 } }, { { -1, 0, 0 }, { 0, -1, 0 } }, { { 0, 0, -1 }, { 1, 0, 0 } },
+    { { 0, 0, -3 }, { -2, 0, 0 } }, { { s, 0, -c }, { 0, 1, 0 } },
+    { { s, 0, c }, { 0.3, 1, 0.2 } } };
+  for (const auto& [direction, up] : views)
+  {
+    auto filter = bench(image, 32);
+    filter->SetParallelScale(0.6);
+    look(filter, direction, up);
+    filter->Update();
+    const ColumnErrors errors = compareWithColumn(filter, GaussianColumn(), direction, up);
+    EXPECT_LT(errors.deflection, 2e-3)
+      << direction[0] << " " << direction[1] << " " << direction[2];
+    EXPECT_LT(errors.opticalPath, 2e-3)
+      << direction[0] << " " << direction[1] << " " << direction[2];
+  }
+}
+
+TEST(GaussianColumn, DensityTimesConstantIsTheRefractivity)
+{
+  auto image = cube(64);
+  const GaussianColumn column;
+  addPointArray(image, "rho", [&](const Vec& x) { return column(x) / 2.26e-4 * 1000; });
+  auto filter = vtkSmartPointer<vtkSchlierenFilter>::New();
+  filter->SetInputDataObject(image);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+  filter->SetDensityScale(0.001);
+  filter->SetAutoAmbientRefractivity(false);
+  filter->SetImageSize(32, 32);
+  filter->SetSamplesPerPixel(1);
+  filter->SetParallelScale(0.9);
+  filter->Update();
+  EXPECT_LT(compareWithColumn(filter, column).deflection, 4e-3);
+}
+
+TEST(GaussianColumn, LengthScaleScalesTheOpticalPathAlone)
+{
+  auto filter = bench(columnImage(64), 32);
+  filter->Update();
+  const auto deflection = valuesOf(filter, "Deflection");
+  auto opticalPath = valuesOf(filter, "OpticalPathDifference");
+  filter->SetLengthScale(0.001);
+  filter->Update();
+  EXPECT_EQ(valuesOf(filter, "Deflection"), deflection);
+  for (double& value : opticalPath)
+  {
+    value *= 0.001;
+  }
+  EXPECT_LT(relativeDifference(valuesOf(filter, "OpticalPathDifference"), opticalPath), 1e-12);
+}
+
+TEST(LinearField, LightBendsTowardsHigherIndex)
+{
+  auto image = cube(16);
+  addPointArray(image, "N", [](const Vec& x) { return 3e-4 + 1e-5 * x[1]; });
+  auto filter = bench(image, 8);
+  filter->SetAmbientRefractivity(3e-4);
+  filter->SetParallelScale(0.5);
+  filter->Update();
+  vtkDataArray* deflection = arrayOf(filter, "Deflection");
+  for (vtkIdType i = 0; i < deflection->GetNumberOfTuples(); ++i)
+  {
+    EXPECT_NEAR(deflection->GetComponent(i, 0), 0, 1e-10);
+    EXPECT_NEAR(deflection->GetComponent(i, 1), 2 * 1e-5 / (1 + 3e-4), 2e-8); // L dN/dy / n
+  }
+}
+
+// The knife edge at 90 degrees measures the deflection along v: light where it bends upwards.
+TEST(LinearField, KnifeEdgeAngleChoosesTheComponent)
+{
+  auto image = cube(16);
+  addPointArray(image, "N", [](const Vec& x) { return 3e-4 + 1e-5 * x[1]; });
+  auto filter = bench(image, 8);
+  filter->SetAmbientRefractivity(3e-4);
+  filter->SetParallelScale(0.5);
+  filter->SetAutoKScale(false);
+  filter->SetKScale(1e4);
+  const auto centre = [&filter]()
+  {
+    filter->Update();
+    return arrayOf(filter, "Intensity")->GetComponent(8 * 4 + 4, 0);
+  };
+  EXPECT_NEAR(centre(), 0.5, 1e-5);
+  filter->SetKnifeEdgeAngle(90);
+  EXPECT_NEAR(centre(), 0.5 + 1e4 * 2e-5, 1e-3);
+  filter->SetInvertCutoff(true);
+  EXPECT_NEAR(centre(), 0.5 - 1e4 * 2e-5, 1e-3);
+}
+
+namespace
+{
+
+/// Where the optical path's centre of gravity lies in the picture.
+std::array<double, 2> centreOfGravity(vtkSchlierenFilter* filter)
+{
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* opticalPath = arrayOf(filter, "OpticalPathDifference");
+  double sum = 0, x = 0, y = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double weight = opticalPath->GetComponent(i, 0);
+    sum += weight;
+    x += weight * image->GetPoint(i)[0];
+    y += weight * image->GetPoint(i)[1];
+  }
+  return { x / sum, y / sum };
+}
+
+} // namespace
+
+// Picture coordinates are (x.u, x.v), also for a tilted grid far from the origin.
+TEST(PictureCoordinates, BlobAppearsWhereItIs)
+{
+  const Vec far = { 1000, -2000, 500 };
+  for (const double angle : { 0., 0.5 })
+  {
+    auto image = cube(64);
+    image->SetOrigin(far[0] - 1, far[1] - 1, far[2] - 1);
+    const double rotation[9] = { std::cos(angle), -std::sin(angle), 0, std::sin(angle),
+      std::cos(angle), 0, 0, 0, 1 };
+    vtkNew<vtkMatrix3x3> matrix;
+    std::copy_n(rotation, 9, matrix->GetData());
+    image->SetDirectionMatrix(matrix);
+
+    double middle[3];
+    image->TransformContinuousIndexToPhysicalPoint(36.5, 27, 40, middle);
+    const Vec blob = { middle[0], middle[1], middle[2] };
+    addPointArray(image, "N",
+      [&](const Vec& x)
+      {
+        const Vec d = { x[0] - blob[0], x[1] - blob[1], x[2] - blob[2] };
+        return 1e-5 * std::exp(-dot(d, d) / 0.04);
+      });
+    const std::pair<Vec, Vec> views[] = { { { 0, 0, -1 }, { 0, 1, 0 } },
+      { { 1, 0, 0 }, { 0, 0, 1 } }, { { -0.4, 0.3, -1 }, { 0.1, 1, 0 } } };
+    for (const auto& [direction, up] : views)
+    {
+      auto filter = bench(image, 96);
+      look(filter, direction, up);
+      filter->Update();
+      const Axes axes(direction, up);
+      const auto centre = centreOfGravity(filter);
+      const double pixel =
+        vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetSpacing()[0];
+      EXPECT_NEAR(centre[0], dot(blob, axes.u), 0.05 * pixel) << "angle " << angle;
+      EXPECT_NEAR(centre[1], dot(blob, axes.v), 0.05 * pixel) << "angle " << angle;
+    }
+  }
+}
+
+TEST(PictureCoordinates, FocalPointIsTheCentreOfThePicture)
+{
+  auto filter = bench(columnImage(16), 10);
+  const auto centre = [&filter]()
+  {
+    filter->Update();
+    double bounds[6];
+    vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetBounds(bounds);
+    return std::array<double, 2>{ (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2 };
+  };
+  EXPECT_NEAR(centre()[0], 0, 1e-12);
+  filter->SetFocalPoint(0.25, -0.5, 7);
+  EXPECT_NEAR(centre()[0], 0.25, 1e-12);
+  EXPECT_NEAR(centre()[1], -0.5, 1e-12);
+  filter->ClearFocalPoint();
+  EXPECT_NEAR(centre()[0], 0, 1e-12);
+  EXPECT_NEAR(centre()[1], 0, 1e-12);
+}

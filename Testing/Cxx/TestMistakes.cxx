@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fixtures.h"
+
+#include "vtkMultiBlockDataSet.h"
+#include "vtkSphereSource.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <limits>
+#include <ostream>
+
+namespace
+{
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+vtkSmartPointer<vtkImageData> columnImage()
+{
+  auto image = cube(16);
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
+/// A wrong setting, what the message must contain, and how to put it right.
+struct Mistake
+{
+  const char* name;
+  std::function<void(vtkSchlierenFilter*)> make;
+  std::vector<std::string> words;
+  std::function<void(vtkSchlierenFilter*)> correct;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+void chooseArray(vtkSchlierenFilter* filter, const char* name)
+{
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+}
+
+/// A mistake of the input: put right with another one.
+Mistake input(const char* name, const std::function<vtkSmartPointer<vtkDataObject>()>& make,
+  std::vector<std::string> words)
+{
+  return { name, [make](vtkSchlierenFilter* filter) { filter->SetInputDataObject(make()); },
+    std::move(words),
+    [](vtkSchlierenFilter* filter) { filter->SetInputDataObject(columnImage()); } };
+}
+
+vtkSmartPointer<vtkDataObject> flat()
+{
+  auto image = columnImage();
+  image->SetDimensions(16, 16, 1);
+  image->GetPointData()->Initialize();
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
+vtkSmartPointer<vtkDataObject> surface()
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  addPointArray(sphere->GetOutput(), "N", GaussianColumn());
+  return sphere->GetOutput();
+}
+
+vtkSmartPointer<vtkDataObject> vectors()
+{
+  auto image = cube(16);
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("N");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  array->Fill(0);
+  image->GetPointData()->AddArray(array);
+  addPointArray(image, "p", GaussianColumn());
+  return image;
+}
+
+using Filter = vtkSchlierenFilter;
+
+std::vector<Mistake> mistakes()
+{
+  return {
+    { "NoSuchArray", [](Filter* f) { chooseArray(f, "rho_total"); },
+      { "rho_total", "IndexArray", "N" }, [](Filter* f) { chooseArray(f, "N"); } },
+    { "NoArrayChosen", [](Filter* f) { chooseArray(f, ""); }, { "IndexArray", "point arrays N" },
+      [](Filter* f) { chooseArray(f, "N"); } },
+    input("NoArrays", [] { return cube(16); }, { "no arrays", "IndexArray" }),
+    input("Vectors", vectors, { "'N' has 3 components", "point arrays p" }),
+    input("EmptyGrid", [] { return vtkSmartPointer<vtkUnstructuredGrid>::New(); }, { "empty" }),
+    input("EmptyImage", [] { return vtkSmartPointer<vtkImageData>::New(); }, { "empty" }),
+    input(
+      "EmptyComposite", [] { return vtkSmartPointer<vtkMultiBlockDataSet>::New(); }, { "empty" }),
+    input("NanEverywhere",
+      []
+      {
+        auto image = columnImage();
+        image->GetPointData()->GetArray("N")->Fill(nan);
+        return image;
+      },
+      { "'N'", "no valid value" }),
+    input("OneVoxelThick", flat, { "1 point", "extrude" }),
+    input("Surface", surface, { "no 3-D cells", "'N'" }),
+    input("ZeroSpacing",
+      []
+      {
+        auto image = columnImage();
+        image->SetSpacing(0.1, 0, 0.1);
+        return image;
+      },
+      { "spacing", "y axis", "positive" }),
+    input("NanOrigin",
+      []
+      {
+        auto image = columnImage();
+        image->SetOrigin(0, nan, 0);
+        return image;
+      },
+      { "origin", "finite" }),
+    { "IndexTakenForRefractivity",
+      [](Filter* f)
+      {
+        f->SetDensityScale(1);
+        f->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
+        f->SetInputArrayToProcess(
+          vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+        f->SetGladstoneDaleConstant(1e9);
+      },
+      { "n - 1", "index model" }, [](Filter* f) { f->SetGladstoneDaleConstant(1); } },
+    { "NanConstant",
+      [](Filter* f)
+      {
+        f->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
+        f->SetInputArrayToProcess(
+          vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+        f->SetGladstoneDaleConstant(nan);
+      },
+      { "GladstoneDaleConstant", "finite" }, [](Filter* f) { f->SetGladstoneDaleConstant(1); } },
+    { "ZeroWidth", [](Filter* f) { f->SetImageSize(0, 64); }, { "0 x 64", "ImageSize" },
+      [](Filter* f) { f->SetImageSize(64, 64); } },
+    { "NegativeHeight", [](Filter* f) { f->SetImageSize(64, -3); }, { "64 x -3", "ImageSize" },
+      [](Filter* f) { f->SetImageSize(64, 64); } },
+    { "ViewUpParallel", [](Filter* f) { f->SetViewUp(0, 0, 2); }, { "ViewUp", "parallel" },
+      [](Filter* f) { f->SetViewUp(0, 1, 0); } },
+    { "NoDirection", [](Filter* f) { f->SetViewDirection(0, 0, 0); }, { "ViewDirection" },
+      [](Filter* f) { f->SetViewDirection(0, 0, 1); } },
+    { "NanDirection", [](Filter* f) { f->SetViewDirection(0, nan, -1); },
+      { "ViewDirection", "finite" }, [](Filter* f) { f->SetViewDirection(0, 0, 1); } },
+    { "NegativeK",
+      [](Filter* f)
+      {
+        f->SetAutoKScale(false);
+        f->SetKScale(-1);
+      },
+      { "KScale", "-1" }, [](Filter* f) { f->SetKScale(1); } },
+    { "NoSamples", [](Filter* f) { f->SetSamplesPerPixel(0); }, { "SamplesPerPixel", "0" },
+      [](Filter* f) { f->SetSamplesPerPixel(1); } },
+    { "NoStep", [](Filter* f) { f->SetStepSize(0); }, { "StepSize", "0" },
+      [](Filter* f) { f->SetStepSize(1); } },
+    { "NanScreen", [](Filter* f) { f->SetScreenDistance(nan); }, { "ScreenDistance" },
+      [](Filter* f) { f->SetScreenDistance(-1); } },
+    { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
+      [](Filter* f) { f->SetAmbientRefractivity(0); } },
+    { "NoLength", [](Filter* f) { f->SetLengthScale(0); }, { "LengthScale" },
+      [](Filter* f) { f->SetLengthScale(1); } },
+  };
+}
+
+class Mistakes : public testing::TestWithParam<Mistake>
+{
+};
+
+} // namespace
+
+TEST_P(Mistakes, OneMessageAnEmptyImageAndThenAllIsWell)
+{
+  const Mistake& mistake = GetParam();
+  auto filter = bench(columnImage());
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  mistake.make(filter);
+  filter->Update();
+  EXPECT_TRUE(isEmpty(filter));
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_TRUE(complaints->Warnings.empty());
+  for (const std::string& word : mistake.words)
+  {
+    EXPECT_NE(complaints->Errors[0].find(word), std::string::npos)
+      << "no '" << word << "' in: " << complaints->Errors[0];
+  }
+
+  mistake.correct(filter);
+  filter->Update();
+  EXPECT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_FALSE(isEmpty(filter));
+  EXPECT_GT(largest(valuesOf(filter, "Deflection")), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bench, Mistakes, testing::ValuesIn(mistakes()),
+  [](const testing::TestParamInfo<Mistake>& mistake) { return mistake.param.name; });
+
+// A machine with a device passes by tracing there, one without by saying so.
+TEST(Devices, CudaIsUsedOrItsAbsenceIsSaid)
+{
+  auto filter = bench(columnImage());
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->SetDevice(vtkSchlierenFilter::CUDA);
+  filter->Update();
+  if (complaints->Errors.empty())
+  {
+    EXPECT_FALSE(isEmpty(filter));
+    auto* device = filter->GetOutputDataObject(0)->GetFieldData()->GetAbstractArray("Device");
+    EXPECT_EQ(device->GetVariantValue(0).ToString(), "CUDA");
+  }
+  else
+  {
+    ASSERT_EQ(complaints->Errors.size(), 1u);
+    EXPECT_NE(complaints->Errors[0].find("CUDA"), std::string::npos);
+    EXPECT_NE(complaints->Errors[0].find("CPU"), std::string::npos);
+    EXPECT_TRUE(isEmpty(filter));
+  }
+  filter->SetDevice(vtkSchlierenFilter::AUTO);
+  filter->Update();
+  EXPECT_FALSE(isEmpty(filter));
+}

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fixtures.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+
+namespace
+{
+
+vtkSmartPointer<vtkImageData> columnImage(int points)
+{
+  auto image = cube(points);
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
+struct WorkDone
+{
+  vtkTypeInt64 builds;
+  vtkTypeInt64 rays;
+};
+
+bool operator==(const WorkDone& a, const WorkDone& b)
+{
+  return a.builds == b.builds && a.rays == b.rays;
+}
+
+/// What an update adds to the work done.
+WorkDone workOfUpdate(vtkSchlierenFilter* filter)
+{
+  const WorkDone before{ filter->GetMediumBuilds(), filter->GetTotalRaysTraced() };
+  filter->Update();
+  return { filter->GetMediumBuilds() - before.builds, filter->GetTotalRaysTraced() - before.rays };
+}
+
+const WorkDone none{ 0, 0 };
+
+} // namespace
+
+TEST(Pipeline, OutputIsAsDocumented)
+{
+  auto filter = bench(columnImage(32), 20);
+  filter->SetImageSize(20, 12);
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  const int expected[6] = { 0, 19, 0, 11, 0, 0 };
+  EXPECT_TRUE(std::equal(expected, expected + 6, image->GetExtent()));
+  EXPECT_EQ(image->GetOrigin()[2], 0);
+  EXPECT_STREQ(image->GetPointData()->GetScalars()->GetName(), "Intensity");
+  const std::tuple<const char*, int, int> arrays[] = { { "Intensity", VTK_FLOAT, 1 },
+    { "Deflection", VTK_FLOAT, 2 }, { "OpticalPathDifference", VTK_DOUBLE, 1 },
+    { "Displacement", VTK_FLOAT, 2 }, { "BlockedFraction", VTK_FLOAT, 1 } };
+  for (const auto& [name, type, components] : arrays)
+  {
+    vtkDataArray* array = arrayOf(filter, name);
+    ASSERT_NE(array, nullptr) << name;
+    EXPECT_EQ(array->GetDataType(), type) << name;
+    EXPECT_EQ(array->GetNumberOfComponents(), components) << name;
+    EXPECT_EQ(array->GetNumberOfTuples(), 20 * 12) << name;
+  }
+  EXPECT_GT(fieldValue(filter, "KScale"), 0);
+  EXPECT_GT(fieldValue(filter, "StepsTaken"), 0);
+  EXPECT_GT(fieldValue(filter, "TraceSeconds"), 0);
+  EXPECT_GT(fieldValue(filter, "DisplacementBound"), 0);
+  EXPECT_EQ(fieldValue(filter, "RaysLost"), 0);
+  EXPECT_EQ(fieldValue(filter, "AmbientRefractivity"), 0);
+  EXPECT_GE(fieldValue(filter, "RaysTraced"), 12 * 12);
+  vtkFieldData* field = image->GetFieldData();
+  EXPECT_TRUE(vtkStringArray::SafeDownCast(field->GetAbstractArray("Device")));
+  EXPECT_TRUE(vtkStringArray::SafeDownCast(field->GetAbstractArray("PathModel")));
+}
+
+TEST(Pipeline, InformationTellsTheGeometryBeforehand)
+{
+  auto filter = bench(columnImage(32), 20);
+  filter->UpdateInformation();
+  vtkInformation* info = filter->GetOutputInformation(0);
+  double origin[3], spacing[3];
+  info->Get(vtkDataObject::ORIGIN(), origin);
+  info->Get(vtkDataObject::SPACING(), spacing);
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(image->GetOrigin()[axis], origin[axis]);
+    EXPECT_EQ(image->GetSpacing()[axis], spacing[axis]);
+  }
+  EXPECT_TRUE(std::equal(image->GetExtent(), image->GetExtent() + 6,
+    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+  EXPECT_EQ(vtkImageData::GetScalarType(info), VTK_FLOAT);
+}
+
+TEST(Pipeline, NothingIsDoneTwice)
+{
+  auto image = columnImage(32);
+  auto filter = bench(image, 32);
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+
+  // What turns rays into light and dark traces nothing.
+  filter->SetKnifeEdgeAngle(90);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetInvertCutoff(true);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetAutoKScale(false);
+  filter->SetKScale(123);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  EXPECT_EQ(fieldValue(filter, "KScale"), 123);
+  filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  EXPECT_EQ(fieldValue(filter, "TraceSeconds"), 0);
+
+  // A view traces, and keeps the medium.
+  filter->SetViewDirection(1, 0, 0);
+  WorkDone done = workOfUpdate(filter);
+  EXPECT_EQ(done.builds, 0);
+  EXPECT_GT(done.rays, 0);
+
+  // What the medium is made from builds it.
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVE_INDEX);
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetAmbientRefractivity(1e-5);
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  image->GetPointData()->GetArray("N")->SetComponent(0, 0, 2e-5);
+  image->GetPointData()->GetArray("N")->Modified();
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+
+  // The same arrays, handed on by another filter, are the same medium.
+  vtkNew<vtkImageData> copy;
+  copy->ShallowCopy(image);
+  filter->SetInputDataObject(copy);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  copy->SetSpacing(0.1, 0.1, 0.1);
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+
+  // Another number of threads makes nothing new.
+  filter->SetNumberOfThreads(2);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+}
+
+TEST(Pipeline, APropertyOfTheMediumIsPassedOn)
+{
+  auto image = columnImage(24);
+  addPointArray(image, "M", [](const Vec& x) { return 2 * GaussianColumn()(x); });
+  auto filter = bench(image, 16);
+  filter->Update();
+  const double once = largest(valuesOf(filter, "OpticalPathDifference"));
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "M");
+  filter->Update();
+  EXPECT_NEAR(largest(valuesOf(filter, "OpticalPathDifference")) / once, 2, 1e-3);
+}
+
+TEST(Pipeline, AnyNumberOfThreadsGivesTheSamePicture)
+{
+  const auto image = columnImage(40);
+  std::vector<double> intensity, deflection, opticalPath;
+  for (const int threads : { 1, 2, 7 })
+  {
+    auto filter = bench(image, 50);
+    filter->SetSamplesPerPixel(3);
+    filter->SetNumberOfThreads(threads);
+    filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
+    filter->Update();
+    if (threads == 1)
+    {
+      intensity = valuesOf(filter, "Intensity");
+      deflection = valuesOf(filter, "Deflection");
+      opticalPath = valuesOf(filter, "OpticalPathDifference");
+    }
+    EXPECT_EQ(valuesOf(filter, "Intensity"), intensity) << threads << " threads";
+    EXPECT_EQ(valuesOf(filter, "Deflection"), deflection) << threads << " threads";
+    EXPECT_EQ(valuesOf(filter, "OpticalPathDifference"), opticalPath) << threads << " threads";
+  }
+}
+
+TEST(Pipeline, ProgressRunsFromZeroToOne)
+{
+  auto filter = bench(columnImage(64), 128);
+  std::vector<double> progress;
+  vtkNew<vtkCallbackCommand> watch;
+  watch->SetClientData(&progress);
+  watch->SetCallback([](vtkObject*, unsigned long, void* seen, void* value)
+    { static_cast<std::vector<double>*>(seen)->push_back(*static_cast<double*>(value)); });
+  filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  filter->Update();
+  ASSERT_GT(progress.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  EXPECT_EQ(progress.back(), 1);
+}
+
+// Stopped while the refractivity is found (0.01) or while rays are traced (0.3).
+TEST(Pipeline, AbortLeavesAnEmptyImageAndTheNextUpdateAWholeOne)
+{
+  for (const double limit : { 0.01, 0.3 })
+  {
+    auto filter = bench(columnImage(64), 256);
+    Complaints* complaints = new Complaints(filter);
+    double stopAt = limit;
+    vtkNew<vtkCallbackCommand> watch;
+    watch->SetClientData(&stopAt);
+    watch->SetCallback(
+      [](vtkObject* caller, unsigned long, void* at, void* value)
+      {
+        if (*static_cast<double*>(value) >= *static_cast<double*>(at))
+        {
+          vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+        }
+      });
+    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, watch);
+    filter->Update();
+    EXPECT_TRUE(isEmpty(filter)) << limit;
+    EXPECT_TRUE(complaints->Errors.empty()) << limit;
+    filter->RemoveObserver(tag);
+    filter->Update();
+    EXPECT_FALSE(isEmpty(filter)) << limit;
+    EXPECT_EQ(filter->GetMediumBuilds(), 1) << limit;
+    complaints->Delete();
+  }
+}
+
+TEST(Pipeline, ChainWithRefractiveIndexIsTheSame)
+{
+  auto image = columnImage(40);
+  const GaussianColumn column;
+  addPointArray(image, "rho",
+    [&](const Vec& x) { return x[1] > 0.7 ? std::nan("") : 1.2 + column(x) / 2.26e-4; });
+
+  auto direct = vtkSmartPointer<vtkSchlierenFilter>::New();
+  direct->SetInputDataObject(image);
+  direct->SetInputArrayToProcess(
+    vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+  direct->SetImageSize(40, 40);
+  direct->Update();
+
+  vtkNew<vtkRefractiveIndex> refractivity;
+  refractivity->SetInputDataObject(image);
+  refractivity->SetInputArrayToProcess(
+    vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+  for (const char* density : { "", "Refractivity", "gone" })
+  {
+    vtkNew<vtkSchlierenFilter> chained;
+    chained->SetInputConnection(refractivity->GetOutputPort());
+    if (*density)
+    {
+      chained->SetInputArrayToProcess(
+        vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, density);
+    }
+    chained->SetImageSize(40, 40);
+    Complaints* complaints = new Complaints(chained);
+    chained->Update();
+    EXPECT_TRUE(complaints->Errors.empty());
+    for (const char* name :
+      { "Intensity", "Deflection", "OpticalPathDifference", "BlockedFraction" })
+    {
+      EXPECT_EQ(valuesOf(chained, name), valuesOf(direct, name)) << name;
+    }
+    complaints->Delete();
+  }
+  EXPECT_GT(largest(valuesOf(direct, "BlockedFraction")), 0);
+}
+
+TEST(Pipeline, PrintSelfNamesEveryProperty)
+{
+  vtkNew<vtkSchlierenFilter> filter;
+  std::ostringstream text;
+  filter->Print(text);
+  for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale",
+         "SamplingDimensions", "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity",
+         "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "Cutoff",
+         "KnifeEdgeAngle", "InvertCutoff", "AutoKScale", "KScale", "ScreenDistance", "StepSize",
+         "Interpolation", "SamplesPerPixel", "Precision", "Seed", "Device", "NumberOfThreads" })
+  {
+    EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
+  }
+}

@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fixtures.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkShortArray.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLImageDataReader.h"
+#include "vtkXMLImageDataWriter.h"
+
+namespace
+{
+
+vtkSmartPointer<vtkRefractiveIndex> refractiveIndex(
+  vtkDataObject* input, int model, int index, const char* array)
+{
+  auto filter = vtkSmartPointer<vtkRefractiveIndex>::New();
+  filter->SetInputDataObject(input);
+  filter->SetIndexModel(model);
+  filter->SetInputArrayToProcess(index, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array);
+  return filter;
+}
+
+vtkImageData* outputOf(vtkAlgorithm* filter)
+{
+  return vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> voxels(vtkDataSet* data)
+{
+  vtkNew<vtkAppendFilter> append;
+  append->SetInputData(data);
+  append->Update();
+  return append->GetOutput();
+}
+
+double one(const Vec&) { return 1; }
+
+} // namespace
+
+// Gladstone & Dale 1863: N = K rho.
+TEST(RefractiveIndex, GladstoneDale)
+{
+  auto image = cube(4);
+  addPointArray(image, "rho", [](const Vec& x) { return 1.2 + x[0]; });
+  auto filter =
+    refractiveIndex(image, vtkRefractiveIndex::GLADSTONE_DALE, vtkRefractiveIndex::DENSITY, "rho");
+  filter->SetGladstoneDaleConstant(2e-4);
+  filter->SetDensityScale(10);
+  filter->Update();
+  vtkDataArray* n = arrayOf(filter, "Refractivity");
+  ASSERT_NE(n, nullptr);
+  EXPECT_EQ(n->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(outputOf(filter)->GetPointData()->GetScalars(), n);
+  for (vtkIdType i = 0; i < n->GetNumberOfTuples(); ++i)
+  {
+    EXPECT_FLOAT_EQ(static_cast<float>(n->GetComponent(i, 0)),
+      static_cast<float>(2e-3 * (1.2 + image->GetPoint(i)[0])));
+    EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(i, 0), 1);
+  }
+}
+
+// n - 1 is formed before it is rounded: single precision keeps seven digits of it.
+TEST(RefractiveIndex, IndexKeepsItsDigits)
+{
+  auto image = cube(3);
+  addPointArray(image, "n", [](const Vec& x) { return 1 + 1e-9 * (2 + x[0]); });
+  auto filter = refractiveIndex(
+    image, vtkRefractiveIndex::REFRACTIVE_INDEX, vtkRefractiveIndex::INDEX_ARRAY, "n");
+  filter->Update();
+  EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(0, 0), 1e-9, 2.3e-16); // double's n
+  EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(2, 0), 3e-9, 2.3e-16);
+}
+
+TEST(RefractiveIndex, DoublePrecisionRoundsNothing)
+{
+  auto image = cube(3);
+  addPointArray(image, "N", [](const Vec& x) { return 1e-4 * (1 + x[0] / 3); });
+  auto filter =
+    refractiveIndex(image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  filter->DoublePrecisionOn();
+  filter->Update();
+  EXPECT_EQ(arrayOf(filter, "Refractivity")->GetDataType(), VTK_DOUBLE);
+  for (vtkIdType i = 0; i < 27; ++i)
+  {
+    EXPECT_EQ(arrayOf(filter, "Refractivity")->GetComponent(i, 0),
+      image->GetPointData()->GetArray("N")->GetComponent(i, 0));
+  }
+}
+
+TEST(RefractiveIndex, TakesAnyNumericArray)
+{
+  const auto check = [](vtkDataArray* array)
+  {
+    auto image = cube(3);
+    array->SetName("rho");
+    array->SetNumberOfTuples(27);
+    for (vtkIdType i = 0; i < 27; ++i)
+    {
+      array->SetComponent(i, 0, static_cast<double>(i));
+    }
+    image->GetPointData()->AddArray(array);
+    auto filter = refractiveIndex(
+      image, vtkRefractiveIndex::GLADSTONE_DALE, vtkRefractiveIndex::DENSITY, "rho");
+    filter->SetGladstoneDaleConstant(0.25);
+    filter->Update();
+    for (vtkIdType i = 0; i < 27; ++i)
+    {
+      EXPECT_EQ(arrayOf(filter, "Refractivity")->GetComponent(i, 0), 0.25 * static_cast<double>(i))
+        << array->GetClassName();
+    }
+  };
+  check(vtkNew<vtkShortArray>());
+  check(vtkNew<vtkFloatArray>());
+  check(vtkNew<vtkUnsignedCharArray>());
+  check(vtkNew<vtkSOADataArrayTemplate<double>>());
+}
+
+TEST(RefractiveIndex, InvalidValuesAreMasked)
+{
+  auto image = cube(5);
+  vtkDoubleArray* array = addPointArray(image, "N", one);
+  array->SetValue(7, std::nan(""));
+  array->SetValue(8, HUGE_VAL);
+  array->SetValue(9, 1e200); // infinite in single precision
+  auto filter =
+    refractiveIndex(image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  filter->Update();
+  for (vtkIdType i = 0; i < 125; ++i)
+  {
+    const bool valid = i < 7 || i > 9;
+    EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(i, 0), valid ? 1 : 0) << i;
+    EXPECT_EQ(arrayOf(filter, "Refractivity")->GetComponent(i, 0), valid ? 1 : 0) << i;
+  }
+}
+
+TEST(RefractiveIndex, AnImageKeepsItsGrid)
+{
+  auto image = cube(5);
+  image->SetExtent(3, 7, -2, 2, 0, 4);
+  vtkNew<vtkMatrix3x3> direction;
+  const double rotation[9] = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  std::copy_n(rotation, 9, direction->GetData());
+  image->SetDirectionMatrix(direction);
+  addPointArray(image, "N", one);
+  addCellArray(image, "C", one);
+  for (const char* name : { "N", "C" })
+  {
+    auto filter = refractiveIndex(
+      image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, name);
+    filter->Update();
+    vtkImageData* output = outputOf(filter);
+    const bool cells = *name == 'C';
+    EXPECT_EQ(output->GetNumberOfPoints(), cells ? 64 : 125);
+    double expected[3];
+    image->TransformContinuousIndexToPhysicalPoint(
+      3 + (cells ? 0.5 : 0), -2 + (cells ? 0.5 : 0), cells ? 0.5 : 0, expected);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(output->GetPoint(0)[axis], expected[axis], 1e-14) << name;
+      EXPECT_EQ(output->GetSpacing()[axis], image->GetSpacing()[axis]);
+    }
+    EXPECT_TRUE(std::equal(rotation, rotation + 9, output->GetDirectionMatrix()->GetData()));
+    // What the pipeline was told beforehand.
+    EXPECT_TRUE(std::equal(output->GetExtent(), output->GetExtent() + 6,
+      filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+  }
+}
+
+TEST(RefractiveIndex, SamplingDimensionsAreChosenFromTheCells)
+{
+  // A slab of 10 x 40 x 20 cells with edges of 1, 1 and 0.5.
+  vtkNew<vtkImageData> slab;
+  slab->SetDimensions(11, 41, 21);
+  slab->SetSpacing(1, 1, 0.5);
+  addPointArray(slab, "N", one);
+  const auto grid = voxels(slab);
+  auto filter =
+    refractiveIndex(grid, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  filter->Update();
+  vtkImageData* output = outputOf(filter);
+  const double* spacing = output->GetSpacing();
+  EXPECT_NEAR(spacing[1] / spacing[0], 1, 0.02); // cubic, but for rounding to whole numbers
+  EXPECT_NEAR(spacing[2] / spacing[0], 1, 0.02);
+  EXPECT_NEAR(static_cast<double>(output->GetNumberOfPoints()), 64. * 64 * 64, 0.05 * 64 * 64 * 64);
+  int dimensions[3];
+  output->GetDimensions(dimensions);
+  vtkDataArray* used = output->GetFieldData()->GetArray("SamplingDimensions");
+  ASSERT_NE(used, nullptr);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(used->GetComponent(0, axis), dimensions[axis]);
+  }
+
+  // An axis that is given is kept, and the others follow it.
+  filter->SetSamplingDimensions(0, 81, 0);
+  filter->Update();
+  outputOf(filter)->GetDimensions(dimensions);
+  EXPECT_EQ(dimensions[0], 21);
+  EXPECT_EQ(dimensions[1], 81);
+  EXPECT_EQ(dimensions[2], 21);
+
+  filter->SetSamplingDimensions(7, 5, 3);
+  filter->Update();
+  outputOf(filter)->GetDimensions(dimensions);
+  EXPECT_EQ(dimensions[0], 7);
+  EXPECT_EQ(dimensions[1], 5);
+  EXPECT_EQ(dimensions[2], 3);
+}
+
+TEST(RefractiveIndex, ChosenGridHasAtLeastTwoPointsAlongEachAxis)
+{
+  vtkNew<vtkImageData> sheet;
+  sheet->SetDimensions(101, 101, 2);
+  sheet->SetSpacing(1, 1, 1e-6);
+  addPointArray(sheet, "N", one);
+  auto filter = refractiveIndex(
+    voxels(sheet), vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  filter->Update();
+  int dimensions[3];
+  outputOf(filter)->GetDimensions(dimensions);
+  EXPECT_EQ(dimensions[2], 2);
+  EXPECT_EQ(dimensions[0], dimensions[1]);
+  EXPECT_NEAR(
+    static_cast<double>(outputOf(filter)->GetNumberOfPoints()), 64. * 64 * 64, 0.05 * 64 * 64 * 64);
+}
+
+TEST(RefractiveIndex, SamplingDimensionsOfOneAreAMistake)
+{
+  auto image = cube(4);
+  addPointArray(image, "N", one);
+  auto filter = refractiveIndex(
+    voxels(image), vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->SetSamplingDimensions(10, 1, 10);
+  filter->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("SamplingDimensions"), std::string::npos);
+  EXPECT_TRUE(isEmpty(filter));
+  filter->SetSamplingDimensions(10, 2, 10);
+  filter->Update();
+  EXPECT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_EQ(outputOf(filter)->GetNumberOfPoints(), 200);
+}
+
+// The grid of the cells' centres is one point shorter than what a reader tells before it has read.
+TEST(RefractiveIndex, SourceNeedNotHaveBeenUpdated)
+{
+  auto image = cube(9);
+  addCellArray(image, "N", one);
+  vtkNew<vtkXMLImageDataWriter> writer;
+  const std::string file = std::string(SCHLIEREN_TEST_OUTPUT) + "/not-updated.vti";
+  writer->SetFileName(file.c_str());
+  writer->SetDataModeToAscii();
+  writer->SetInputData(image);
+  ASSERT_EQ(writer->Write(), 1);
+
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName(file.c_str());
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetInputConnection(reader->GetOutputPort());
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  for (int update = 0; update < 2; ++update)
+  {
+    filter->Update();
+    EXPECT_TRUE(complaints->Errors.empty());
+    EXPECT_EQ(outputOf(filter)->GetNumberOfPoints(), 512);
+  }
+}

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fixtures.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkImageDataToPointSet.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUniformGrid.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace
+{
+
+constexpr double radius = 0.5;
+
+bool inBall(const Vec& x) { return dot(x, x) < radius * radius; }
+
+double gas(const Vec&) { return 2.7e-4; }
+
+/// Uniform gas around a ball: light is blocked where the ball is, and bent nowhere.
+void expectBallInUniformGas(vtkSchlierenFilter* filter, double edge)
+{
+  filter->SetAutoAmbientRefractivity(true);
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* blocked = arrayOf(filter, "BlockedFraction");
+  ASSERT_NE(blocked, nullptr);
+  int inside = 0, outside = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* x = image->GetPoint(i);
+    const double r = std::hypot(x[0], x[1]);
+    if (r < radius - edge)
+    {
+      EXPECT_EQ(blocked->GetComponent(i, 0), 1) << "r = " << r;
+      ++inside;
+    }
+    else if (r > radius + edge)
+    {
+      EXPECT_EQ(blocked->GetComponent(i, 0), 0) << "r = " << r;
+      ++outside;
+    }
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_GT(outside, 20);
+  EXPECT_EQ(largest(valuesOf(filter, "Deflection")), 0);
+  EXPECT_LT(largest(valuesOf(filter, "OpticalPathDifference")), 1e-15);
+}
+
+} // namespace
+
+TEST(Solids, NanBlocksLightAndBendsNone)
+{
+  auto image = cube(41);
+  addPointArray(image, "N", [](const Vec& x) { return inBall(x) ? std::nan("") : gas(x); });
+  expectBallInUniformGas(bench(image, 40), 1.5 * 0.05);
+}
+
+TEST(Solids, InfinityBlocksLightAndBendsNone)
+{
+  auto image = cube(41);
+  addPointArray(image, "N", [](const Vec& x) { return inBall(x) ? HUGE_VAL : gas(x); });
+  expectBallInUniformGas(bench(image, 40), 1.5 * 0.05);
+}
+
+// Hidden points hold 0, as vtkResampleToImage leaves it there: a gradient that must not be seen.
+TEST(Solids, BlankedPointsBlockLightAndBendNone)
+{
+  vtkNew<vtkUniformGrid> grid;
+  grid->ShallowCopy(cube(41));
+  addPointArray(grid, "N", [](const Vec& x) { return inBall(x) ? 0 : gas(x); });
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    grid->GetPoint(i, x.data());
+    if (inBall(x))
+    {
+      grid->BlankPoint(i);
+    }
+  }
+  expectBallInUniformGas(bench(grid, 40), 1.5 * 0.05);
+}
+
+TEST(Solids, MaskedPointsBlockLightAndBendNone)
+{
+  auto image = cube(41);
+  addPointArray(image, "N", [](const Vec& x) { return inBall(x) ? 0 : gas(x); });
+  addPointArray(image, "vtkValidPointMask", [](const Vec& x) { return inBall(x) ? 0 : 1; });
+  expectBallInUniformGas(bench(image, 40), 1.5 * 0.05);
+}
+
+namespace
+{
+
+template <class Grid>
+void blankCellsInBall(Grid* grid)
+{
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+  {
+    double bounds[6];
+    grid->GetCellBounds(i, bounds);
+    if (inBall({ (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2,
+          (bounds[4] + bounds[5]) / 2 }))
+    {
+      grid->BlankCell(i);
+    }
+  }
+}
+
+} // namespace
+
+TEST(Solids, BlankedCellsBlockLightAndBendNone)
+{
+  // Once with point values, where hidden points hold 0 ...
+  vtkNew<vtkUniformGrid> points;
+  points->ShallowCopy(cube(41));
+  addPointArray(points, "N", [](const Vec& x) { return dot(x, x) < 0.16 ? 0 : gas(x); });
+  blankCellsInBall(points.Get());
+  expectBallInUniformGas(bench(points, 40), 2 * 0.05);
+
+  // ... and once with cell values.
+  vtkNew<vtkUniformGrid> cells;
+  cells->ShallowCopy(cube(41));
+  addCellArray(cells, "N", [](const Vec& x) { return inBall(x) ? 0 : gas(x); });
+  blankCellsInBall(cells.Get());
+  expectBallInUniformGas(bench(cells, 40), 2 * 0.05);
+}
+
+TEST(Solids, ASingleBlankedCellBlocksLight)
+{
+  vtkNew<vtkUniformGrid> grid;
+  grid->ShallowCopy(cube(12, 1.1));
+  addPointArray(grid, "N", gas);
+  grid->BlankCell(5, 5, 5); // around the origin
+  auto filter = bench(grid, 11);
+  filter->Update();
+  EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(5 * 11 + 5, 0), 1);
+  EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(5 * 11 + 1, 0), 0);
+}
+
+// Resampled: blanked cells of a curvilinear grid, and a ball that an unstructured grid leaves out.
+TEST(Solids, HiddenCellsOfAStructuredGridBlockLight)
+{
+  vtkNew<vtkImageDataToPointSet> convert;
+  convert->SetInputData(cube(41));
+  convert->Update();
+  vtkNew<vtkStructuredGrid> grid;
+  grid->ShallowCopy(convert->GetOutput());
+  addPointArray(grid, "N", gas);
+  blankCellsInBall(grid.Get());
+  auto filter = bench(grid, 40);
+  filter->SetSamplingDimensions(61, 61, 61);
+  expectBallInUniformGas(filter, 2 * 0.05);
+}
+
+TEST(Solids, CellValuesThatAreNanBlockLight)
+{
+  auto image = cube(41);
+  addCellArray(image, "N", [](const Vec& x) { return inBall(x) ? std::nan("") : gas(x); });
+  vtkNew<vtkAppendFilter> append;
+  append->SetInputData(image);
+  append->Update();
+  auto filter = bench(append->GetOutput(), 40);
+  filter->SetSamplingDimensions(61, 61, 61);
+  expectBallInUniformGas(filter, 2 * 0.05);
+}

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The demo as it comes: in all four pictures the jet's features are where physics puts them."""
+
+import os
+from types import SimpleNamespace
+
+import numpy as np
+from demo_testing import check_not_blank, demo_module, run_demo, tiles
+
+code, out, err = run_demo()
+path = os.path.abspath("ladenburg_jet_3d_schlieren.png")
+assert code == 0, f"Exit code {code}"
+assert out.splitlines()[-1].endswith(f"The picture: {path}"), "It does not say where the picture is"
+
+demo = demo_module()
+options = SimpleNamespace(view=demo.VIEWS["z"], center=None, size=None, half_height=None)
+frame = demo.Frame((6.25e-5, 0.0299375, -0.008, 0.008, -0.008, 0.008), options)
+volume, vertical, horizontal, shadow = tiles(path, frame, demo)
+check_not_blank(volume, vertical, horizontal, shadow)
+
+
+def antisymmetry(tile):
+    """How much of it changes sign under reflection about the axis, and how much stays."""
+    signal = tile - 0.5
+    return np.abs(signal - signal[::-1]).mean() / 2, np.abs(signal + signal[::-1]).mean() / 2
+
+
+# Reflection about the axis: the sideways deflection stays, the one towards or away from it turns.
+odd, even = antisymmetry(horizontal)
+assert even < 0.02 * odd, f"Horizontal knife: odd {odd:.4f}, even {even:.4f}"
+odd, even = antisymmetry(vertical)
+assert odd < 0.02 * even, f"Vertical knife: odd {odd:.4f}, even {even:.4f}"
+odd, even = antisymmetry(shadow - shadow.mean() + 0.5)
+assert odd < 0.05 * even, f"Shadowgraph: odd {odd:.4f}, even {even:.4f}"
+
+# Light bends towards higher density: downwards at the jet's upper edge, so dark there.
+x = frame.left + (np.arange(frame.width) + 0.5) * frame.pixel
+y = frame.bottom + (np.arange(frame.height) + 0.5) * frame.pixel
+edge = np.ix_((y > 0.0055) & (y < 0.0068), (x > 0.005) & (x < 0.015))
+assert horizontal[edge].mean() < 0.45, f"Upper edge of the jet: {horizontal[edge].mean():.3f}"
+
+# The Mach disc, the steepest rise of the density on the axis, is at x = 13.75 mm in each picture.
+axis = np.abs(y) < 0.001
+bright = x[vertical[axis].mean(axis=0).argmax()]
+near = (x > 0.011) & (x < 0.0165)
+blueness = (volume[axis][..., 2] - volume[axis][..., 0]).mean(axis=0)
+color = x[:-1][near[:-1]][np.diff(blueness)[near[:-1]].argmin()]
+ripple = np.abs(np.diff(shadow[axis].mean(axis=0)))
+caustic = x[:-1][near[:-1]][ripple[near[:-1]].argmax()]
+print(f"Mach disc at {bright * 1e3:.2f} mm (knife), {color * 1e3:.2f} mm (volume), "
+      f"{caustic * 1e3:.2f} mm (shadow)")
+for place in (bright, color, caustic):
+    assert abs(place - 0.01375) < 0.0004

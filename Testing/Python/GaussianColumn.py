@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Both filters, end to end, against the closed form of a Gaussian column."""
+
+import numpy as np
+from paraview.simple import AppendDatasets
+from plugin_testing import (CONSTANT, RefractiveIndex, Schlieren, column_errors, gaussian_column,
+                            one_ray_per_pixel, output, picture)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+source = gaussian_column()
+
+# From the density, from the index, from the refractivity at points and at cells.
+choices = ({"IndexModel": "Gladstone-Dale", "Density": ["POINTS", "rho"]},
+           {"IndexModel": "Refractive Index", "IndexArray": ["POINTS", "n"]},
+           {"IndexModel": "Refractivity", "IndexArray": ["POINTS", "N"]},
+           {"IndexModel": "Refractivity", "IndexArray": ["CELLS", "cells"]})
+pictures = []
+for choice in choices:
+    bench = Schlieren(source)
+    for name, value in choice.items():
+        setattr(bench, name, value)
+    one_ray_per_pixel(bench)
+    errors = column_errors(bench)
+    print(choice, "relative errors: deflection %.2e, optical path %.2e" % errors)
+    assert max(errors) < 1e-3
+    pictures.append(picture(bench, "Intensity"))
+assert np.ptp(pictures[0]) > 0.5, "The automatic k should use the range of grey"
+assert np.abs(pictures[1] - pictures[0]).max() < 1e-3
+
+# In two steps the picture is the same, value by value.
+refractivity = RefractiveIndex(source)
+refractivity.Density = ["POINTS", "rho"]
+refractivity.UpdatePipeline()
+image = output(refractivity)
+n = vtk_to_numpy(image.GetPointData().GetArray("Refractivity"))
+rho = vtk_to_numpy(output(source).GetPointData().GetArray("rho"))
+assert n.dtype == np.float32 and np.array_equal(n, (CONSTANT * rho).astype(np.float32))
+assert vtk_to_numpy(image.GetPointData().GetArray("vtkValidPointMask")).min() == 1
+chained = Schlieren(refractivity)
+one_ray_per_pixel(chained)
+direct = Schlieren(source)
+direct.Density = ["POINTS", "rho"]
+one_ray_per_pixel(direct)
+for name in ("Intensity", "Deflection", "OpticalPathDifference", "Displacement", "BlockedFraction"):
+    assert np.array_equal(picture(chained, name), picture(direct, name)), name
+
+# Resampled, when the source is not an image.
+points = AppendDatasets(source)
+points.UpdatePipeline()
+resampled = Schlieren(points)
+resampled.Density = ["POINTS", "rho"]
+resampled.SamplingDimensions = [128, 128, 128]
+one_ray_per_pixel(resampled)
+errors = column_errors(resampled)
+print("resampled: relative errors: deflection %.2e, optical path %.2e" % errors)
+assert max(errors) < 2e-3

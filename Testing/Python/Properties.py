@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names, values and defaults that scripts rely on, and what a change of each one does again."""
+
+import numpy as np
+from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, picture
+
+source = gaussian_column(32)
+
+MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "DensityScale": 1.0,
+          "SamplingDimensions": [0, 0, 0]}
+BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
+         "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
+         "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
+         "KnifeEdgeAngle": 0.0, "InvertCutoff": 0, "AutoKScale": 1, "KScale": 1000.0,
+         "ScreenDistance": -1.0, "StepSize": 1.0, "Interpolation": "Quadratic",
+         "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1, "Device": "Auto",
+         "NumberOfThreads": 0}
+TEXTS = {"IndexModel": {"Gladstone-Dale", "Refractive Index", "Refractivity"},
+         "Cutoff": {"Knife Edge", "Shadowgraph"}, "Interpolation": {"Quadratic", "Linear"},
+         "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
+
+refractivity = RefractiveIndex(source)
+bench = Schlieren(source)
+for proxy, defaults in ((refractivity, MEDIUM), (bench, {**MEDIUM, **BENCH})):
+    for name, value in defaults.items():
+        actual = getattr(proxy, name)
+        actual = list(actual) if isinstance(value, list) else actual
+        assert actual == value, f"{name} is {actual}, not {value}"
+    for name in ("Density", "IndexArray"):
+        assert len(getattr(proxy, name)) == 2, name
+for name, texts in TEXTS.items():
+    assert set(bench.GetProperty(name).Available) == texts, name
+
+
+def work(proxy):
+    """How often it has built the medium, and how many rays it has traced."""
+    proxy.UpdatePipeline()
+    proxy.UpdatePropertyInformation()
+    return (proxy.GetProperty("MediumBuilds").GetData(), proxy.GetProperty("TotalRaysTraced").GetData())
+
+
+def current(name):
+    """A property's value, which stays as it is when the property changes."""
+    return bench.GetProperty(name).GetData()
+
+
+# Every value reaches the filter: it changes what comes out.
+bench.Density = ["POINTS", "rho"]
+bench.ImageSize = [48, 32]
+assert output(bench).GetDimensions() == (48, 32, 1)
+before = work(bench)
+reference = picture(bench, "Intensity")
+for name, value in (("KnifeEdgeAngle", 30), ("InvertCutoff", 1), ("Cutoff", "Shadowgraph")):
+    default = current(name)
+    setattr(bench, name, value)
+    assert not np.array_equal(picture(bench, "Intensity"), reference), name
+    setattr(bench, name, default)
+    assert np.array_equal(picture(bench, "Intensity"), reference), name
+bench.AutoKScale = 0
+bench.KScale = 10
+assert np.abs(picture(bench, "Intensity") - 0.5).max() < 0.1
+bench.AutoKScale = 1
+assert work(bench) == before, "Cutoffs and k must trace nothing"
+
+chained = Schlieren(refractivity)
+chained.ImageSize = [48, 32]
+before = work(chained)
+chained.KnifeEdgeAngle = 90
+assert work(chained) == before, "Neither must they after Refractive Index"
+
+for name, value in (("ViewDirection", [1, 0, -1]), ("ViewUp", [1, 1, 0]), ("ParallelScale", 0.3),
+                    ("StepSize", 0.7), ("Interpolation", "Linear"), ("SamplesPerPixel", 2),
+                    ("Precision", "Double"), ("Seed", 2), ("LengthScale", 0.1),
+                    ("GladstoneDaleConstant", 1e-4), ("DensityScale", 2)):
+    default = current(name)
+    reference = picture(bench, "OpticalPathDifference")
+    setattr(bench, name, value)
+    assert not np.array_equal(picture(bench, "OpticalPathDifference"), reference), name
+    setattr(bench, name, default)
+    assert np.array_equal(picture(bench, "OpticalPathDifference"), reference), name
+
+# The focal point: empty means the data's centre.
+centred = output(bench).GetOrigin()
+bench.FocalPoint = [0.25, -0.5, 3]
+moved = output(bench).GetOrigin()
+assert np.allclose(np.subtract(moved, centred), [0.25, -0.5, 0]), (moved, centred)
+bench.FocalPoint = []
+assert np.allclose(output(bench).GetOrigin(), centred)
+
+# A shadowgraph's screen.
+bench.Cutoff = "Shadowgraph"
+near, bench.ScreenDistance = picture(bench, "Intensity"), 100
+assert picture(bench, "Intensity").std() > 2 * near.std()
+
+field = output(bench).GetFieldData()
+for name in ("Device", "PathModel", "KScale", "AmbientRefractivity", "RaysTraced", "RaysLost",
+             "StepsTaken", "TraceSeconds", "DisplacementBound"):
+    assert field.HasArray(name), name

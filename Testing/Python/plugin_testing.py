@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the plugin share: the plugin, loaded, and a Gaussian column to look through."""
+
+import math
+import os
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
+
+AMPLITUDE = 2.7e-4
+RADIUS = 0.3
+CONSTANT = 2.26e-4
+
+
+def gaussian_column(points=128):
+    """A reader of a column A exp(-r^2/s^2) around the y axis in the cube from -1 to 1.
+
+    Point arrays: rho, n and N; the cell array "cells" holds N at the cells' centres.
+    """
+    def refractivity(count):
+        h = 2 / (points - 1)
+        x = -1 + h * (np.arange(count) + 0.5 * (points - count))
+        z, y, x = np.meshgrid(x, x, x, indexing="ij")
+        return (AMPLITUDE * np.exp(-(x**2 + z**2) / RADIUS**2)).ravel()
+
+    image = vtkImageData()
+    image.SetDimensions(points, points, points)
+    image.SetOrigin(-1, -1, -1)
+    image.SetSpacing(3 * [2 / (points - 1)])
+    values = refractivity(points)
+    for name, array in (("N", values), ("n", 1 + values), ("rho", values / CONSTANT)):
+        array = numpy_to_vtk(array, deep=True)
+        array.SetName(name)
+        image.GetPointData().AddArray(array)
+    array = numpy_to_vtk(refractivity(points - 1), deep=True)
+    array.SetName("cells")
+    image.GetCellData().AddArray(array)
+
+    writer = vtkXMLImageDataWriter()
+    writer.SetFileName(os.path.join(os.environ["SCHLIEREN_TEST_OUTPUT"], f"column{points}.vti"))
+    writer.SetDataModeToBinary()
+    writer.SetInputData(image)
+    assert writer.Write() == 1
+    reader = simple.XMLImageDataReader(FileName=[writer.GetFileName()])
+    reader.UpdatePipeline()
+    return reader
+
+
+def one_ray_per_pixel(bench, pixels=64):
+    """Rays at the pixels' centres only, in vacuum, so that the closed form holds for every pixel."""
+    bench.ImageSize = [pixels, pixels]
+    bench.SamplesPerPixel = 1
+    bench.AutoAmbientRefractivity = 0
+    bench.AmbientRefractivity = 0
+    bench.ParallelScale = 0.9
+
+
+def output(bench):
+    """The updated output, as a vtkImageData of this process."""
+    bench.UpdatePipeline()
+    return bench.GetClientSideObject().GetOutputDataObject(0)
+
+
+def picture(bench, name):
+    """An array of the updated output: rows x columns (x components), lowest row first."""
+    image = output(bench)
+    columns, rows, _ = image.GetDimensions()
+    array = image.GetPointData().GetArray(name)
+    assert array, f"There is no array {name}"
+    return np.squeeze(vtk_to_numpy(array).reshape(rows, columns, -1))
+
+
+def is_empty(bench):
+    image = output(bench)
+    return image.GetNumberOfPoints() == 0 and image.GetPointData().GetNumberOfArrays() == 0
+
+
+def column_errors(bench):
+    """The largest errors of deflection and optical path, relative to their largest values, seen along z."""
+    image = output(bench)
+    x = image.GetOrigin()[0] + np.arange(image.GetDimensions()[0]) * image.GetSpacing()[0]
+    gauss = AMPLITUDE * np.exp(-(x / RADIUS)**2)
+    deflection = -2 * math.sqrt(math.pi) * x / RADIUS * gauss
+    path = math.sqrt(math.pi) * RADIUS * gauss
+    seen = picture(bench, "Deflection")
+    return (max(np.abs(seen[..., 0] - deflection).max(), np.abs(seen[..., 1]).max())
+            / np.abs(deflection).max(),
+            np.abs(picture(bench, "OpticalPathDifference") - path).max() / path.max())
