@@ -10,8 +10,9 @@
 #   die TEXT...              an error message, then exit 1
 #   install_dependencies     installs what is missing (Utilities/install-dependencies)
 #   quietly LOG COMMAND...   output goes to the file LOG; its last lines are shown when COMMAND fails
-#   build_plugin [PRESET]    configures and builds a CMake preset (release), telling how far it is;
-#                            sets and exports SCHLIEREN_PLUGIN, the file that pvpython's LoadPlugin
+#   build_plugin [PRESET [TARGET]]
+#                            configures and builds a CMake preset (release), all of it or one target,
+#                            telling how far it is; sets and exports SCHLIEREN_PLUGIN, the file that pvpython's LoadPlugin
 #                            takes
 #   with_display COMMAND...  runs COMMAND where it can render: on a virtual display
 #
@@ -71,7 +72,7 @@ _with_progress()
 
 build_plugin()
 {
-  local preset=${1:-release} log
+  local preset=${1:-release} target=${2:-all} log
   local build=$SCHLIEREN_ROOT/build/$preset
   mkdir -p "$build"
   say "Configuring (preset $preset)"
@@ -79,7 +80,7 @@ build_plugin()
   (cd "$SCHLIEREN_ROOT" && quietly "$log" cmake --preset "$preset") || return 1
   say "Building with $SCHLIEREN_JOBS jobs"
   log=$build/build.log
-  if ! _with_progress "$log" cmake --build "$build" --parallel "$SCHLIEREN_JOBS"; then
+  if ! _with_progress "$log" cmake --build "$build" --target "$target" --parallel "$SCHLIEREN_JOBS"; then
     grep -E -A 12 'FAILED|error' "$log" | head -n 80 >&2
     printf 'The build failed. Its full output is in %s\n' "$log" >&2
     return 1
