@@ -97,6 +97,7 @@ inline std::size_t pixelOf(const Image& image, int column, int row)
 }
 
 inline const char* name(Device device) { return device == Device::Cuda ? "Cuda" : "Cpu"; }
+inline void PrintTo(Device device, std::ostream* out) { *out << name(device); }
 inline const char* name(Precision precision)
 {
   return precision == Precision::Single ? "Single" : "Double";
