@@ -6,7 +6,9 @@ import os
 from types import SimpleNamespace
 
 import numpy as np
-from demo_testing import DATA, check_not_blank, demo_module, run_demo, tiles
+from demo_testing import DATA, check_not_blank, run_demo, tiles
+from arguments import VIEWS
+from frame import Frame
 
 grid = os.path.join(DATA, "bluntfin_plot3d", "bluntfinxyz.bin")
 path = os.path.abspath("fin.png")
@@ -17,12 +19,11 @@ assert code == 0, f"Exit code {code}"
 assert out.splitlines()[-1].endswith(f"The picture: {path}"), "It does not say where the picture is"
 assert "bluntfinq.bin" in out and "'Density'" in out, "It does not say what it reads"
 
-demo = demo_module()
-options = SimpleNamespace(view=demo.VIEWS["z"], center=[1.5, 2.5, 2.8], size=(800, 500),
+options = SimpleNamespace(view=VIEWS["z"], center=[1.5, 2.5, 2.8], size=(800, 500),
                           half_height=2.5)
-frame = demo.Frame((-7.8157473, 14.3622036, 0, 8.3275585, 0, 5.7242513), options)
+frame = Frame((-7.8157473, 14.3622036, 0, 8.3275585, 0, 5.7242513), options)
 assert np.isclose(frame.left, -2.5) and np.isclose(frame.pixel, 0.01)
-volume, vertical, horizontal, shadow = tiles(path, frame, demo)
+volume, vertical, horizontal, shadow = tiles(path, frame)
 check_not_blank(volume, vertical, horizontal, shadow)
 
 x = frame.left + (np.arange(frame.width) + 0.5) * frame.pixel

@@ -6,17 +6,18 @@ import os
 from types import SimpleNamespace
 
 import numpy as np
-from demo_testing import check_not_blank, demo_module, run_demo, tiles
+from demo_testing import check_not_blank, run_demo, tiles
+from arguments import VIEWS
+from frame import Frame
 
 code, out, err = run_demo()
 path = os.path.abspath("ladenburg_jet_3d_schlieren.png")
 assert code == 0, f"Exit code {code}"
 assert out.splitlines()[-1].endswith(f"The picture: {path}"), "It does not say where the picture is"
 
-demo = demo_module()
-options = SimpleNamespace(view=demo.VIEWS["z"], center=None, size=None, half_height=None)
-frame = demo.Frame((6.25e-5, 0.0299375, -0.008, 0.008, -0.008, 0.008), options)
-volume, vertical, horizontal, shadow = tiles(path, frame, demo)
+options = SimpleNamespace(view=VIEWS["z"], center=None, size=None, half_height=None)
+frame = Frame((6.25e-5, 0.0299375, -0.008, 0.008, -0.008, 0.008), options)
+volume, vertical, horizontal, shadow = tiles(path, frame)
 check_not_blank(volume, vertical, horizontal, shadow)
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs Examples/demo.py as a user does and takes its picture apart."""
+"""Runs the demo's Python part as a user does and takes its picture apart."""
 
 import os
 import subprocess
@@ -13,7 +13,10 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 PVPYTHON = sys.argv[1]
 SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
 DATA = os.path.join(SOURCE, "Testing", "Data")
-SCRIPT = os.path.join(SOURCE, "Examples", "demo.py")
+SCRIPT = os.path.join(SOURCE, "Utilities", "four_pictures", "main.py")
+sys.path.insert(0, os.path.dirname(SCRIPT))
+
+from sheet import layout  # noqa: E402
 
 
 def run_demo(*arguments):
@@ -22,14 +25,6 @@ def run_demo(*arguments):
                           timeout=170)
     print(done.stdout, done.stderr, flush=True)
     return done.returncode, done.stdout, done.stderr
-
-
-def demo_module(*arguments):
-    """The demo as a module, as if it had been started with these arguments."""
-    sys.path.insert(0, os.path.dirname(SCRIPT))
-    sys.argv = [SCRIPT, *arguments]
-    import demo
-    return demo
 
 
 def picture(path):
@@ -42,13 +37,13 @@ def picture(path):
     return pixels.reshape(rows, columns, -1)[::-1].astype(float)
 
 
-def tiles(path, frame, demo):
+def tiles(path, frame):
     """Volume (RGB, 0 to 255), vertical knife, horizontal knife and shadowgraph (grey, 0 to 1).
 
     Row 0 is the lowest one, as in the frame's coordinates.
     """
     sheet = picture(path)
-    width, height, corners, _ = demo.layout(frame)
+    width, height, corners, _ = layout(frame)
     assert sheet.shape == (height, width, 3), f"The sheet is {sheet.shape}"
     parts = [sheet[top:top + frame.height, left:left + frame.width][::-1] for left, top in corners]
     for part in parts[1:]:

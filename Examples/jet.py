@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Schlieren of a jet with a horizontal knife edge, as a grey picture and as numbers.
+
+    xvfb-run -a pvpython Examples/jet.py        (writes jet.png)
+"""
+
+import os
+
+from paraview.simple import *
+
+root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+plugin = os.environ.get("SCHLIEREN_PLUGIN")
+if not plugin:
+    with open(os.path.join(root, "build", "release", "plugin-file.txt")) as file:
+        plugin = file.read().strip()
+LoadPlugin(plugin, remote=False, ns=globals())
+
+jet = OpenDataFile(os.path.join(root, "Testing", "Data", "ladenburg_jet_3d.vti"))
+jet.UpdatePipeline()  # so that the filter can offer its arrays
+
+schlieren = Schlieren(Input=jet)
+schlieren.IndexModel = "Gladstone-Dale"
+schlieren.Density = ["POINTS", "rho"]  # kg/m^3
+schlieren.ViewDirection = [0, 0, -1]
+schlieren.Cutoff = "Knife Edge"
+schlieren.KnifeEdgeAngle = 90  # bright: light is deflected upwards
+schlieren.ImageSize = [900, 480]
+schlieren.UpdatePipeline()
+
+arrays = schlieren.PointData
+print("k:", schlieren.FieldData["KScale"].GetRange()[0])
+print("largest deflection:", arrays["Deflection"].GetRange(-1)[1], "rad")
+print("optical path difference:", arrays["OpticalPathDifference"].GetRange(), "m")
+
+view = CreateView("RenderView", ViewSize=[900, 480], OrientationAxesVisibility=0)
+picture = Show(schlieren, view)
+ColorBy(picture, ("POINTS", "Intensity"))
+picture.SetScalarBarVisibility(view, False)
+grey = GetColorTransferFunction("Intensity")
+grey.ApplyPreset("Grayscale", True)
+grey.RescaleTransferFunction(0, 1)
+view.InteractionMode = "2D"
+ResetCamera(view)
+view.CameraParallelScale = 0.0081
+SaveScreenshot("jet.png", view)
+Delete(view)
+del view

@@ -1,0 +1,209 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One flow field, four pictures of the same view in one PNG: a volume rendering, what a schlieren
+bench shows with a vertical and with a horizontal knife edge, and a shadowgraph.
+
+Started by Utilities/demo, or by hand:
+
+    xvfb-run -a pvpython Utilities/four_pictures/main.py --plugin .../Schlieren.so FILE --array rho
+"""
+
+import os
+import sys
+import tempfile
+import time
+
+from arguments import MODELS, DemoError, parse_arguments
+
+try:
+    OPTIONS = parse_arguments(sys.argv[1:])
+except DemoError as problem:
+    sys.exit(f"error: {problem}")
+if OPTIONS.check:
+    sys.exit(0)
+
+# Only now: --help and mistakes in the arguments need no ParaView.
+import numpy as np  # noqa: E402
+import paraview.simple as pv  # noqa: E402
+from paraview import servermanager  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
+
+from frame import Frame  # noqa: E402
+from messages import Messages, Progress, say  # noqa: E402
+from reading import choose_array, read  # noqa: E402
+from sheet import compose  # noqa: E402
+
+
+def configure(proxy, reader, array, options):
+    """What RefractiveIndex and Schlieren have in common: what the index of refraction is."""
+    proxy.IndexModel = options.model
+    setattr(proxy, MODELS[options.model][0], list(array))
+    proxy.GladstoneDaleConstant = options.constant
+    proxy.DensityScale = options.density_scale
+    for name, value in options.settings:
+        if name in proxy.ListProperties():
+            setattr(proxy, name, value)
+
+
+def output_of(proxy, what, messages):
+    proxy.UpdatePipeline()
+    image = servermanager.Fetch(proxy)
+    if image is None or image.GetNumberOfPoints() == 0:
+        raise DemoError(f"The {what} failed. {messages.last_error()}")
+    return image
+
+
+def bench_pictures(reader, array, frame, options, messages):
+    """Vertical knife edge, horizontal knife edge and shadowgraph, from one tracing of the rays."""
+    schlieren = pv.Schlieren(Input=reader)
+    configure(schlieren, reader, array, options)
+    schlieren.LengthScale = options.length_scale
+    schlieren.ViewDirection = list(frame.direction)
+    schlieren.ViewUp = list(frame.up)
+    schlieren.FocalPoint = list(frame.center)
+    schlieren.ParallelScale = frame.scale
+    schlieren.ImageSize = [frame.width, frame.height]
+    for name, value in options.settings:
+        if name not in schlieren.ListProperties():
+            raise DemoError(f"The Schlieren filter has no property '{name}'. "
+                            f"It has: {', '.join(schlieren.ListProperties())}.")
+        setattr(schlieren, name, value)
+
+    progress = Progress(schlieren)
+    pictures = []
+    for name, cutoff, angle in (("vertical knife edge", "Knife Edge", 0),
+                                ("horizontal knife edge", "Knife Edge", 90),
+                                ("shadowgraph", "Shadowgraph", 0)):
+        begin = time.monotonic()
+        schlieren.Cutoff = cutoff
+        schlieren.KnifeEdgeAngle = angle
+        image = output_of(schlieren, name, messages)
+        arrays = image.GetPointData()
+        intensity = vtk_to_numpy(arrays.GetArray("Intensity"))
+        blocked = vtk_to_numpy(arrays.GetArray("BlockedFraction")).sum() * frame.pixel ** 2
+        facts = {}
+        for index in range(image.GetFieldData().GetNumberOfArrays()):
+            field = image.GetFieldData().GetAbstractArray(index)
+            facts[field.GetName()] = field.GetValue(0)
+        pictures.append((intensity.reshape(frame.height, frame.width).copy(), facts))
+        say(f"{name.capitalize()}: {time.monotonic() - begin:.1f} s")
+    share = blocked / frame.shadow
+    if share > 0.99:
+        raise DemoError("No light comes through: on every way there is a place that is solid or "
+                        "that no cell covers. Choose another --view.")
+    if share > 0.1:
+        say(f"{share:.0%} of the light is blocked: by solids, or by places that no cell covers")
+    return pictures
+
+
+def refractivity(reader, array, clear, options, messages):
+    """n - 1 on a regular grid, as the tracer sees it; solids get the value that will be clear."""
+    proxy = pv.RefractiveIndex(Input=reader)
+    configure(proxy, reader, array, options)
+    fetched = output_of(proxy, "computation of the refractive index", messages)
+    image = vtkImageData()
+    image.ShallowCopy(fetched)
+    values = vtk_to_numpy(image.GetPointData().GetArray("Refractivity")).astype(np.float32)
+    solid = vtk_to_numpy(image.GetPointData().GetArray("vtkValidPointMask")) == 0
+    low, high = float(values[~solid].min()), float(values[~solid].max())
+    values[solid] = clear
+    clean = numpy_to_vtk(values, deep=True)
+    clean.SetName("Refractivity")
+    image.GetPointData().Initialize()
+    image.GetPointData().SetScalars(clean)
+    return image, low, clear, high
+
+
+def volume_rendering(medium, frame):
+    """Blue where the index is below that of the surroundings, orange to red where it is above."""
+    image, low, clear, high = medium
+    producer = pv.TrivialProducer()
+    producer.GetClientSideObject().SetOutput(image)
+    producer.UpdatePipeline()
+
+    view = pv.CreateView("RenderView")
+    view.ViewSize = [frame.width, frame.height]
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [0.05, 0.06, 0.08]
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = list(frame.center)
+    view.CameraPosition = list(frame.center - 4 * (frame.depth + frame.scale) * frame.direction)
+    view.CameraViewUp = list(frame.up)
+    view.CameraParallelScale = frame.scale
+
+    representation = pv.Show(producer, view)
+    representation.SetRepresentationType("Volume")
+    pv.ColorBy(representation, ("POINTS", "Refractivity"))
+    representation.SetScalarBarVisibility(view, False)
+    color = pv.GetColorTransferFunction("Refractivity")
+    opacity = pv.GetOpacityTransferFunction("Refractivity")
+    # Away from the clear value, as a share of the way to the extreme: colour and opacity.
+    below = ((1.0, (0.15, 0.40, 1.0), 0.90), (0.6, (0.40, 0.70, 1.0), 0.45),
+             (0.15, (0.75, 0.90, 1.0), 0.06), (0.03, (0.9, 0.9, 0.9), 0))
+    above = ((0.03, (0.9, 0.9, 0.9), 0), (0.12, (1.0, 0.85, 0.55), 0.08),
+             (0.4, (1.0, 0.60, 0.20), 0.30), (1.0, (1.0, 0.12, 0.08), 0.80))
+    reach = max(high - clear, clear - low, 1e-30)
+
+    def side(extreme, steps):
+        span = abs(extreme - clear)
+        # A side that hardly departs from the clear value is noise: keep it transparent.
+        visible = span > 0.02 * reach
+        span = span if visible else reach
+        sign = -1 if steps is below else 1
+        return [(clear + sign * share * span, rgb, alpha if visible else 0)
+                for share, rgb, alpha in steps]
+
+    points = side(low, below) + side(high, above)
+    color.ColorSpace = "RGB"
+    color.RGBPoints = [number for value, rgb, _ in points for number in (value, *rgb)]
+    opacity.Points = [number for value, _, alpha in points for number in (value, alpha, 0.5, 0.0)]
+    representation.ScalarOpacityUnitDistance = frame.depth / 8
+
+    with tempfile.NamedTemporaryFile(suffix=".png") as shot:
+        pv.SaveScreenshot(shot.name, view, ImageResolution=[frame.width, frame.height])
+        reader = vtkPNGReader()
+        reader.SetFileName(shot.name)
+        reader.Update()
+        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+        pixels = pixels.reshape(frame.height, frame.width, -1)[..., :3].copy()
+    pv.Delete(view)
+    pv.Delete(producer)
+    return pixels
+
+
+def main(options):
+    messages = Messages()
+    if not options.plugin:
+        raise DemoError("Which plugin? Give its file with --plugin, or start Utilities/demo.")
+    try:
+        pv.LoadPlugin(os.path.abspath(options.plugin), remote=False)
+    except RuntimeError:
+        pass
+    if not hasattr(pv, "Schlieren"):
+        raise DemoError(f"The plugin '{options.plugin}' does not load. {messages.last_error()}")
+    with tempfile.TemporaryDirectory() as scratch:
+        reader = read(options, scratch, messages)
+        array = choose_array(reader, options)
+        if not options.array:
+            say(f"Using the array '{array[1]}'")
+        frame = Frame(reader.GetDataInformation().GetBounds(), options)
+        say(f"Tracing rays, {frame.width} x {frame.height} pixels")
+        pictures = bench_pictures(reader, array, frame, options, messages)
+        begin = time.monotonic()
+        clear = pictures[0][1]["AmbientRefractivity"]
+        medium = refractivity(reader, array, clear, options, messages)
+        volume = volume_rendering(medium, frame)
+        say(f"Volume rendering: {time.monotonic() - begin:.1f} s")
+        compose(volume, medium, pictures, frame, array, options).write(options.output)
+    say(f"The picture: {os.path.abspath(options.output)}")
+
+
+if __name__ == "__main__":
+    try:
+        main(OPTIONS)
+    except DemoError as problem:
+        print(f"error: {' '.join(str(problem).split())}", file=sys.stderr)
+        sys.exit(1)
