@@ -109,7 +109,8 @@ public:
   ///@{
   /**
    * Threads for conversion and resampling; 0 (the default): VTK_SMP_MAX_THREADS where that is set,
-   * else all cores. The result does not depend on it, so setting it does not call Modified().
+   * else all cores. The result does not depend on it, but for rounding in points that several cells
+   * of a mesh share; so setting it does not call Modified().
    */
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = threads < 0 ? 0 : threads; }
   vtkGetMacro(NumberOfThreads, int);

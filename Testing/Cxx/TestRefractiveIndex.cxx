@@ -3,12 +3,14 @@
 #include "Fixtures.h"
 
 #include "vtkAppendFilter.h"
+#include "vtkDataSetTriangleFilter.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkShortArray.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkThreshold.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLImageDataReader.h"
 #include "vtkXMLImageDataWriter.h"
@@ -273,5 +275,81 @@ TEST(RefractiveIndex, SourceNeedNotHaveBeenUpdated)
     filter->Update();
     EXPECT_TRUE(complaints->Errors.empty());
     EXPECT_EQ(outputOf(filter)->GetNumberOfPoints(), 512);
+  }
+}
+
+// How many points a mesh is resampled to is not known before it is there. The grid that is told until
+// then must not crop the output or have it made again and again.
+TEST(RefractiveIndex, MeshNeedNotHaveBeenUpdated)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(9, 12, 5);
+  addPointArray(image, "N", one);
+  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+  tetrahedra->SetInputData(image);
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetInputConnection(tetrahedra->GetOutputPort());
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  vtkNew<vtkThreshold> consumer; // asks for exactly the grid that it was told
+  consumer->SetInputConnection(filter->GetOutputPort());
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  consumer->Update();
+  vtkImageData* output = outputOf(filter);
+  EXPECT_NEAR(static_cast<double>(output->GetNumberOfPoints()), 64. * 64 * 64, 0.05 * 64 * 64 * 64);
+  EXPECT_NEAR(output->GetBounds()[3], 11, 1e-4);
+
+  const vtkMTimeType made = output->GetUpdateTime();
+  consumer->Update();
+  filter->Update();
+  EXPECT_EQ(output->GetUpdateTime(), made);
+  EXPECT_TRUE(complaints->Errors.empty());
+}
+
+TEST(RefractiveIndex, AnyNumberOfThreadsGivesTheSameImage)
+{
+  auto image = cube(50);
+  addPointArray(image, "N", GaussianColumn());
+  std::vector<double> expected;
+  for (const int threads : { 1, 2, 7 })
+  {
+    auto filter = refractiveIndex(
+      image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+    filter->SetNumberOfThreads(threads);
+    filter->Update();
+    if (threads == 1)
+    {
+      expected = valuesOf(filter, "Refractivity");
+    }
+    EXPECT_EQ(valuesOf(filter, "Refractivity"), expected) << threads << " threads";
+  }
+}
+
+// A point that several cells share (here every second one along each axis) takes its value from any of
+// them, and with several threads not always from the same one.
+TEST(RefractiveIndex, ThreadsChangeAMeshByNoMoreThanRounding)
+{
+  auto image = cube(20);
+  addPointArray(image, "N", GaussianColumn());
+  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+  tetrahedra->SetInputData(image);
+  tetrahedra->Update();
+  std::vector<double> expected, expectedMask;
+  for (const int threads : { 1, 2, 7 })
+  {
+    auto filter = refractiveIndex(tetrahedra->GetOutput(), vtkRefractiveIndex::REFRACTIVITY,
+      vtkRefractiveIndex::INDEX_ARRAY, "N");
+    filter->SetSamplingDimensions(39, 39, 39);
+    filter->SetNumberOfThreads(threads);
+    filter->Update();
+    if (threads == 1)
+    {
+      expected = valuesOf(filter, "Refractivity");
+      expectedMask = valuesOf(filter, "vtkValidPointMask");
+    }
+    EXPECT_LT(relativeDifference(valuesOf(filter, "Refractivity"), expected), 1e-5)
+      << threads << " threads";
+    EXPECT_EQ(valuesOf(filter, "vtkValidPointMask"), expectedMask) << threads << " threads";
   }
 }

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "RefractivitySource.h"
+
+#include <array>
+
+/// The refractivity of everything that is not one image: resampled to a grid.
+namespace refractivity
+{
+
+/// The leaves that have 3-D cells, and the grid that covers them.
+struct Resampling
+{
+  std::vector<Leaf> leaves;
+  std::array<int, 3> dimensions;
+  double bounds[6];
+};
+
+/// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
+Resampling planResampling(const Source& source, const int samplingDimensions[3]);
+
+/// Makes `structure` the grid of the plan.
+void gridOf(const Resampling& plan, vtkImageData* structure);
+
+/// Fills `output` as planned.
+void resample(
+  const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output);
+
+} // namespace refractivity

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "RefractivitySource.h"
+
+/// The refractivity of an image, which keeps its own grid: nothing is interpolated.
+namespace refractivity
+{
+
+/// Makes `structure` the grid of the image's points, or of the centres of its cells.
+void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure);
+
+/// Fills `output` from source.image.
+void convertImage(const Source& source, bool doublePrecision, vtkImageData* output);
+
+} // namespace refractivity

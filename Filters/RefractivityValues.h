@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "RefractivitySource.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkSmartPointer.h"
+
+class vtkUnsignedCharArray;
+
+/// From an array's values to refractivity and to the mask that says which of them are valid.
+namespace refractivity
+{
+
+constexpr unsigned char hiddenCellBits =
+  vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
+
+/// A mask that is 1 everywhere.
+vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count);
+
+/// Clears `valid` at points that are hidden or that an earlier mask among the data excludes.
+void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid);
+
+/// N as a new vtkFloatArray or vtkDoubleArray. Clears `valid` where N is not finite; N is `invalid`
+/// where `valid` is 0.
+template <class Array>
+vtkSmartPointer<Array> convert(
+  vtkDataArray* values, const Model& model, vtkUnsignedCharArray* valid, double invalid);
+
+/// Adds both arrays to `output`, whose points the values and the mask belong to.
+void setArrays(vtkImageData* output, vtkDataArray* values, const Model& model,
+  vtkUnsignedCharArray* valid, bool doublePrecision);
+
+} // namespace refractivity
