@@ -32,6 +32,9 @@ namespace
 /// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
 constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
 
+constexpr double shortestStep = 0.001;
+constexpr double longestStep = 16;
+
 void validate(const Scene& scene)
 {
   if (scene.samplesPerPixel < 1)
@@ -39,10 +42,12 @@ void validate(const Scene& scene)
     throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
       ", so no light is traced. Set it to 1 or more.");
   }
-  if (!(scene.stepSize > 0) || !std::isfinite(scene.stepSize))
+  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
   {
     throw Error("StepSize is " + std::to_string(scene.stepSize) +
-      ", so rays cannot advance. Set it to a positive number of voxels (default 1).");
+      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
+      "flow); "
+      "the default is 1.");
   }
   if (!std::isfinite(scene.knifeEdgeAngle))
   {
@@ -133,14 +138,17 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
   return static_cast<std::int64_t>(pixels < most ? pixels : most);
 }
 
-/// The smallest deflection that is more than the rounding of the refractivity.
+/// A deflection that the rounding of the samples alone can make: each step's gradient is wrong by one
+/// rounding of N per voxel, and over a ray these errors add up like a random walk. With a margin of 16.
 template <class Real>
-double noiseFloor(const Medium<Real>& medium, const Field& field)
+double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light)
 {
+  constexpr double margin = 16;
   const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
-  return medium.largestN *
-    (rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
-             : std::numeric_limits<double>::epsilon());
+  const double rounding = rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                  : std::numeric_limits<double>::epsilon();
+  const double voxels = std::max(1., light.depth * length(light.perLength));
+  return margin * medium.largestN * rounding * std::sqrt(voxels);
 }
 
 /// How far past the exit plane rays meet what the film shows: a screen, or (going back) the middle of
@@ -160,12 +168,12 @@ void shade(const CutoffKind& cutoff, double distance, const RayExit* exits, cons
   const std::int64_t width = scene.view.width;
   const std::int64_t height = scene.view.height;
   const double perDataUnit = 1 / image.frame.pixelSize;
-  std::atomic<std::int64_t> traced{ 0 }, steps{ 0 }, lost{ 0 };
+  std::atomic<std::int64_t> traced{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
   constexpr std::int64_t rowsPerPiece = 16;
   parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      std::int64_t tracedHere = 0, stepsHere = 0, lostHere = 0;
+      std::int64_t tracedHere = 0, stepsHere = 0, blockedHere = 0, lostHere = 0;
       for (std::int64_t row = begin - margin; row < end - margin; ++row)
       {
         for (std::int64_t column = -margin; column < width + margin; ++column)
@@ -173,6 +181,7 @@ void shade(const CutoffKind& cutoff, double distance, const RayExit* exits, cons
           const RayExit& exit =
             exits[(row - held.firstRow) * held.columns + column - held.firstColumn];
           tracedHere += exit.fate != RayFate::Missed ? 1 : 0;
+          blockedHere += exit.fate == RayFate::Blocked ? 1 : 0;
           lostHere += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
           stepsHere += exit.steps;
           if (column >= 0 && column < width && row >= 0 && row < height)
@@ -194,10 +203,12 @@ void shade(const CutoffKind& cutoff, double distance, const RayExit* exits, cons
       }
       traced += tracedHere;
       steps += stepsHere;
+      blocked += blockedHere;
       lost += lostHere;
     });
   image.raysTraced += traced;
   image.stepsTaken += steps;
+  image.raysBlocked += blocked;
   image.raysLost += lost;
 }
 
@@ -362,7 +373,7 @@ Image Bench::Stages::render(
     {
       image.kScale = scene.kScale
         ? *scene.kScale
-        : automaticK(exits, pass, view.width, view.height, noiseFloor(held.medium, field));
+        : automaticK(exits, pass, view.width, view.height, noiseFloor(held.medium, field, light));
     }
     shade(KnifeEdge::at(scene.knifeEdgeAngle, image.kScale, scene.invertCutoff), distance, exits,
       pass, margin, scene, image, film, means);

@@ -50,7 +50,9 @@ enum class Device
 
 enum class Cutoff
 {
-  KnifeEdge,  ///< I = 1/2 + k (eps . (cos angle, sin angle)), clamped to [0, 1]
+  /// I = 1/2 + k (eps . (cos angle, sin angle)), clamped to [0, 1] for each ray. Where the medium
+  /// concentrates rays on a pixel, the pixel's intensity exceeds 1.
+  KnifeEdge,
   Shadowgraph ///< I = 1 for every ray; only where the rays land makes the picture
 };
 
@@ -105,7 +107,7 @@ struct Scene
 
   Interpolation interpolation = Interpolation::Quadratic;
   Precision precision = Precision::Single;
-  double stepSize = 1; ///< voxels: length of one step measured in index space
+  double stepSize = 1; ///< voxels, 0.001 ... 16: length of one step measured in index space
   Device device = Device::Auto;
   int threads = 0; ///< CPU threads; 0: all cores this process may use
 };
@@ -139,6 +141,7 @@ struct Image
   double ambient = 0;           ///< the ambient refractivity used
   std::int64_t raysTraced = 0;  ///< rays of this picture that crossed the grid
   std::int64_t stepsTaken = 0;  ///< integration steps of these rays
+  std::int64_t raysBlocked = 0; ///< rays that a solid stopped
   std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
   double traceSeconds = 0;      ///< spent tracing for this call; 0 when held rays were re-shaded
   double displacementBound = 0; ///< no ray of this medium is displaced further, data units

@@ -27,9 +27,8 @@ namespace refractivity
 namespace
 {
 
-// Limits of the grids that are chosen from the input (see SamplingDimensions).
-constexpr double voxelsPerCell =
-  8; // or per point: a tetrahedral mesh has five cells for each point
+// Limits of the grids that are chosen from the input (see SamplingDimensions). Between them, as many
+// points as the mesh has: its cells are linear inside, and a finer grid would show their edges.
 constexpr double fewestVoxels = 64. * 64 * 64;
 constexpr double mostVoxels = 256. * 256 * 256;
 constexpr double mostPointsAskedFor = 2048. * 2048 * 2048;
@@ -40,14 +39,16 @@ bool hasVolume(vtkDataSet* data, vtkIdType cell)
   return vtkCellTypes::GetDimension(type) == 3;
 }
 
-vtkIdType countVolumeCells(vtkDataSet* data)
+bool hasVolumeCells(vtkDataSet* data)
 {
-  vtkIdType count = 0;
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
-    count += hasVolume(data, i) ? 1 : 0;
+    if (hasVolume(data, i))
+    {
+      return true;
+    }
   }
-  return count;
+  return false;
 }
 
 /// Points along each axis for voxels of edge h, where no number is given.
@@ -71,9 +72,9 @@ double product(const std::array<int, 3>& dimensions)
 }
 
 std::array<int, 3> chooseDimensions(
-  const std::array<double, 3>& lengths, double cells, const std::array<int, 3>& given)
+  const std::array<double, 3>& lengths, double points, const std::array<int, 3>& given)
 {
-  double target = std::clamp(voxelsPerCell * cells, fewestVoxels, mostVoxels);
+  double target = std::clamp(points, fewestVoxels, mostVoxels);
   double atLeast = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -169,14 +170,13 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 {
   Resampling plan;
   vtkBoundingBox box;
-  double cells = 0;
+  double points = 0;
   for (const Leaf& leaf : source.leaves)
   {
-    const vtkIdType volumeCells = countVolumeCells(leaf.data);
-    if (volumeCells > 0)
+    if (hasVolumeCells(leaf.data))
     {
       plan.leaves.push_back(leaf);
-      cells += static_cast<double>(std::min(volumeCells, leaf.data->GetNumberOfPoints()));
+      points += static_cast<double>(leaf.data->GetNumberOfPoints());
       box.AddBounds(leaf.data->GetBounds());
     }
   }
@@ -206,7 +206,7 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
         ". Give each axis at least 2 points, or 0 to have their number chosen.");
     }
   }
-  plan.dimensions = chooseDimensions(lengths, cells, given);
+  plan.dimensions = chooseDimensions(lengths, points, given);
   if (product(plan.dimensions) > mostPointsAskedFor)
   {
     throw std::runtime_error("SamplingDimensions asks for " + std::to_string(plan.dimensions[0]) +

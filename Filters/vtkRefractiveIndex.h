@@ -90,8 +90,7 @@ public:
   /**
    * Points along x, y and z of the grid to which other input than images is resampled. An axis that
    * is 0 is chosen: voxels as nearly cubic as the other axes allow; with all three 0 (the default)
-   * about eight voxels per cell (or per point, where there are fewer of them, as in a mesh of
-   * tetrahedra), 64^3 to 256^3 in all, at least 2 along each axis.
+   * as many as the mesh has points, 64^3 to 256^3 in all, at least 2 along each axis.
    */
   vtkSetVector3Macro(SamplingDimensions, int);
   vtkGetVector3Macro(SamplingDimensions, int);

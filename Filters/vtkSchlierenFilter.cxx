@@ -6,6 +6,7 @@
 #include "vtkCommand.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -48,6 +49,9 @@ struct vtkSchlierenFilter::Internals
   // What Refractivity was made from: the input, and Medium at that time (0: nothing yet).
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
+
+  // Newest time of this filter and of everything upstream when it last failed.
+  vtkMTimeType FailedAt = 0;
 };
 
 namespace
@@ -58,7 +62,7 @@ constexpr double mediumShare = 0.2;
 
 /// Everything that a dataset's refractivity may depend on, so that equal numbers mean equal data: times
 /// of its arrays, and its geometry. Not the dataset's own time, which is a new one whenever a filter
-/// upstream hands the same arrays on.
+/// upstream hands the same arrays on (that it was modified in place, the time of the pipeline tells).
 void describe(vtkDataSet* data, std::vector<double>& description)
 {
   const auto addTime = [&description](vtkObject* object)
@@ -106,9 +110,10 @@ void describe(vtkDataSet* data, std::vector<double>& description)
   }
 }
 
-std::vector<double> describe(vtkDataObject* input)
+/// `pipelineTime`: the newest time of everything upstream.
+std::vector<double> describe(vtkDataObject* input, vtkMTimeType pipelineTime)
 {
-  std::vector<double> description;
+  std::vector<double> description{ static_cast<double>(pipelineTime) };
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
   {
     auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
@@ -406,11 +411,18 @@ void vtkSchlierenFilter::OnMediumProgress()
 }
 
 //------------------------------------------------------------------------------
+vtkMTimeType vtkSchlierenFilter::GetUpstreamTime()
+{
+  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(0, 0));
+  return upstream ? upstream->GetPipelineMTime() : 0;
+}
+
+//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describe(input);
+  std::vector<double> description = describe(input, this->GetUpstreamTime());
   if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
   {
     return true;
@@ -464,6 +476,20 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   {
     vtkWarningMacro(<< image.deviceNote);
   }
+  if (image.raysTraced > 0 && image.raysBlocked == image.raysTraced)
+  {
+    vtkWarningMacro(
+      << "All light that meets the data is blocked, so the picture is black there: every "
+         "ray meets a place that is solid (NaN, masked, blanked) or that no cell covers. "
+         "Look along another ViewDirection, or fill the data's box.");
+  }
+  if (image.raysLost > 0)
+  {
+    vtkWarningMacro(
+      << image.raysLost << " of " << image.raysTraced
+      << " rays did not come out towards the film: the medium traps them or turns them "
+         "back. Is the refractivity (array, unit, index model) right?");
+  }
   setOutput(output, image);
   return true;
 }
@@ -513,6 +539,10 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
     inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
       inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
   }
+  // All of it, on every process: light crosses what several processes would share.
+  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   return 1;
 }
 
@@ -524,8 +554,7 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* output = vtkImageData::GetData(outInfo);
   output->Initialize();
 
-  // One picture, made by the first process: from the whole input where its source gives every process
-  // all of it (as for images that are read), else from the first process's piece.
+  // One picture, made by the first process, from all that its source gives when asked for everything.
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   if (controller && controller->GetNumberOfProcesses() > 1)
   {
@@ -535,10 +564,19 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
     }
     if (!this->HasWarnedOfProcesses)
     {
-      vtkWarningMacro(<< "Data that are distributed over several processes are not gathered: the "
-                         "picture shows what the first process holds. Use one process.");
+      vtkWarningMacro(
+        << "The first of several processes makes the picture, from all that it is given "
+           "when it asks for the whole data. Data that a filter has distributed are not "
+           "gathered: if a part is missing, use one process.");
       this->HasWarnedOfProcesses = true;
     }
+  }
+
+  // An empty output lets the pipeline ask again and again: one message is enough.
+  const vtkMTimeType now = std::max(this->GetMTime(), this->GetUpstreamTime());
+  if (this->Inside->FailedAt == now)
+  {
+    return 1;
   }
 
   this->SetAbortExecute(0); // it stays set after an abort
@@ -561,5 +599,6 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
     vtkErrorMacro(<< problem.what());
   }
   output->Initialize();
+  this->Inside->FailedAt = now;
   return 1;
 }

@@ -227,7 +227,7 @@ public:
 
   ///@{
   /**
-   * Length of an integration step, voxels. Positive. Default: 1.
+   * Length of an integration step, voxels. 0.001 to 16. Default: 1.
    */
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
@@ -317,6 +317,8 @@ private:
   /// Hands the array selections on to Medium, which changes only if they have.
   void PassArraySelections();
   void OnMediumProgress();
+  /// The newest time of everything upstream.
+  vtkMTimeType GetUpstreamTime();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input);
   /// Makes the picture from the refractivity. False if aborted.

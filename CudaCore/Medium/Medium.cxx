@@ -229,12 +229,11 @@ Medium<Real> build(
 {
   const Samples<Value> samples{ values, field.valid };
   Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {} };
-  if (field.ambient && !(*field.ambient > -1 && std::isfinite(*field.ambient)))
+  if (field.ambient && !(*field.ambient > -1 && *field.ambient <= largestPlausibleN))
   {
     throw Error("The ambient refractivity " + std::to_string(*field.ambient) +
-      " means a refractive index of zero or less. Give n - 1 of the gas around the flow (air: "
-      "2.7e-4), "
-      "or let it be found from the domain's boundary.");
+      " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
+      "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
   }
   medium.ambient = field.ambient ? *field.ambient : boundaryMedian(samples, field.grid.dimensions);
   const Range range = load(samples, medium.ambient, medium, threads);

@@ -188,6 +188,24 @@ TEST(KnifeEdge, PictureFollowsTheDeflection)
   }
 }
 
+/// Rounding must not be blown up to a picture: the field varies along the light only.
+TEST(AutomaticK, LeavesRoundingInvisible)
+{
+  const SampledField<float> gas(cube(48, 1),
+    [](double, double, double z) { return 2.26e-4 * (1 + 0.5 * std::exp(-z * z / 0.1)); });
+  for (const Vector& direction : { Vector{ 0, 0, -1 }, Vector{ 0, 0, 1 } })
+  {
+    Scene scene;
+    scene.device = Device::Cpu;
+    scene.view.viewDirection = direction;
+    scene.view.width = scene.view.height = 40;
+    const Image image = Bench().render(gas.field, scene);
+    const auto [least, most] = std::minmax_element(image.intensity.begin(), image.intensity.end());
+    EXPECT_GT(*least, 0.45f);
+    EXPECT_LT(*most, 0.55f);
+  }
+}
+
 /// Light that a weak flow bends stays on a film that holds all of its surroundings.
 TEST(Shadowgraph, ConservesEnergy)
 {

@@ -50,6 +50,8 @@ std::vector<Mistake> mistakes()
     { "screen in the flow", "ScreenDistance", [](Field&, Scene& s) { s.screenDistance = -2; } },
     { "no samples", "SamplesPerPixel", [](Field&, Scene& s) { s.samplesPerPixel = 0; } },
     { "no step", "StepSize", [](Field&, Scene& s) { s.stepSize = 0; } },
+    { "step too short to end", "StepSize", [](Field&, Scene& s) { s.stepSize = 1e-9; } },
+    { "step past the flow", "StepSize", [](Field&, Scene& s) { s.stepSize = 100; } },
     { "NaN step", "StepSize", [=](Field&, Scene& s) { s.stepSize = nan; } },
     { "negative threads", "threads", [](Field&, Scene& s) { s.threads = -1; } },
     { "flat grid", "1 point(s) along its y axis",
@@ -66,6 +68,7 @@ std::vector<Mistake> mistakes()
     { "sheared axes", "direction matrix", [](Field& f, Scene&) { f.grid.direction[1] = 0.5; } },
     { "negative length", "LengthScale", [](Field& f, Scene&) { f.lengthScale = -1; } },
     { "impossible ambient", "ambient", [](Field& f, Scene&) { f.ambient = -1; } },
+    { "implausible ambient", "ambient", [](Field& f, Scene&) { f.ambient = 1e30; } },
     { "NaN ambient", "ambient", [=](Field& f, Scene&) { f.ambient = nan; } },
     { "no samples at all", "float or double", [](Field& f, Scene&) { f.singles = nullptr; } },
   };

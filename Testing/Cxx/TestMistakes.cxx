@@ -158,6 +158,8 @@ std::vector<Mistake> mistakes()
       [](Filter* f) { f->SetSamplesPerPixel(1); } },
     { "NoStep", [](Filter* f) { f->SetStepSize(0); }, { "StepSize", "0" },
       [](Filter* f) { f->SetStepSize(1); } },
+    { "EndlessSteps", [](Filter* f) { f->SetStepSize(1e-9); }, { "StepSize", "0.001" },
+      [](Filter* f) { f->SetStepSize(1); } },
     { "NanScreen", [](Filter* f) { f->SetScreenDistance(nan); }, { "ScreenDistance" },
       [](Filter* f) { f->SetScreenDistance(-1); } },
     { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
@@ -180,6 +182,7 @@ TEST_P(Mistakes, OneMessageAnEmptyImageAndThenAllIsWell)
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   mistake.make(filter);
   filter->Update();
+  filter->Update(); // a view that is drawn again asks again
   EXPECT_TRUE(isEmpty(filter));
   ASSERT_EQ(complaints->Errors.size(), 1u);
   EXPECT_TRUE(complaints->Warnings.empty());

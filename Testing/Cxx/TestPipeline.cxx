@@ -4,6 +4,7 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
+#include "vtkPassThrough.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
@@ -128,13 +129,22 @@ TEST(Pipeline, NothingIsDoneTwice)
   image->GetPointData()->GetArray("N")->Modified();
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
 
-  // The same arrays, handed on by another filter, are the same medium.
-  vtkNew<vtkImageData> copy;
-  copy->ShallowCopy(image);
-  filter->SetInputDataObject(copy);
-  EXPECT_TRUE(workOfUpdate(filter) == none);
-  copy->SetSpacing(0.1, 0.1, 0.1);
+  // Values that were changed in place, told by the dataset alone.
+  image->GetPointData()->GetArray("N")->SetComponent(0, 0, 3e-5);
+  image->Modified();
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  image->SetSpacing(0.1, 0.1, 0.1);
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+
+  // The same data, handed on by a filter upstream that runs again for another part of them.
+  vtkNew<vtkPassThrough> upstream;
+  upstream->SetInputDataObject(image);
+  filter->SetInputConnection(upstream->GetOutputPort());
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  upstream->GetOutputInformation(0)->Remove(vtkDataObject::DATA_OBJECT());
+  filter->SetKnifeEdgeAngle(10);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
 
   // Another number of threads makes nothing new.
   filter->SetNumberOfThreads(2);

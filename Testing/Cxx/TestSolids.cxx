@@ -138,6 +138,33 @@ TEST(Solids, ASingleBlankedCellBlocksLight)
   EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(5 * 11 + 1, 0), 0);
 }
 
+TEST(Solids, AWallAcrossAllLightIsSaid)
+{
+  auto image = cube(12);
+  addPointArray(
+    image, "N", [](const Vec& x) { return std::abs(x[2]) < 0.2 ? std::nan("") : 1e-4; });
+  auto filter = bench(image, 10);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_EQ(largest(valuesOf(filter, "Intensity")), 0);
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("All light"), std::string::npos);
+  EXPECT_TRUE(complaints->Errors.empty());
+}
+
+TEST(Solids, LightThatDoesNotComeOutIsSaid)
+{
+  auto image = cube(16);
+  addPointArray(
+    image, "N", [](const Vec& x) { return 2 * std::exp(-(x[1] * x[1] + x[2] * x[2]) / 0.1); });
+  auto filter = bench(image, 24);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_GT(fieldValue(filter, "RaysLost"), 0);
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("did not come out"), std::string::npos);
+}
+
 // Resampled: blanked cells of a curvilinear grid, and a ball that an unstructured grid leaves out.
 TEST(Solids, HiddenCellsOfAStructuredGridBlockLight)
 {
