@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The one public header of the tracer: a Field and a Scene in, an Image out.
+// The one public header of the tracer: a Field and a Scene in, an Image out. It brings the index models
+// with it, which make a Field's refractivity from the states of gases.
 //
 // Vectors are in data coordinates. The picture's axes are u (right), v (up) and w, the direction the
 // light travels in, towards the viewer: w = -viewDirection, u = viewDirection x viewUp, v = u x
 // viewDirection, all of unit length. A point x lands at the picture coordinates (x.u, x.v).
 #pragma once
+
+#include "Medium/IndexModels.h"
 
 #include <array>
 #include <cstdint>

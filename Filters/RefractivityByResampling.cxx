@@ -105,11 +105,11 @@ vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
 /// The mean over the valid cells at each point, NaN where there are none: sums of value and of
 /// validity, divided. Clears `valid` at cells whose value is not finite.
 vtkSmartPointer<vtkDataArray> cellsToPoints(
-  const Leaf& leaf, const Model& model, vtkUnsignedCharArray* valid)
+  const Leaf& leaf, const Model& model, vtkUnsignedCharArray* valid, Tally& tally)
 {
   vtkNew<vtkDoubleArray> share;
   auto cells = withoutArrays(leaf.data);
-  cells->GetCellData()->AddArray(convert<vtkDoubleArray>(leaf.array, model, valid, 0));
+  cells->GetCellData()->AddArray(convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally));
   share->DeepCopy(valid);
   cells->GetCellData()->AddArray(share);
   vtkNew<vtkCellDataToPointData> toPoints;
@@ -126,7 +126,7 @@ vtkSmartPointer<vtkDataArray> cellsToPoints(
 }
 
 /// A leaf that holds nothing but N at its points (NaN where invalid), its cells without volume hidden.
-vtkSmartPointer<vtkDataSet> prepare(const Leaf& leaf, const Model& model)
+vtkSmartPointer<vtkDataSet> prepare(const Leaf& leaf, const Model& model, Tally& tally)
 {
   vtkDataSet* data = leaf.data;
   const vtkIdType cells = data->GetNumberOfCells();
@@ -143,14 +143,14 @@ vtkSmartPointer<vtkDataSet> prepare(const Leaf& leaf, const Model& model)
   auto prepared = withoutArrays(data);
   if (leaf.ofCells)
   {
-    prepared->GetPointData()->SetScalars(cellsToPoints(leaf, model, valid));
+    prepared->GetPointData()->SetScalars(cellsToPoints(leaf, model, valid, tally));
   }
   else
   {
     auto validPoints = newMask(data->GetNumberOfPoints());
     hidePoints(data, validPoints);
     prepared->GetPointData()->SetScalars(convert<vtkDoubleArray>(
-      leaf.array, model, validPoints, std::numeric_limits<double>::quiet_NaN()));
+      leaf.arrays, model, validPoints, std::numeric_limits<double>::quiet_NaN(), tally));
   }
 
   vtkNew<vtkUnsignedCharArray> hidden;
@@ -182,8 +182,8 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
   }
   if (plan.leaves.empty())
   {
-    throw std::runtime_error("The input has no 3-D cells with the array '" + source.label +
-      "', so there is no volume for light to cross. Use volume data (for 2-D data: extrude it).");
+    throw std::runtime_error("The input has no 3-D cells with the " + source.label +
+      ", so there is no volume for light to cross. Use volume data (for 2-D data: extrude it).");
   }
   box.GetBounds(plan.bounds);
   std::array<double, 3> lengths;
@@ -227,13 +227,14 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
     (bounds[5] - bounds[4]) / (plan.dimensions[2] - 1));
 }
 
-void resample(
+Tally resample(
   const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output)
 {
+  Tally tally;
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (std::size_t i = 0; i < plan.leaves.size(); ++i)
   {
-    blocks->SetBlock(static_cast<unsigned int>(i), prepare(plan.leaves[i], source.model));
+    blocks->SetBlock(static_cast<unsigned int>(i), prepare(plan.leaves[i], source.model, tally));
   }
   vtkNew<vtkResampleToImage> resampler;
   resampler->SetInputDataObject(blocks);
@@ -245,12 +246,13 @@ void resample(
   if (!values)
   {
     throw std::runtime_error(
-      "Resampling '" + source.label + "' to a grid found no data. Check the input's cells.");
+      "Resampling the " + source.label + " to a grid found no data. Check the input's cells.");
   }
   output->CopyStructure(sampled);
   auto valid = newMask(output->GetNumberOfPoints());
   hidePoints(sampled, valid);
-  setArrays(output, values, Model(), valid, doublePrecision);
+  setArrays(output, { values }, Linear(), valid, doublePrecision);
+  return tally;
 }
 
 } // namespace refractivity

@@ -24,8 +24,8 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 /// Makes `structure` the grid of the plan.
 void gridOf(const Resampling& plan, vtkImageData* structure);
 
-/// Fills `output` as planned.
-void resample(
+/// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
+Tally resample(
   const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output);
 
 } // namespace refractivity

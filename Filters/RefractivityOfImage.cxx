@@ -168,7 +168,7 @@ void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
   structure->SetDirectionMatrix(image->GetDirectionMatrix());
 }
 
-void convertImage(const Source& source, bool doublePrecision, vtkImageData* output)
+Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* output)
 {
   const Leaf& leaf = source.leaves[0];
   gridOfImage(source.image, leaf.ofCells, output);
@@ -182,7 +182,7 @@ void convertImage(const Source& source, bool doublePrecision, vtkImageData* outp
     hidePoints(source.image, valid);
     hidePointsOfHiddenCells(source.image, valid);
   }
-  setArrays(output, leaf.array, source.model, valid, doublePrecision);
+  return setArrays(output, leaf.arrays, source.model, valid, doublePrecision);
 }
 
 } // namespace refractivity

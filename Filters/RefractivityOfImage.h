@@ -12,6 +12,6 @@ namespace refractivity
 void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure);
 
 /// Fills `output` from source.image.
-void convertImage(const Source& source, bool doublePrecision, vtkImageData* output);
+Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* output);
 
 } // namespace refractivity

@@ -12,7 +12,7 @@
 #include "vtkRefractiveIndex.h"
 #include "vtkSmartPointer.h"
 
-#include <cmath>
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -31,13 +31,11 @@ struct Selection
   bool cellsFirst = false;
 };
 
-Selection selectionFrom(vtkRefractiveIndex* self)
+Selection selectionFrom(vtkRefractiveIndex* self, int index, const char* property)
 {
-  const bool fromDensity = self->GetIndexModel() == vtkRefractiveIndex::GLADSTONE_DALE;
-  vtkInformation* info = self->GetInputArrayInformation(
-    fromDensity ? vtkRefractiveIndex::DENSITY : vtkRefractiveIndex::INDEX_ARRAY);
+  vtkInformation* info = self->GetInputArrayInformation(index);
   Selection selection;
-  selection.property = fromDensity ? "Density" : "IndexArray";
+  selection.property = property;
   if (const char* name = info->Get(vtkDataObject::FIELD_NAME()))
   {
     selection.name = name;
@@ -49,6 +47,40 @@ Selection selectionFrom(vtkRefractiveIndex* self)
   selection.cellsFirst =
     info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
   return selection;
+}
+
+/// The arrays that each model takes, in its order; at least one.
+std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
+{
+  using Index = vtkRefractiveIndex;
+  std::vector<Selection> selections;
+  const auto add = [&](int index, const char* property)
+  { selections.push_back(selectionFrom(self, index, property)); };
+  switch (self->GetIndexModel())
+  {
+    case Index::GLADSTONE_DALE:
+      add(Index::DENSITY, "Density");
+      break;
+    case Index::GLADSTONE_DALE_MIXTURE:
+      add(Index::DENSITY, "Density");
+      for (const std::string& name : self->GetMixtureArrays())
+      {
+        selections.push_back({ "MixtureArrays", name, -1, selections[0].cellsFirst });
+      }
+      break;
+    case Index::CIDDOR:
+      add(Index::TEMPERATURE, "Temperature");
+      add(Index::PRESSURE, "Pressure");
+      if (self->HasHumidityArray())
+      {
+        add(Index::HUMIDITY, "Humidity");
+      }
+      break;
+    default:
+      add(Index::INDEX_ARRAY, "IndexArray");
+      break;
+  }
+  return selections;
 }
 
 vtkDataSetAttributes* attributesOf(vtkDataSet* data, bool ofCells)
@@ -94,18 +126,72 @@ std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
   return dataSets;
 }
 
-/// Looks at the association that was asked for first, then at the other one.
-std::vector<Leaf> leavesWith(const Selection& selection, const std::vector<vtkDataSet*>& dataSets)
+/// Those of the selected arrays that points or cells have; null for others.
+Arrays findAll(vtkDataSet* data, bool ofCells, const std::vector<Selection>& selections)
+{
+  Arrays arrays;
+  for (const Selection& selection : selections)
+  {
+    arrays.push_back(find(attributesOf(data, ofCells), selection));
+  }
+  return arrays;
+}
+
+bool isComplete(const Arrays& arrays)
+{
+  return std::find(arrays.begin(), arrays.end(), nullptr) == arrays.end();
+}
+
+std::string nameOf(vtkDataArray* array, const Selection& selection)
+{
+  return array->GetName() ? array->GetName() : selection.property;
+}
+
+[[noreturn]] void throwMixed(
+  const std::vector<Selection>& selections, const Arrays& ofPoints, const Arrays& ofCells)
+{
+  std::string points, cells;
+  for (std::size_t i = 0; i < selections.size(); ++i)
+  {
+    if (!ofPoints[i] || !ofCells[i])
+    {
+      std::string& names = ofPoints[i] ? points : cells;
+      names += (names.empty() ? "" : ", ") + selections[i].property + " '" +
+        nameOf((ofPoints[i] ? ofPoints : ofCells)[i], selections[i]) + "'";
+    }
+  }
+  throw std::runtime_error("Some arrays belong to points (" + points + ") and some to cells (" +
+    cells +
+    "), but N is formed where all of them have values. Turn one kind into the other, for "
+    "instance with Cell Data to Point Data.");
+}
+
+/// The datasets that have all arrays. Looks at the association that was asked for with the first of
+/// them, then at the other one.
+std::vector<Leaf> leavesWith(
+  const std::vector<Selection>& selections, const std::vector<vtkDataSet*>& dataSets)
 {
   std::vector<Leaf> leaves;
   for (vtkDataSet* data : dataSets)
   {
-    for (const bool ofCells : { selection.cellsFirst, !selection.cellsFirst })
+    const Arrays found[2] = { findAll(data, false, selections), findAll(data, true, selections) };
+    const bool cellsFirst = selections[0].cellsFirst;
+    if (isComplete(found[cellsFirst]))
     {
-      if (vtkDataArray* array = find(attributesOf(data, ofCells), selection))
+      leaves.push_back({ data, found[cellsFirst], cellsFirst });
+    }
+    else if (isComplete(found[!cellsFirst]))
+    {
+      leaves.push_back({ data, found[!cellsFirst], !cellsFirst });
+    }
+    else
+    {
+      Arrays any = found[0];
+      std::transform(any.begin(), any.end(), found[1].begin(), any.begin(),
+        [](vtkDataArray* a, vtkDataArray* b) { return a ? a : b; });
+      if (isComplete(any))
       {
-        leaves.push_back({ data, array, ofCells });
-        break;
+        throwMixed(selections, found[0], found[1]);
       }
     }
   }
@@ -144,9 +230,19 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   return text.empty() ? "none" : text;
 }
 
+/// What to say where no dataset has all arrays: the first that none of them has, or else that they do not
+/// come together.
 [[noreturn]] void throwNotFound(
-  const Selection& selection, const std::vector<vtkDataSet*>& dataSets)
+  const std::vector<Selection>& selections, const std::vector<vtkDataSet*>& dataSets)
 {
+  const auto missing = std::find_if(selections.begin(), selections.end(),
+    [&](const Selection& selection) { return leavesWith({ selection }, dataSets).empty(); });
+  if (missing == selections.end())
+  {
+    throw std::runtime_error("No block of the input has all the arrays that IndexModel needs, so "
+                             "there is nothing to find N from. Check which block has which.");
+  }
+  const Selection& selection = *missing;
   const std::string& property = selection.property;
   const std::string names = namesOfArrays(dataSets);
   if (names == "none")
@@ -164,45 +260,51 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
     " to one of: " + names + ".");
 }
 
-void requireScalars(const Leaf& leaf, const std::string& label, const std::string& property,
+void requireScalars(const Leaf& leaf, const std::vector<Selection>& selections,
   const std::vector<vtkDataSet*>& dataSets)
 {
-  if (leaf.array->GetNumberOfComponents() != 1)
+  for (std::size_t i = 0; i < leaf.arrays.size(); ++i)
   {
-    throw std::runtime_error("The array '" + label + "' has " +
-      std::to_string(leaf.array->GetNumberOfComponents()) + " components, but " + property +
-      " is a scalar. Choose one of: " + namesOfArrays(dataSets) + ".");
-  }
-  if (leaf.array->GetNumberOfTuples() !=
-    (leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints()))
-  {
-    throw std::runtime_error("The array '" + label + "' has " +
-      std::to_string(leaf.array->GetNumberOfTuples()) +
-      " values, which is not one for each point or cell. Check the program that wrote it.");
-  }
-}
-
-void requireFinite(const char* name, double value)
-{
-  if (!std::isfinite(value))
-  {
-    throw std::runtime_error(std::string(name) + " is not a finite number. Set it to one.");
+    vtkDataArray* array = leaf.arrays[i];
+    const std::string name = nameOf(array, selections[i]);
+    if (array->GetNumberOfComponents() != 1)
+    {
+      throw std::runtime_error("The array '" + name + "' has " +
+        std::to_string(array->GetNumberOfComponents()) + " components, but " +
+        selections[i].property + " is a scalar. Choose one of: " + namesOfArrays(dataSets) + ".");
+    }
+    if (array->GetNumberOfTuples() !=
+      (leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints()))
+    {
+      throw std::runtime_error("The array '" + name + "' has " +
+        std::to_string(array->GetNumberOfTuples()) +
+        " values, which is not one for each point or cell. Check the program that wrote it.");
+    }
   }
 }
 
-Model modelFrom(vtkRefractiveIndex* self)
+std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selections)
 {
-  switch (self->GetIndexModel())
+  std::string label = arrays.size() > 1 ? "arrays" : "array";
+  for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    case vtkRefractiveIndex::GLADSTONE_DALE:
-      requireFinite("GladstoneDaleConstant", self->GetGladstoneDaleConstant());
-      requireFinite("DensityScale", self->GetDensityScale());
-      return { self->GetGladstoneDaleConstant() * self->GetDensityScale(), 0 };
-    case vtkRefractiveIndex::REFRACTIVE_INDEX:
-      return { 1, -1 };
-    default:
-      return {};
+    label += (i > 0 ? ", '" : " '") + nameOf(arrays[i], selections[i]) + "'";
   }
+  return label;
+}
+
+/// The refractivity that was computed before, if the image is to be used as it stands: IndexModel does
+/// not ask for an index, and its first array is missing, not chosen or the refractivity itself.
+vtkDataArray* computedBefore(
+  vtkRefractiveIndex* self, vtkImageData* image, const Selection& selection)
+{
+  if (!image || self->GetIndexModel() == vtkRefractiveIndex::REFRACTIVE_INDEX)
+  {
+    return nullptr;
+  }
+  vtkDataArray* computed = image->GetPointData()->GetArray(arrayName);
+  const std::vector<Leaf> leaves = leavesWith({ selection }, { image });
+  return leaves.empty() || leaves[0].arrays[0] == computed ? computed : nullptr;
 }
 
 } // namespace
@@ -216,36 +318,30 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
       "The input is empty: it has no points. Check that its source was read or "
       "updated and that no filter has removed everything.");
   }
-  const Selection selection = selectionFrom(self);
+  std::vector<Selection> selections = selectionsFrom(self);
 
   Source source;
-  source.leaves = leavesWith(selection, dataSets);
   source.image = dataSets.size() == 1 ? vtkImageData::SafeDownCast(dataSets[0]) : nullptr;
-
-  // A refractivity that was computed before is used as it stands.
-  vtkDataArray* computed =
-    source.image && self->GetIndexModel() != vtkRefractiveIndex::REFRACTIVE_INDEX
-    ? source.image->GetPointData()->GetArray(arrayName)
-    : nullptr;
-  const bool asItStands = computed && (source.leaves.empty() || source.leaves[0].array == computed);
-  if (asItStands)
+  if (vtkDataArray* computed = computedBefore(self, source.image, selections[0]))
   {
-    source.leaves = { { source.image, computed, false } };
+    selections.resize(1);
+    source.leaves = { { source.image, { computed }, false } };
+  }
+  else
+  {
+    source.model = modelFrom(self);
+    source.leaves = leavesWith(selections, dataSets);
   }
 
   if (source.leaves.empty())
   {
-    throwNotFound(selection, dataSets);
+    throwNotFound(selections, dataSets);
   }
   for (const Leaf& leaf : source.leaves)
   {
-    source.label = leaf.array->GetName() ? leaf.array->GetName() : selection.property;
-    requireScalars(leaf, source.label, selection.property, dataSets);
+    requireScalars(leaf, selections, dataSets);
   }
-  if (!asItStands)
-  {
-    source.model = modelFrom(self);
-  }
+  source.label = labelOf(source.leaves[0].arrays, selections);
   return source;
 }
 
@@ -257,7 +353,7 @@ bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image)
   }
   catch (const std::runtime_error&)
   {
-    return selectionFrom(self).cellsFirst;
+    return selectionsFrom(self)[0].cellsFirst;
   }
 }
 

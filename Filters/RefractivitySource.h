@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "RefractivityModels.h"
+
 #include <string>
 #include <vector>
 
@@ -20,18 +22,15 @@ namespace refractivity
 constexpr const char* arrayName = "Refractivity";
 constexpr const char* maskName = "vtkValidPointMask"; // as vtkResampleToImage calls it
 
-/// N as a linear function of what the array holds.
-struct Model
-{
-  double scale = 1;
-  double offset = 0;
-};
+/// The arrays that a model takes its values from, in its order. Each has one component and one value for
+/// each point, or each has one for each cell.
+using Arrays = std::vector<vtkDataArray*>;
 
-/// A dataset within the input that has the chosen array.
+/// A dataset within the input that has all chosen arrays.
 struct Leaf
 {
   vtkDataSet* data;
-  vtkDataArray* array; // one component, one value for each point or cell
+  Arrays arrays;
   bool ofCells;
 };
 
@@ -41,7 +40,7 @@ struct Source
   std::vector<Leaf> leaves;      // at least one
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
-  std::string label; // the array's name, for messages
+  std::string label; // for messages: "array 'rho'" or "arrays 'T', 'p'"
 };
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);

@@ -11,6 +11,7 @@
 #include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <atomic>
 #include <cmath>
 
 namespace refractivity
@@ -19,13 +20,28 @@ namespace refractivity
 namespace
 {
 
+/// Where N goes.
 template <class Real>
-struct Conversion
+struct Results
 {
-  Model model;
   Real* out;
   unsigned char* valid;
   Real invalid;
+
+  void set(vtkIdType i, double refractivity) const
+  {
+    const Real n = static_cast<Real>(refractivity);
+    const bool isValid = this->valid[i] != 0 && std::isfinite(n);
+    this->valid[i] = isValid ? 1 : 0;
+    this->out[i] = isValid ? n : this->invalid;
+  }
+};
+
+template <class Real>
+struct LinearConversion
+{
+  Linear model;
+  Results<Real> results;
 
   template <class Array>
   void operator()(Array* array) const
@@ -36,15 +52,54 @@ struct Conversion
       {
         for (vtkIdType i = begin; i < end; ++i)
         {
-          const double value = static_cast<double>(values[i]);
-          const Real n = static_cast<Real>(this->model.scale * value + this->model.offset);
-          const bool isValid = this->valid[i] != 0 && std::isfinite(n);
-          this->valid[i] = isValid ? 1 : 0;
-          this->out[i] = isValid ? n : this->invalid;
+          this->results.set(
+            i, this->model.scale * static_cast<double>(values[i]) + this->model.offset);
         }
       });
   }
 };
+
+template <class Real>
+void convertBy(
+  const Linear& model, const Arrays& values, const Results<Real>& results, Tally& /*unused*/)
+{
+  const LinearConversion<Real> conversion{ model, results };
+  if (!vtkArrayDispatch::Dispatch::Execute(values[0], conversion))
+  {
+    conversion(values[0]);
+  }
+}
+
+/// Arrays of any types: what the models compute costs more than the calls of vtkDataArray.
+template <class Gas, class Real>
+void convertBy(const Gas& model, const Arrays& values, const Results<Real>& results, Tally& tally)
+{
+  std::atomic<long long> all{ 0 }, doubtful{ 0 };
+  vtkSMPTools::For(0, values[0]->GetNumberOfTuples(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      std::vector<double> state(values.size());
+      Tally mine;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        bool isFinite = true;
+        for (std::size_t k = 0; k < values.size(); ++k)
+        {
+          state[k] = values[k]->GetComponent(i, 0);
+          isFinite = isFinite && std::isfinite(state[k]);
+        }
+        if (isFinite && results.valid[i])
+        {
+          ++mine.all;
+          mine.doubtful += model.isDoubtful(state.data()) ? 1 : 0;
+        }
+        results.set(i, isFinite ? model.refractivity(state.data()) : std::nan(""));
+      }
+      all += mine.all;
+      doubtful += mine.doubtful;
+    });
+  tally += { all, doubtful };
+}
 
 } // namespace
 
@@ -85,41 +140,40 @@ void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid)
 }
 
 template <class Array>
-vtkSmartPointer<Array> convert(
-  vtkDataArray* values, const Model& model, vtkUnsignedCharArray* valid, double invalid)
+vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
+  vtkUnsignedCharArray* valid, double invalid, Tally& tally)
 {
   using Real = typename Array::ValueType;
   auto refractivity = vtkSmartPointer<Array>::New();
   refractivity->SetName(arrayName);
-  refractivity->SetNumberOfValues(values->GetNumberOfTuples());
-  const Conversion<Real> conversion{ model, refractivity->GetPointer(0), valid->GetPointer(0),
+  refractivity->SetNumberOfValues(values[0]->GetNumberOfTuples());
+  const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0),
     static_cast<Real>(invalid) };
-  if (!vtkArrayDispatch::Dispatch::Execute(values, conversion))
-  {
-    conversion(values);
-  }
+  std::visit([&](const auto& chosen) { convertBy(chosen, values, results, tally); }, model);
   return refractivity;
 }
 
 template vtkSmartPointer<vtkFloatArray> convert(
-  vtkDataArray*, const Model&, vtkUnsignedCharArray*, double);
+  const Arrays&, const Model&, vtkUnsignedCharArray*, double, Tally&);
 template vtkSmartPointer<vtkDoubleArray> convert(
-  vtkDataArray*, const Model&, vtkUnsignedCharArray*, double);
+  const Arrays&, const Model&, vtkUnsignedCharArray*, double, Tally&);
 
-void setArrays(vtkImageData* output, vtkDataArray* values, const Model& model,
+Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, bool doublePrecision)
 {
+  Tally tally;
   vtkSmartPointer<vtkDataArray> refractivity;
   if (doublePrecision)
   {
-    refractivity = convert<vtkDoubleArray>(values, model, valid, 0);
+    refractivity = convert<vtkDoubleArray>(values, model, valid, 0, tally);
   }
   else
   {
-    refractivity = convert<vtkFloatArray>(values, model, valid, 0);
+    refractivity = convert<vtkFloatArray>(values, model, valid, 0, tally);
   }
   output->GetPointData()->SetScalars(refractivity);
   output->GetPointData()->AddArray(valid);
+  return tally;
 }
 
 } // namespace refractivity

@@ -9,7 +9,7 @@
 
 class vtkUnsignedCharArray;
 
-/// From an array's values to refractivity and to the mask that says which of them are valid.
+/// From arrays' values to refractivity and to the mask that says which of them are valid.
 namespace refractivity
 {
 
@@ -23,13 +23,13 @@ vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count);
 void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid);
 
 /// N as a new vtkFloatArray or vtkDoubleArray. Clears `valid` where N is not finite; N is `invalid`
-/// where `valid` is 0.
+/// where `valid` is 0. Adds to the tally what was valid before and had finite values.
 template <class Array>
-vtkSmartPointer<Array> convert(
-  vtkDataArray* values, const Model& model, vtkUnsignedCharArray* valid, double invalid);
+vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
+  vtkUnsignedCharArray* valid, double invalid, Tally& tally);
 
 /// Adds both arrays to `output`, whose points the values and the mask belong to.
-void setArrays(vtkImageData* output, vtkDataArray* values, const Model& model,
+Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, bool doublePrecision);
 
 } // namespace refractivity

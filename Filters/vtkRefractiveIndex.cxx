@@ -38,6 +38,16 @@ void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
   outInfo->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
 }
 
+void printList(ostream& os, vtkIndent indent, const char* name, const std::vector<double>& values)
+{
+  os << indent << name << ":";
+  for (const double value : values)
+  {
+    os << " " << value;
+  }
+  os << "\n";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -50,10 +60,75 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IndexModel: " << this->IndexModel << "\n";
   os << indent << "GladstoneDaleConstant: " << this->GladstoneDaleConstant << "\n";
   os << indent << "DensityScale: " << this->DensityScale << "\n";
+  os << indent << "MixtureArrays:";
+  for (const std::string& name : this->MixtureArrays)
+  {
+    os << " '" << name << "'";
+  }
+  os << "\n";
+  printList(os, indent, "MixtureConstants", this->MixtureConstants);
+  printList(os, indent, "MixtureMolarMasses", this->MixtureMolarMasses);
+  os << indent << "BackgroundConstant: " << this->BackgroundConstant << "\n";
+  os << indent << "BackgroundMolarMass: " << this->BackgroundMolarMass << "\n";
+  os << indent << "FractionType: " << this->FractionType << "\n";
+  os << indent << "TemperatureScale: " << this->TemperatureScale << "\n";
+  os << indent << "PressureScale: " << this->PressureScale << "\n";
+  os << indent << "RelativeHumidity: " << this->RelativeHumidity << "\n";
+  os << indent << "CO2: " << this->CO2 << "\n";
+  os << indent << "Wavelength: " << this->Wavelength << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureArray(const char* name)
+{
+  this->MixtureArrays.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureArrays()
+{
+  this->MixtureArrays.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureConstant(double constant)
+{
+  this->MixtureConstants.push_back(constant);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureConstants()
+{
+  this->MixtureConstants.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureMolarMass(double molarMass)
+{
+  this->MixtureMolarMasses.push_back(molarMass);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureMolarMasses()
+{
+  this->MixtureMolarMasses.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::HasHumidityArray()
+{
+  const char* name = this->GetInputArrayInformation(HUMIDITY)->Get(vtkDataObject::FIELD_NAME());
+  return name && *name && std::string(name) != "None";
 }
 
 //------------------------------------------------------------------------------
@@ -79,29 +154,30 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
+std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
 {
   output->Initialize();
   const Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())
   {
-    return;
+    return "";
   }
 
   // Most builds of ParaView run VTK's threaded loops on one core unless told otherwise.
   const vtkSMPTools::Config threads(this->NumberOfThreads, "STDThread", false);
+  Tally tally;
   vtkSMPTools::LocalScope(threads,
     [&]()
     {
       if (source.image)
       {
-        convertImage(source, this->DoublePrecision, output);
+        tally = convertImage(source, this->DoublePrecision, output);
       }
       else
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
-        resample(plan, source, this->DoublePrecision, output);
+        tally = resample(plan, source, this->DoublePrecision, output);
       }
     });
 
@@ -110,20 +186,21 @@ void vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
   if (std::none_of(
         valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; }))
   {
-    throw std::runtime_error("The array '" + source.label +
-      "' has no valid value (all are NaN, infinite, hidden or masked), so there is no gas for "
-      "light to cross. Choose another array or check the data.");
+    throw std::runtime_error("There is no valid value in the " + source.label +
+      " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
+      "to cross. Choose another array or check the data.");
   }
 
   int dimensions[3];
   output->GetDimensions(dimensions);
-  vtkDebugMacro(<< "Refractivity from '" << source.label << "' on " << dimensions[0] << " x "
+  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << dimensions[0] << " x "
                 << dimensions[1] << " x " << dimensions[2] << " points.");
   vtkNew<vtkIntArray> used;
   used->SetName("SamplingDimensions");
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
+  return warningFrom(source.model, tally);
 }
 
 //------------------------------------------------------------------------------
@@ -197,7 +274,11 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   try
   {
     this->SetAbortExecute(0); // it stays set after an abort
-    this->Convert(vtkDataObject::GetData(inputVector[0]), output);
+    const std::string warning = this->Convert(vtkDataObject::GetData(inputVector[0]), output);
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
     if (!this->GetAbortExecute())
     {
       // Where RequestInformation could not tell it. Without the second, VTK would crop the output.

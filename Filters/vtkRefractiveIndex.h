@@ -14,19 +14,21 @@
  * arrays on the grid of the cells' centres, so that nothing is smoothed. All other input is
  * resampled to a grid (see SamplingDimensions) with vtkResampleToImage, cell arrays after
  * vtkCellDataToPointData. Only cells with a volume count: surfaces in a composite are left out, and
- * so are blocks that lack the array.
+ * so are blocks that lack an array. Where several arrays are needed, all of them belong to points or
+ * all to cells; the refractivity is formed there, before anything is resampled.
  *
- * Invalid (mask 0) are NaN and infinite values, hidden points and cells (vtkGhostType), points whose
+ * Invalid (mask 0) are NaN and infinite values, states that no gas can have (T <= 0), hidden points and cells (vtkGhostType), points whose
  * `vtkValidPointMask` in the input is 0, and places that no cell covers. On images, a point is
  * hidden if all its cells are, and so are all points of a hidden cell that would otherwise vanish.
  *
  * IndexModel chooses how N is found. An image that already holds a point array `Refractivity` is
- * used as it stands where IndexModel is REFRACTIVITY or GLADSTONE_DALE and the selected array is
+ * used as it stands where IndexModel is not REFRACTIVE_INDEX and the (first) array that it needs is
  * missing, not chosen, or `Refractivity` itself: so the output of this filter can be handed on.
  *
  * The field data hold `SamplingDimensions`, the grid that was used.
  *
- * Mistakes (no such array, empty input, no valid value, ...) end in one error and an empty output.
+ * Mistakes (no such array, empty input, no valid value, ...) end in one error and an empty output. One
+ * warning tells of points where the model is outside its range, or fractions add up to more than 1.
  *
  * @sa vtkSchlierenFilter
  */
@@ -36,6 +38,9 @@
 
 #include "vtkImageAlgorithm.h"
 #include "vtkSchlierenFiltersModule.h" // for export macro
+
+#include <string> // for std::string
+#include <vector> // for std::vector
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -49,23 +54,37 @@ public:
   {
     GLADSTONE_DALE = 0,   ///< N = K rho (Gladstone & Dale 1863); array 0 is the density rho
     REFRACTIVE_INDEX = 1, ///< N = n - 1; array 1 is n
-    REFRACTIVITY = 2      ///< array 1 is N
+    REFRACTIVITY = 2,     ///< array 1 is N
+    /// N = rho sum K_i Y_i: array 0 is rho, and see AddMixtureArray
+    GLADSTONE_DALE_MIXTURE = 3,
+    /// Moist air (Ciddor 1996): arrays 2, 3 and 4 are temperature, pressure and humidity
+    CIDDOR = 4
   };
 
   /// The arrays that SetInputArrayToProcess can choose.
   enum InputArrays
   {
     DENSITY = 0,
-    INDEX_ARRAY = 1
+    INDEX_ARRAY = 1,
+    TEMPERATURE = 2,
+    PRESSURE = 3,
+    HUMIDITY = 4 ///< not chosen, "" or "None": RelativeHumidity
+  };
+
+  /// What the mixture's arrays are fractions of.
+  enum FractionTypes
+  {
+    MASS = 0,
+    VOLUME = 1 ///< or of moles
   };
 
   ///@{
   /**
    * How the refractivity is found from the arrays, one of IndexModels. Default: GLADSTONE_DALE.
-   * The arrays are chosen with SetInputArrayToProcess (0: density, 1: index or refractivity); a name
-   * that is not found with the association given is looked for with the other one.
+   * The arrays are chosen with SetInputArrayToProcess, see InputArrays; names that are not found with
+   * the association given (by the first array of a model) are looked for with the other one.
    */
-  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, REFRACTIVITY);
+  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, CIDDOR);
   vtkGetMacro(IndexModel, int);
   ///@}
 
@@ -85,6 +104,97 @@ public:
   vtkSetMacro(DensityScale, double);
   vtkGetMacro(DensityScale, double);
   ///@}
+
+  ///@{
+  /**
+   * For mixtures: the arrays with the fractions of the species, of the same association as the
+   * density. What they leave of 1 is the background gas. Default: none.
+   */
+  virtual void AddMixtureArray(const char* name);
+  virtual void ClearMixtureArrays();
+  VTK_WRAPEXCLUDE const std::vector<std::string>& GetMixtureArrays() const
+  {
+    return this->MixtureArrays;
+  }
+  ///@}
+
+  ///@{
+  /**
+   * For mixtures: the species' Gladstone-Dale constants in m^3/kg, one for each array, not negative.
+   */
+  virtual void AddMixtureConstant(double constant);
+  virtual void ClearMixtureConstants();
+  VTK_WRAPEXCLUDE const std::vector<double>& GetMixtureConstants() const
+  {
+    return this->MixtureConstants;
+  }
+  ///@}
+
+  ///@{
+  /**
+   * For mixtures of which volume fractions are given: the species' molar masses in kg/mol, one for
+   * each array, positive.
+   */
+  virtual void AddMixtureMolarMass(double molarMass);
+  virtual void ClearMixtureMolarMasses();
+  VTK_WRAPEXCLUDE const std::vector<double>& GetMixtureMolarMasses() const
+  {
+    return this->MixtureMolarMasses;
+  }
+  ///@}
+
+  ///@{
+  /**
+   * For mixtures: the background gas's Gladstone-Dale constant in m^3/kg (default: 2.26e-4, air) and
+   * molar mass in kg/mol (default: 0.0289647, air; for volume fractions).
+   */
+  vtkSetMacro(BackgroundConstant, double);
+  vtkGetMacro(BackgroundConstant, double);
+  vtkSetMacro(BackgroundMolarMass, double);
+  vtkGetMacro(BackgroundMolarMass, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the mixture's arrays are fractions of, one of FractionTypes. Default: MASS.
+   */
+  vtkSetClampMacro(FractionType, int, MASS, VOLUME);
+  vtkGetMacro(FractionType, int);
+  ///@}
+
+  ///@{
+  /**
+   * Factors that turn the arrays of temperature and pressure into K and Pa. Default: 1.
+   */
+  vtkSetMacro(TemperatureScale, double);
+  vtkGetMacro(TemperatureScale, double);
+  vtkSetMacro(PressureScale, double);
+  vtkGetMacro(PressureScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * For moist air: the relative humidity, 0 to 1, where no array of it is chosen (default: 0), and the
+   * carbon dioxide in parts per million (default: 450).
+   */
+  vtkSetMacro(RelativeHumidity, double);
+  vtkGetMacro(RelativeHumidity, double);
+  vtkSetMacro(CO2, double);
+  vtkGetMacro(CO2, double);
+  ///@}
+
+  ///@{
+  /**
+   * Wavelength of the light in vacuum, nanometres; for moist air 300 to 1700. Default: 632.8.
+   */
+  vtkSetMacro(Wavelength, double);
+  vtkGetMacro(Wavelength, double);
+  ///@}
+
+  /**
+   * Whether an array is chosen for the humidity.
+   */
+  bool HasHumidityArray();
 
   ///@{
   /**
@@ -122,11 +232,12 @@ public:
   VTK_WRAPEXCLUDE void ComputeGrid(vtkDataObject* input, vtkImageData* structure);
 
   /**
-   * What the filter does, without a pipeline: fills `output` from `input`. Throws
-   * std::runtime_error with a message for the user, and std::bad_alloc; `output` is then undefined.
-   * If AbortExecute is set on the way, it returns early with an empty output.
+   * What the filter does, without a pipeline: fills `output` from `input`. Returns what the user
+   * should be warned of, mostly nothing. Throws std::runtime_error with a message for the user, and
+   * std::bad_alloc; `output` is then undefined. If AbortExecute is set on the way, it returns early
+   * with an empty output.
    */
-  VTK_WRAPEXCLUDE void Convert(vtkDataObject* input, vtkImageData* output);
+  VTK_WRAPEXCLUDE std::string Convert(vtkDataObject* input, vtkImageData* output);
 
 protected:
   vtkRefractiveIndex();
@@ -147,6 +258,17 @@ private:
   int IndexModel = GLADSTONE_DALE;
   double GladstoneDaleConstant = 2.26e-4;
   double DensityScale = 1;
+  std::vector<std::string> MixtureArrays;
+  std::vector<double> MixtureConstants;
+  std::vector<double> MixtureMolarMasses;
+  double BackgroundConstant = 2.26e-4;
+  double BackgroundMolarMass = 0.0289647;
+  int FractionType = MASS;
+  double TemperatureScale = 1;
+  double PressureScale = 1;
+  double RelativeHumidity = 0;
+  double CO2 = 450;
+  double Wavelength = 632.8;
   int SamplingDimensions[3] = { 0, 0, 0 };
   bool DoublePrecision = false;
   int NumberOfThreads = 0;

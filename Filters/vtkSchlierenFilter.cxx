@@ -390,7 +390,7 @@ int vtkSchlierenFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInform
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::PassArraySelections()
 {
-  for (const int index : { vtkRefractiveIndex::DENSITY, vtkRefractiveIndex::INDEX_ARRAY })
+  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::HUMIDITY; ++index)
   {
     vtkInformation* selection = this->GetInputArrayInformation(index);
     if (!sameSelection(selection, this->Medium->GetInputArrayInformation(index)))
@@ -430,10 +430,14 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
   inside.MediumTime = 0;
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  this->Medium->Convert(input, inside.Refractivity);
+  const std::string warning = this->Medium->Convert(input, inside.Refractivity);
   if (this->Medium->GetAbortExecute())
   {
     return false;
+  }
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
   }
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();

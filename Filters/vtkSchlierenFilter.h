@@ -81,11 +81,25 @@ public:
   ///@{
   /**
    * The medium: see vtkRefractiveIndex. The arrays are chosen with SetInputArrayToProcess in the same
-   * way (0: density, 1: index or refractivity).
+   * way (vtkRefractiveIndex::InputArrays).
    */
   vtkSchlierenMediumMacro(IndexModel, int);
   vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
   vtkSchlierenMediumMacro(DensityScale, double);
+  virtual void AddMixtureArray(const char* name) { this->Medium->AddMixtureArray(name); }
+  virtual void ClearMixtureArrays() { this->Medium->ClearMixtureArrays(); }
+  virtual void AddMixtureConstant(double value) { this->Medium->AddMixtureConstant(value); }
+  virtual void ClearMixtureConstants() { this->Medium->ClearMixtureConstants(); }
+  virtual void AddMixtureMolarMass(double value) { this->Medium->AddMixtureMolarMass(value); }
+  virtual void ClearMixtureMolarMasses() { this->Medium->ClearMixtureMolarMasses(); }
+  vtkSchlierenMediumMacro(BackgroundConstant, double);
+  vtkSchlierenMediumMacro(BackgroundMolarMass, double);
+  vtkSchlierenMediumMacro(FractionType, int);
+  vtkSchlierenMediumMacro(TemperatureScale, double);
+  vtkSchlierenMediumMacro(PressureScale, double);
+  vtkSchlierenMediumMacro(RelativeHumidity, double);
+  vtkSchlierenMediumMacro(CO2, double);
+  vtkSchlierenMediumMacro(Wavelength, double);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {
     this->Medium->SetSamplingDimensions(x, y, z);

@@ -8,7 +8,10 @@ from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, 
 source = gaussian_column(32)
 
 MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "DensityScale": 1.0,
-          "SamplingDimensions": [0, 0, 0]}
+          "SamplingDimensions": [0, 0, 0], "MixtureArrays": [], "MixtureConstants": [],
+          "MixtureMolarMasses": [], "BackgroundConstant": 2.26e-4, "BackgroundMolarMass": 0.0289647,
+          "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
+          "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8}
 BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
@@ -16,7 +19,9 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "ScreenDistance": -1.0, "StepSize": 1.0, "Interpolation": "Quadratic",
          "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1, "Device": "Auto",
          "NumberOfThreads": 0}
-TEXTS = {"IndexModel": {"Gladstone-Dale", "Refractive Index", "Refractivity"},
+TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
+                        "Refractivity"},
+         "FractionType": {"Mass", "Volume"},
          "Cutoff": {"Knife Edge", "Shadowgraph"}, "Interpolation": {"Quadratic", "Linear"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
 
@@ -27,7 +32,7 @@ for proxy, defaults in ((refractivity, MEDIUM), (bench, {**MEDIUM, **BENCH})):
         actual = getattr(proxy, name)
         actual = list(actual) if isinstance(value, list) else actual
         assert actual == value, f"{name} is {actual}, not {value}"
-    for name in ("Density", "IndexArray"):
+    for name in ("Density", "Temperature", "Pressure", "Humidity", "IndexArray"):
         assert len(getattr(proxy, name)) == 2, name
 for name, texts in TEXTS.items():
     assert set(bench.GetProperty(name).Available) == texts, name

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+class vtkRefractiveIndex;
+
+/// What the refractivity is at one point or cell, given what the arrays hold there. But for Linear, a
+/// model says three things:
+///   refractivity(values)  N; NaN where there can be no such gas
+///   isDoubtful(values)    whether the user should hear of it
+///   warning(share)        what the user should hear, where the share is text such as "12 %"
+namespace refractivity
+{
+
+/// Of the only array. Kept apart from the others because it can be fast.
+struct Linear
+{
+  double scale = 1;
+  double offset = 0;
+};
+
+/// Of the density and the fractions of the species.
+struct GasMixture
+{
+  schlieren::Mixture mixture;
+  double densityScale;
+  bool ofVolumes; // else of masses
+
+  double refractivity(const double* values) const;
+  bool isDoubtful(const double* values) const;
+  std::string warning(const std::string& share) const;
+};
+
+/// Of temperature, pressure and, if hasHumidity, relative humidity.
+struct CiddorAir
+{
+  schlieren::MoistAir air;
+  double temperatureScale, pressureScale;
+  bool hasHumidity;
+  double relativeHumidity; // where it has not
+
+  double refractivity(const double* values) const;
+  bool isDoubtful(const double* values) const;
+  std::string warning(const std::string& share) const;
+};
+
+/// All models. The arrays that each one takes are in RefractivitySource.cxx.
+using Model = std::variant<Linear, GasMixture, CiddorAir>;
+
+/// The model that was chosen. Throws std::runtime_error where its properties make no sense.
+Model modelFrom(vtkRefractiveIndex* self);
+
+/// How many of the points or cells that have values are doubtful.
+struct Tally
+{
+  long long all = 0;
+  long long doubtful = 0;
+
+  Tally& operator+=(const Tally& other);
+};
+
+/// What to warn the user of; empty where nothing is doubtful.
+std::string warningFrom(const Model& model, const Tally& tally);
+
+} // namespace refractivity

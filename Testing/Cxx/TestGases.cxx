@@ -1,0 +1,523 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The index models that take several arrays: mixtures of gases, and moist air.
+#include "Fixtures.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Schlieren.h"
+
+#include <limits>
+#include <ostream>
+
+namespace
+{
+
+constexpr double helium = 1.95e-4;       // K, m^3/kg
+constexpr double heliumMass = 0.0040026; // kg/mol
+constexpr double air = 2.26e-4;          // K, m^3/kg
+constexpr double airMass = 0.0289647;    // kg/mol
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double celsius = 273.15;
+
+double density(const Vec& x) { return 1.2 + 0.3 * x[0]; }
+double fraction(const Vec& x) { return 0.5 + 0.4 * x[1]; }
+double temperature(const Vec& x) { return 290 + 10 * x[2]; }
+double pressure(const Vec& x) { return 100e3 + 5e3 * x[0]; }
+double humidity(const Vec& x) { return 0.5 + 0.5 * x[1]; }
+
+using AddArray = std::function<void(const char*, const ScalarField&)>;
+
+void addAll(const AddArray& add)
+{
+  add("rho", density);
+  add("Y_He", fraction);
+  add("T", temperature);
+  add("p", pressure);
+  add("RH", humidity);
+}
+
+vtkSmartPointer<vtkImageData> flow(int points = 9)
+{
+  auto image = cube(points);
+  addAll([&](const char* name, const ScalarField& field) { addPointArray(image, name, field); });
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> flowInCells(int points = 9)
+{
+  auto image = cube(points);
+  addAll([&](const char* name, const ScalarField& field) { addCellArray(image, name, field); });
+  return image;
+}
+
+void choose(vtkAlgorithm* filter, int index, const char* name)
+{
+  filter->SetInputArrayToProcess(index, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+}
+
+template <class Filter>
+void chooseMixture(Filter* filter)
+{
+  filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
+  choose(filter, vtkRefractiveIndex::DENSITY, "rho");
+  filter->AddMixtureArray("Y_He");
+  filter->AddMixtureConstant(helium);
+}
+
+template <class Filter>
+void chooseCiddor(Filter* filter)
+{
+  filter->SetIndexModel(vtkRefractiveIndex::CIDDOR);
+  choose(filter, vtkRefractiveIndex::TEMPERATURE, "T");
+  choose(filter, vtkRefractiveIndex::PRESSURE, "p");
+}
+
+vtkSmartPointer<vtkRefractiveIndex> doublePrecision(vtkDataObject* input)
+{
+  auto filter = vtkSmartPointer<vtkRefractiveIndex>::New();
+  filter->SetInputDataObject(input);
+  filter->DoublePrecisionOn();
+  return filter;
+}
+
+vtkSmartPointer<vtkRefractiveIndex> mixture(vtkDataObject* input)
+{
+  auto filter = doublePrecision(input);
+  chooseMixture(filter.Get());
+  return filter;
+}
+
+vtkSmartPointer<vtkRefractiveIndex> ciddor(vtkDataObject* input)
+{
+  auto filter = doublePrecision(input);
+  chooseCiddor(filter.Get());
+  return filter;
+}
+
+double ciddorOf(const Vec& x, double relativeHumidity)
+{
+  return schlieren::ciddorRefractivity(
+    temperature(x), pressure(x), relativeHumidity, 450, 632.8e-9);
+}
+
+double mixtureOf(const Vec& x)
+{
+  return density(x) * (helium * fraction(x) + air * (1 - fraction(x)));
+}
+
+/// The largest error of N anywhere on the output's grid, relative to the truth; all points are valid.
+double largestError(vtkRefractiveIndex* filter, const ScalarField& truth)
+{
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* n = arrayOf(filter, "Refractivity");
+  if (!n || n->GetNumberOfTuples() == 0)
+  {
+    return HUGE_VAL;
+  }
+  double error = 0;
+  for (vtkIdType i = 0; i < n->GetNumberOfTuples(); ++i)
+  {
+    Vec x;
+    image->GetPoint(i, x.data());
+    EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(i, 0), 1);
+    error = std::max(error, std::abs(n->GetComponent(i, 0) / truth(x) - 1));
+  }
+  return error;
+}
+
+constexpr double rounding = 1e-15;
+
+} // namespace
+
+// Merzkirch 1987: every gas refracts as if alone, N = rho (K_He Y + K_air (1 - Y)).
+TEST(Mixture, OfTwoGasesByMass) { EXPECT_LT(largestError(mixture(flow()), mixtureOf), rounding); }
+
+TEST(Mixture, DensityScaleAndBackgroundCount)
+{
+  auto filter = mixture(flow());
+  filter->SetDensityScale(3);
+  filter->SetBackgroundConstant(2e-4);
+  EXPECT_LT(largestError(filter,
+              [](const Vec& x)
+              { return 3 * density(x) * (helium * fraction(x) + 2e-4 * (1 - fraction(x))); }),
+    rounding);
+}
+
+// Two species and a background.
+TEST(Mixture, OfThreeGases)
+{
+  auto image = flow();
+  addPointArray(image, "Y_CO2", [](const Vec& x) { return 0.05 + 0.05 * x[2]; });
+  auto filter = mixture(image);
+  filter->AddMixtureArray("Y_CO2");
+  filter->AddMixtureConstant(2.3e-4);
+  EXPECT_LT(largestError(filter,
+              [](const Vec& x)
+              {
+                const double second = 0.05 + 0.05 * x[2];
+                return density(x) *
+                  (helium * fraction(x) + 2.3e-4 * second + air * (1 - fraction(x) - second));
+              }),
+    rounding);
+}
+
+// Volumes weigh by molar mass: half helium, half air has K = 2.22e-4, not the mean 2.105e-4.
+TEST(Mixture, OfVolumes)
+{
+  auto filter = mixture(flow());
+  filter->SetFractionType(vtkRefractiveIndex::VOLUME);
+  filter->AddMixtureMolarMass(heliumMass);
+  EXPECT_LT(largestError(filter,
+              [](const Vec& x)
+              {
+                const double light = heliumMass * fraction(x);
+                const double heavy = airMass * (1 - fraction(x));
+                return density(x) * (helium * light + air * heavy) / (light + heavy);
+              }),
+    rounding);
+  filter->Update();
+  const vtkIdType centre = 364; // rho = 1.2, X = 1/2
+  EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(centre, 0), 1.2 * 2.22e-4, 1.2 * 3e-7);
+}
+
+TEST(Mixture, OfCells) { EXPECT_LT(largestError(mixture(flowInCells()), mixtureOf), rounding); }
+
+TEST(Mixture, IsWhatTheBenchSees)
+{
+  auto image = flow(24);
+  addPointArray(image, "N", mixtureOf);
+  auto reference = bench(image);
+  reference->Update();
+  auto filter = bench(image);
+  chooseMixture(filter.Get());
+  filter->Update();
+  EXPECT_LT(
+    relativeDifference(valuesOf(filter, "Deflection"), valuesOf(reference, "Deflection")), 1e-5);
+}
+
+// N is formed at the points of the mesh, where rho and Y are given, and then interpolated: between
+// them it is linear along each axis, which the product of interpolated rho and Y would not be.
+TEST(Mixture, OfAMeshIsFormedBeforeItIsResampled)
+{
+  auto image = cube(2);
+  const ScalarField along = [](const Vec& x) { return 1 + 0.5 * x[0]; };
+  addPointArray(image, "rho", along);
+  addPointArray(image, "Y_He", [](const Vec& x) { return 0.5 + 0.5 * x[0]; });
+  vtkNew<vtkAppendFilter> mesh;
+  mesh->SetInputData(image);
+  mesh->Update();
+  auto filter = mixture(mesh->GetOutput());
+  filter->SetSamplingDimensions(5, 5, 5);
+  EXPECT_LT(
+    largestError(filter,
+      [](const Vec& x) { return air * 0.5 * (1 - x[0]) / 2 + helium * 1.5 * (1 + x[0]) / 2; }),
+    1e-12);
+}
+
+TEST(Mixture, OfBlocksThatHaveAllArrays)
+{
+  auto left = flow(), right = flow(), without = flow(), cells = flowInCells();
+  right->SetOrigin(1, -1, -1);
+  cells->SetOrigin(3, -1, -1);
+  without->SetOrigin(5, -1, -1);
+  without->GetPointData()->RemoveArray("Y_He");
+  for (vtkImageData* image : { left.Get(), right.Get() })
+  {
+    addPointArray(image, "rho", [](const Vec&) { return 1.2; });
+    addPointArray(image, "Y_He", [](const Vec&) { return 0.25; });
+  }
+  addCellArray(cells, "rho", [](const Vec&) { return 1.2; });
+  addCellArray(cells, "Y_He", [](const Vec&) { return 0.25; });
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, left);
+  blocks->SetBlock(1, right);
+  blocks->SetBlock(2, cells);
+  blocks->SetBlock(3, without);
+  auto filter = mixture(blocks);
+  filter->SetSamplingDimensions(61, 5, 5);
+  EXPECT_LT(
+    largestError(filter, [](const Vec&) { return 1.2 * (0.25 * helium + 0.75 * air); }), 1e-12);
+  EXPECT_EQ(arrayOf(filter, "Refractivity")->GetNumberOfTuples(), 61 * 25);
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_NEAR(image->GetBounds()[1], 5, 1e-4); // not 7: the last block is left out
+}
+
+TEST(Mixture, ThatExceedsOneIsWarnedOfOnce)
+{
+  auto image = flow();
+  vtkDataArray* y = image->GetPointData()->GetArray("Y_He");
+  y->SetComponent(0, 0, 1.005); // rounding
+  y->SetComponent(1, 0, 1.02);
+  y->SetComponent(2, 0, notANumber);
+  auto filter = mixture(image);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty());
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("0.137 %"), std::string::npos) // 1 of 728
+    << complaints->Warnings[0];
+  EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(1, 0), 1);
+  EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(2, 0), 0);
+}
+
+TEST(Ciddor, AgreesWithNistInDryAir)
+{
+  auto image = cube(4);
+  addPointArray(image, "T", [](const Vec&) { return celsius + 20; });
+  addPointArray(image, "p", [](const Vec&) { return 101325; });
+  auto filter = ciddor(image);
+  filter->SetWavelength(633);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(0, 0), 2.71800e-4, 2e-9);
+  EXPECT_LT(largestError(filter,
+              [](const Vec&)
+              { return schlieren::ciddorRefractivity(celsius + 20, 101325, 0, 450, 633e-9); }),
+    rounding);
+  EXPECT_TRUE(complaints->Warnings.empty());
+}
+
+TEST(Ciddor, OfFields)
+{
+  EXPECT_LT(largestError(ciddor(flow()), [](const Vec& x) { return ciddorOf(x, 0); }), rounding);
+  EXPECT_LT(
+    largestError(ciddor(flowInCells()), [](const Vec& x) { return ciddorOf(x, 0); }), 1e-14);
+}
+
+TEST(Ciddor, HumidityIsAnArrayOrANumber)
+{
+  auto filter = ciddor(flow());
+  filter->SetRelativeHumidity(0.8);
+  EXPECT_LT(largestError(filter, [](const Vec& x) { return ciddorOf(x, 0.8); }), rounding);
+  choose(filter, vtkRefractiveIndex::HUMIDITY, "RH");
+  EXPECT_LT(largestError(filter, [](const Vec& x) { return ciddorOf(x, humidity(x)); }), rounding);
+  choose(filter, vtkRefractiveIndex::HUMIDITY, "None");
+  EXPECT_LT(largestError(filter, [](const Vec& x) { return ciddorOf(x, 0.8); }), rounding);
+}
+
+TEST(Ciddor, ScalesCarbonDioxideAndWavelengthCount)
+{
+  auto image = cube(4);
+  addPointArray(image, "T", [](const Vec&) { return 293.15 * 1.8; }); // degrees Rankine
+  addPointArray(image, "p", [](const Vec&) { return 1013.25; });      // hPa
+  auto filter = ciddor(image);
+  filter->SetTemperatureScale(1 / 1.8);
+  filter->SetPressureScale(100);
+  filter->SetCO2(600);
+  filter->SetWavelength(532);
+  EXPECT_LT(
+    largestError(filter,
+      [](const Vec&) { return schlieren::ciddorRefractivity(293.15, 101325, 0, 600, 532e-9); }),
+    1e-14);
+}
+
+TEST(Ciddor, OfAMesh)
+{
+  auto image = flow();
+  vtkNew<vtkAppendFilter> mesh;
+  mesh->SetInputData(image);
+  mesh->Update();
+  auto filter = ciddor(mesh->GetOutput());
+  filter->SetSamplingDimensions(9, 9, 9);
+  EXPECT_LT(largestError(filter, [](const Vec& x) { return ciddorOf(x, 0); }), 1e-4);
+}
+
+// The second update uses what there is, and repeats nothing.
+TEST(Ciddor, OutsideItsRangeIsWarnedOfOnce)
+{
+  auto image = flow(10);
+  vtkDataArray* t = image->GetPointData()->GetArray("T");
+  for (int i = 0; i < 250; ++i)
+  {
+    t->SetComponent(i, 0, 1500);
+  }
+  auto filter = bench(image);
+  chooseCiddor(filter.Get());
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  filter->SetKnifeEdgeAngle(90);
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty());
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("25 %"), std::string::npos) << complaints->Warnings[0];
+  EXPECT_FALSE(isEmpty(filter));
+}
+
+// A temperature that cannot be is a solid, not a hole in the sums.
+TEST(Ciddor, NoSuchGasIsSolid)
+{
+  auto image = flow();
+  image->GetPointData()->GetArray("T")->SetComponent(5, 0, 0);
+  auto filter = ciddor(image);
+  filter->Update();
+  EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(5, 0), 0);
+  EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(6, 0), 1);
+}
+
+// What RefractiveIndex has made is used as it stands, whatever the second filter's model.
+TEST(Gases, AComputedRefractivityIsHandedOn)
+{
+  auto first = ciddor(flow());
+  first->Update();
+  auto second = mixture(first->GetOutputDataObject(0));
+  second->Update();
+  EXPECT_EQ(valuesOf(second, "Refractivity"), valuesOf(first, "Refractivity"));
+}
+
+namespace
+{
+
+using Index = vtkRefractiveIndex;
+
+struct Mistake
+{
+  const char* name;
+  bool ofCiddor;
+  std::function<void(Index*)> make;
+  std::vector<std::string> words;
+  std::function<void(Index*)> correct;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+void addSecond(Index* f, const char* name)
+{
+  f->AddMixtureArray(name);
+  f->AddMixtureConstant(air);
+}
+
+void backToOne(Index* f)
+{
+  f->ClearMixtureArrays();
+  f->ClearMixtureConstants();
+  f->AddMixtureArray("Y_He");
+  f->AddMixtureConstant(helium);
+}
+
+void setConstant(Index* f, double constant)
+{
+  f->ClearMixtureConstants();
+  f->AddMixtureConstant(constant);
+}
+
+void setMolarMass(Index* f, double molarMass)
+{
+  f->SetFractionType(Index::VOLUME);
+  f->ClearMixtureMolarMasses();
+  f->AddMixtureMolarMass(molarMass);
+}
+
+void correctMolarMass(Index* f) { setMolarMass(f, heliumMass); }
+
+std::vector<Mistake> mistakes()
+{
+  return {
+    { "NoSuchFraction", false, [](Index* f) { addSecond(f, "Y_Ar"); },
+      { "no array 'Y_Ar'", "MixtureArrays", "rho", "Y_He" }, backToOne },
+    { "NoSuchDensity", false, [](Index* f) { choose(f, Index::DENSITY, "RHO"); },
+      { "no array 'RHO'", "Density", "Y_He" }, [](Index* f) { choose(f, Index::DENSITY, "rho"); } },
+    { "FractionsOfCells", false, [](Index* f) { addSecond(f, "Y_cells"); },
+      { "points (Density 'rho', MixtureArrays 'Y_He')", "cells (MixtureArrays 'Y_cells')" },
+      backToOne },
+    { "Vectors", false, [](Index* f) { addSecond(f, "U"); },
+      { "'U' has 3 components", "MixtureArrays" }, backToOne },
+    { "NoArrays", false, [](Index* f) { f->ClearMixtureArrays(); },
+      { "MixtureArrays is empty", "Gladstone-Dale" }, backToOne },
+    { "NoConstants", false, [](Index* f) { f->ClearMixtureConstants(); },
+      { "1 arrays", "MixtureConstants", "0 values" }, backToOne },
+    { "TooManyConstants", false, [](Index* f) { f->AddMixtureConstant(1e-4); },
+      { "1 arrays", "MixtureConstants", "2 values" }, backToOne },
+    { "NegativeConstant", false, [](Index* f) { setConstant(f, -1e-4); },
+      { "MixtureConstants", "-0.0001", "negative" }, backToOne },
+    { "NanConstant", false, [](Index* f) { setConstant(f, notANumber); },
+      { "MixtureConstants", "finite" }, backToOne },
+    { "NegativeBackground", false, [](Index* f) { f->SetBackgroundConstant(-1); },
+      { "BackgroundConstant", "negative" }, [](Index* f) { f->SetBackgroundConstant(air); } },
+    { "NanDensityScale", false, [](Index* f) { f->SetDensityScale(notANumber); },
+      { "DensityScale", "finite" }, [](Index* f) { f->SetDensityScale(1); } },
+    { "NoMolarMasses", false, [](Index* f) { f->SetFractionType(Index::VOLUME); },
+      { "MixtureMolarMasses", "kg/mol" }, correctMolarMass },
+    { "TooManyMolarMasses", false,
+      [](Index* f)
+      {
+        setMolarMass(f, heliumMass);
+        f->AddMixtureMolarMass(airMass);
+      },
+      { "MixtureMolarMasses", "2 values" }, correctMolarMass },
+    { "ZeroMolarMass", false, [](Index* f) { setMolarMass(f, 0); },
+      { "MixtureMolarMasses", "positive" }, correctMolarMass },
+    { "NanBackgroundMolarMass", false,
+      [](Index* f)
+      {
+        setMolarMass(f, heliumMass);
+        f->SetBackgroundMolarMass(notANumber);
+      },
+      { "BackgroundMolarMass", "finite" }, [](Index* f) { f->SetBackgroundMolarMass(airMass); } },
+    { "NoTemperature", true, [](Index* f) { choose(f, Index::TEMPERATURE, ""); },
+      { "No array is chosen for Temperature", "p" },
+      [](Index* f) { choose(f, Index::TEMPERATURE, "T"); } },
+    { "NoSuchPressure", true, [](Index* f) { choose(f, Index::PRESSURE, "P"); },
+      { "no array 'P'", "Pressure", "T" }, [](Index* f) { choose(f, Index::PRESSURE, "p"); } },
+    { "NoSuchHumidity", true, [](Index* f) { choose(f, Index::HUMIDITY, "dew"); },
+      { "no array 'dew'", "Humidity" }, [](Index* f) { choose(f, Index::HUMIDITY, "RH"); } },
+    { "HumidityInPercent", true, [](Index* f) { f->SetRelativeHumidity(50); },
+      { "RelativeHumidity is 50", "between 0 and 1" },
+      [](Index* f) { f->SetRelativeHumidity(0.5); } },
+    { "NanHumidity", true, [](Index* f) { f->SetRelativeHumidity(notANumber); },
+      { "RelativeHumidity" }, [](Index* f) { f->SetRelativeHumidity(0); } },
+    { "NegativeCarbonDioxide", true, [](Index* f) { f->SetCO2(-1); }, { "CO2 is -1" },
+      [](Index* f) { f->SetCO2(0); } },
+    { "WavelengthInMetres", true, [](Index* f) { f->SetWavelength(632.8e-9); },
+      { "Wavelength", "300 and 1700 nm" }, [](Index* f) { f->SetWavelength(632.8); } },
+    { "NanWavelength", true, [](Index* f) { f->SetWavelength(notANumber); }, { "Wavelength", "nm" },
+      [](Index* f) { f->SetWavelength(300); } },
+    { "NanTemperatureScale", true, [](Index* f) { f->SetTemperatureScale(notANumber); },
+      { "TemperatureScale", "finite" }, [](Index* f) { f->SetTemperatureScale(1); } },
+    { "InfinitePressureScale", true, [](Index* f) { f->SetPressureScale(HUGE_VAL); },
+      { "PressureScale", "finite" }, [](Index* f) { f->SetPressureScale(1); } },
+  };
+}
+
+class GasMistakes : public testing::TestWithParam<Mistake>
+{
+};
+
+} // namespace
+
+TEST_P(GasMistakes, OneMessageAnEmptyImageAndThenAllIsWell)
+{
+  const Mistake& mistake = GetParam();
+  auto image = flow();
+  addCellArray(image, "Y_cells", fraction);
+  vtkNew<vtkDoubleArray> vectors;
+  vectors->SetName("U");
+  vectors->SetNumberOfComponents(3);
+  vectors->SetNumberOfTuples(image->GetNumberOfPoints());
+  image->GetPointData()->AddArray(vectors);
+
+  auto filter = mistake.ofCiddor ? ciddor(image) : mixture(image);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  mistake.make(filter);
+  filter->Update();
+  EXPECT_TRUE(isEmpty(filter));
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_TRUE(complaints->Warnings.empty());
+  for (const std::string& word : mistake.words)
+  {
+    EXPECT_NE(complaints->Errors[0].find(word), std::string::npos)
+      << "no '" << word << "' in: " << complaints->Errors[0];
+  }
+
+  mistake.correct(filter);
+  filter->Update();
+  EXPECT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_FALSE(isEmpty(filter));
+}
+
+INSTANTIATE_TEST_SUITE_P(Gases, GasMistakes, testing::ValuesIn(mistakes()),
+  [](const testing::TestParamInfo<Mistake>& mistake) { return mistake.param.name; });
