@@ -247,6 +247,22 @@ TEST(Mixture, OfBlocksThatHaveAllArrays)
   EXPECT_NEAR(image->GetBounds()[1], 5, 1e-4); // not 7: the last block is left out
 }
 
+TEST(Mixture, OfBlocksThatHaveOneArrayEachIsAMistake)
+{
+  auto first = flow(), second = flow();
+  first->GetPointData()->RemoveArray("Y_He");
+  second->GetPointData()->RemoveArray("rho");
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, first);
+  blocks->SetBlock(1, second);
+  auto filter = mixture(blocks);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("No block"), std::string::npos) << complaints->Errors[0];
+  EXPECT_TRUE(isEmpty(filter));
+}
+
 TEST(Mixture, ThatExceedsOneIsWarnedOfOnce)
 {
   auto image = flow();
