@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
-#include "vtkCellArray.h"
+#include "InputDescription.h"
+
 #include "vtkCommand.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -17,15 +16,11 @@
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
-#include "vtkStructuredGrid.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include "Schlieren.h"
 
@@ -59,78 +54,6 @@ namespace
 
 /// Share of the progress bar that belongs to finding the refractivity.
 constexpr double mediumShare = 0.2;
-
-/// Everything that a dataset's refractivity may depend on, so that equal numbers mean equal data: times
-/// of its arrays, and its geometry. Not the dataset's own time, which is a new one whenever a filter
-/// upstream hands the same arrays on (that it was modified in place, the time of the pipeline tells).
-void describe(vtkDataSet* data, std::vector<double>& description)
-{
-  const auto addTime = [&description](vtkObject* object)
-  { description.push_back(object ? static_cast<double>(object->GetMTime()) : 0); };
-  for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* attributes = data->GetAttributes(association);
-    description.push_back(attributes->GetNumberOfArrays());
-    addTime(attributes->GetScalars());
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-    {
-      addTime(attributes->GetAbstractArray(i));
-    }
-  }
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    const int* extent = image->GetExtent();
-    description.insert(description.end(), extent, extent + 6);
-    description.insert(description.end(), image->GetOrigin(), image->GetOrigin() + 3);
-    description.insert(description.end(), image->GetSpacing(), image->GetSpacing() + 3);
-    const double* direction = image->GetDirectionMatrix()->GetData();
-    description.insert(description.end(), direction, direction + 9);
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
-  {
-    addTime(rectilinear->GetXCoordinates());
-    addTime(rectilinear->GetYCoordinates());
-    addTime(rectilinear->GetZCoordinates());
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
-  {
-    const int* extent = structured->GetExtent();
-    description.insert(description.end(), extent, extent + 6);
-    addTime(structured->GetPoints());
-  }
-  else if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(data))
-  {
-    addTime(unstructured->GetPoints());
-    addTime(unstructured->GetCells());
-    addTime(unstructured->GetCellTypesArray());
-  }
-  else
-  {
-    addTime(data);
-  }
-}
-
-/// `pipelineTime`: the newest time of everything upstream.
-std::vector<double> describe(vtkDataObject* input, vtkMTimeType pipelineTime)
-{
-  std::vector<double> description{ static_cast<double>(pipelineTime) };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
-  {
-    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      if (auto* leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
-      {
-        describe(leaf, description);
-      }
-    }
-  }
-  else if (auto* data = vtkDataSet::SafeDownCast(input))
-  {
-    describe(data, description);
-  }
-  return description;
-}
 
 /// Whether two array selections say the same.
 bool sameSelection(vtkInformation* a, vtkInformation* b)
@@ -422,7 +345,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describe(input, this->GetUpstreamTime());
+  std::vector<double> description = describeInput(input, this->GetUpstreamTime());
   if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
   {
     return true;

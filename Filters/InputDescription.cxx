@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InputDescription.h"
+
+#include "vtkCellArray.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkPoints.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace
+{
+
+void describe(vtkDataSet* data, std::vector<double>& description)
+{
+  const auto addTime = [&description](vtkObject* object)
+  { description.push_back(object ? static_cast<double>(object->GetMTime()) : 0); };
+  for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(association);
+    description.push_back(attributes->GetNumberOfArrays());
+    addTime(attributes->GetScalars());
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      addTime(attributes->GetAbstractArray(i));
+    }
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    const int* extent = image->GetExtent();
+    description.insert(description.end(), extent, extent + 6);
+    description.insert(description.end(), image->GetOrigin(), image->GetOrigin() + 3);
+    description.insert(description.end(), image->GetSpacing(), image->GetSpacing() + 3);
+    const double* direction = image->GetDirectionMatrix()->GetData();
+    description.insert(description.end(), direction, direction + 9);
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    addTime(rectilinear->GetXCoordinates());
+    addTime(rectilinear->GetYCoordinates());
+    addTime(rectilinear->GetZCoordinates());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    const int* extent = structured->GetExtent();
+    description.insert(description.end(), extent, extent + 6);
+    addTime(structured->GetPoints());
+  }
+  else if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    addTime(unstructured->GetPoints());
+    addTime(unstructured->GetCells());
+    addTime(unstructured->GetCellTypesArray());
+  }
+  else
+  {
+    addTime(data);
+  }
+}
+
+} // namespace
+
+std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime)
+{
+  std::vector<double> description{ static_cast<double>(pipelineTime) };
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      if (auto* leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
+      {
+        describe(leaf, description);
+      }
+    }
+  }
+  else if (auto* data = vtkDataSet::SafeDownCast(input))
+  {
+    describe(data, description);
+  }
+  return description;
+}

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkType.h"
+
+#include <vector>
+
+class vtkDataObject;
+
+/// Everything that the refractivity of an input may depend on, so that equal numbers mean equal data:
+/// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the
+/// dataset's own time, which is a new one whenever a filter upstream hands the same arrays on.
+std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime);
