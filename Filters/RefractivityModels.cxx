@@ -58,8 +58,9 @@ void requireOneEach(const char* name, std::size_t count, std::size_t species)
 {
   if (count != species)
   {
-    throw std::runtime_error("MixtureArrays names " + std::to_string(species) + " arrays, but " +
-      name + " holds " + std::to_string(count) + " values. Give one for each array.");
+    throw std::runtime_error("MixtureArrays and " + std::string(name) + " differ in length (" +
+      std::to_string(species) + " and " + std::to_string(count) +
+      "). Give one value for each array.");
   }
 }
 

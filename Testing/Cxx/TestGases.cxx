@@ -445,9 +445,9 @@ std::vector<Mistake> mistakes()
     { "NoArrays", false, [](Index* f) { f->ClearMixtureArrays(); },
       { "MixtureArrays is empty", "Gladstone-Dale" }, backToOne },
     { "NoConstants", false, [](Index* f) { f->ClearMixtureConstants(); },
-      { "1 arrays", "MixtureConstants", "0 values" }, backToOne },
+      { "MixtureArrays and MixtureConstants differ in length (1 and 0)" }, backToOne },
     { "TooManyConstants", false, [](Index* f) { f->AddMixtureConstant(1e-4); },
-      { "1 arrays", "MixtureConstants", "2 values" }, backToOne },
+      { "MixtureConstants differ in length (1 and 2)" }, backToOne },
     { "NegativeConstant", false, [](Index* f) { setConstant(f, -1e-4); },
       { "MixtureConstants", "-0.0001", "negative" }, backToOne },
     { "NanConstant", false, [](Index* f) { setConstant(f, notANumber); },
@@ -464,7 +464,7 @@ std::vector<Mistake> mistakes()
         setMolarMass(f, heliumMass);
         f->AddMixtureMolarMass(airMass);
       },
-      { "MixtureMolarMasses", "2 values" }, correctMolarMass },
+      { "MixtureMolarMasses differ in length (1 and 2)" }, correctMolarMass },
     { "ZeroMolarMass", false, [](Index* f) { setMolarMass(f, 0); },
       { "MixtureMolarMasses", "positive" }, correctMolarMass },
     { "NanBackgroundMolarMass", false,
