@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputDescription.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPoints.h"
@@ -66,6 +68,12 @@ void describe(vtkDataSet* data, std::vector<double>& description)
 }
 
 } // namespace
+
+vtkMTimeType upstreamTime(vtkAlgorithm* filter)
+{
+  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(0, 0));
+  return upstream ? upstream->GetPipelineMTime() : 0;
+}
 
 std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime)
 {

@@ -6,7 +6,11 @@
 
 #include <vector>
 
+class vtkAlgorithm;
 class vtkDataObject;
+
+/// The newest time of everything that a filter's first input comes from.
+vtkMTimeType upstreamTime(vtkAlgorithm* filter);
 
 /// Everything that the refractivity of an input may depend on, so that equal numbers mean equal data:
 /// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the

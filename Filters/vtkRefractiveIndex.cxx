@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "InputDescription.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
@@ -271,6 +272,15 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
   vtkImageData* output = vtkImageData::GetData(outInfo);
+
+  // An empty output lets the pipeline ask again and again: one message is enough.
+  const vtkMTimeType now = std::max(this->GetMTime(), upstreamTime(this));
+  if (this->FailedAt == now)
+  {
+    output->Initialize();
+    return 1;
+  }
+
   try
   {
     this->SetAbortExecute(0); // it stays set after an abort
@@ -285,17 +295,18 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
       tellGrid(output, outInfo);
       outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
     }
+    return 1;
   }
   catch (const std::bad_alloc&)
   {
     vtkErrorMacro(<< "There is not enough memory for the refractivity grid. Use a coarser input or "
                      "smaller SamplingDimensions.");
-    output->Initialize();
   }
   catch (const std::exception& problem)
   {
     vtkErrorMacro(<< problem.what());
-    output->Initialize();
   }
+  output->Initialize();
+  this->FailedAt = now;
   return 1;
 }

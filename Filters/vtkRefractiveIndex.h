@@ -255,6 +255,9 @@ private:
   vtkRefractiveIndex(const vtkRefractiveIndex&) = delete;
   void operator=(const vtkRefractiveIndex&) = delete;
 
+  /// Newest time of this filter and of everything upstream when it last failed.
+  vtkMTimeType FailedAt = 0;
+
   int IndexModel = GLADSTONE_DALE;
   double GladstoneDaleConstant = 2.26e-4;
   double DensityScale = 1;

@@ -5,7 +5,6 @@
 #include "InputDescription.h"
 
 #include "vtkCommand.h"
-#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -334,18 +333,11 @@ void vtkSchlierenFilter::OnMediumProgress()
 }
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkSchlierenFilter::GetUpstreamTime()
-{
-  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(0, 0));
-  return upstream ? upstream->GetPipelineMTime() : 0;
-}
-
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describeInput(input, this->GetUpstreamTime());
+  std::vector<double> description = describeInput(input, upstreamTime(this));
   if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
   {
     return true;
@@ -500,7 +492,7 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now = std::max(this->GetMTime(), this->GetUpstreamTime());
+  const vtkMTimeType now = std::max(this->GetMTime(), upstreamTime(this));
   if (this->Inside->FailedAt == now)
   {
     return 1;

@@ -331,8 +331,6 @@ private:
   /// Hands the array selections on to Medium, which changes only if they have.
   void PassArraySelections();
   void OnMediumProgress();
-  /// The newest time of everything upstream.
-  vtkMTimeType GetUpstreamTime();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input);
   /// Makes the picture from the refractivity. False if aborted.

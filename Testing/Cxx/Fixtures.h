@@ -184,6 +184,31 @@ public:
   std::vector<std::string> Warnings;
 };
 
+/// Makes a mistake, expects one message with all of `words` and an empty picture, puts the mistake right
+/// and expects a picture.
+template <class Filter, class Make, class Correct>
+void expectOneMessage(
+  Filter* filter, const Make& make, const std::vector<std::string>& words, const Correct& correct)
+{
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  make(filter);
+  filter->Update();
+  filter->Update(); // a view that is drawn again asks again
+  EXPECT_TRUE(isEmpty(filter));
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_TRUE(complaints->Warnings.empty());
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(complaints->Errors[0].find(word), std::string::npos)
+      << "no '" << word << "' in: " << complaints->Errors[0];
+  }
+
+  correct(filter);
+  filter->Update();
+  EXPECT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_FALSE(isEmpty(filter));
+}
+
 /// The axes of a picture, as vtkCamera has them.
 struct Axes
 {

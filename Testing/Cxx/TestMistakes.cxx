@@ -179,23 +179,7 @@ TEST_P(Mistakes, OneMessageAnEmptyImageAndThenAllIsWell)
 {
   const Mistake& mistake = GetParam();
   auto filter = bench(columnImage());
-  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
-  mistake.make(filter);
-  filter->Update();
-  filter->Update(); // a view that is drawn again asks again
-  EXPECT_TRUE(isEmpty(filter));
-  ASSERT_EQ(complaints->Errors.size(), 1u);
-  EXPECT_TRUE(complaints->Warnings.empty());
-  for (const std::string& word : mistake.words)
-  {
-    EXPECT_NE(complaints->Errors[0].find(word), std::string::npos)
-      << "no '" << word << "' in: " << complaints->Errors[0];
-  }
-
-  mistake.correct(filter);
-  filter->Update();
-  EXPECT_EQ(complaints->Errors.size(), 1u);
-  EXPECT_FALSE(isEmpty(filter));
+  expectOneMessage(filter.Get(), mistake.make, mistake.words, mistake.correct);
   EXPECT_GT(largest(valuesOf(filter, "Deflection")), 0);
 }
 
