@@ -17,6 +17,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -88,6 +89,15 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RelativeHumidity: " << this->RelativeHumidity << "\n";
   os << indent << "CO2: " << this->CO2 << "\n";
   os << indent << "Wavelength: " << this->Wavelength << "\n";
+  os << indent << "Fields:";
+  for (const std::string& name : this->Fields)
+  {
+    os << " '" << name << "'";
+  }
+  os << "\n";
+  os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
+  printList(os, indent, "FieldRanges", this->FieldRanges);
+  os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
@@ -155,6 +165,59 @@ void vtkRefractiveIndex::ClearMixtureMolarMasses()
 {
   this->MixtureMolarMasses.clear();
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddField(const char* name)
+{
+  this->Fields.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearFields()
+{
+  this->Fields.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddTransferFunction(vtkPiecewiseFunction* function)
+{
+  this->TransferFunctions.emplace_back(function);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearTransferFunctions()
+{
+  this->TransferFunctions.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddFieldRange(double value)
+{
+  this->FieldRanges.push_back(value);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearFieldRanges()
+{
+  this->FieldRanges.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractiveIndex::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  for (vtkPiecewiseFunction* function : this->TransferFunctions)
+  {
+    time = std::max(time, function ? function->GetMTime() : 0);
+  }
+  return time;
 }
 
 //------------------------------------------------------------------------------

@@ -38,9 +38,12 @@
 
 #include "vtkImageAlgorithm.h"
 #include "vtkSchlierenFiltersModule.h" // for export macro
+#include "vtkSmartPointer.h"           // for TransferFunctions
 
 #include <string> // for std::string
 #include <vector> // for std::vector
+
+class vtkPiecewiseFunction;
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -58,7 +61,9 @@ public:
     /// N = rho sum K_i Y_i: array 0 is rho, and see AddMixtureArray
     GLADSTONE_DALE_MIXTURE = 3,
     /// Moist air (Ciddor 1996): arrays 2, 3 and 4 are temperature, pressure and humidity
-    CIDDOR = 4
+    CIDDOR = 4,
+    /// Several fields through a curve each: N = scale mean f_i, see AddField
+    TRANSFER_FUNCTIONS = 5
   };
 
   /// The arrays that SetInputArrayToProcess can choose.
@@ -84,7 +89,7 @@ public:
    * The arrays are chosen with SetInputArrayToProcess, see InputArrays; names that are not found with
    * the association given (by the first array of a model) are looked for with the other one.
    */
-  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, CIDDOR);
+  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, TRANSFER_FUNCTIONS);
   vtkGetMacro(IndexModel, int);
   ///@}
 
@@ -230,6 +235,51 @@ public:
   vtkGetMacro(Wavelength, double);
   ///@}
 
+  ///@{
+  /**
+   * For transfer functions: the fields, all arrays of points or all of cells, any number. Where the
+   * field x_i is between 0 and 1 in its range, N = RefractivityScale times the mean of f_i(x_i).
+   * Default: none.
+   */
+  virtual void AddField(const char* name);
+  virtual void ClearFields();
+  VTK_WRAPEXCLUDE const std::vector<std::string>& GetFields() const { return this->Fields; }
+  ///@}
+
+  ///@{
+  /**
+   * The functions f_i, one for each field, or none (the default): straight lines from 0 to 1. So is a
+   * function that is null or has no points. The functions' values may be any; those of x between 0
+   * and 1 are used. A point that is moved counts as a change of this filter.
+   */
+  virtual void AddTransferFunction(vtkPiecewiseFunction* function);
+  virtual void ClearTransferFunctions();
+  VTK_WRAPEXCLUDE const std::vector<vtkSmartPointer<vtkPiecewiseFunction>>& GetTransferFunctions()
+    const
+  {
+    return this->TransferFunctions;
+  }
+  ///@}
+
+  ///@{
+  /**
+   * The fields' ranges, two values for each: what becomes 0 and 1; values beyond are clamped. Empty
+   * (the default), or two equal values: the field's own range, over all blocks that are used and all
+   * values that are finite and not hidden.
+   */
+  virtual void AddFieldRange(double value);
+  virtual void ClearFieldRanges();
+  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldRanges() const { return this->FieldRanges; }
+  ///@}
+
+  ///@{
+  /**
+   * For transfer functions: N where all of them are 1. Default: 3e-4.
+   */
+  vtkSetMacro(RefractivityScale, double);
+  vtkGetMacro(RefractivityScale, double);
+  ///@}
+
   /**
    * Whether an array is chosen for the humidity.
    */
@@ -278,6 +328,8 @@ public:
    */
   VTK_WRAPEXCLUDE std::string Convert(vtkDataObject* input, vtkImageData* output);
 
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkRefractiveIndex();
   ~vtkRefractiveIndex() override = default;
@@ -317,6 +369,10 @@ private:
   double RelativeHumidity = 0;
   double CO2 = 450;
   double Wavelength = 632.8;
+  std::vector<std::string> Fields;
+  std::vector<vtkSmartPointer<vtkPiecewiseFunction>> TransferFunctions;
+  std::vector<double> FieldRanges;
+  double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
   bool DoublePrecision = false;
   int NumberOfThreads = 0;
