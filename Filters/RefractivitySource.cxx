@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivitySource.h"
 
+#include "GasChoices.h"
+
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
@@ -340,6 +342,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   else
   {
     source.model = modelFrom(self);
+    source.noteOnGases = noteOnGases(self);
     source.leaves = leavesWith(selections, dataSets);
   }
 

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "GasChoices.h"
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
 
 #include "vtkFieldData.h"
+#include "vtkGasTable.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -40,6 +42,17 @@ void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
   outInfo->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
 }
 
+void printList(
+  ostream& os, vtkIndent indent, const char* name, const std::vector<std::string>& texts)
+{
+  os << indent << name << ":";
+  for (const std::string& text : texts)
+  {
+    os << " '" << text << "'";
+  }
+  os << "\n";
+}
+
 void printList(ostream& os, vtkIndent indent, const char* name, const std::vector<double>& values)
 {
   os << indent << name << ":";
@@ -60,16 +73,14 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "IndexModel: " << this->IndexModel << "\n";
+  os << indent << "Gas: " << this->Gas << "\n";
   os << indent << "GladstoneDaleConstant: " << this->GladstoneDaleConstant << "\n";
   os << indent << "DensityScale: " << this->DensityScale << "\n";
-  os << indent << "MixtureArrays:";
-  for (const std::string& name : this->MixtureArrays)
-  {
-    os << " '" << name << "'";
-  }
-  os << "\n";
+  printList(os, indent, "MixtureArrays", this->MixtureArrays);
+  printList(os, indent, "MixtureGases", this->MixtureGases);
   printList(os, indent, "MixtureConstants", this->MixtureConstants);
   printList(os, indent, "MixtureMolarMasses", this->MixtureMolarMasses);
+  os << indent << "BackgroundGas: " << this->BackgroundGas << "\n";
   os << indent << "BackgroundConstant: " << this->BackgroundConstant << "\n";
   os << indent << "BackgroundMolarMass: " << this->BackgroundMolarMass << "\n";
   os << indent << "FractionType: " << this->FractionType << "\n";
@@ -105,6 +116,27 @@ void vtkRefractiveIndex::ClearMixtureArrays()
 {
   this->MixtureArrays.clear();
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureGas(const char* name)
+{
+  this->MixtureGases.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureGases()
+{
+  this->MixtureGases.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkRefractiveIndex::GetGladstoneDaleConstantUsed()
+{
+  return isCustom(this->Gas) ? this->GladstoneDaleConstant
+                             : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
 }
 
 //------------------------------------------------------------------------------
@@ -268,7 +300,13 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
-  return warningFrom(source.model, tally);
+  std::string warning = warningFrom(source.model, tally);
+  if (source.noteOnGases != this->ToldOfGases)
+  {
+    this->ToldOfGases = source.noteOnGases;
+    warning += (warning.empty() ? "" : " ") + source.noteOnGases;
+  }
+  return warning;
 }
 
 //------------------------------------------------------------------------------

@@ -104,6 +104,21 @@ public:
 
   ///@{
   /**
+   * The gas, by a name or formula of vtkGasTable: its constant at Wavelength then takes the place of
+   * GladstoneDaleConstant. Default: "Custom", no gas of the table.
+   */
+  vtkSetStdStringFromCharMacro(Gas);
+  vtkGetCharFromStdStringMacro(Gas);
+  ///@}
+
+  /**
+   * The Gladstone-Dale constant that counts, m^3/kg: that of Gas at Wavelength, or else
+   * GladstoneDaleConstant. NaN where there is no such gas.
+   */
+  double GetGladstoneDaleConstantUsed();
+
+  ///@{
+  /**
    * Factor that turns the density array into kg/m^3. Default: 1.
    */
   vtkSetMacro(DensityScale, double);
@@ -137,6 +152,20 @@ public:
 
   ///@{
   /**
+   * For mixtures: what the species are, by names or formulas of vtkGasTable, one for each array or
+   * none at all. The table then gives their constants and molar masses; those of AddMixtureConstant and
+   * AddMixtureMolarMass count for species called "" or "Custom". Default: none.
+   */
+  virtual void AddMixtureGas(const char* name);
+  virtual void ClearMixtureGases();
+  VTK_WRAPEXCLUDE const std::vector<std::string>& GetMixtureGases() const
+  {
+    return this->MixtureGases;
+  }
+  ///@}
+
+  ///@{
+  /**
    * For mixtures of which volume fractions are given: the species' molar masses in kg/mol, one for
    * each array, positive.
    */
@@ -157,6 +186,15 @@ public:
   vtkGetMacro(BackgroundConstant, double);
   vtkSetMacro(BackgroundMolarMass, double);
   vtkGetMacro(BackgroundMolarMass, double);
+  ///@}
+
+  ///@{
+  /**
+   * For mixtures: the background gas, by a name or formula of vtkGasTable, whose constant and molar
+   * mass then count. Default: "Custom", no gas of the table.
+   */
+  vtkSetStdStringFromCharMacro(BackgroundGas);
+  vtkGetCharFromStdStringMacro(BackgroundGas);
   ///@}
 
   ///@{
@@ -190,7 +228,8 @@ public:
 
   ///@{
   /**
-   * Wavelength of the light in vacuum, nanometres; for moist air 300 to 1700. Default: 632.8.
+   * Wavelength of the light in vacuum, nanometres: for moist air 300 to 1700, for gases chosen by
+   * name any (one warning tells where their constants were not measured). Default: 632.8.
    */
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
@@ -310,12 +349,18 @@ private:
   /// Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
 
+  /// The last note on gases: it is not repeated for every time step.
+  std::string ToldOfGases;
+
   int IndexModel = GLADSTONE_DALE;
+  std::string Gas = "Custom";
   double GladstoneDaleConstant = 2.26e-4;
   double DensityScale = 1;
   std::vector<std::string> MixtureArrays;
+  std::vector<std::string> MixtureGases;
   std::vector<double> MixtureConstants;
   std::vector<double> MixtureMolarMasses;
+  std::string BackgroundGas = "Custom";
   double BackgroundConstant = 2.26e-4;
   double BackgroundMolarMass = 0.0289647;
   int FractionType = MASS;

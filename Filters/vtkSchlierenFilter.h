@@ -86,13 +86,21 @@ public:
    */
   vtkSchlierenMediumMacro(IndexModel, int);
   vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
+  vtkSchlierenMediumMacro(Gas, const char*);
+  virtual double GetGladstoneDaleConstantUsed()
+  {
+    return this->Medium->GetGladstoneDaleConstantUsed();
+  }
   vtkSchlierenMediumMacro(DensityScale, double);
   virtual void AddMixtureArray(const char* name) { this->Medium->AddMixtureArray(name); }
   virtual void ClearMixtureArrays() { this->Medium->ClearMixtureArrays(); }
+  virtual void AddMixtureGas(const char* name) { this->Medium->AddMixtureGas(name); }
+  virtual void ClearMixtureGases() { this->Medium->ClearMixtureGases(); }
   virtual void AddMixtureConstant(double value) { this->Medium->AddMixtureConstant(value); }
   virtual void ClearMixtureConstants() { this->Medium->ClearMixtureConstants(); }
   virtual void AddMixtureMolarMass(double value) { this->Medium->AddMixtureMolarMass(value); }
   virtual void ClearMixtureMolarMasses() { this->Medium->ClearMixtureMolarMasses(); }
+  vtkSchlierenMediumMacro(BackgroundGas, const char*);
   vtkSchlierenMediumMacro(BackgroundConstant, double);
   vtkSchlierenMediumMacro(BackgroundMolarMass, double);
   vtkSchlierenMediumMacro(FractionType, int);
