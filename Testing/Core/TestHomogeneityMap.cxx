@@ -4,7 +4,6 @@
 #include "Fields.h"
 #include "Medium/CudaHomogeneityMap.h"
 #include "Medium/HomogeneityMap.h"
-#include "Medium/Solids.h"
 
 #include <algorithm>
 #include <limits>
@@ -202,13 +201,14 @@ bool isHomogeneous(const Medium<double>& medium, Interpolation interpolation, do
     {
       for (std::int64_t i = low[0] - reach; i <= end[0] + reach; ++i)
       {
-        const std::int64_t at = medium.volume.index(i, j, k);
-        const double sample = medium.volume.samples[static_cast<std::size_t>(at)];
+        const double sample =
+          medium.volume.samples[static_cast<std::size_t>(medium.volume.index(i, j, k))];
         lowest = std::min(lowest, sample);
         highest = std::max(highest, sample);
         const bool isInside =
           i >= low[0] && i <= end[0] && j >= low[1] && j <= end[1] && k >= low[2] && k <= end[2];
-        if (isInside && !medium.solid.empty() && bitAt(medium.solid, at))
+        const Vec3<double> point = static_cast<Vec3<double>>(Vec3<std::int64_t>{ i, j, k });
+        if (isInside && !medium.solid.empty() && isSolid(medium.view(), point))
         {
           return false;
         }
