@@ -4,6 +4,7 @@
 
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
+#include "RefractivityOfAmr.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
 
@@ -148,6 +149,10 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
   {
     gridOfImage(source.image, source.leaves[0].ofCells, structure);
   }
+  else if (const auto amr = planAmr(source, this->SamplingDimensions))
+  {
+    gridOf(*amr, structure);
+  }
   else
   {
     gridOf(planResampling(source, this->SamplingDimensions), structure);
@@ -174,6 +179,10 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
       if (source.image)
       {
         tally = convertImage(source, this->DoublePrecision, output);
+      }
+      else if (const auto amr = planAmr(source, this->SamplingDimensions))
+      {
+        tally = convertAmr(*amr, source, this->DoublePrecision, output);
       }
       else
       {
