@@ -5,6 +5,7 @@
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
+#include "RefractivityOfAmr.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
@@ -252,6 +253,10 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
   {
     gridOfImage(source.image, source.leaves[0].ofCells, structure);
   }
+  else if (const auto amr = planAmr(source, this->SamplingDimensions))
+  {
+    gridOf(*amr, structure);
+  }
   else
   {
     gridOf(planResampling(source, this->SamplingDimensions), structure);
@@ -283,6 +288,10 @@ std::string vtkRefractiveIndex::Convert(
       if (source.image)
       {
         tally = convertImage(source, this->DoublePrecision, output);
+      }
+      else if (const auto amr = planAmr(source, this->SamplingDimensions))
+      {
+        tally = convertAmr(*amr, source, this->DoublePrecision, output);
       }
       else
       {

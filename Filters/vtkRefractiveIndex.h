@@ -11,7 +11,9 @@
  * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1.
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
- * arrays on the grid of the cells' centres, so that nothing is smoothed. All other input is
+ * arrays on the grid of the cells' centres, so that nothing is smoothed. Blocks of images that hold
+ * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
+ * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
  * resampled to a grid (see SamplingDimensions) with vtkResampleToImage, cell arrays after
  * vtkCellDataToPointData. Only cells with a volume count: surfaces in a composite are left out, and
  * so are blocks that lack an array. Where several arrays are needed, all of them belong to points or
