@@ -21,7 +21,7 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1, "Device": "Auto",
          "NumberOfThreads": 0}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
-                        "Refractivity"},
+                        "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
          "Cutoff": {"Knife Edge", "Shadowgraph"}, "Interpolation": {"Quadratic", "Linear"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
