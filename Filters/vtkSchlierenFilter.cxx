@@ -221,7 +221,8 @@ void addColor(vtkImageData* output, const std::vector<float>& color, float white
   std::transform(color.begin(), color.end(), array->GetPointer(0),
     [white](float light)
     { return static_cast<unsigned char>(std::clamp(light / white, 0.f, 1.f) * 255.f + 0.5f); });
-  output->GetPointData()->SetScalars(array);
+  output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
+  output->GetPointData()->SetActiveScalars("Color");
 }
 
 } // namespace
