@@ -11,6 +11,8 @@
  * Point arrays of the output, all from the rays that start in the pixel:
  * - `Intensity` (float, active scalars): undisturbed light is 1/2 for a knife edge, 1 for a
  *   shadowgraph;
+ * - `Color` (3 unsigned chars, active scalars then), with ColorByField only: the intensity, tinted;
+ *   undisturbed light is grey, 128;
  * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, against undisturbed light;
@@ -261,7 +263,11 @@ public:
 
   ///@{
   /**
-   * Whether the picture is tinted by the colours of the Fields, with any IndexModel. Default: off.
+   * Whether the picture is tinted by the colours of the Fields, with any IndexModel (after Brownlee et
+   * al. 2011, sec. 8). Along its way, light gathers g_i = integral |grad f_i| ds of each field f_i (its
+   * place in its range, 0 to 1; with TRANSFER_FUNCTIONS what its function makes of that). Its colour is
+   * 1 + s (sum g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is
+   * G over its 99th percentile in the picture, at most 1. Default: off.
    */
   vtkSetMacro(ColorByField, bool);
   vtkGetMacro(ColorByField, bool);
@@ -372,6 +378,8 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
+  /// Finds the gradients of the fields that tint, if they do.
+  void UpdateFieldGradients(vtkDataObject* input);
   /// Makes the picture from the refractivity. False if aborted.
   bool Render(vtkImageData* output);
 
