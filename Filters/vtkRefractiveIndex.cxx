@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "FlatData.h"
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfAmr.h"
@@ -80,6 +81,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Wavelength: " << this->Wavelength << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
@@ -163,6 +165,7 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
 {
   output->Initialize();
+  this->Grid.clear();
   const Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())
@@ -173,6 +176,7 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
   // Most builds of ParaView run VTK's threaded loops on one core unless told otherwise.
   const vtkSMPTools::Config threads(this->NumberOfThreads, "STDThread", false);
   Tally tally;
+  std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,
     [&]()
     {
@@ -182,11 +186,13 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
       }
       else if (const auto amr = planAmr(source, this->SamplingDimensions))
       {
+        note = amr->note;
         tally = convertAmr(*amr, source, this->DoublePrecision, output);
       }
       else
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
+        note = plan.note;
         tally = resample(plan, source, this->DoublePrecision, output);
       }
     });
@@ -203,14 +209,20 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
 
   int dimensions[3];
   output->GetDimensions(dimensions);
-  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << dimensions[0] << " x "
-                << dimensions[1] << " x " << dimensions[2] << " points.");
+  this->Grid = std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
+    std::to_string(dimensions[2]) + " points: " + note;
+  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << this->Grid);
   vtkNew<vtkIntArray> used;
   used->SetName("SamplingDimensions");
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
-  return warningFrom(source.model, tally);
+  std::string warning = warningFrom(source.model, tally);
+  if (const int flat = flatAxisOf(source); flat >= 0)
+  {
+    warning += (warning.empty() ? "" : "\n") + warningOfExtrusion(flat);
+  }
+  return warning;
 }
 
 //------------------------------------------------------------------------------
@@ -267,11 +279,7 @@ int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-  }
+  requestWhole(inInfo);
   return 1;
 }
 

@@ -11,6 +11,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -244,6 +245,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
 }
@@ -410,6 +412,14 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
          "back. Is the refractivity (array, unit, index model) right?");
   }
   setOutput(output, image);
+  addFieldValue<vtkStringArray>(output, "Grid", std::string(this->Medium->GetGrid()));
+  if (vtkDataArray* used = refractivity->GetFieldData()->GetArray("SamplingDimensions"))
+  {
+    vtkNew<vtkIntArray> dimensions;
+    dimensions->DeepCopy(used);
+    dimensions->SetName("MediumDimensions");
+    output->GetFieldData()->AddArray(dimensions);
+  }
   return true;
 }
 
@@ -453,15 +463,7 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-  }
-  // All of it, on every process: light crosses what several processes would share.
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  requestWhole(inInfo);
   return 1;
 }
 

@@ -112,6 +112,7 @@ public:
   {
     return this->Medium->GetSamplingDimensions();
   }
+  const char* GetGrid() const { return this->Medium->GetGrid(); }
   ///@}
 
   ///@{
