@@ -113,8 +113,8 @@ struct Corners
   double highest(std::size_t axis) const { return std::max({ a[axis], b[axis], c[axis] }); }
 };
 
-/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles
-/// that share it, to the last bit, so that no line slips through between them.
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both
+/// triangles that share it, to the last bit, so that no line slips through between them.
 bool isPassed(Point a, Point b, double y, double z)
 {
   if ((a[2] > z) == (b[2] > z))
@@ -170,34 +170,10 @@ void findInside(const Surface& surface, Bits& inside)
     });
 }
 
-/// Whether a triangle meets the voxel around a grid point: no axis separates them (Akenine-Moller 2001).
-bool meetsVoxel(const Corners& t, const Point& normal, const Point& centre)
-{
-  const Point a = t.a - centre, b = t.b - centre, c = t.c - centre;
-  const auto isSeparated = [&](const Point& axis)
-  {
-    const double pa = dot(axis, a), pb = dot(axis, b), pc = dot(axis, c);
-    const double r = reach(axis);
-    return std::min({ pa, pb, pc }) > r || std::max({ pa, pb, pc }) < -r;
-  };
-  if (isSeparated(normal))
-  {
-    return false;
-  }
-  for (const Point& axis : { Point{ 1, 0, 0 }, Point{ 0, 1, 0 }, Point{ 0, 0, 1 } })
-  {
-    if (isSeparated(axis) || isSeparated(cross(axis, b - a)) || isSeparated(cross(axis, c - b)) ||
-      isSeparated(cross(axis, a - c)))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Calls visit(i, j, k) for the points of the box whose voxels a triangle meets.
+/// Calls visit(i, j, k) for the points of the box whose voxels a triangle may meet: those that its plane and
+/// its own box meet.
 template <class Visit>
-void forVoxelsOf(const Corners& t, const Index& low, const Index& high, const Visit& visit)
+void forVoxelsNear(const Corners& t, const Index& low, const Index& high, const Visit& visit)
 {
   const Point normal = cross(t.b - t.a, t.c - t.a);
   const auto size = [&](std::size_t axis) { return std::abs(normal[axis]); };
@@ -224,12 +200,7 @@ void forVoxelsOf(const Corners& t, const Index& low, const Index& high, const Vi
       for (at[along] = std::max(first(along), firstFrom(plane - depth, low[along], high[along]));
            at[along] <= end; ++at[along])
       {
-        if (meetsVoxel(t, normal,
-              { static_cast<double>(at[0]), static_cast<double>(at[1]),
-                static_cast<double>(at[2]) }))
-        {
-          visit(at[0], at[1], at[2]);
-        }
+        visit(at[0], at[1], at[2]);
       }
     }
   }
@@ -253,8 +224,8 @@ bool isAcross(
     dot(cross(t.a - t.c, at - t.c), normal) >= least;
 }
 
-/// Whether a triangle lies across the way from a grid point to one of its 26 neighbours, in the half of it
-/// that is nearer to the point, and that neighbour is not inside.
+/// Whether a triangle lies across the way from a grid point to one of its 26 neighbours that is not
+/// inside, in the half of the way that is nearer to the point.
 bool isBetween(const Corners& t, const Bits& inside, const Index& at, double earliest)
 {
   const Point normal = cross(t.b - t.a, t.c - t.a);
@@ -358,7 +329,7 @@ void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
   for (const Surface::Triangle& triangle : surface.triangles)
   {
     const Corners t(surface, triangle);
-    forVoxelsOf(t, low, high,
+    forVoxelsNear(t, low, high,
       [&](int i, int j, int k)
       {
         if (!inside.at(i, j, k) && isBetween(t, inside, { i, j, k }, earliest))
