@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivitySource.h"
 
+#include "GasChoices.h"
+
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
@@ -74,6 +76,16 @@ std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
       if (self->HasHumidityArray())
       {
         add(Index::HUMIDITY, "Humidity");
+      }
+      break;
+    case Index::TRANSFER_FUNCTIONS:
+      for (const std::string& name : self->GetFields())
+      {
+        selections.push_back({ "Fields", name });
+      }
+      if (selections.empty())
+      {
+        selections.push_back({ "Fields", "" }); // to be told so
       }
       break;
     default:
@@ -330,6 +342,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   else
   {
     source.model = modelFrom(self);
+    source.noteOnGases = noteOnGases(self);
     source.leaves = leavesWith(selections, dataSets);
   }
 

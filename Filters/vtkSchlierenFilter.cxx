@@ -257,6 +257,13 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AutoKScale: " << this->AutoKScale << "\n";
   os << indent << "KScale: " << this->KScale << "\n";
   os << indent << "ScreenDistance: " << this->ScreenDistance << "\n";
+  os << indent << "ColorByField: " << this->ColorByField << "\n";
+  os << indent << "FieldColors:";
+  for (const double value : this->FieldColors)
+  {
+    os << " " << value;
+  }
+  os << "\n";
   os << indent << "StepSize: " << this->StepSize << "\n";
   os << indent << "Interpolation: " << this->Interpolation << "\n";
   os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << "\n";
@@ -289,6 +296,20 @@ void vtkSchlierenFilter::ClearFocalPoint()
     this->HasFocalPoint = false;
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::AddFieldColor(double value)
+{
+  this->FieldColors.push_back(value);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ClearFieldColors()
+{
+  this->FieldColors.clear();
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------

@@ -40,6 +40,7 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
 /// A property that belongs to the inner vtkRefractiveIndex.
 #define vtkSchlierenMediumMacro(name, type)                              \
@@ -85,13 +86,21 @@ public:
    */
   vtkSchlierenMediumMacro(IndexModel, int);
   vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
+  vtkSchlierenMediumMacro(Gas, const char*);
+  virtual double GetGladstoneDaleConstantUsed()
+  {
+    return this->Medium->GetGladstoneDaleConstantUsed();
+  }
   vtkSchlierenMediumMacro(DensityScale, double);
   virtual void AddMixtureArray(const char* name) { this->Medium->AddMixtureArray(name); }
   virtual void ClearMixtureArrays() { this->Medium->ClearMixtureArrays(); }
+  virtual void AddMixtureGas(const char* name) { this->Medium->AddMixtureGas(name); }
+  virtual void ClearMixtureGases() { this->Medium->ClearMixtureGases(); }
   virtual void AddMixtureConstant(double value) { this->Medium->AddMixtureConstant(value); }
   virtual void ClearMixtureConstants() { this->Medium->ClearMixtureConstants(); }
   virtual void AddMixtureMolarMass(double value) { this->Medium->AddMixtureMolarMass(value); }
   virtual void ClearMixtureMolarMasses() { this->Medium->ClearMixtureMolarMasses(); }
+  vtkSchlierenMediumMacro(BackgroundGas, const char*);
   vtkSchlierenMediumMacro(BackgroundConstant, double);
   vtkSchlierenMediumMacro(BackgroundMolarMass, double);
   vtkSchlierenMediumMacro(FractionType, int);
@@ -100,6 +109,16 @@ public:
   vtkSchlierenMediumMacro(RelativeHumidity, double);
   vtkSchlierenMediumMacro(CO2, double);
   vtkSchlierenMediumMacro(Wavelength, double);
+  virtual void AddField(const char* name) { this->Medium->AddField(name); }
+  virtual void ClearFields() { this->Medium->ClearFields(); }
+  virtual void AddTransferFunction(vtkPiecewiseFunction* function)
+  {
+    this->Medium->AddTransferFunction(function);
+  }
+  virtual void ClearTransferFunctions() { this->Medium->ClearTransferFunctions(); }
+  virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
+  virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
+  vtkSchlierenMediumMacro(RefractivityScale, double);
   vtkSchlierenMediumMacro(OutsideBlocksLight, bool);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {
@@ -242,6 +261,25 @@ public:
 
   ///@{
   /**
+   * Whether the picture is tinted by the colours of the Fields, with any IndexModel. Default: off.
+   */
+  vtkSetMacro(ColorByField, bool);
+  vtkGetMacro(ColorByField, bool);
+  vtkBooleanMacro(ColorByField, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The fields' colours: red, green and blue, 0 to 1, of each. Empty (the default): hues that are
+   * easily told apart.
+   */
+  virtual void AddFieldColor(double value);
+  virtual void ClearFieldColors();
+  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldColors() const { return this->FieldColors; }
+  ///@}
+
+  ///@{
+  /**
    * Length of an integration step, voxels. 0.001 to 16. Default: 1.
    */
   vtkSetMacro(StepSize, double);
@@ -355,6 +393,8 @@ private:
   bool AutoKScale = true;
   double KScale = 1000;
   double ScreenDistance = -1;
+  bool ColorByField = false;
+  std::vector<double> FieldColors;
   double StepSize = 1;
   int Interpolation = QUADRATIC;
   int SamplesPerPixel = 4;
