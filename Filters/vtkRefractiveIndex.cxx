@@ -8,6 +8,7 @@
 #include "RefractivityOfAmr.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
+#include "RefractivityOutside.h"
 #include "RefractivitySource.h"
 
 #include "vtkFieldData.h"
@@ -290,6 +291,10 @@ std::string vtkRefractiveIndex::Convert(
       else if (const auto amr = planAmr(source, this->SamplingDimensions))
       {
         tally = convertAmr(*amr, source, this->DoublePrecision, output);
+        if (!this->OutsideBlocksLight)
+        {
+          setOutside(outsideOfBoxes(source.leaves, output), output);
+        }
       }
       else
       {
