@@ -113,8 +113,8 @@ struct Corners
   double highest(std::size_t axis) const { return std::max({ a[axis], b[axis], c[axis] }); }
 };
 
-/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles
-/// that share it, to the last bit, so that no line slips through between them.
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both
+/// triangles that share it, to the last bit, so that no line slips through between them.
 bool isPassed(Point a, Point b, double y, double z)
 {
   if ((a[2] > z) == (b[2] > z))
@@ -170,34 +170,10 @@ void findInside(const Surface& surface, Bits& inside)
     });
 }
 
-/// Whether a triangle meets the voxel around a grid point: no axis separates them (Akenine-Moller 2001).
-bool meetsVoxel(const Corners& t, const Point& normal, const Point& centre)
-{
-  const Point a = t.a - centre, b = t.b - centre, c = t.c - centre;
-  const auto isSeparated = [&](const Point& axis)
-  {
-    const double pa = dot(axis, a), pb = dot(axis, b), pc = dot(axis, c);
-    const double r = reach(axis);
-    return std::min({ pa, pb, pc }) > r || std::max({ pa, pb, pc }) < -r;
-  };
-  if (isSeparated(normal))
-  {
-    return false;
-  }
-  for (const Point& axis : { Point{ 1, 0, 0 }, Point{ 0, 1, 0 }, Point{ 0, 0, 1 } })
-  {
-    if (isSeparated(axis) || isSeparated(cross(axis, b - a)) || isSeparated(cross(axis, c - b)) ||
-      isSeparated(cross(axis, a - c)))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Calls visit(i, j, k) for the points of the box whose voxels a triangle meets.
+/// Calls visit(i, j, k) for the points of the box whose voxels a triangle may meet: those that its plane and
+/// its own box meet.
 template <class Visit>
-void forVoxelsOf(const Corners& t, const Index& low, const Index& high, const Visit& visit)
+void forVoxelsNear(const Corners& t, const Index& low, const Index& high, const Visit& visit)
 {
   const Point normal = cross(t.b - t.a, t.c - t.a);
   const auto size = [&](std::size_t axis) { return std::abs(normal[axis]); };
@@ -224,30 +200,42 @@ void forVoxelsOf(const Corners& t, const Index& low, const Index& high, const Vi
       for (at[along] = std::max(first(along), firstFrom(plane - depth, low[along], high[along]));
            at[along] <= end; ++at[along])
       {
-        if (meetsVoxel(t, normal,
-              { static_cast<double>(at[0]), static_cast<double>(at[1]),
-                static_cast<double>(at[2]) }))
-        {
-          visit(at[0], at[1], at[2]);
-        }
+        visit(at[0], at[1], at[2]);
       }
     }
   }
 }
 
-/// Whether eight neighbours that are all inside touch a point. A plate that nowhere holds such a block may
-/// hold no point at all where a diagonal ray crosses it; one that can hold it anywhere stops all light.
-bool isBesideThickPart(const Bits& inside, int i, int j, int k)
+/// Whether a triangle lies across the way from a point, from the share `earliest` of it on.
+bool isAcross(
+  const Corners& t, const Point& normal, const Point& from, const Point& way, double earliest)
 {
-  for (int block = 0; block < 64; ++block)
+  constexpr double slack = 1e-9; // so that no way slips through between two triangles
+  const double rate = dot(normal, way);
+  const double share = dot(normal, t.a - from) / rate;
+  if (!(share >= earliest && share <= 1 + slack)) // NaN, too
   {
-    const int x = i - 2 + block % 4, y = j - 2 + block / 4 % 4, z = k - 2 + block / 16;
-    bool isFull = true;
-    for (int corner = 0; corner < 8 && isFull; ++corner)
-    {
-      isFull = inside.at(x + corner % 2, y + corner / 2 % 2, z + corner / 4);
-    }
-    if (isFull)
+    return false;
+  }
+  const Point at{ from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2] };
+  const double least = -slack * dot(normal, normal);
+  return dot(cross(t.b - t.a, at - t.a), normal) >= least &&
+    dot(cross(t.c - t.b, at - t.b), normal) >= least &&
+    dot(cross(t.a - t.c, at - t.c), normal) >= least;
+}
+
+/// Whether a triangle lies across the way from a grid point to one of its 26 neighbours that is not
+/// inside, in the half of the way that is nearer to the point.
+bool isBetween(const Corners& t, const Bits& inside, const Index& at, double earliest)
+{
+  const Point normal = cross(t.b - t.a, t.c - t.a);
+  const Point from{ static_cast<double>(at[0]), static_cast<double>(at[1]),
+    static_cast<double>(at[2]) };
+  for (int neighbour = 0; neighbour < 27; ++neighbour)
+  {
+    const int i = neighbour % 3 - 1, j = neighbour / 3 % 3 - 1, k = neighbour / 9 - 1;
+    if (!inside.at(at[0] + i, at[1] + j, at[2] + k) &&
+      isAcross(t, normal, from, { 0.5 * i, 0.5 * j, 0.5 * k }, earliest))
     {
       return true;
     }
@@ -255,11 +243,11 @@ bool isBesideThickPart(const Bits& inside, int i, int j, int k)
   return false;
 }
 
-/// The box of the grid (and a few points around it, so that thick parts that leave it are known for
-/// such) that a surface can concern. Empty, with low > high, where there is none.
+/// The box of the grid, and of a layer of points around it, that a surface can concern. Empty, with
+/// low > high, where there is none.
 std::pair<Index, Index> boxAround(const Surface& surface, const Index& dimensions)
 {
-  constexpr int more = 2;
+  constexpr int more = 1;
   std::pair<Index, Index> box;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -322,6 +310,7 @@ void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
   };
 
   Bits inside(low, high);
+  bool hasInside = false;
   if (isClosed(surface))
   {
     findInside(surface, inside);
@@ -330,16 +319,20 @@ void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
       {
         if (inside.at(i, j, k))
         {
+          hasInside = true;
           markInGrid(i, j, k);
         }
       });
   }
+  // What is thin. A point on the wall of a body is no reason to call that thin.
+  const double earliest = hasInside ? 1e-6 : 0;
   for (const Surface::Triangle& triangle : surface.triangles)
   {
-    forVoxelsOf(Corners(surface, triangle), low, high,
+    const Corners t(surface, triangle);
+    forVoxelsNear(t, low, high,
       [&](int i, int j, int k)
       {
-        if (!inside.at(i, j, k) && !isBesideThickPart(inside, i, j, k))
+        if (!inside.at(i, j, k) && isBetween(t, inside, { i, j, k }, earliest))
         {
           markInGrid(i, j, k);
         }

@@ -23,11 +23,13 @@ struct Surface
 bool isClosed(const Surface& surface);
 
 /// Calls mark(i, j, k) for the grid points that must be solid for light to be stopped by the surface,
-/// some of them more than once. A closed surface: the points inside (whichever way the triangles
-/// face; of two opposite faces that meet grid points, one is counted in). An open one, and where a
-/// closed one is too thin to be sure of points inside: all points whose voxel the surface meets, so that
-/// any way that goes from one side to the other in moves of at most one voxel along each axis meets
-/// one of them (the "supercover"; Cohen-Or & Kaufman 1995).
+/// some of them more than once:
+/// - the points inside a closed surface, whichever way its triangles face (of two opposite faces that
+///   meet grid points, one is counted in);
+/// - where an open surface, or a closed one that is thin, goes between two points that are not inside,
+///   on the way from one to its neighbour along an axis or a diagonal: the nearer one.
+/// So no way that goes from one side to the other in moves of at most one voxel along each axis misses
+/// them. (In 3-D digital geometry: they are 26-separating; Cohen-Or & Kaufman 1995.)
 void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
   const std::function<void(int, int, int)>& mark);
 

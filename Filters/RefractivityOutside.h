@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "RefractivitySource.h"
+
 #include "vtkSmartPointer.h"
+
+#include <vector>
 
 class vtkDataSet;
 class vtkImageData;
@@ -17,6 +21,11 @@ namespace refractivity
 /// arrays that hide some cells; `visible` tells (not 0) which points lie in the others.
 vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
   vtkMultiBlockDataSet* blocks, int dimension, vtkImageData* grid, vtkUnsignedCharArray* visible);
+
+/// Which points of a grid lie in the box of no leaf, where leaves fill their boxes. One without length
+/// along an axis holds all of it.
+vtkSmartPointer<vtkUnsignedCharArray> outsideOfBoxes(
+  const std::vector<Leaf>& leaves, vtkImageData* grid);
 
 /// The points that an image says to be such in an array of its own; null where it has none.
 vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image);

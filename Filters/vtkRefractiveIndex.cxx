@@ -9,6 +9,7 @@
 #include "RefractivityOfAmr.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
+#include "RefractivityOutside.h"
 #include "RefractivitySource.h"
 
 #include "vtkFieldData.h"
@@ -295,6 +296,10 @@ std::string vtkRefractiveIndex::Convert(
       {
         note = amr->note;
         tally = convertAmr(*amr, source, this->DoublePrecision, output);
+        if (!this->OutsideBlocksLight)
+        {
+          setOutside(outsideOfBoxes(source.leaves, output), output);
+        }
       }
       else
       {

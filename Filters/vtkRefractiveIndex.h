@@ -8,7 +8,8 @@
  * - `Refractivity` (float, or double with DoublePrecision): N = n - 1 for the refractive index n;
  *   0 where the mask is 0. N is stored and not n, because in single precision the 1 would cost all
  *   digits of a weak flow.
- * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1.
+ * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1;
+ * and, where OutsideBlocksLight is off, with a third one, `TransparentPointMask` (see there).
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
  * arrays on the grid of the cells' centres, so that nothing is smoothed. Data in one plane across a

@@ -183,7 +183,7 @@ TEST(Bodies, PointsInsideAreSolidOnAnyGrid)
     Vec x;
     image->GetPoint(static_cast<vtkIdType>(i), x.data());
     const double r = std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]);
-    if (std::abs(r - radius) > 1e-3) // the facets' distance from the sphere
+    if (std::abs(r - radius) > 0.15 * 0.05) // a way to a neighbour may cut through the sphere
     {
       ASSERT_EQ(solids[i], r < radius) << r;
       count += solids[i];
@@ -313,6 +313,79 @@ TEST(Bodies, NoRaySlipsThroughAThinBody)
       transform->TransformPoint(Vec{ 0.5, -0.4, 0 }.data(), p.data());
       transform->TransformPoint(Vec{ -0.5, 0.4, 0 }.data(), q.data());
       crossed += expectNoLeaks(turn->GetOutput(), o, p, q, random);
+    }
+  }
+  EXPECT_GT(crossed, 30000);
+}
+
+namespace
+{
+
+/// A prism along z, of the polygon with these corners (x, y) in order, convex or not.
+vtkSmartPointer<vtkPolyData> prism(const std::vector<std::array<double, 2>>& corners, double half)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> polygons;
+  const auto n = static_cast<vtkIdType>(corners.size());
+  for (const double z : { -half, half })
+  {
+    for (const auto& corner : corners)
+    {
+      points->InsertNextPoint(corner[0], corner[1], z);
+    }
+  }
+  for (const vtkIdType first : { vtkIdType{ 0 }, n })
+  {
+    polygons->InsertNextCell(static_cast<int>(n));
+    for (vtkIdType i = 0; i < n; ++i)
+    {
+      polygons->InsertCellPoint(first + i);
+    }
+  }
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    const vtkIdType next = (i + 1) % n;
+    polygons->InsertNextCell({ i, next, n + next, n + i });
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(polygons);
+  return data;
+}
+
+} // namespace
+
+// From thick to thin: a wedge that ends in an edge, and a thin fin on a wall.
+TEST(Bodies, NoRaySlipsThroughWhereThickBecomesThin)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int crossed = 0;
+  for (const double thin : { 0., 0.01, 0.05 })
+  {
+    const auto wedge =
+      prism({ { -0.5, -0.15 }, { 0.5, -thin }, { 0.5, thin }, { -0.5, 0.15 } }, 0.4);
+    const auto fin =
+      prism({ { -0.5, -0.4 }, { -0.3, -0.4 }, { -0.3, -thin - 0.001 }, { 0.5, -thin - 0.001 },
+              { 0.5, thin }, { -0.3, thin }, { -0.3, 0.4 }, { -0.5, 0.4 } },
+        0.4);
+    for (const auto& body : { wedge, fin })
+    {
+      for (int i = 0; i < 16; ++i)
+      {
+        vtkNew<vtkTransform> transform;
+        transform->RotateWXYZ(180 * any(random), any(random), any(random), any(random));
+        transform->Translate(0.1 * any(random), 0.1 * any(random), 0.1 * any(random));
+        vtkNew<vtkTransformPolyDataFilter> turn;
+        turn->SetTransform(transform);
+        turn->SetInputData(body);
+        turn->Update();
+        Vec o, p, q;
+        transform->TransformPoint(Vec{ -0.5, 0, -0.4 }.data(), o.data());
+        transform->TransformPoint(Vec{ 0.5, 0, -0.4 }.data(), p.data());
+        transform->TransformPoint(Vec{ -0.5, 0, 0.4 }.data(), q.data());
+        crossed += expectNoLeaks(turn->GetOutput(), o, p, q, random);
+      }
     }
   }
   EXPECT_GT(crossed, 30000);

@@ -278,11 +278,12 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   vtkNew<vtkSchlierenFilter> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale",
-         "SamplingDimensions", "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity",
-         "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "Cutoff",
-         "KnifeEdgeAngle", "InvertCutoff", "AutoKScale", "KScale", "ScreenDistance", "StepSize",
-         "Interpolation", "SamplesPerPixel", "Precision", "Seed", "Device", "NumberOfThreads" })
+  for (const char* name :
+    { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions",
+      "OutsideBlocksLight", "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity",
+      "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "Cutoff",
+      "KnifeEdgeAngle", "InvertCutoff", "AutoKScale", "KScale", "ScreenDistance", "StepSize",
+      "Interpolation", "SamplesPerPixel", "Precision", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

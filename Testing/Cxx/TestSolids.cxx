@@ -4,6 +4,7 @@
 
 #include "vtkAppendFilter.h"
 #include "vtkImageDataToPointSet.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkStructuredGrid.h"
 #include "vtkThreshold.h"
 #include "vtkUniformGrid.h"
@@ -279,4 +280,47 @@ TEST(Solids, WhatIsOutsideIsHandedOn)
   chained->Update();
   EXPECT_EQ(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity"));
   EXPECT_EQ(valuesOf(chained, "BlockedFraction"), valuesOf(direct, "BlockedFraction"));
+}
+
+// Blocks of images that leave a corner of their box out; hidden cells block light all the same.
+TEST(Solids, WhatBlocksLeaveOutMayLetLightPass)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (const Vec& corner : { Vec{ -1, -1, -1 }, Vec{ 0, -1, -1 }, Vec{ -1, 0, -1 } })
+  {
+    vtkNew<vtkUniformGrid> block;
+    block->SetDimensions(11, 11, 21);
+    block->SetSpacing(0.1, 0.1, 0.1);
+    block->SetOrigin(corner.data());
+    addCellArray(block, "N", gas);
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), block);
+  }
+  vtkUniformGrid::SafeDownCast(blocks->GetBlock(0))->BlankCell(2, 2, 2);
+  auto filter = bench(blocks, 20);
+  filter->SetAutoAmbientRefractivity(true);
+  for (const bool outsideBlocks : { true, false })
+  {
+    filter->SetOutsideBlocksLight(outsideBlocks);
+    filter->Update();
+    auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+    const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
+    for (std::size_t i = 0; i < blocked.size(); ++i)
+    {
+      const double* x = image->GetPoint(static_cast<vtkIdType>(i));
+      if (std::abs(x[0]) > 0.1 && std::abs(x[1]) > 0.1 && std::abs(x[0]) < 0.9 &&
+        std::abs(x[1]) < 0.9)
+      {
+        const bool isHidden = std::hypot(x[0] + 0.75, x[1] + 0.75) < 0.04;
+        const bool isSafe = isHidden || std::hypot(x[0] + 0.75, x[1] + 0.75) > 0.2;
+        const bool isOutside = x[0] > 0 && x[1] > 0;
+        if (isSafe)
+        {
+          EXPECT_EQ(blocked[i], isHidden || (isOutside && outsideBlocks) ? 1 : 0)
+            << x[0] << " " << x[1];
+        }
+      }
+    }
+    EXPECT_EQ(largest(valuesOf(filter, "Deflection")), 0);
+    EXPECT_EQ(largest(blocked), 1);
+  }
 }
