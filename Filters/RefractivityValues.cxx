@@ -11,8 +11,12 @@
 #include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace refractivity
 {
@@ -37,6 +41,8 @@ struct Results
   }
 };
 
+/// Block by block, so that what a block has of bad values is found while it is in the cache: there are
+/// hardly ever any, and all that is left then is a loop over two arrays.
 template <class Real>
 struct LinearConversion
 {
@@ -50,12 +56,52 @@ struct LinearConversion
     vtkSMPTools::For(0, array->GetNumberOfTuples(),
       [&](vtkIdType begin, vtkIdType end)
       {
-        for (vtkIdType i = begin; i < end; ++i)
+        constexpr vtkIdType block = 2048;
+        for (vtkIdType first = begin; first < end; first += block)
         {
-          this->results.set(
-            i, this->model.scale * static_cast<double>(values[i]) + this->model.offset);
+          this->ConvertBlock(values.begin() + first, first, std::min(block, end - first));
         }
       });
+  }
+
+  template <class Iterator>
+  void ConvertBlock(Iterator values, vtkIdType first, vtkIdType count) const
+  {
+    // A product of floats is rounded as little as one that is computed in double and stored as float,
+    // apart from the factor's own rounding, which is the same for all points.
+    using Value = std::decay_t<decltype(values[0])>;
+    const float factor = static_cast<float>(this->model.scale);
+    const bool isInFloats = std::is_same_v<Value, float> && std::is_same_v<Real, float> &&
+      this->model.offset == 0 && std::isnormal(factor);
+    const bool isGood = isInFloats
+      ? this->Store(values, first, count,
+          [factor](auto v) { return static_cast<Real>(factor * static_cast<float>(v)); })
+      : this->Store(values, first, count,
+          [scale = this->model.scale, offset = this->model.offset](auto v)
+          { return static_cast<Real>(scale * static_cast<double>(v) + offset); });
+    if (!isGood ||
+      std::memchr(this->results.valid + first, 0, static_cast<std::size_t>(count)) != nullptr)
+    {
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        this->results.set(first + i, this->results.out[first + i]);
+      }
+    }
+  }
+
+  /// Whether all refractivities are finite.
+  template <class Iterator, class Convert>
+  bool Store(Iterator values, vtkIdType first, vtkIdType count, const Convert& convert) const
+  {
+    Real* out = this->results.out + first;
+    int bad = 0;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const Real n = convert(values[i]);
+      out[i] = n;
+      bad |= std::abs(n) <= std::numeric_limits<Real>::max() ? 0 : 1;
+    }
+    return bad == 0;
   }
 };
 
@@ -108,7 +154,8 @@ vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetName(maskName);
   mask->SetNumberOfValues(count);
-  mask->FillValue(1);
+  vtkSMPTools::Fill(
+    mask->GetPointer(0), mask->GetPointer(0) + count, static_cast<unsigned char>(1));
   return mask;
 }
 

@@ -29,6 +29,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -142,6 +143,17 @@ schlieren::Scene sceneFrom(vtkSchlierenFilter* self)
   return scene;
 }
 
+/// Where all is gas, a mask would only take memory, a fifth of what is held, and be read by the tracer.
+void dropMaskOfOnes(vtkPointData* arrays)
+{
+  auto* valid = vtkUnsignedCharArray::SafeDownCast(arrays->GetArray("vtkValidPointMask"));
+  const auto count = static_cast<std::size_t>(valid->GetNumberOfValues());
+  if (std::memchr(valid->GetPointer(0), 0, count) == nullptr)
+  {
+    arrays->RemoveArray("vtkValidPointMask");
+  }
+}
+
 template <class Array, class Value>
 vtkSmartPointer<Array> newArray(const char* name, const std::vector<Value>& values, int components)
 {
@@ -167,16 +179,17 @@ void addFieldValue(vtkImageData* output, const char* name, const Value& value)
   output->GetFieldData()->AddArray(array);
 }
 
-/// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`.
+/// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`; null where all
+/// is gas.
 const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& storage)
 {
   const auto bytesOf = [arrays](const char* name)
   { return vtkUnsignedCharArray::SafeDownCast(arrays->GetArray(name)); };
   auto* valid = bytesOf("vtkValidPointMask");
   auto* outside = bytesOf("TransparentPointMask");
-  if (!outside)
+  if (!valid || !outside)
   {
-    return valid->GetPointer(0);
+    return valid ? valid->GetPointer(0) : nullptr;
   }
   storage.resize(static_cast<std::size_t>(valid->GetNumberOfValues()));
   std::transform(valid->GetPointer(0), valid->GetPointer(0) + storage.size(),
@@ -414,6 +427,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     vtkWarningMacro(<< warning);
   }
+  dropMaskOfOnes(inside.Refractivity->GetPointData());
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
