@@ -14,14 +14,15 @@ MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "Den
           "MixtureMolarMasses": [], "BackgroundConstant": 2.26e-4, "BackgroundMolarMass": 0.0289647,
           "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
           "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
+          "Fields": [], "TransferFunctions": [], "FieldRanges": [], "RefractivityScale": 3e-4,
           "OutsideBlocksLight": 1, "Bodies": None}
 BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
          "KnifeEdgeAngle": 0.0, "InvertCutoff": 0, "AutoKScale": 1, "KScale": 1000.0,
-         "ScreenDistance": -1.0, "StepSize": 1.0, "Interpolation": "Quadratic",
-         "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1, "Device": "Auto",
-         "NumberOfThreads": 0}
+         "ScreenDistance": -1.0, "ColorByField": 0, "FieldColors": [], "StepSize": 1.0,
+         "Interpolation": "Quadratic", "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1,
+         "Device": "Auto", "NumberOfThreads": 0}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Five fields of a reactor in one schlieren picture, tinted by the field that light crosses.
+
+    pvpython Examples/fields.py        (writes fields.png)
+"""
+
+import os
+
+from paraview.simple import *
+
+root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+plugin = os.environ.get("SCHLIEREN_PLUGIN")
+if not plugin:
+    with open(os.path.join(root, "build", "release", "plugin-file.txt")) as file:
+        plugin = file.read().strip()
+LoadPlugin(plugin, remote=False, ns=globals())
+
+disk = OpenDataFile(os.path.join(root, "Testing", "Data", "disk_exodus", "disk_out_ref.ex2"))
+disk.UpdatePipeline()
+
+
+def curve(*nodes):
+    """A function through (value, result) pairs, straight in between."""
+    return CreatePiecewiseFunction(Points=[c for x, y in nodes for c in (x, y, 0.5, 0)])
+
+
+schlieren = Schlieren(Input=disk)
+schlieren.IndexModel = "Transfer Functions"
+schlieren.Fields = ["Temp", "AsH3", "CH4", "GaMe3", "H2"]
+schlieren.TransferFunctions = [
+    curve((0, 0), (0.4, 0), (0.5, 1), (0.6, 0), (1, 0)),  # around one temperature: a shell
+    curve((0, 0), (1, 0.2)),
+    curve((0, 0), (1, 1)),
+    curve((0, 0), (0.7, 0), (1, 1)),  # only where there is much
+    curve((0, 0), (1, 0))]  # flat: left out
+schlieren.FieldRanges = [293, 913, 0, 0, 0, 0.0012, 0, 0, 0, 0]  # 0, 0: the field's own range
+schlieren.RefractivityScale = 3e-4
+schlieren.ColorByField = 1
+schlieren.FieldColors = [1, 0.4, 0, 1, 0, 1, 0, 0.8, 0.2, 0, 0.4, 1, 1, 1, 1]
+schlieren.ViewDirection = [0, -1, 0]
+schlieren.ViewUp = [0, 0, 1]
+schlieren.FocalPoint = [0, 0, 1]
+schlieren.ParallelScale = 6
+schlieren.ImageSize = [240, 200]
+schlieren.SamplingDimensions = [41, 41, 81]
+schlieren.OutsideBlocksLight = 0  # the round reactor lies in a box
+schlieren.UpdatePipeline()
+SaveData("fields.png", proxy=schlieren)  # the array Color
