@@ -8,8 +8,8 @@ from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, 
 
 
 def told_grid(bench):
-    bench.UpdatePropertyInformation()
-    return bench.Grid
+    bench.UpdatePropertyInformation()  # what the panel shows
+    return bench.GetProperty("Grid")[0]
 
 
 pulse = AMRGaussianPulseSource(Dimension=3, XPulseOrigin=-0.75, YPulseOrigin=-0.75, ZPulseOrigin=1.25)
