@@ -11,6 +11,8 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <stdexcept>
 
 namespace refractivity
@@ -28,8 +30,7 @@ int dimensionOf(vtkDataSet* data)
   int dimension = 0;
   for (vtkIdType i = 0; i < data->GetNumberOfCells() && dimension < 3; ++i)
   {
-    const auto type = static_cast<unsigned char>(data->GetCellType(i));
-    dimension = std::max(dimension, vtkCellTypes::GetDimension(type));
+    dimension = std::max(dimension, dimensionOfCell(data, i));
   }
   return dimension;
 }
@@ -46,6 +47,18 @@ int onlyFlatAxis(const bool isFlat[3], const Source& source)
 }
 
 } // namespace
+
+int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
+{
+  static std::array<std::atomic<int>, 256>
+    known; // one more than the dimension; 0: not yet asked for
+  const auto type = static_cast<unsigned char>(data->GetCellType(cell));
+  if (known[type] == 0)
+  {
+    known[type] = 1 + vtkCellTypes::GetDimension(type);
+  }
+  return known[type] - 1;
+}
 
 int flatAxisOf(const Source& source)
 {

@@ -4,9 +4,15 @@
 
 #include "RefractivitySource.h"
 
+#include "vtkType.h"
+
 /// Two-dimensional data: extruded by one data unit across their plane, half a unit to each side.
 namespace refractivity
 {
+
+/// 0 to 3. vtkCellTypes::GetDimension makes a cell to ask it: for all cells of a mesh, that takes longer
+/// than to resample it.
+int dimensionOfCell(vtkDataSet* data, vtkIdType cell);
 
 /// The coordinate axis (of an image: its own) across the plane in which all cells lie, -1 where there are
 /// 3-D cells. Throws where there are neither: lines, points, tilted or curved surfaces.

@@ -3,6 +3,7 @@
 #include "RefractivityByResampling.h"
 
 #include "FlatData.h"
+#include "Polyhedra.h"
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
@@ -17,9 +18,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkResampleToImage.h"
-#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,18 +41,11 @@ constexpr double fewestVoxels = 64. * 64 * 64;  // of flat data: 64 * 64
 constexpr vtkIdType mostCellsMeasured = 100000; // of a leaf, evenly spread
 constexpr double mostPointsAskedFor = 2048. * 2048 * 2048;
 
-/// Whether a cell counts: a volume, or of flat data a surface.
-bool counts(vtkDataSet* data, vtkIdType cell, int dimension)
-{
-  const auto type = static_cast<unsigned char>(data->GetCellType(cell));
-  return vtkCellTypes::GetDimension(type) == dimension;
-}
-
 bool hasCells(vtkDataSet* data, int dimension)
 {
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
-    if (counts(data, i, dimension))
+    if (dimensionOfCell(data, i) == dimension)
     {
       return true;
     }
@@ -83,7 +75,7 @@ std::array<std::vector<double>, 3> sizesOfCells(const std::vector<Leaf>& leaves,
     const vtkIdType cells = leaf.data->GetNumberOfCells();
     for (vtkIdType i = 0; i < cells; i += 1 + cells / mostCellsMeasured)
     {
-      if (counts(leaf.data, i, dimension))
+      if (dimensionOfCell(leaf.data, i) == dimension)
       {
         double bounds[6];
         leaf.data->GetCellBounds(i, bounds);
@@ -214,19 +206,6 @@ vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
   return copy;
 }
 
-bool hasPolyhedra(const std::vector<Leaf>& leaves)
-{
-  return std::any_of(leaves.begin(), leaves.end(),
-    [](const Leaf& leaf)
-    {
-      auto* mesh = vtkUnstructuredGrid::SafeDownCast(leaf.data);
-      vtkUnsignedCharArray* types = mesh ? mesh->GetCellTypesArray() : nullptr;
-      return types &&
-        std::find(types->GetPointer(0), types->GetPointer(0) + types->GetNumberOfValues(),
-          VTK_POLYHEDRON) != types->GetPointer(0) + types->GetNumberOfValues();
-    });
-}
-
 /// The mean over the valid cells at each point, NaN where there are none: sums of value and of
 /// validity, divided. Clears `valid` at cells whose value is not finite.
 vtkSmartPointer<vtkDataArray> cellsToPoints(
@@ -260,7 +239,7 @@ vtkSmartPointer<vtkDataSet> prepare(
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
   for (vtkIdType i = 0; i < cells; ++i)
   {
-    if ((ghosts && (ghosts->GetValue(i) & hiddenCellBits)) || !counts(data, i, dimension))
+    if ((ghosts && (ghosts->GetValue(i) & hiddenCellBits)) || dimensionOfCell(data, i) != dimension)
     {
       valid->SetValue(i, 0);
     }
@@ -287,7 +266,7 @@ vtkSmartPointer<vtkDataSet> prepare(
     hidden->SetValue(i, valid->GetValue(i) ? 0 : vtkDataSetAttributes::HIDDENCELL);
   }
   prepared->GetCellData()->AddArray(hidden);
-  return prepared;
+  return withoutPolyhedra(prepared);
 }
 
 } // namespace
@@ -397,14 +376,7 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   vtkNew<vtkResampleToImage> resampler;
   resampler->SetInputDataObject(blocks);
   resampler->SetSamplingDimensions(plan.dimensions[0], plan.dimensions[1], plan.dimensions[2]);
-  // VTK finds out whether a point is inside a polyhedron with random numbers that all threads share,
-  // which with several of them ends the program.
-  const vtkSMPTools::Config one(1, "Sequential", false);
-  if (hasPolyhedra(plan.leaves))
-  {
-    vtkSMPTools::LocalScope(one, [&]() { resampler->Update(); });
-  }
-  resampler->Update(); // nothing, where it was done
+  resampler->Update();
 
   vtkImageData* sampled = resampler->GetOutput();
   vtkDataArray* values = sampled->GetPointData()->GetArray(arrayName);

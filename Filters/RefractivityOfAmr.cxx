@@ -83,6 +83,50 @@ std::array<double, 3> spacingOf(vtkImageData* image, int flat)
   return spacing;
 }
 
+/// Calls visit(i, j, k) for all cells from `first` on, x fastest.
+template <class Visit>
+void forCells(const Counts& first, const Counts& count, const Visit& visit)
+{
+  for (int k = first[2]; k < first[2] + count[2]; ++k)
+  {
+    for (int j = first[1]; j < first[1] + count[1]; ++j)
+    {
+      for (int i = first[0]; i < first[0] + count[0]; ++i)
+      {
+        visit(i, j, k);
+      }
+    }
+  }
+}
+
+/// Finds the cells that are no copies of other blocks' cells: a box, around which the copies lie.
+void findOwnCells(AmrBlock& block)
+{
+  vtkUnsignedCharArray* ghosts = block.leaf.data->GetCellGhostArray();
+  if (!ghosts)
+  {
+    block.ownBegin = { 0, 0, 0 };
+    block.ownEnd = block.cells;
+    return;
+  }
+  block.ownBegin = block.cells;
+  block.ownEnd = { 0, 0, 0 };
+  vtkIdType cell = 0;
+  forCells({ 0, 0, 0 }, block.cells,
+    [&](int i, int j, int k)
+    {
+      if (!(ghosts->GetValue(cell++) & vtkDataSetAttributes::DUPLICATECELL))
+      {
+        const Counts at = { i, j, k };
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          block.ownBegin[axis] = std::min(block.ownBegin[axis], at[axis]);
+          block.ownEnd[axis] = std::max(block.ownEnd[axis], at[axis] + 1);
+        }
+      }
+    });
+}
+
 /// Puts the leaves on levels, coarsest first, with positions yet to be found. Empty where they differ in
 /// kind.
 std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
@@ -109,7 +153,8 @@ std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
     {
       level = levels.insert(levels.end(), { spacing, {}, {} });
     }
-    level->blocks.push_back({ leaf, {}, cellsOf(image) });
+    level->blocks.push_back({ leaf, {}, cellsOf(image), {}, {} });
+    findOwnCells(level->blocks.back());
   }
   std::sort(levels.begin(), levels.end(),
     [](const AmrLevel& a, const AmrLevel& b)
@@ -201,22 +246,6 @@ struct Grid
   }
 };
 
-/// Calls visit(i, j, k) for all cells from `first` on, x fastest.
-template <class Visit>
-void forCells(const Counts& first, const Counts& count, const Visit& visit)
-{
-  for (int k = first[2]; k < first[2] + count[2]; ++k)
-  {
-    for (int j = first[1]; j < first[1] + count[1]; ++j)
-    {
-      for (int i = first[0]; i < first[0] + count[0]; ++i)
-      {
-        visit(i, j, k);
-      }
-    }
-  }
-}
-
 Counts ratioOf(const Counts& fine, const Counts& coarse)
 {
   return { fine[0] / coarse[0], fine[1] / coarse[1], fine[2] / coarse[2] };
@@ -238,10 +267,10 @@ void forValues(const Amr& amr, std::size_t level, const AmrBlock& block, const M
       Counts first, count;
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        const int begin = std::max(child.first[axis] / ratio[axis], block.first[axis]);
-        const int end =
-          std::min((child.first[axis] + child.cells[axis] + ratio[axis] - 1) / ratio[axis],
-            block.first[axis] + block.cells[axis]);
+        const int last = child.first[axis] + child.ownEnd[axis] - 1;
+        const int begin =
+          std::max((child.first[axis] + child.ownBegin[axis]) / ratio[axis], block.first[axis]);
+        const int end = std::min(last / ratio[axis] + 1, block.first[axis] + block.cells[axis]);
         first[axis] = begin - block.first[axis];
         count[axis] = end - begin;
       }

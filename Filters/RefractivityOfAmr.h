@@ -28,6 +28,7 @@ struct AmrBlock
   Leaf leaf;
   std::array<int, 3> first; // its first cell
   std::array<int, 3> cells;
+  std::array<int, 3> ownBegin, ownEnd; // those within the block that are no copies from others
 };
 
 /// All blocks of one spacing, coarsest level first.

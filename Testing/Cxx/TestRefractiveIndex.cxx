@@ -8,7 +8,6 @@
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkSOADataArrayTemplate.h"
-#include "vtkShortArray.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkThreshold.h"
 #include "vtkUnstructuredGrid.h"
@@ -99,32 +98,45 @@ TEST(RefractiveIndex, DoublePrecisionRoundsNothing)
   }
 }
 
+// Of points and of cells, as the data of an image and of a mesh.
 TEST(RefractiveIndex, TakesAnyNumericArray)
 {
-  const auto check = [](vtkDataArray* array)
+  for (int type : { VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT,
+         VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG,
+         VTK_UNSIGNED_LONG_LONG, VTK_ID_TYPE, VTK_FLOAT, VTK_DOUBLE, -1 })
   {
-    auto image = cube(3);
+    auto array = type < 0
+      ? vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkSOADataArrayTemplate<double>>::New())
+      : vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
     array->SetName("rho");
     array->SetNumberOfTuples(27);
     for (vtkIdType i = 0; i < 27; ++i)
     {
       array->SetComponent(i, 0, static_cast<double>(i));
     }
-    image->GetPointData()->AddArray(array);
-    auto filter = refractiveIndex(
-      image, vtkRefractiveIndex::GLADSTONE_DALE, vtkRefractiveIndex::DENSITY, "rho");
-    filter->SetGladstoneDaleConstant(0.25);
-    filter->Update();
-    for (vtkIdType i = 0; i < 27; ++i)
+    auto ofPoints = cube(3);
+    ofPoints->GetPointData()->AddArray(array);
+    auto ofCells = cube(4);
+    ofCells->GetCellData()->AddArray(array);
+    const auto valuesFrom = [](vtkDataObject* input)
     {
-      EXPECT_EQ(arrayOf(filter, "Refractivity")->GetComponent(i, 0), 0.25 * static_cast<double>(i))
-        << array->GetClassName();
+      auto filter = refractiveIndex(
+        input, vtkRefractiveIndex::GLADSTONE_DALE, vtkRefractiveIndex::DENSITY, "rho");
+      filter->SetGladstoneDaleConstant(0.25);
+      filter->SetSamplingDimensions(3, 3, 3);
+      filter->Update();
+      return valuesOf(filter, "Refractivity");
+    };
+    const std::vector<double> direct = valuesFrom(ofPoints);
+    EXPECT_EQ(valuesFrom(ofCells), direct) << array->GetClassName();
+    const std::vector<double> resampled = valuesFrom(voxels(ofPoints));
+    for (std::size_t i = 0; i < 27; ++i)
+    {
+      EXPECT_EQ(direct[i], 0.25 * static_cast<double>(i)) << array->GetClassName();
+      EXPECT_NEAR(resampled[i], direct[i], 1e-4) << array->GetClassName();
     }
-  };
-  check(vtkNew<vtkShortArray>());
-  check(vtkNew<vtkFloatArray>());
-  check(vtkNew<vtkUnsignedCharArray>());
-  check(vtkNew<vtkSOADataArrayTemplate<double>>());
+    EXPECT_EQ(valuesFrom(voxels(ofCells)).size(), 27u) << array->GetClassName();
+  }
 }
 
 TEST(RefractiveIndex, InvalidValuesAreMasked)

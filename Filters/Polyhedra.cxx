@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Polyhedra.h"
+
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace refractivity
+{
+
+namespace
+{
+
+/// Adds the mean of the cell's corners and of their values. Returns its number.
+vtkIdType addMiddle(
+  vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points, vtkDoubleArray* values)
+{
+  vtkNew<vtkIdList> corners;
+  mesh->GetCellPoints(cell, corners);
+  const auto count = static_cast<double>(corners->GetNumberOfIds());
+  double middle[3] = { 0, 0, 0 }, value = 0;
+  for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+  {
+    double corner[3];
+    points->GetPoint(corners->GetId(i), corner);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] += corner[axis] / count;
+    }
+    value += values->GetValue(corners->GetId(i)) / count;
+  }
+  values->InsertNextValue(value);
+  return points->InsertNextPoint(middle);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
+{
+  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
+  vtkUnsignedCharArray* types = mesh ? mesh->GetCellTypesArray() : nullptr;
+  const unsigned char* end = types ? types->GetPointer(0) + types->GetNumberOfValues() : nullptr;
+  if (!types || std::find<const unsigned char*>(types->GetPointer(0), end, VTK_POLYHEDRON) == end)
+  {
+    return data;
+  }
+
+  vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();
+  auto* scalars = vtkDoubleArray::SafeDownCast(mesh->GetPointData()->GetScalars());
+  auto cut = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->DeepCopy(mesh->GetPoints());
+  vtkNew<vtkDoubleArray> values;
+  values->DeepCopy(scalars);
+  vtkNew<vtkUnsignedCharArray> kept;
+  kept->SetName(vtkDataSetAttributes::GhostArrayName());
+  cut->Allocate(mesh->GetNumberOfCells());
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    const unsigned char ghost = ghosts ? ghosts->GetValue(cell) : 0;
+    if (mesh->GetCellType(cell) != VTK_POLYHEDRON)
+    {
+      mesh->GetCellPoints(cell, ids);
+      cut->InsertNextCell(mesh->GetCellType(cell), ids);
+      kept->InsertNextValue(ghost);
+      continue;
+    }
+    const vtkIdType middle = addMiddle(mesh, cell, points, values);
+    mesh->GetFaceStream(cell, ids); // faces, and for each its points' number and the points
+    vtkIdType at = 1;
+    for (vtkIdType face = 0; face < ids->GetId(0); ++face)
+    {
+      const vtkIdType count = ids->GetId(at++);
+      const vtkIdType* corners = ids->GetPointer(at);
+      at += count;
+      const vtkIdType first = std::min_element(corners, corners + count) - corners;
+      for (vtkIdType i = 1; i + 1 < count; ++i)
+      {
+        const vtkIdType tetrahedron[4] = { corners[first], corners[(first + i) % count],
+          corners[(first + i + 1) % count], middle };
+        cut->InsertNextCell(VTK_TETRA, 4, tetrahedron);
+        kept->InsertNextValue(ghost);
+      }
+    }
+  }
+  cut->SetPoints(points);
+  cut->GetPointData()->SetScalars(values);
+  cut->GetCellData()->AddArray(kept);
+  return cut;
+}
+
+} // namespace refractivity

@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Adaptive meshes of ParaView's own sources, 2-D data, and the grid that is told."""
+
+import numpy as np
+from paraview.simple import AMRGaussianPulseSource, HierarchicalFractal, Slice
+from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, picture
+
+
+def told_grid(bench):
+    bench.UpdatePropertyInformation()  # what the panel shows
+    return bench.GetProperty("Grid")[0]
+
+
+pulse = AMRGaussianPulseSource(Dimension=3, XPulseOrigin=-0.75, YPulseOrigin=-0.75, ZPulseOrigin=1.25)
+pulse.UpdatePipeline()
+medium = RefractiveIndex(pulse, IndexModel="Refractivity", IndexArray=["CELLS", "Gaussian-Pulse"])
+assert output(medium).GetDimensions() == (10, 10, 10)
+assert told_grid(medium) == "10 x 10 x 10 points: the cells of level 1", told_grid(medium)
+bench = Schlieren(pulse, IndexModel="Refractivity", IndexArray=["CELLS", "Gaussian-Pulse"])
+assert np.abs(picture(bench, "Deflection")).max() > 0 and picture(bench, "BlockedFraction").max() == 0
+assert told_grid(bench) == told_grid(medium)
+
+# Six levels of blocks, with layers of ghost cells or without, which give the same medium.
+ranges = []
+for ghosts in (0, 1):
+    fractal = HierarchicalFractal(GhostLevels=ghosts, TwoDimensional=0, MaximumLevel=3)
+    fractal.UpdatePipeline()
+    medium = RefractiveIndex(fractal, IndexModel="Refractivity",
+                             IndexArray=["CELLS", "Fractal Volume Fraction"])
+    image = output(medium)
+    assert "the cells of level" in told_grid(medium), told_grid(medium)
+    assert image.GetPointData().GetArray("vtkValidPointMask").GetRange() == (1, 1)
+    ranges.append((image.GetDimensions(), image.GetPointData().GetArray("Refractivity").GetRange()))
+assert ranges[0] == ranges[1], ranges
+
+# A slice is extruded by a unit, on a grid as fine as its triangles.
+column = gaussian_column(64)
+middle = Slice(column, SliceType="Plane")
+middle.SliceType.Normal = [0, 1, 0]
+middle.Triangulatetheslice = 0
+flat = RefractiveIndex(middle, IndexModel="Refractivity", IndexArray=["POINTS", "N"])
+image = output(flat)
+assert image.GetDimensions() == (64, 2, 64), image.GetDimensions()
+assert image.GetBounds()[2:4] == (-0.5, 0.5), image.GetBounds()
+assert "chosen from the sizes of the cells" in told_grid(flat), told_grid(flat)
