@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityByResampling.h"
 
+#include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
 #include "vtkBoundingBox.h"
@@ -227,8 +228,8 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
     (bounds[5] - bounds[4]) / (plan.dimensions[2] - 1));
 }
 
-Tally resample(
-  const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output)
+Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+  bool outsideBlocksLight, vtkImageData* output)
 {
   Tally tally;
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -251,7 +252,12 @@ Tally resample(
   output->CopyStructure(sampled);
   auto valid = newMask(output->GetNumberOfPoints());
   hidePoints(sampled, valid);
+  const auto outside = outsideBlocksLight ? nullptr : outsideOf(blocks, output, valid);
   setArrays(output, { values }, Linear(), valid, doublePrecision);
+  if (outside)
+  {
+    setOutside(outside, output);
+  }
   return tally;
 }
 

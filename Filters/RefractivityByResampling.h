@@ -25,7 +25,8 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 void gridOf(const Resampling& plan, vtkImageData* structure);
 
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
-Tally resample(
-  const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output);
+/// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight.
+Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+  bool outsideBlocksLight, vtkImageData* output);
 
 } // namespace refractivity

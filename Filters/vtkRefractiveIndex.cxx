@@ -4,6 +4,7 @@
 
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
+#include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
 
@@ -52,7 +53,7 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkRefractiveIndex::vtkRefractiveIndex() = default;
+vtkRefractiveIndex::vtkRefractiveIndex() { this->SetNumberOfInputPorts(2); }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
@@ -79,6 +80,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Wavelength: " << this->Wavelength << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  os << indent << "OutsideBlocksLight: " << this->OutsideBlocksLight << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
@@ -133,8 +135,15 @@ bool vtkRefractiveIndex::HasHumidityArray()
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractiveIndex::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
@@ -155,7 +164,8 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 }
 
 //------------------------------------------------------------------------------
-std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
+std::string vtkRefractiveIndex::Convert(
+  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies)
 {
   output->Initialize();
   const Source source = chooseSource(this, input);
@@ -178,18 +188,33 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
       else
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
-        tally = resample(plan, source, this->DoublePrecision, output);
+        tally = resample(plan, source, this->DoublePrecision, this->OutsideBlocksLight, output);
       }
     });
 
   const unsigned char* valid =
     vtkUnsignedCharArray::SafeDownCast(output->GetPointData()->GetArray(maskName))->GetPointer(0);
-  if (std::none_of(
-        valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; }))
+  const auto hasGas = [&]
+  {
+    return std::any_of(
+      valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; });
+  };
+  if (!hasGas())
   {
     throw std::runtime_error("There is no valid value in the " + source.label +
       " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
       "to cross. Choose another array or check the data.");
+  }
+  std::string warning = warningFrom(source.model, tally);
+  if (bodies)
+  {
+    const std::string ofBodies = placeBodies(bodies, output);
+    warning += (warning.empty() || ofBodies.empty() ? "" : " ") + ofBodies;
+    if (!hasGas())
+    {
+      throw std::runtime_error("The Bodies cover all of the gas, so there is none for light to "
+                               "cross. Leave out what encloses the flow.");
+    }
   }
 
   int dimensions[3];
@@ -201,7 +226,7 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
-  return warningFrom(source.model, tally);
+  return warning;
 }
 
 //------------------------------------------------------------------------------
@@ -263,6 +288,11 @@ int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
     inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
       inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
   }
+  if (vtkInformation* bodies = inputVector[BODIES]->GetInformationObject(0))
+  {
+    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  }
   return 1;
 }
 
@@ -274,7 +304,8 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* output = vtkImageData::GetData(outInfo);
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now = std::max(this->GetMTime(), upstreamTime(this));
+  const vtkMTimeType now =
+    std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
   if (this->FailedAt == now)
   {
     output->Initialize();
@@ -284,7 +315,8 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   try
   {
     this->SetAbortExecute(0); // it stays set after an abort
-    const std::string warning = this->Convert(vtkDataObject::GetData(inputVector[0]), output);
+    const std::string warning = this->Convert(
+      vtkDataObject::GetData(inputVector[0]), output, vtkDataObject::GetData(inputVector[BODIES]));
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);

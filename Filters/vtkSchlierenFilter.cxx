@@ -175,6 +175,25 @@ void addFieldValue(vtkImageData* output, const char* name, const Value& value)
   output->GetFieldData()->AddArray(array);
 }
 
+/// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`.
+const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& storage)
+{
+  const auto bytesOf = [arrays](const char* name)
+  { return vtkUnsignedCharArray::SafeDownCast(arrays->GetArray(name)); };
+  auto* valid = bytesOf("vtkValidPointMask");
+  auto* outside = bytesOf("TransparentPointMask");
+  if (!outside)
+  {
+    return valid->GetPointer(0);
+  }
+  storage.resize(static_cast<std::size_t>(valid->GetNumberOfValues()));
+  std::transform(valid->GetPointer(0), valid->GetPointer(0) + storage.size(),
+    outside->GetPointer(0), storage.begin(),
+    [](unsigned char isValid, unsigned char isOutside)
+    { return isOutside ? schlieren::transparent : isValid; });
+  return storage.data();
+}
+
 void setOutput(vtkImageData* output, const schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
@@ -207,6 +226,7 @@ void setOutput(vtkImageData* output, const schlieren::Image& image)
 vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
+  this->SetNumberOfInputPorts(2);
   this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
 }
 
@@ -302,8 +322,15 @@ vtkMTimeType vtkSchlierenFilter::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == vtkRefractiveIndex::BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
@@ -333,11 +360,17 @@ void vtkSchlierenFilter::OnMediumProgress()
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
+bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describeInput(input, upstreamTime(this));
+  std::vector<double> description = describeInput(input, upstreamTime(this, 0));
+  if (bodies)
+  {
+    const std::vector<double> ofBodies =
+      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
+    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  }
   if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
   {
     return true;
@@ -345,7 +378,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
   inside.MediumTime = 0;
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  const std::string warning = this->Medium->Convert(input, inside.Refractivity);
+  const std::string warning = this->Medium->Convert(input, inside.Refractivity, bodies);
   if (this->Medium->GetAbortExecute())
   {
     return false;
@@ -366,14 +399,13 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
   auto* floats = vtkFloatArray::SafeDownCast(values);
   auto* doubles = vtkDoubleArray::SafeDownCast(values);
-  auto* valid =
-    vtkUnsignedCharArray::SafeDownCast(refractivity->GetPointData()->GetArray("vtkValidPointMask"));
 
   schlieren::Field field;
   field.grid = gridFrom(refractivity);
   field.singles = floats ? floats->GetPointer(0) : nullptr;
   field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
-  field.valid = valid->GetPointer(0);
+  std::vector<unsigned char> mask;
+  field.valid = maskFrom(refractivity->GetPointData(), mask);
   if (!this->AutoAmbientRefractivity)
   {
     field.ambient = this->AmbientRefractivity;
@@ -399,8 +431,9 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   {
     vtkWarningMacro(
       << "All light that meets the data is blocked, so the picture is black there: every "
-         "ray meets a place that is solid (NaN, masked, blanked) or that no cell covers. "
-         "Look along another ViewDirection, or fill the data's box.");
+         "ray meets a place that is solid (NaN, masked, blanked, a body) or that no cell covers. "
+         "Look along another ViewDirection, or let light pass where no cell is with "
+         "OutsideBlocksLight off.");
   }
   if (image.raysLost > 0)
   {
@@ -452,16 +485,23 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    vtkInformation* inInfo = inputVector[port]->GetInformationObject(0);
+    if (!inInfo)
+    {
+      continue;
+    }
+    if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+    // All of it, on every process: light crosses what several processes would share.
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
-  // All of it, on every process: light crosses what several processes would share.
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   return 1;
 }
 
@@ -492,7 +532,8 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now = std::max(this->GetMTime(), upstreamTime(this));
+  const vtkMTimeType now = std::max(
+    { this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, vtkRefractiveIndex::BODIES) });
   if (this->Inside->FailedAt == now)
   {
     return 1;
@@ -501,7 +542,9 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    if (this->UpdateRefractivity(vtkDataObject::GetData(inputVector[0])) && this->Render(output))
+    if (this->UpdateRefractivity(vtkDataObject::GetData(inputVector[0]),
+          vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES])) &&
+      this->Render(output))
     {
       outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
       outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);

@@ -21,7 +21,7 @@
  * `RaysTraced`, `RaysLost` (trapped in the medium or turned back by it), `StepsTaken`,
  * `TraceSeconds` (0 where nothing had to be traced), `DisplacementBound` (data units).
  *
- * The input and the properties that describe the medium are those of vtkRefractiveIndex; an image
+ * The inputs and the properties that describe the medium are those of vtkRefractiveIndex; an image
  * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
  * until something that it depends on changes: another cutoff, k or knife angle traces nothing,
  * another view traces again but keeps the medium.
@@ -100,6 +100,7 @@ public:
   vtkSchlierenMediumMacro(RelativeHumidity, double);
   vtkSchlierenMediumMacro(CO2, double);
   vtkSchlierenMediumMacro(Wavelength, double);
+  vtkSchlierenMediumMacro(OutsideBlocksLight, bool);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {
     this->Medium->SetSamplingDimensions(x, y, z);
@@ -332,7 +333,7 @@ private:
   void PassArraySelections();
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
-  bool UpdateRefractivity(vtkDataObject* input);
+  bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
   /// Makes the picture from the refractivity. False if aborted.
   bool Render(vtkImageData* output);
 

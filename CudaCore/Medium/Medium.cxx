@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace schlieren
 {
@@ -25,9 +26,11 @@ struct Samples
   const Value* values;
   const unsigned char* valid;
 
+  bool isTransparent(std::int64_t at) const { return valid != nullptr && valid[at] == transparent; }
   bool isGas(std::int64_t at) const
   {
-    return (valid == nullptr || valid[at] != 0) && std::isfinite(values[at]);
+    return (valid == nullptr || (valid[at] != 0 && valid[at] != transparent)) &&
+      std::isfinite(values[at]);
   }
 };
 
@@ -79,9 +82,11 @@ struct Range
   std::int64_t gas = 0;
 };
 
-/// Copies the samples into the padded volume as nu, marks solids (with value 0) and finds the range.
+/// Copies the samples into the padded volume as nu, marks solids, and what is `empty` (solids and
+/// transparent places; their nu is 0), and finds the range.
 template <class Real, class Value>
-Range load(const Samples<Value>& samples, double ambient, Medium<Real>& medium, int threads)
+Range load(const Samples<Value>& samples, double ambient, Medium<Real>& medium,
+  std::vector<std::uint32_t>& empty, int threads)
 {
   const auto [nx, ny, nz] = medium.volume.dimensions;
   const double scale = 1 / (1 + ambient);
@@ -121,19 +126,29 @@ Range load(const Samples<Value>& samples, double ambient, Medium<Real>& medium, 
   }
   if (total.gas < nx * ny * nz)
   {
-    medium.solid.assign((medium.volume.samples.size() + 31) / 32, 0);
+    empty.assign((medium.volume.samples.size() + 31) / 32, 0);
+    bool hasSolids = false;
+    std::vector<std::uint32_t> solid = empty;
     for (std::int64_t k = 0; k < nz; ++k)
     {
       for (std::int64_t j = 0; j < ny; ++j)
       {
         for (std::int64_t i = 0; i < nx; ++i)
         {
-          if (!samples.isGas((k * ny + j) * nx + i))
+          const std::int64_t at = (k * ny + j) * nx + i;
+          if (!samples.isGas(at))
           {
-            setBit(medium.solid, medium.volume.index(i, j, k), true);
+            const bool isSolid = !samples.isTransparent(at);
+            setBit(empty, medium.volume.index(i, j, k), true);
+            setBit(solid, medium.volume.index(i, j, k), isSolid);
+            hasSolids = hasSolids || isSolid;
           }
         }
       }
+    }
+    if (hasSolids)
+    {
+      medium.solid = std::move(solid);
     }
   }
   return total;
@@ -236,12 +251,13 @@ Medium<Real> build(
       "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
   }
   medium.ambient = field.ambient ? *field.ambient : boundaryMedian(samples, field.grid.dimensions);
-  const Range range = load(samples, medium.ambient, medium, threads);
+  std::vector<std::uint32_t> empty;
+  const Range range = load(samples, medium.ambient, medium, empty, threads);
   checkRange(range);
   medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
-  if (!medium.solid.empty())
+  if (!empty.empty())
   {
-    fillSolids(medium.volume, medium.solid);
+    fillEmpty(medium.volume, empty);
   }
   if (interpolation == Interpolation::Quadratic)
   {

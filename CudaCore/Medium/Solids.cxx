@@ -37,10 +37,9 @@ void forNeighbours(const PaddedVolume<Real>& volume, std::int64_t at, const Visi
 } // namespace
 
 template <class Real>
-void fillSolids(PaddedVolume<Real>& volume, const std::vector<std::uint32_t>& solid)
+void fillEmpty(PaddedVolume<Real>& volume, std::vector<std::uint32_t> empty)
 {
-  std::vector<std::uint32_t> empty = solid; // points without a value yet
-  std::vector<std::uint32_t> queued(solid.size(), 0);
+  std::vector<std::uint32_t> queued(empty.size(), 0);
   std::vector<std::int64_t> layer;
 
   const auto [nx, ny, nz] = volume.dimensions;
@@ -52,9 +51,9 @@ void fillSolids(PaddedVolume<Real>& volume, const std::vector<std::uint32_t>& so
       {
         const std::int64_t at = volume.index(i, j, k);
         bool touchesGas = false;
-        if (bitAt(solid, at))
+        if (bitAt(empty, at))
         {
-          forNeighbours(volume, at, [&](std::int64_t n) { touchesGas |= !bitAt(solid, n); });
+          forNeighbours(volume, at, [&](std::int64_t n) { touchesGas |= !bitAt(empty, n); });
         }
         if (touchesGas)
         {
@@ -110,7 +109,7 @@ void fillSolids(PaddedVolume<Real>& volume, const std::vector<std::uint32_t>& so
   }
 }
 
-template void fillSolids(PaddedVolume<float>&, const std::vector<std::uint32_t>&);
-template void fillSolids(PaddedVolume<double>&, const std::vector<std::uint32_t>&);
+template void fillEmpty(PaddedVolume<float>&, std::vector<std::uint32_t>);
+template void fillEmpty(PaddedVolume<double>&, std::vector<std::uint32_t>);
 
 } // namespace schlieren

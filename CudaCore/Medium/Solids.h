@@ -10,11 +10,11 @@
 namespace schlieren
 {
 
-/// Gives the points of `solid` (one bit per sample, as in MediumView) the mean of those neighbours
+/// Gives the points of `empty` (one bit per sample, as in MediumView) the mean of those neighbours
 /// that have a value already, layer after layer, outward from the gas. Gas keeps its values; next to
 /// a body in uniform gas there is no gradient.
 template <class Real>
-void fillSolids(PaddedVolume<Real>& volume, const std::vector<std::uint32_t>& solid);
+void fillEmpty(PaddedVolume<Real>& volume, std::vector<std::uint32_t> empty);
 
 inline bool bitAt(const std::vector<std::uint32_t>& bits, std::int64_t at)
 {
