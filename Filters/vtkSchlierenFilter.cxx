@@ -324,15 +324,13 @@ vtkMTimeType vtkSchlierenFilter::GetMTime()
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == vtkRefractiveIndex::BODIES)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
+  // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  if (port == vtkRefractiveIndex::BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
