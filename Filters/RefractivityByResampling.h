@@ -5,18 +5,30 @@
 #include "RefractivitySource.h"
 
 #include <array>
+#include <string>
 
 /// The refractivity of everything that is not one image: resampled to a grid.
 namespace refractivity
 {
 
-/// The leaves that have 3-D cells, and the grid that covers them.
+/// The leaves that have 3-D cells (of flat data: 2-D cells), and the grid that covers them.
 struct Resampling
 {
   std::vector<Leaf> leaves;
-  std::array<int, 3> dimensions;
+  std::array<int, 3> dimensions; // 1 along the flat axis
   double bounds[6];
+  int flatAxis;     // -1: none
+  std::string note; // what the user may want to know of the grid
 };
+
+/// Most points of a grid that is chosen, not given.
+constexpr double mostVoxels = 256. * 256 * 256;
+
+/// SamplingDimensions, each 0 or at least 2. Throws where they are not.
+std::array<int, 3> requireDimensions(const int samplingDimensions[3]);
+
+/// Throws where a grid has more points than can be held.
+void requireFits(const std::array<int, 3>& dimensions);
 
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
 Resampling planResampling(const Source& source, const int samplingDimensions[3]);

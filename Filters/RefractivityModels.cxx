@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityModels.h"
 
+#include "GasChoices.h"
+
+#include "vtkPiecewiseFunction.h"
 #include "vtkRefractiveIndex.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -66,9 +70,31 @@ void requireOneEach(const char* name, std::size_t count, std::size_t species)
 
 Linear gladstoneDale(vtkRefractiveIndex* self)
 {
-  requireFinite("GladstoneDaleConstant", self->GetGladstoneDaleConstant());
+  const schlieren::Gas* gas = gasFrom("Gas", self->GetGas());
+  const double constant =
+    gas ? gas->constantAt(wavelengthOfGases(self)) : self->GetGladstoneDaleConstant();
+  requireFinite("GladstoneDaleConstant", constant);
   requireFinite("DensityScale", self->GetDensityScale());
-  return { self->GetGladstoneDaleConstant() * self->GetDensityScale(), 0 };
+  return { constant * self->GetDensityScale(), 0 };
+}
+
+/// What the species and the background are made of where they were chosen by name, null elsewhere; the
+/// background is the last.
+std::vector<const schlieren::Gas*> gasesOfMixture(vtkRefractiveIndex* self)
+{
+  const std::size_t species = self->GetMixtureArrays().size();
+  std::vector<const schlieren::Gas*> gases;
+  if (!self->GetMixtureGases().empty())
+  {
+    requireOneEach("MixtureGases", self->GetMixtureGases().size(), species);
+    for (const std::string& name : self->GetMixtureGases())
+    {
+      gases.push_back(gasFrom("MixtureGases", name));
+    }
+  }
+  gases.resize(species);
+  gases.push_back(gasFrom("BackgroundGas", self->GetBackgroundGas()));
+  return gases;
 }
 
 GasMixture gasMixture(vtkRefractiveIndex* self)
@@ -82,38 +108,51 @@ GasMixture gasMixture(vtkRefractiveIndex* self)
       "MixtureArrays is empty, so there is no mixture. Name the arrays of "
       "the fractions, or set IndexModel to Gladstone-Dale for a single gas.");
   }
-  requireOneEach("MixtureConstants", constants.size(), species);
-  requireConstant("BackgroundConstant", self->GetBackgroundConstant());
   requireFinite("DensityScale", self->GetDensityScale());
+  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(self);
+  const bool allNamed = std::find(gases.begin(), gases.end() - 1, nullptr) == gases.end() - 1;
 
   GasMixture model;
   model.densityScale = self->GetDensityScale();
   model.ofVolumes = self->GetFractionType() == vtkRefractiveIndex::VOLUME;
-  model.mixture.background.constant = self->GetBackgroundConstant();
-  for (const double constant : constants)
+  if (!allNamed)
   {
-    requireConstant("MixtureConstants", constant);
-    schlieren::Component component;
-    component.constant = constant;
-    model.mixture.species.push_back(component);
-  }
-  if (model.ofVolumes)
-  {
-    if (molarMasses.empty())
+    requireOneEach("MixtureConstants", constants.size(), species);
+    if (model.ofVolumes && molarMasses.empty())
     {
       throw std::runtime_error("MixtureMolarMasses is empty, but volume fractions weigh by the "
                                "gases' masses. Give the molar mass of each gas in kg/mol (helium: "
                                "0.0040026), or set FractionType to Mass.");
     }
-    requireOneEach("MixtureMolarMasses", molarMasses.size(), species);
-    requireMolarMass("BackgroundMolarMass", self->GetBackgroundMolarMass());
-    model.mixture.background.molarMass = self->GetBackgroundMolarMass();
-    for (std::size_t i = 0; i < species; ++i)
+    if (model.ofVolumes)
     {
-      requireMolarMass("MixtureMolarMasses", molarMasses[i]);
-      model.mixture.species[i].molarMass = molarMasses[i];
+      requireOneEach("MixtureMolarMasses", molarMasses.size(), species);
     }
   }
+  const auto component = [&](std::size_t i)
+  {
+    schlieren::Component part;
+    if (gases[i])
+    {
+      part.constant = gases[i]->constantAt(wavelengthOfGases(self));
+      part.molarMass = gases[i]->molarMass;
+      return part;
+    }
+    const bool isBackground = i == species;
+    part.constant = isBackground ? self->GetBackgroundConstant() : constants[i];
+    requireConstant(isBackground ? "BackgroundConstant" : "MixtureConstants", part.constant);
+    if (model.ofVolumes)
+    {
+      part.molarMass = isBackground ? self->GetBackgroundMolarMass() : molarMasses[i];
+      requireMolarMass(isBackground ? "BackgroundMolarMass" : "MixtureMolarMasses", part.molarMass);
+    }
+    return part;
+  };
+  for (std::size_t i = 0; i < species; ++i)
+  {
+    model.mixture.species.push_back(component(i));
+  }
+  model.mixture.background = component(species);
   return model;
 }
 
@@ -195,6 +234,39 @@ std::string CiddorAir::warning(const std::string& share) const
 }
 
 //------------------------------------------------------------------------------
+FieldMean fieldMeanFrom(vtkRefractiveIndex* self)
+{
+  const bool isModel = self->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS;
+  const auto& functions = self->GetTransferFunctions();
+  const std::vector<double>& ranges = self->GetFieldRanges();
+  const std::size_t fields = self->GetFields().size();
+  if (isModel && !functions.empty() && functions.size() != fields)
+  {
+    throw std::runtime_error("Fields and TransferFunctions differ in length (" +
+      std::to_string(fields) + " and " + std::to_string(functions.size()) +
+      "). Give one function for each field, or none for straight lines.");
+  }
+  if (!ranges.empty() && ranges.size() != 2 * fields)
+  {
+    throw std::runtime_error("FieldRanges holds " + std::to_string(ranges.size()) + " values for " +
+      std::to_string(fields) + " fields. Give two for each, or none for the fields' own ranges.");
+  }
+  requireFinite("RefractivityScale", self->GetRefractivityScale());
+
+  FieldMean model;
+  model.scale = self->GetRefractivityScale();
+  for (std::size_t i = 0; i < fields; ++i)
+  {
+    const double low = ranges.empty() ? 0 : ranges[2 * i];
+    const double high = ranges.empty() ? 0 : ranges[2 * i + 1];
+    requireFinite("A value of FieldRanges", low);
+    requireFinite("A value of FieldRanges", high);
+    model.curves.emplace_back(isModel && !functions.empty() ? functions[i] : nullptr, low, high);
+  }
+  return model;
+}
+
+//------------------------------------------------------------------------------
 Model modelFrom(vtkRefractiveIndex* self)
 {
   switch (self->GetIndexModel())
@@ -205,6 +277,8 @@ Model modelFrom(vtkRefractiveIndex* self)
       return gasMixture(self);
     case vtkRefractiveIndex::CIDDOR:
       return ciddorAir(self);
+    case vtkRefractiveIndex::TRANSFER_FUNCTIONS:
+      return fieldMeanFrom(self);
     case vtkRefractiveIndex::REFRACTIVE_INDEX:
       return Linear{ 1, -1 };
     default:

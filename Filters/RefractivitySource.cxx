@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivitySource.h"
 
+#include "GasChoices.h"
+
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
@@ -74,6 +76,16 @@ std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
       if (self->HasHumidityArray())
       {
         add(Index::HUMIDITY, "Humidity");
+      }
+      break;
+    case Index::TRANSFER_FUNCTIONS:
+      for (const std::string& name : self->GetFields())
+      {
+        selections.push_back({ "Fields", name });
+      }
+      if (selections.empty())
+      {
+        selections.push_back({ "Fields", "" }); // to be told so
       }
       break;
     default:
@@ -294,11 +306,12 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
 }
 
 /// The refractivity that was computed before, if the image is to be used as it stands: IndexModel does
-/// not ask for an index, and its first array is missing, not chosen or the refractivity itself.
+/// not ask for an index or for fields by name, and its first array is missing, not chosen or the refractivity itself.
 vtkDataArray* computedBefore(
   vtkRefractiveIndex* self, vtkImageData* image, const Selection& selection)
 {
-  if (!image || self->GetIndexModel() == vtkRefractiveIndex::REFRACTIVE_INDEX)
+  if (!image || self->GetIndexModel() == vtkRefractiveIndex::REFRACTIVE_INDEX ||
+    (self->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS && !self->GetFields().empty()))
   {
     return nullptr;
   }
@@ -330,6 +343,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   else
   {
     source.model = modelFrom(self);
+    source.noteOnGases = noteOnGases(self);
     source.leaves = leavesWith(selections, dataSets);
   }
 

@@ -41,7 +41,8 @@ struct Source
   std::vector<Leaf> leaves;      // at least one
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
-  std::string label; // for messages: "array 'rho'" or "arrays 'T', 'p'"
+  std::string noteOnGases; // what the user should know once, mostly empty
+  std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
 };
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);

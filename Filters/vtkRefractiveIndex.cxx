@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "FlatData.h"
+#include "GasChoices.h"
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
+#include "RefractivityOfAmr.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
 
 #include "vtkFieldData.h"
+#include "vtkGasTable.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -16,6 +20,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -40,6 +45,17 @@ void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
   outInfo->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
 }
 
+void printList(
+  ostream& os, vtkIndent indent, const char* name, const std::vector<std::string>& texts)
+{
+  os << indent << name << ":";
+  for (const std::string& text : texts)
+  {
+    os << " '" << text << "'";
+  }
+  os << "\n";
+}
+
 void printList(ostream& os, vtkIndent indent, const char* name, const std::vector<double>& values)
 {
   os << indent << name << ":";
@@ -60,16 +76,14 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "IndexModel: " << this->IndexModel << "\n";
+  os << indent << "Gas: " << this->Gas << "\n";
   os << indent << "GladstoneDaleConstant: " << this->GladstoneDaleConstant << "\n";
   os << indent << "DensityScale: " << this->DensityScale << "\n";
-  os << indent << "MixtureArrays:";
-  for (const std::string& name : this->MixtureArrays)
-  {
-    os << " '" << name << "'";
-  }
-  os << "\n";
+  printList(os, indent, "MixtureArrays", this->MixtureArrays);
+  printList(os, indent, "MixtureGases", this->MixtureGases);
   printList(os, indent, "MixtureConstants", this->MixtureConstants);
   printList(os, indent, "MixtureMolarMasses", this->MixtureMolarMasses);
+  os << indent << "BackgroundGas: " << this->BackgroundGas << "\n";
   os << indent << "BackgroundConstant: " << this->BackgroundConstant << "\n";
   os << indent << "BackgroundMolarMass: " << this->BackgroundMolarMass << "\n";
   os << indent << "FractionType: " << this->FractionType << "\n";
@@ -78,9 +92,19 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RelativeHumidity: " << this->RelativeHumidity << "\n";
   os << indent << "CO2: " << this->CO2 << "\n";
   os << indent << "Wavelength: " << this->Wavelength << "\n";
+  os << indent << "Fields:";
+  for (const std::string& name : this->Fields)
+  {
+    os << " '" << name << "'";
+  }
+  os << "\n";
+  os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
+  printList(os, indent, "FieldRanges", this->FieldRanges);
+  os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
   os << indent << "OutsideBlocksLight: " << this->OutsideBlocksLight << "\n";
+  os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
@@ -97,6 +121,27 @@ void vtkRefractiveIndex::ClearMixtureArrays()
 {
   this->MixtureArrays.clear();
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureGas(const char* name)
+{
+  this->MixtureGases.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureGases()
+{
+  this->MixtureGases.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkRefractiveIndex::GetGladstoneDaleConstantUsed()
+{
+  return isCustom(this->Gas) ? this->GladstoneDaleConstant
+                             : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
 }
 
 //------------------------------------------------------------------------------
@@ -128,6 +173,59 @@ void vtkRefractiveIndex::ClearMixtureMolarMasses()
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddField(const char* name)
+{
+  this->Fields.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearFields()
+{
+  this->Fields.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddTransferFunction(vtkPiecewiseFunction* function)
+{
+  this->TransferFunctions.emplace_back(function);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearTransferFunctions()
+{
+  this->TransferFunctions.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddFieldRange(double value)
+{
+  this->FieldRanges.push_back(value);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearFieldRanges()
+{
+  this->FieldRanges.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractiveIndex::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  for (vtkPiecewiseFunction* function : this->TransferFunctions)
+  {
+    time = std::max(time, function ? function->GetMTime() : 0);
+  }
+  return time;
+}
+
+//------------------------------------------------------------------------------
 bool vtkRefractiveIndex::HasHumidityArray()
 {
   const char* name = this->GetInputArrayInformation(HUMIDITY)->Get(vtkDataObject::FIELD_NAME());
@@ -155,6 +253,10 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
   {
     gridOfImage(source.image, source.leaves[0].ofCells, structure);
   }
+  else if (const auto amr = planAmr(source, this->SamplingDimensions))
+  {
+    gridOf(*amr, structure);
+  }
   else
   {
     gridOf(planResampling(source, this->SamplingDimensions), structure);
@@ -166,7 +268,8 @@ std::string vtkRefractiveIndex::Convert(
   vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies)
 {
   output->Initialize();
-  const Source source = chooseSource(this, input);
+  this->Grid.clear();
+  Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())
   {
@@ -176,16 +279,27 @@ std::string vtkRefractiveIndex::Convert(
   // Most builds of ParaView run VTK's threaded loops on one core unless told otherwise.
   const vtkSMPTools::Config threads(this->NumberOfThreads, "STDThread", false);
   Tally tally;
+  std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,
     [&]()
     {
+      if (auto* fields = std::get_if<FieldMean>(&source.model))
+      {
+        fields->findRanges(source.leaves);
+      }
       if (source.image)
       {
         tally = convertImage(source, this->DoublePrecision, output);
       }
+      else if (const auto amr = planAmr(source, this->SamplingDimensions))
+      {
+        note = amr->note;
+        tally = convertAmr(*amr, source, this->DoublePrecision, output);
+      }
       else
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
+        note = plan.note;
         tally = resample(plan, source, this->DoublePrecision, this->OutsideBlocksLight, output);
       }
     });
@@ -204,10 +318,11 @@ std::string vtkRefractiveIndex::Convert(
       "to cross. Choose another array or check the data.");
   }
   std::string warning = warningFrom(source.model, tally);
+  const auto warn = [&warning](const std::string& text)
+  { warning += (warning.empty() || text.empty() ? "" : " ") + text; };
   if (bodies)
   {
-    const std::string ofBodies = placeBodies(bodies, output);
-    warning += (warning.empty() || ofBodies.empty() ? "" : " ") + ofBodies;
+    warn(placeBodies(bodies, output));
     if (!hasGas())
     {
       throw std::runtime_error("The Bodies cover all of the gas, so there is none for light to "
@@ -217,13 +332,23 @@ std::string vtkRefractiveIndex::Convert(
 
   int dimensions[3];
   output->GetDimensions(dimensions);
-  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << dimensions[0] << " x "
-                << dimensions[1] << " x " << dimensions[2] << " points.");
+  this->Grid = std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
+    std::to_string(dimensions[2]) + " points: " + note;
+  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << this->Grid);
   vtkNew<vtkIntArray> used;
   used->SetName("SamplingDimensions");
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
+  if (source.noteOnGases != this->ToldOfGases)
+  {
+    this->ToldOfGases = source.noteOnGases;
+    warn(source.noteOnGases);
+  }
+  if (const int flat = flatAxisOf(source); flat >= 0)
+  {
+    warn(warningOfExtrusion(flat));
+  }
   return warning;
 }
 
@@ -281,15 +406,10 @@ int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-  }
+  requestWhole(inInfo);
   if (vtkInformation* bodies = inputVector[BODIES]->GetInformationObject(0))
   {
-    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    requestWhole(bodies);
   }
   return 1;
 }

@@ -11,7 +11,10 @@
  * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1.
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
- * arrays on the grid of the cells' centres, so that nothing is smoothed. All other input is
+ * arrays on the grid of the cells' centres, so that nothing is smoothed. Data in one plane across a
+ * coordinate axis are extruded along it, half a unit to each side, with a warning. Blocks of images that hold
+ * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
+ * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
  * resampled to a grid (see SamplingDimensions) with vtkResampleToImage, cell arrays after
  * vtkCellDataToPointData. Only cells with a volume count: surfaces in a composite are left out, and
  * so are blocks that lack an array. Where several arrays are needed, all of them belong to points or
@@ -42,9 +45,12 @@
 
 #include "vtkImageAlgorithm.h"
 #include "vtkSchlierenFiltersModule.h" // for export macro
+#include "vtkSmartPointer.h"           // for TransferFunctions
 
 #include <string> // for std::string
 #include <vector> // for std::vector
+
+class vtkPiecewiseFunction;
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -69,7 +75,9 @@ public:
     /// N = rho sum K_i Y_i: array 0 is rho, and see AddMixtureArray
     GLADSTONE_DALE_MIXTURE = 3,
     /// Moist air (Ciddor 1996): arrays 2, 3 and 4 are temperature, pressure and humidity
-    CIDDOR = 4
+    CIDDOR = 4,
+    /// Several fields through a curve each: N = scale mean f_i, see AddField
+    TRANSFER_FUNCTIONS = 5
   };
 
   /// The arrays that SetInputArrayToProcess can choose.
@@ -95,7 +103,7 @@ public:
    * The arrays are chosen with SetInputArrayToProcess, see InputArrays; names that are not found with
    * the association given (by the first array of a model) are looked for with the other one.
    */
-  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, CIDDOR);
+  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, TRANSFER_FUNCTIONS);
   vtkGetMacro(IndexModel, int);
   ///@}
 
@@ -107,6 +115,21 @@ public:
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
   ///@}
+
+  ///@{
+  /**
+   * The gas, by a name or formula of vtkGasTable: its constant at Wavelength then takes the place of
+   * GladstoneDaleConstant. Default: "Custom", no gas of the table.
+   */
+  vtkSetStdStringFromCharMacro(Gas);
+  vtkGetCharFromStdStringMacro(Gas);
+  ///@}
+
+  /**
+   * The Gladstone-Dale constant that counts, m^3/kg: that of Gas at Wavelength, or else
+   * GladstoneDaleConstant. NaN where there is no such gas.
+   */
+  double GetGladstoneDaleConstantUsed();
 
   ///@{
   /**
@@ -143,6 +166,20 @@ public:
 
   ///@{
   /**
+   * For mixtures: what the species are, by names or formulas of vtkGasTable, one for each array or
+   * none at all. The table then gives their constants and molar masses; those of AddMixtureConstant and
+   * AddMixtureMolarMass count for species called "" or "Custom". Default: none.
+   */
+  virtual void AddMixtureGas(const char* name);
+  virtual void ClearMixtureGases();
+  VTK_WRAPEXCLUDE const std::vector<std::string>& GetMixtureGases() const
+  {
+    return this->MixtureGases;
+  }
+  ///@}
+
+  ///@{
+  /**
    * For mixtures of which volume fractions are given: the species' molar masses in kg/mol, one for
    * each array, positive.
    */
@@ -163,6 +200,15 @@ public:
   vtkGetMacro(BackgroundConstant, double);
   vtkSetMacro(BackgroundMolarMass, double);
   vtkGetMacro(BackgroundMolarMass, double);
+  ///@}
+
+  ///@{
+  /**
+   * For mixtures: the background gas, by a name or formula of vtkGasTable, whose constant and molar
+   * mass then count. Default: "Custom", no gas of the table.
+   */
+  vtkSetStdStringFromCharMacro(BackgroundGas);
+  vtkGetCharFromStdStringMacro(BackgroundGas);
   ///@}
 
   ///@{
@@ -196,10 +242,56 @@ public:
 
   ///@{
   /**
-   * Wavelength of the light in vacuum, nanometres; for moist air 300 to 1700. Default: 632.8.
+   * Wavelength of the light in vacuum, nanometres: for moist air 300 to 1700, for gases chosen by
+   * name any (one warning tells where their constants were not measured). Default: 632.8.
    */
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
+  ///@}
+
+  ///@{
+  /**
+   * For transfer functions: the fields, all arrays of points or all of cells, any number. Where the
+   * field x_i is between 0 and 1 in its range, N = RefractivityScale times the mean of f_i(x_i).
+   * Default: none.
+   */
+  virtual void AddField(const char* name);
+  virtual void ClearFields();
+  VTK_WRAPEXCLUDE const std::vector<std::string>& GetFields() const { return this->Fields; }
+  ///@}
+
+  ///@{
+  /**
+   * The functions f_i, one for each field, or none (the default): straight lines from 0 to 1. So is a
+   * function that is null or has no points. The functions' values may be any; those of x between 0
+   * and 1 are used. A point that is moved counts as a change of this filter.
+   */
+  virtual void AddTransferFunction(vtkPiecewiseFunction* function);
+  virtual void ClearTransferFunctions();
+  VTK_WRAPEXCLUDE const std::vector<vtkSmartPointer<vtkPiecewiseFunction>>& GetTransferFunctions()
+    const
+  {
+    return this->TransferFunctions;
+  }
+  ///@}
+
+  ///@{
+  /**
+   * The fields' ranges, two values for each: what becomes 0 and 1; values beyond are clamped. Empty
+   * (the default), or two equal values: the field's own range, over all blocks that are used and all
+   * values that are finite and not hidden.
+   */
+  virtual void AddFieldRange(double value);
+  virtual void ClearFieldRanges();
+  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldRanges() const { return this->FieldRanges; }
+  ///@}
+
+  ///@{
+  /**
+   * For transfer functions: N where all of them are 1. Default: 3e-4.
+   */
+  vtkSetMacro(RefractivityScale, double);
+  vtkGetMacro(RefractivityScale, double);
   ///@}
 
   /**
@@ -210,12 +302,25 @@ public:
   ///@{
   /**
    * Points along x, y and z of the grid to which other input than images is resampled. An axis that
-   * is 0 is chosen: voxels as nearly cubic as the other axes allow; with all three 0 (the default)
-   * as many as the mesh has points, 64^3 to 256^3 in all, at least 2 along each axis.
+   * is 0 is chosen; with all three 0 (the default) as fine along each axis as the cells that a tenth
+   * of all is smaller than, 64^3 to 256^3 points in all but no more than 16 for each point of the
+   * mesh, at least 2 along each axis. Where a limit is met, or other axes are given, voxels have the
+   * proportions of those cells.
+   *
+   * Measured on meshes of 33 x 65 x 33 points, stretched towards a wall along y, with a Gaussian layer of 6
+   * (20) smallest cells there: largest error of the deflection, of its largest value, was 0.02 (0.02)
+   * at 1:10 and 0.09 (0.03) at 1:100. With cubic voxels, as many as points (at least 64^3): 0.45 (0.02)
+   * and 0.57 (0.96).
    */
   vtkSetVector3Macro(SamplingDimensions, int);
   vtkGetVector3Macro(SamplingDimensions, int);
   ///@}
+
+  /**
+   * The grid of the last conversion in words, with how it was chosen, for example "65 x 65 x 65 points:
+   * chosen from the sizes of the cells". Empty before the first and after a failed one.
+   */
+  const char* GetGrid() const { return this->Grid.c_str(); }
 
   ///@{
   /**
@@ -265,6 +370,8 @@ public:
   VTK_WRAPEXCLUDE std::string Convert(
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
 
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkRefractiveIndex();
   ~vtkRefractiveIndex() override = default;
@@ -284,12 +391,18 @@ private:
   /// Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
 
+  /// The last note on gases: it is not repeated for every time step.
+  std::string ToldOfGases;
+
   int IndexModel = GLADSTONE_DALE;
+  std::string Gas = "Custom";
   double GladstoneDaleConstant = 2.26e-4;
   double DensityScale = 1;
   std::vector<std::string> MixtureArrays;
+  std::vector<std::string> MixtureGases;
   std::vector<double> MixtureConstants;
   std::vector<double> MixtureMolarMasses;
+  std::string BackgroundGas = "Custom";
   double BackgroundConstant = 2.26e-4;
   double BackgroundMolarMass = 0.0289647;
   int FractionType = MASS;
@@ -298,8 +411,13 @@ private:
   double RelativeHumidity = 0;
   double CO2 = 450;
   double Wavelength = 632.8;
+  std::vector<std::string> Fields;
+  std::vector<vtkSmartPointer<vtkPiecewiseFunction>> TransferFunctions;
+  std::vector<double> FieldRanges;
+  double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
   bool OutsideBlocksLight = true;
+  std::string Grid;
   bool DoublePrecision = false;
   int NumberOfThreads = 0;
 };

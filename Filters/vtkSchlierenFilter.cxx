@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
+#include "FieldTints.h"
 #include "InputDescription.h"
 
 #include "vtkCommand.h"
@@ -11,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -44,6 +46,9 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
+  // Of the fields that tint, on the grid of Refractivity; empty where not needed.
+  std::vector<float> FieldGradients;
+
   // Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
 };
@@ -70,19 +75,6 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
     number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
     number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
     number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
-}
-
-schlieren::Grid gridFrom(vtkImageData* image)
-{
-  schlieren::Grid grid;
-  int dimensions[3];
-  image->GetDimensions(dimensions);
-  std::copy_n(dimensions, 3, grid.dimensions.begin());
-  std::copy_n(image->GetSpacing(), 3, grid.spacing.begin());
-  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, grid.direction.begin());
-  const int* extent = image->GetExtent();
-  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], grid.origin.data());
-  return grid;
 }
 
 schlieren::View viewFrom(vtkSchlierenFilter* self)
@@ -220,6 +212,20 @@ void setOutput(vtkImageData* output, const schlieren::Image& image)
   addFieldValue<vtkDoubleArray>(output, "DisplacementBound", image.displacementBound);
 }
 
+/// Adds the colours, of which `white` is white, as the scalars of the picture.
+void addColor(vtkImageData* output, const std::vector<float>& color, float white)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName("Color");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(color.size()) / 3);
+  std::transform(color.begin(), color.end(), array->GetPointer(0),
+    [white](float light)
+    { return static_cast<unsigned char>(std::clamp(light / white, 0.f, 1.f) * 255.f + 0.5f); });
+  output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
+  output->GetPointData()->SetActiveScalars("Color");
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -257,6 +263,13 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AutoKScale: " << this->AutoKScale << "\n";
   os << indent << "KScale: " << this->KScale << "\n";
   os << indent << "ScreenDistance: " << this->ScreenDistance << "\n";
+  os << indent << "ColorByField: " << this->ColorByField << "\n";
+  os << indent << "FieldColors:";
+  for (const double value : this->FieldColors)
+  {
+    os << " " << value;
+  }
+  os << "\n";
   os << indent << "StepSize: " << this->StepSize << "\n";
   os << indent << "Interpolation: " << this->Interpolation << "\n";
   os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << "\n";
@@ -264,6 +277,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
 }
@@ -289,6 +303,20 @@ void vtkSchlierenFilter::ClearFocalPoint()
     this->HasFocalPoint = false;
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::AddFieldColor(double value)
+{
+  this->FieldColors.push_back(value);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ClearFieldColors()
+{
+  this->FieldColors.clear();
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------
@@ -374,6 +402,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
     return true;
   }
   inside.MediumTime = 0;
+  inside.FieldGradients.clear();
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   const std::string warning = this->Medium->Convert(input, inside.Refractivity, bodies);
@@ -388,6 +417,21 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
+{
+  Internals& inside = *this->Inside;
+  if (!this->ColorByField)
+  {
+    inside.FieldGradients = std::vector<float>();
+  }
+  else if (inside.FieldGradients.empty())
+  {
+    inside.FieldGradients =
+      fieldGradients(this->Medium, input, inside.Refractivity, threadsFrom(this));
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -411,12 +455,21 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   field.lengthScale = this->LengthScale;
   field.version = refractivity->GetMTime();
 
+  schlieren::Scene scene = sceneFrom(this);
+  if (this->ColorByField)
+  {
+    const std::size_t fields = this->Medium->GetFields().size();
+    scene.fieldColors = fieldColors(this->FieldColors, fields);
+    field.gradients = { static_cast<int>(fields), this->Inside->FieldGradients.data(),
+      field.version };
+  }
+
   schlieren::Monitor monitor;
   monitor.progress = [this](double fraction)
   { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
 
-  const schlieren::Image image = this->Inside->Bench.render(field, sceneFrom(this), monitor);
+  const schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
   if (image.aborted)
   {
     return false;
@@ -441,6 +494,19 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
          "back. Is the refractivity (array, unit, index model) right?");
   }
   setOutput(output, image);
+  if (this->ColorByField)
+  {
+    // A shadowgraph's light is 1 where nothing bends it, and more where the flow gathers it.
+    addColor(output, image.color, this->Cutoff == SHADOWGRAPH ? 2 : 1);
+  }
+  addFieldValue<vtkStringArray>(output, "Grid", std::string(this->Medium->GetGrid()));
+  if (vtkDataArray* used = refractivity->GetFieldData()->GetArray("SamplingDimensions"))
+  {
+    vtkNew<vtkIntArray> dimensions;
+    dimensions->DeepCopy(used);
+    dimensions->SetName("MediumDimensions");
+    output->GetFieldData()->AddArray(dimensions);
+  }
   return true;
 }
 
@@ -473,9 +539,10 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
-  vtkDataObject::SetActiveAttribute(
-    outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Intensity", vtkDataSetAttributes::SCALARS);
-  vtkDataObject::SetPointDataActiveScalarInfo(outInfo, VTK_FLOAT, 1);
+  vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    this->ColorByField ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
+  vtkDataObject::SetPointDataActiveScalarInfo(
+    outInfo, this->ColorByField ? VTK_UNSIGNED_CHAR : VTK_FLOAT, this->ColorByField ? 3 : 1);
   return 1;
 }
 
@@ -485,20 +552,10 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    vtkInformation* inInfo = inputVector[port]->GetInformationObject(0);
-    if (!inInfo)
+    if (vtkInformation* inInfo = inputVector[port]->GetInformationObject(0))
     {
-      continue;
+      requestWhole(inInfo);
     }
-    if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-    {
-      inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-        inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-    }
-    // All of it, on every process: light crosses what several processes would share.
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
   return 1;
 }
@@ -540,12 +597,16 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    if (this->UpdateRefractivity(vtkDataObject::GetData(inputVector[0]),
-          vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES])) &&
-      this->Render(output))
+    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+    if (this->UpdateRefractivity(
+          input, vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES])))
     {
-      outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
-      outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);
+      this->UpdateFieldGradients(input);
+      if (this->Render(output))
+      {
+        outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
+        outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);
+      }
     }
     return 1;
   }

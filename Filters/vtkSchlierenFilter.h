@@ -11,6 +11,8 @@
  * Point arrays of the output, all from the rays that start in the pixel:
  * - `Intensity` (float, active scalars): undisturbed light is 1/2 for a knife edge, 1 for a
  *   shadowgraph;
+ * - `Color` (3 unsigned chars, active scalars then), with ColorByField only: the intensity, tinted;
+ *   undisturbed light is grey, 128;
  * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, against undisturbed light;
@@ -40,6 +42,7 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
 /// A property that belongs to the inner vtkRefractiveIndex.
 #define vtkSchlierenMediumMacro(name, type)                              \
@@ -85,13 +88,21 @@ public:
    */
   vtkSchlierenMediumMacro(IndexModel, int);
   vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
+  vtkSchlierenMediumMacro(Gas, const char*);
+  virtual double GetGladstoneDaleConstantUsed()
+  {
+    return this->Medium->GetGladstoneDaleConstantUsed();
+  }
   vtkSchlierenMediumMacro(DensityScale, double);
   virtual void AddMixtureArray(const char* name) { this->Medium->AddMixtureArray(name); }
   virtual void ClearMixtureArrays() { this->Medium->ClearMixtureArrays(); }
+  virtual void AddMixtureGas(const char* name) { this->Medium->AddMixtureGas(name); }
+  virtual void ClearMixtureGases() { this->Medium->ClearMixtureGases(); }
   virtual void AddMixtureConstant(double value) { this->Medium->AddMixtureConstant(value); }
   virtual void ClearMixtureConstants() { this->Medium->ClearMixtureConstants(); }
   virtual void AddMixtureMolarMass(double value) { this->Medium->AddMixtureMolarMass(value); }
   virtual void ClearMixtureMolarMasses() { this->Medium->ClearMixtureMolarMasses(); }
+  vtkSchlierenMediumMacro(BackgroundGas, const char*);
   vtkSchlierenMediumMacro(BackgroundConstant, double);
   vtkSchlierenMediumMacro(BackgroundMolarMass, double);
   vtkSchlierenMediumMacro(FractionType, int);
@@ -100,6 +111,16 @@ public:
   vtkSchlierenMediumMacro(RelativeHumidity, double);
   vtkSchlierenMediumMacro(CO2, double);
   vtkSchlierenMediumMacro(Wavelength, double);
+  virtual void AddField(const char* name) { this->Medium->AddField(name); }
+  virtual void ClearFields() { this->Medium->ClearFields(); }
+  virtual void AddTransferFunction(vtkPiecewiseFunction* function)
+  {
+    this->Medium->AddTransferFunction(function);
+  }
+  virtual void ClearTransferFunctions() { this->Medium->ClearTransferFunctions(); }
+  virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
+  virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
+  vtkSchlierenMediumMacro(RefractivityScale, double);
   vtkSchlierenMediumMacro(OutsideBlocksLight, bool);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {
@@ -113,6 +134,7 @@ public:
   {
     return this->Medium->GetSamplingDimensions();
   }
+  const char* GetGrid() const { return this->Medium->GetGrid(); }
   ///@}
 
   ///@{
@@ -242,6 +264,29 @@ public:
 
   ///@{
   /**
+   * Whether the picture is tinted by the colours of the Fields, with any IndexModel (after Brownlee et
+   * al. 2011, sec. 8). Along its way, light gathers g_i = integral |grad f_i| ds of each field f_i (its
+   * place in its range, 0 to 1; with TRANSFER_FUNCTIONS what its function makes of that). Its colour is
+   * 1 + s (sum g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is
+   * G over its 99th percentile in the picture, at most 1. Default: off.
+   */
+  vtkSetMacro(ColorByField, bool);
+  vtkGetMacro(ColorByField, bool);
+  vtkBooleanMacro(ColorByField, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The fields' colours: red, green and blue, 0 to 1, of each. Empty (the default): hues that are
+   * easily told apart.
+   */
+  virtual void AddFieldColor(double value);
+  virtual void ClearFieldColors();
+  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldColors() const { return this->FieldColors; }
+  ///@}
+
+  ///@{
+  /**
    * Length of an integration step, voxels. 0.001 to 16. Default: 1.
    */
   vtkSetMacro(StepSize, double);
@@ -334,6 +379,8 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
+  /// Finds the gradients of the fields that tint, if they do.
+  void UpdateFieldGradients(vtkDataObject* input);
   /// Makes the picture from the refractivity. False if aborted.
   bool Render(vtkImageData* output);
 
@@ -355,6 +402,8 @@ private:
   bool AutoKScale = true;
   double KScale = 1000;
   double ScreenDistance = -1;
+  bool ColorByField = false;
+  std::vector<double> FieldColors;
   double StepSize = 1;
   int Interpolation = QUADRATIC;
   int SamplesPerPixel = 4;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies in the gas: they block light and bend none.
 #include "Fields.h"
+#include "Medium/Solids.h"
 
 #include <algorithm>
 #include <limits>
+#include <random>
 
 namespace schlieren
 {
@@ -256,6 +258,103 @@ TEST_P(Solids, OnlyTransparentPlacesLetLightPass)
 }
 
 INSTANTIATE_TEST_SUITE_P(, Solids, bothDevices(), deviceName);
+
+/// Point by point, what fillEmpty does word by word.
+std::vector<double> filledPointByPoint(
+  const std::array<std::int64_t, 3>& n, std::vector<double> values, std::vector<bool> empty)
+{
+  const auto indexOf = [&](std::int64_t i, std::int64_t j, std::int64_t k)
+  { return static_cast<std::size_t>((k * n[1] + j) * n[0] + i); };
+  const auto isInside = [](std::int64_t i, std::int64_t count) { return i >= 0 && i < count; };
+  for (bool changes = true; changes;)
+  {
+    changes = false;
+    const std::vector<bool> before = empty;
+    for (std::int64_t at = 0; at < n[0] * n[1] * n[2]; ++at)
+    {
+      double sum = 0;
+      int count = 0;
+      for (std::int64_t near = 0; near < 27; ++near)
+      {
+        const std::int64_t i = at % n[0] + near % 3 - 1;
+        const std::int64_t j = at / n[0] % n[1] + near / 3 % 3 - 1;
+        const std::int64_t k = at / n[0] / n[1] + near / 9 - 1;
+        if (isInside(i, n[0]) && isInside(j, n[1]) && isInside(k, n[2]) &&
+          !before[indexOf(i, j, k)])
+        {
+          sum += values[indexOf(i, j, k)];
+          ++count;
+        }
+      }
+      if (before[static_cast<std::size_t>(at)] && count > 0)
+      {
+        values[static_cast<std::size_t>(at)] = sum / count;
+        empty[static_cast<std::size_t>(at)] = false;
+        changes = true;
+      }
+    }
+  }
+  return values;
+}
+
+TEST(FillSolids, TakesTheMeanOfTheLayerOutside)
+{
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> any(1, 2);
+  // Rows of less and more than a word, and of whole words.
+  for (const std::array<std::int64_t, 3>& n : { std::array<std::int64_t, 3>{ 2, 2, 2 },
+         { 31, 3, 4 }, { 63, 4, 3 }, { 64, 5, 2 }, { 65, 3, 9 }, { 128, 3, 3 }, { 193, 2, 5 } })
+  {
+    for (const double share : { 0.02, 0.5, 0.99 })
+    {
+      std::vector<double> values;
+      std::vector<bool> solid;
+      PointMask mask(n);
+      for (std::int64_t at = 0; at < n[0] * n[1] * n[2]; ++at)
+      {
+        const std::int64_t i = at % n[0];
+        values.push_back(any(random));
+        solid.push_back(at > 0 && any(random) - 1 < share);
+        if (!solid.back())
+        {
+          mask.row(at / n[0] % n[1], at / n[0] / n[1])[i >> 6] &= ~(std::uint64_t{ 1 } << (i & 63));
+        }
+      }
+      const std::vector<double> expected = filledPointByPoint(n, values, solid);
+      for (const int threads : { 1, 3 })
+      {
+        PaddedVolume<double> volume(n);
+        std::fill(volume.samples.begin(), volume.samples.end(), 1e9); // ghosts are not looked at
+        for (std::int64_t at = 0; at < n[0] * n[1] * n[2]; ++at)
+        {
+          volume.at(at % n[0], at / n[0] % n[1], at / n[0] / n[1]) =
+            values[static_cast<std::size_t>(at)];
+        }
+        const std::vector<std::uint32_t> bits = bitsPerSample(volume, mask);
+        fillEmpty(volume, mask, threads);
+        std::size_t solids = 0;
+        for (std::int64_t at = 0; at < n[0] * n[1] * n[2]; ++at)
+        {
+          const std::int64_t index = volume.index(at % n[0], at / n[0] % n[1], at / n[0] / n[1]);
+          const auto point = static_cast<std::size_t>(at);
+          EXPECT_NEAR(volume.samples[static_cast<std::size_t>(index)], expected[point], 1e-14);
+          const bool bit = ((bits[static_cast<std::size_t>(index >> 5)] >> (index & 31)) & 1u) != 0;
+          EXPECT_EQ(bit, solid[point]);
+          solids += solid[point] ? 1 : 0;
+        }
+        std::size_t ones = 0;
+        for (std::uint32_t word : bits)
+        {
+          for (; word != 0; word &= word - 1)
+          {
+            ++ones;
+          }
+        }
+        EXPECT_EQ(ones, solids);
+      }
+    }
+  }
+}
 
 } // namespace
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pictures of real flows against baselines. No renderer is used: the intensities become grey levels.
-#include "Fixtures.h"
+#include "BallOnLevels.h"
 
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkExtractGrid.h"
@@ -153,6 +153,15 @@ TEST(Pictures, BluntFinFromAbove)
   filter->SetImageSize(256, 256);
   filter->Update();
   expectBaseline(filter, 1, "BluntFinFromAbove");
+}
+
+// A ball on three levels of cells. Neither cells nor borders of blocks and levels are to be seen.
+TEST(Pictures, BallOnThreeLevels)
+{
+  auto filter = bench(ballOnLevels(32, { { 0, 32, true }, { 16, 32, true }, { 48, 32 } }), 200);
+  filter->SetDevice(vtkSchlierenFilter::CPU);
+  filter->Update();
+  expectBaseline(filter, 1, "BallOnThreeLevels");
 }
 
 // The lambda shock that the fin drives up the plate's boundary layer (z = 0), seen from the side: through

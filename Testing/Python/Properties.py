@@ -10,6 +10,7 @@ source = gaussian_column(32)
 
 MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "DensityScale": 1.0,
           "SamplingDimensions": [0, 0, 0], "MixtureArrays": [], "MixtureConstants": [],
+          "Gas": "Custom", "MixtureGases": [], "BackgroundGas": "Custom",
           "MixtureMolarMasses": [], "BackgroundConstant": 2.26e-4, "BackgroundMolarMass": 0.0289647,
           "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
           "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
@@ -22,7 +23,7 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1, "Device": "Auto",
          "NumberOfThreads": 0}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
-                        "Refractivity"},
+                        "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
          "Cutoff": {"Knife Edge", "Shadowgraph"}, "Interpolation": {"Quadratic", "Linear"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GasChoices.h"
+
+#include "vtkRefractiveIndex.h"
+
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace refractivity
+{
+
+namespace
+{
+
+/// Wavelengths this close count as equal, so that it does not matter whether they are those in air or
+/// in vacuum, which differ by 3e-4.
+constexpr double sameWavelength = 1e-3;
+
+std::string nanometres(double metres)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", 1e9 * metres);
+  return text;
+}
+
+bool isMeasuredNear(const schlieren::Gas& gas, double wavelength)
+{
+  return gas.shortestWavelength * (1 - sameWavelength) <= wavelength &&
+    wavelength <= gas.longestWavelength * (1 + sameWavelength);
+}
+
+std::string noteOn(const schlieren::Gas& gas, double wavelength)
+{
+  const std::string name(gas.name), source(gas.source),
+    shortest = nanometres(gas.shortestWavelength);
+  if (!gas.disperses())
+  {
+    return "The constant of " + name + " is known at " + shortest + " nm alone and is used at " +
+      nanometres(wavelength) + " nm too, though it may be some percent off there (" + source + ").";
+  }
+  return "Wavelength is " + nanometres(wavelength) + " nm, but the constant of " + name +
+    " was measured from " + shortest + " to " + nanometres(gas.longestWavelength) +
+    " nm and is continued from there (" + source + ").";
+}
+
+/// The names of the gases that the index model uses, as they were chosen.
+std::vector<std::string> namesUsed(vtkRefractiveIndex* self)
+{
+  std::vector<std::string> names;
+  if (self->GetIndexModel() == vtkRefractiveIndex::GLADSTONE_DALE)
+  {
+    names = { self->GetGas() };
+  }
+  else if (self->GetIndexModel() == vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE)
+  {
+    names = self->GetMixtureGases();
+    names.push_back(self->GetBackgroundGas());
+  }
+  return names;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool isCustom(const std::string& name) { return name.empty() || name == "Custom"; }
+
+//------------------------------------------------------------------------------
+const schlieren::Gas* gasFrom(const std::string& property, const std::string& name)
+{
+  if (isCustom(name))
+  {
+    return nullptr;
+  }
+  if (const schlieren::Gas* found = schlieren::findGas(name))
+  {
+    return found;
+  }
+  std::string known;
+  for (const schlieren::Gas& gas : schlieren::gases())
+  {
+    known += std::string(gas.name) + " (" + std::string(gas.formula) + "), ";
+  }
+  throw std::runtime_error(property + " holds '" + name +
+    "', which is not in the table of gases. Choose one of: " + known + "or Custom.");
+}
+
+//------------------------------------------------------------------------------
+double wavelengthOfGases(vtkRefractiveIndex* self)
+{
+  if (!std::isfinite(self->GetWavelength()) || self->GetWavelength() <= 0)
+  {
+    throw std::runtime_error("Wavelength is " + std::to_string(self->GetWavelength()) +
+      " nm, but a wavelength is positive. Set it to that of the light (helium-neon laser: 632.8).");
+  }
+  return 1e-9 * self->GetWavelength();
+}
+
+//------------------------------------------------------------------------------
+std::string noteOnGases(vtkRefractiveIndex* self)
+{
+  std::string notes;
+  std::set<std::string_view> told;
+  for (const std::string& name : namesUsed(self))
+  {
+    const schlieren::Gas* gas = isCustom(name) ? nullptr : schlieren::findGas(name);
+    const double wavelength = 1e-9 * self->GetWavelength();
+    if (gas && !isMeasuredNear(*gas, wavelength) && told.insert(gas->name).second)
+    {
+      notes += (notes.empty() ? "" : " ") + noteOn(*gas, wavelength);
+    }
+  }
+  return notes;
+}
+
+} // namespace refractivity

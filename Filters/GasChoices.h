@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+#include <string>
+
+class vtkRefractiveIndex;
+
+/// Gases that a user has chosen by name.
+namespace refractivity
+{
+
+/// Whether the name stands for a gas that is not of the table: "Custom" or nothing.
+bool isCustom(const std::string& name);
+
+/// The gas of this name or formula; null for a custom one. Throws std::runtime_error, which tells what
+/// there is to choose from, for a name that is not in the table. `property` is where it was chosen.
+const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);
+
+/// The filter's wavelength in metres. Throws std::runtime_error where it is not positive.
+double wavelengthOfGases(vtkRefractiveIndex* self);
+
+/// What the user should know about the gases that the index model uses: whose constants have not been
+/// measured at the filter's wavelength. Mostly empty.
+std::string noteOnGases(vtkRefractiveIndex* self);
+
+} // namespace refractivity

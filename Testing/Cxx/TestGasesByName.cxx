@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Gases chosen by name: vtkGasTable, Gas, MixtureGases and BackgroundGas.
+#include "Fixtures.h"
+
+#include "vtkGasTable.h"
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+constexpr double rho = 1.2;
+constexpr double fraction = 0.25;
+using Index = vtkRefractiveIndex;
+
+vtkSmartPointer<Index> filterOf(int model)
+{
+  auto image = cube(4);
+  addPointArray(image, "rho", [](const Vec&) { return rho; });
+  addPointArray(image, "Y", [](const Vec&) { return fraction; });
+  addPointArray(image, "Z", [](const Vec&) { return 0.5; });
+  auto filter = vtkSmartPointer<Index>::New();
+  filter->SetInputDataObject(image);
+  filter->DoublePrecisionOn();
+  filter->SetIndexModel(model);
+  filter->SetInputArrayToProcess(
+    Index::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+  return filter;
+}
+
+vtkSmartPointer<Index> mixtureOf(std::initializer_list<const char*> gases)
+{
+  auto filter = filterOf(Index::GLADSTONE_DALE_MIXTURE);
+  const char* arrays[] = { "Y", "Z" };
+  int i = 0;
+  for (const char* gas : gases)
+  {
+    filter->AddMixtureArray(arrays[i++]);
+    filter->AddMixtureGas(gas);
+  }
+  return filter;
+}
+
+/// The constant that the filter uses: N / rho.
+double constantOf(Index* filter)
+{
+  filter->Update();
+  vtkDataArray* n = arrayOf(filter, "Refractivity");
+  return n && n->GetNumberOfTuples() > 0 ? n->GetComponent(0, 0) / rho : std::nan("");
+}
+
+std::vector<std::string> warningsOf(Index* filter)
+{
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Modified();
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty());
+  return complaints->Warnings;
+}
+
+constexpr double rounding = 1e-14;
+
+} // namespace
+
+// Merzkirch 1987, Flow Visualization, 2nd ed., ch. 3: K in 1e-4 m^3/kg of gases, to three digits, and of
+// air at several wavelengths.
+TEST(GasByName, HasThePublishedConstant)
+{
+  struct Row
+  {
+    const char* gas;
+    double wavelength, constant, tolerance;
+  };
+  for (const Row& row : { Row{ "helium", 633, 1.96, 0.01 }, Row{ "argon", 633, 1.57, 0.01 },
+         Row{ "neon", 633, 0.75, 0.01 }, Row{ "hydrogen", 633, 1.55e1, 0.01 },
+         Row{ "nitrogen", 589, 2.38, 0.01 }, Row{ "oxygen", 589, 1.90, 0.01 },
+         Row{ "CO2", 589, 2.27, 0.01 },
+         // as of an ideal gas, whose density is 1.3 % less
+         Row{ "SF6", 633, 1.13, 0.035 }, Row{ "air", 912.5, 2.239, 5e-4 },
+         Row{ "air", 703.4, 2.250, 5e-4 }, Row{ "air", 607.4, 2.259, 5e-4 },
+         Row{ "air", 509.7, 2.274, 5e-4 }, Row{ "air", 407.9, 2.304, 5e-4 },
+         Row{ "air", 356.2, 2.330, 1e-3 } })
+  {
+    auto filter = filterOf(Index::GLADSTONE_DALE);
+    filter->SetGladstoneDaleConstant(1);
+    filter->SetGas(row.gas);
+    filter->SetWavelength(row.wavelength);
+    EXPECT_NEAR(constantOf(filter) / (row.constant * 1e-4), 1, row.tolerance)
+      << row.gas << " " << row.wavelength;
+    EXPECT_DOUBLE_EQ(
+      filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant(row.gas, row.wavelength));
+    EXPECT_NEAR(constantOf(filter), filter->GetGladstoneDaleConstantUsed(), 1e-18);
+  }
+}
+
+TEST(GasByName, CustomIsTheConstantGiven)
+{
+  auto filter = filterOf(Index::GLADSTONE_DALE);
+  EXPECT_STREQ(filter->GetGas(), "Custom");
+  EXPECT_NEAR(constantOf(filter), 2.26e-4, 1e-18);
+  filter->SetGladstoneDaleConstant(3e-4);
+  filter->SetWavelength(400);
+  EXPECT_NEAR(constantOf(filter), 3e-4, 1e-18);
+  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), 3e-4);
+}
+
+TEST(GasByName, TableHoldsNothingElse)
+{
+  EXPECT_GE(vtkGasTable::GetNumberOfGases(), 15);
+  for (int i = 0; i < vtkGasTable::GetNumberOfGases(); ++i)
+  {
+    const std::string name = vtkGasTable::GetName(i);
+    EXPECT_TRUE(vtkGasTable::Has(name));
+    EXPECT_TRUE(vtkGasTable::Has(vtkGasTable::GetFormula(name)));
+    EXPECT_FALSE(vtkGasTable::GetSource(name).empty());
+    EXPECT_LE(vtkGasTable::GetShortestWavelength(name), vtkGasTable::GetLongestWavelength(name));
+  }
+  EXPECT_NEAR(vtkGasTable::GetMolarMass("He"), 4.0026e-3, 1e-6);
+  EXPECT_NEAR(vtkGasTable::GetShortestWavelength("neon"), 589.3, 1e-9);
+  EXPECT_EQ(vtkGasTable::GetName(-1), "");
+  EXPECT_EQ(vtkGasTable::GetName(vtkGasTable::GetNumberOfGases()), "");
+  for (const char* none : { "phlogiston", "", "Custom" })
+  {
+    EXPECT_FALSE(vtkGasTable::Has(none));
+    EXPECT_EQ(vtkGasTable::GetFormula(none), "");
+    EXPECT_EQ(vtkGasTable::GetSource(none), "");
+    EXPECT_TRUE(std::isnan(vtkGasTable::GetConstant(none, 633)));
+    EXPECT_TRUE(std::isnan(vtkGasTable::GetMolarMass(none)));
+  }
+}
+
+// K = sum K_i Y_i, with K_i of the table or, for a custom gas, of the list.
+TEST(MixtureByName, OfMasses)
+{
+  const double helium = vtkGasTable::GetConstant("helium", 532);
+  const double air = vtkGasTable::GetConstant("air", 532);
+  auto filter = mixtureOf({ "He" });
+  filter->SetWavelength(532);
+  EXPECT_NEAR(constantOf(filter), fraction * helium + (1 - fraction) * 2.26e-4, rounding * 1e-4);
+  filter->SetBackgroundGas("air");
+  filter->SetBackgroundConstant(-1); // not looked at
+  EXPECT_NEAR(constantOf(filter), fraction * helium + (1 - fraction) * air, rounding * 1e-4);
+
+  for (const char* custom : { "Custom", "" })
+  {
+    filter = mixtureOf({ "helium", custom });
+    filter->SetWavelength(532);
+    filter->SetBackgroundGas("air");
+    filter->AddMixtureConstant(-1); // not looked at
+    filter->AddMixtureConstant(5e-4);
+    EXPECT_NEAR(
+      constantOf(filter), fraction * helium + 0.5 * 5e-4 + (0.5 - fraction) * air, rounding * 1e-4);
+  }
+}
+
+// K = sum K_i M_i X_i / sum M_i X_i.
+TEST(MixtureByName, OfVolumes)
+{
+  const double helium = vtkGasTable::GetConstant("helium", 632.8);
+  const double air = vtkGasTable::GetConstant("air", 632.8);
+  auto filter = mixtureOf({ "helium", "Custom" });
+  filter->SetFractionType(Index::VOLUME);
+  filter->SetBackgroundGas("air");
+  for (const double value : { 0., 5e-4 })
+  {
+    filter->AddMixtureConstant(value);
+  }
+  for (const double value : { 0., 0.044 })
+  {
+    filter->AddMixtureMolarMass(value);
+  }
+  const double masses[] = { 0.25 * 4.002602e-3, 0.5 * 0.044, 0.25 * 28.9641e-3 };
+  EXPECT_NEAR(constantOf(filter),
+    (masses[0] * helium + masses[1] * 5e-4 + masses[2] * air) / (masses[0] + masses[1] + masses[2]),
+    1e-9);
+  // Without the lists, where the table knows all.
+  filter = mixtureOf({ "helium" });
+  filter->SetFractionType(Index::VOLUME);
+  filter->SetBackgroundGas("air");
+  filter->SetBackgroundMolarMass(-1);
+  EXPECT_NEAR(constantOf(filter),
+    (masses[0] * helium + 3 * masses[2] * air) / (masses[0] + 3 * masses[2]), 1e-9);
+}
+
+TEST(GasByName, IsPassedOnByTheBench)
+{
+  auto filter = bench(filterOf(Index::GLADSTONE_DALE)->GetInputDataObject(0, 0), 8);
+  filter->SetIndexModel(Index::GLADSTONE_DALE);
+  filter->SetInputArrayToProcess(
+    Index::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+  filter->SetGas("argon");
+  filter->SetBackgroundGas("neon");
+  EXPECT_STREQ(filter->GetGas(), "argon");
+  EXPECT_STREQ(filter->GetBackgroundGas(), "neon");
+  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant("Ar", 632.8));
+  filter->Update();
+  const double path = valuesOf(filter, "OpticalPathDifference")[8 * 4 + 4];
+  filter->SetIndexModel(Index::GLADSTONE_DALE_MIXTURE);
+  filter->AddMixtureArray("Y");
+  filter->AddMixtureGas("argon");
+  filter->SetBackgroundGas("argon");
+  filter->Update();
+  EXPECT_NEAR(valuesOf(filter, "OpticalPathDifference")[8 * 4 + 4] / path, 1, 1e-6);
+  EXPECT_NEAR(path / (2 * rho * vtkGasTable::GetConstant("Ar", 632.8)), 1, 1e-3);
+}
+
+// Told once: not for each time step, but again for another gas.
+TEST(GasByName, NotMeasuredAtTheWavelengthIsWarnedOfOnce)
+{
+  auto filter = filterOf(Index::GLADSTONE_DALE);
+  filter->SetGas("krypton");
+  EXPECT_TRUE(warningsOf(filterOf(Index::GLADSTONE_DALE)).empty());
+  auto warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  for (const char* word : { "krypton", "632.8 nm", "140.4 to 623.4 nm", "Bideau-Mehu" })
+  {
+    EXPECT_NE(warnings[0].find(word), std::string::npos) << warnings[0];
+  }
+  EXPECT_TRUE(warningsOf(filter).empty());
+  filter->SetGas("neon");
+  warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("589.3 nm alone"), std::string::npos) << warnings[0];
+  // 632.8 nm is the laser's wavelength in air; SF6 was measured at 633 nm.
+  for (const char* gas : { "SF6", "helium", "air" })
+  {
+    filter->SetGas(gas);
+    EXPECT_TRUE(warningsOf(filter).empty()) << gas;
+  }
+  filter->SetGas("neon");
+  filter->SetWavelength(589.3);
+  EXPECT_TRUE(warningsOf(filter).empty());
+
+  filter = mixtureOf({ "neon", "Ne" });
+  filter->SetBackgroundGas("krypton");
+  warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("krypton"), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[0].find("neon"), warnings[0].rfind("neon")) << warnings[0];
+  // A gas that is not used is no reason to warn.
+  filter = filterOf(Index::GLADSTONE_DALE);
+  filter->SetBackgroundGas("neon");
+  EXPECT_TRUE(warningsOf(filter).empty());
+}
+
+TEST(GasByName, MistakesAreToldOnce)
+{
+  const auto set = [](const char* gas) { return [gas](Index* f) { f->SetGas(gas); }; };
+  expectOneMessage(filterOf(Index::GLADSTONE_DALE).Get(), set("phlogiston"),
+    { "Gas holds 'phlogiston'", "helium (He)", "sulfur hexafluoride (SF6)", "Custom" },
+    set("helium"));
+  const auto background = [](const char* gas)
+  { return [gas](Index* f) { f->SetBackgroundGas(gas); }; };
+  expectOneMessage(mixtureOf({ "He" }).Get(), background("ether"),
+    { "BackgroundGas holds 'ether'", "helium (He)" }, background("air"));
+  const auto replace = [](std::vector<const char*> gases)
+  {
+    return [gases](Index* f)
+    {
+      f->ClearMixtureGases();
+      for (const char* gas : gases)
+      {
+        f->AddMixtureGas(gas);
+      }
+    };
+  };
+  expectOneMessage(mixtureOf({ "He" }).Get(), replace({ "he" }),
+    { "MixtureGases holds 'he'", "helium (He)" }, replace({ "He" }));
+  expectOneMessage(mixtureOf({ "He" }).Get(), replace({ "He", "Ar" }),
+    { "MixtureArrays and MixtureGases differ in length (1 and 2)" }, replace({ "He" }));
+  expectOneMessage(mixtureOf({ "He" }).Get(), replace({ "Custom" }),
+    { "MixtureArrays and MixtureConstants differ in length (1 and 0)" }, replace({ "He" }));
+  for (const double wrong : { 0., -1., std::numeric_limits<double>::quiet_NaN() })
+  {
+    auto filter = filterOf(Index::GLADSTONE_DALE);
+    filter->SetGas("helium");
+    expectOneMessage(
+      filter.Get(), [&](Index* f) { f->SetWavelength(wrong); }, { "Wavelength is", "positive" },
+      [](Index* f) { f->SetWavelength(500); });
+  }
+}
