@@ -35,6 +35,8 @@ fails("nowhere.vti", saying=("There is no file 'nowhere.vti'",))
 fails(JET, "--array", "Rho", saying=("no array 'Rho'", "Its arrays: rho"))
 write("wavelet.vti", (9, 9, 9))
 fails("wavelet.vti", saying=("choose one with --array", "RTData"))
+fails("wavelet.vti", "--formula", "2*Rtdata", saying=("'2*Rtdata' gives no values", "RTData"))
+fails("wavelet.vti", "--formula", "1", "--array", "RTData", saying=("--formula", "one of them"))
 write("flat.vti", (9, 9, 1))
 fails("flat.vti", "--array", "RTData", saying=("no thickness along z",))
 with open("broken.vti", "w") as stream:

@@ -97,6 +97,7 @@ jet that comes with the sources.""",
 examples:
   demo
   demo flow.vtu --array rho --view y
+  demo case.foam --formula 'p/(287.05*T)' --set OutsideBlocksLight=0
   demo bluntfinxyz.bin --density-scale 0.72 --length-scale 0.0127
   demo plume.vti --set Interpolation=Linear --set SamplesPerPixel=1""")
     add = parser.add_argument
@@ -108,6 +109,9 @@ examples:
     add("--array", metavar="NAME",
         help="point or cell array that holds the density, n or n - 1, as --model says; default: "
              "one that is named so")
+    add("--formula", metavar="F",
+        help="instead: computes it from the arrays as ParaView's Calculator does, for example "
+             "'p/(287.05*T)'")
     add("--model", choices=MODELS, default="Gladstone-Dale",
         help="what the array holds; default: a density (Gladstone-Dale: n - 1 = K x density)")
     add("--constant", type=positive, default=2.26e-4, metavar="K",
@@ -137,6 +141,8 @@ examples:
     options = parser.parse_args(arguments)
 
     options.file = options.file or JET
+    if options.array and options.formula:
+        raise DemoError("--array and --formula are two ways to say the same: give one of them.")
     for path in filter(None, (options.file, options.q)):
         if not os.path.exists(path):
             raise DemoError(f"There is no file '{path}'.")

@@ -32,7 +32,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
 
 from frame import Frame  # noqa: E402
 from messages import Messages, Progress, say  # noqa: E402
-from reading import choose_array, read  # noqa: E402
+from reading import choose_array, evaluate, read  # noqa: E402
 from sheet import compose  # noqa: E402
 
 
@@ -92,9 +92,11 @@ def bench_pictures(reader, array, frame, options, messages):
     share = blocked / frame.shadow
     if share > 0.99:
         raise DemoError("No light comes through: on every way there is a place that is solid or "
-                        "that no cell covers. Choose another --view.")
+                        "that no cell covers. Choose another --view, or let light pass outside of "
+                        "all cells: --set OutsideBlocksLight=0")
     if share > 0.1:
-        say(f"{share:.0%} of the light is blocked: by solids, or by places that no cell covers")
+        say(f"{share:.0%} of the light is blocked: by solids, or by places that no cell covers "
+            "(--set OutsideBlocksLight=0 lets it pass there)")
     return pictures
 
 
@@ -186,8 +188,11 @@ def main(options):
         raise DemoError(f"The plugin '{options.plugin}' does not load. {messages.last_error()}")
     with tempfile.TemporaryDirectory() as scratch:
         reader = read(options, scratch, messages)
-        array = choose_array(reader, options)
-        if not options.array:
+        if options.formula:
+            reader, array = evaluate(reader, options, messages)
+        else:
+            array = choose_array(reader, options)
+        if not options.array and not options.formula:
             say(f"Using the array '{array[1]}'")
         frame = Frame(reader.GetDataInformation().GetBounds(), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")

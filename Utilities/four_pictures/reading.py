@@ -164,4 +164,21 @@ def choose_array(source, options):
         if any(len(wanted) > 2 and wanted in name.lower() for wanted in names):
             return association, name
     raise DemoError(f"No array of '{options.file}' is named like a {names[1]}: choose one with "
-                    f"--array. Its arrays: {listing}.")
+                    f"--array, or compute it with --formula. Its arrays: {listing}.")
+
+
+def evaluate(source, options, messages):
+    """The source with a further array that follows from the user's formula, and that array."""
+    arrays = arrays_of(source)
+    for association, kind in (("POINTS", "Point Data"), ("CELLS", "Cell Data")):
+        if not any(place == association for place, _ in arrays):
+            continue
+        calculator = pv.Calculator(Input=source, AttributeType=kind, Function=options.formula,
+                                   ResultArrayName=options.formula)
+        calculator.UpdatePipeline()
+        if (association, options.formula) in arrays_of(calculator):
+            return calculator, (association, options.formula)
+        pv.Delete(calculator)
+    listing = ", ".join(dict.fromkeys(name for _, name in arrays)) or "none with one component"
+    raise DemoError(f"The formula '{options.formula}' gives no values. {messages.last_error()} "
+                    f"The arrays of '{options.file}': {listing}.")
