@@ -9,6 +9,7 @@
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Cutoffs.h"
+#include "Optics/Tint.h"
 #include "Rays/CudaTracer.h"
 #include "Rays/Light.h"
 #include "Rays/Tracer.h"
@@ -72,6 +73,31 @@ void validate(const Scene& scene)
   }
 }
 
+void validateColors(const FieldGradients& gradients, const Scene& scene)
+{
+  if (gradients.count == 0)
+  {
+    return;
+  }
+  if (gradients.count < 0 || gradients.values == nullptr)
+  {
+    throw Error("Field gradients need values.");
+  }
+  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
+  {
+    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
+      std::to_string(gradients.count) + " fields. Give each field one.");
+  }
+  for (const std::array<float, 3>& color : scene.fieldColors)
+  {
+    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
+    {
+      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
+                  "as shares of 1.");
+    }
+  }
+}
+
 void validateLengthScale(double lengthScale)
 {
   if (!(lengthScale > 0) || !std::isfinite(lengthScale))
@@ -110,11 +136,12 @@ struct RaysKey
   double lengthScale;
   std::uint32_t seed;
   Device device;
+  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
 
   auto tie() const
   {
     return std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry,
-      frame.exit, width, height, stepSize, lengthScale, seed, device);
+      frame.exit, width, height, stepSize, lengthScale, seed, device, gradients);
   }
 };
 
@@ -159,28 +186,69 @@ double filmDistance(const Scene& scene, const Frame& frame)
   return scene.cutoff == Cutoff::Shadowgraph ? scene.screenDistance.value_or(depth) : -0.5 * depth;
 }
 
-/// Adds one pass of rays to the film and to the means. `exits` covers `held`, of which the picture and
-/// `margin` pixels around it are used.
+/// The picture in tinted light: red, green and blue.
+struct ColorFilm
+{
+  ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t mostRays)
+    : tint(tintOfRays)
+    , channels{ Film(width, height, mostRays), Film(width, height, mostRays),
+      Film(width, height, mostRays) }
+  {
+  }
+
+  void splat(double column, double row, double light, const float* gathered)
+  {
+    const std::array<double, 3> color = tint.of(gathered);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      channels[channel].splat(column, row, light * color[channel]);
+    }
+  }
+
+  /// Three values per pixel.
+  std::vector<float> develop(double raysPerPixel) const
+  {
+    std::vector<float> picture;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      const std::vector<float> light = channels[channel].develop(raysPerPixel);
+      picture.resize(3 * light.size());
+      for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
+      {
+        picture[3 * pixel + channel] = light[pixel];
+      }
+    }
+    return picture;
+  }
+
+  Tint tint;
+  std::array<Film, 3> channels;
+};
+
+/// Adds one pass of rays to the films and to the means. `traced` covers `held`, of which the picture and
+/// `margin` pixels around it are used. `colorFilm`: null where nothing tints.
 template <class CutoffKind>
-void shade(const CutoffKind& cutoff, double distance, const RayExit* exits, const Pass& held,
-  std::int64_t margin, const Scene& scene, Image& image, Film& film, PixelMeans& means)
+void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, const Pass& held,
+  std::int64_t margin, const Scene& scene, Image& image, Film& film, ColorFilm* colorFilm,
+  PixelMeans& means)
 {
   const std::int64_t width = scene.view.width;
   const std::int64_t height = scene.view.height;
   const double perDataUnit = 1 / image.frame.pixelSize;
-  std::atomic<std::int64_t> traced{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
+  std::atomic<std::int64_t> crossed{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
   constexpr std::int64_t rowsPerPiece = 16;
   parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      std::int64_t tracedHere = 0, stepsHere = 0, blockedHere = 0, lostHere = 0;
+      std::int64_t crossedHere = 0, stepsHere = 0, blockedHere = 0, lostHere = 0;
       for (std::int64_t row = begin - margin; row < end - margin; ++row)
       {
         for (std::int64_t column = -margin; column < width + margin; ++column)
         {
-          const RayExit& exit =
-            exits[(row - held.firstRow) * held.columns + column - held.firstColumn];
-          tracedHere += exit.fate != RayFate::Missed ? 1 : 0;
+          const auto ray = static_cast<std::size_t>(
+            (row - held.firstRow) * held.columns + column - held.firstColumn);
+          const RayExit& exit = traced.exits[ray];
+          crossedHere += exit.fate != RayFate::Missed ? 1 : 0;
           blockedHere += exit.fate == RayFate::Blocked ? 1 : 0;
           lostHere += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
           stepsHere += exit.steps;
@@ -193,20 +261,26 @@ void shade(const CutoffKind& cutoff, double distance, const RayExit* exits, cons
             const double* eps = exit.deflection;
             const double perLength =
               distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-300));
-            film.splat(static_cast<double>(column) + held.offset.column +
-                (exit.displacement[0] + perLength * eps[0]) * perDataUnit,
-              static_cast<double>(row) + held.offset.row +
-                (exit.displacement[1] + perLength * eps[1]) * perDataUnit,
-              cutoff.transmission(exit.deflection));
+            const double x = static_cast<double>(column) + held.offset.column +
+              (exit.displacement[0] + perLength * eps[0]) * perDataUnit;
+            const double y = static_cast<double>(row) + held.offset.row +
+              (exit.displacement[1] + perLength * eps[1]) * perDataUnit;
+            const double light = cutoff.transmission(exit.deflection);
+            film.splat(x, y, light);
+            if (colorFilm != nullptr)
+            {
+              colorFilm->splat(
+                x, y, light, traced.gathered.data() + ray * scene.fieldColors.size());
+            }
           }
         }
       }
-      traced += tracedHere;
+      crossed += crossedHere;
       steps += stepsHere;
       blocked += blockedHere;
       lost += lostHere;
     });
-  image.raysTraced += traced;
+  image.raysTraced += crossed;
   image.stepsTaken += steps;
   image.raysBlocked += blocked;
   image.raysLost += lost;
@@ -223,18 +297,19 @@ struct Bench::Stages
 
   std::optional<RaysKey> raysKey;
   std::int64_t heldMargin = 0;
-  std::deque<std::vector<RayExit>> passes; ///< from pass 0 on
-  std::vector<RayExit> scratch;            ///< a pass that is not held
+  std::deque<TracedPass> passes; ///< from pass 0 on
+  TracedPass scratch;            ///< a pass that is not held
 
   template <class Real>
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
 
-  void prepareRays(const RaysKey& key, std::int64_t margin);
+  void prepareRays(RaysKey key, std::int64_t margin);
 
   /// The rays of a pass, held or traced now; null if aborted.
   template <class Real>
-  const RayExit* raysOf(std::int64_t number, const Pass& pass, MediumOnDevices<Real>& held,
-    const RayTask<Real>& task, const Scene& scene, const Monitor& monitor, Image& image);
+  const TracedPass* raysOf(std::int64_t number, const Pass& pass, MediumOnDevices<Real>& held,
+    const RayTask<Real>& task, const Field& field, const Scene& scene, const Monitor& monitor,
+    Image& image);
 
   template <class Real>
   Image render(const Field& field, const Scene& scene, Device device, const Monitor& monitor);
@@ -263,8 +338,12 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
   return std::get<MediumOnDevices<Real>>(medium);
 }
 
-void Bench::Stages::prepareRays(const RaysKey& key, std::int64_t margin)
+void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
 {
+  if (raysKey && !key.gradients)
+  {
+    key.gradients = raysKey->gradients; // more was gathered than is asked for
+  }
   if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
   {
     passes.clear();
@@ -274,16 +353,22 @@ void Bench::Stages::prepareRays(const RaysKey& key, std::int64_t margin)
 }
 
 template <class Real>
-const RayExit* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
-  MediumOnDevices<Real>& held, const RayTask<Real>& task, const Scene& scene,
+const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
+  MediumOnDevices<Real>& held, const RayTask<Real>& task, const Field& field, const Scene& scene,
   const Monitor& monitor, Image& image)
 {
   if (static_cast<std::size_t>(number) < passes.size())
   {
-    return passes[static_cast<std::size_t>(number)].data();
+    const TracedPass& kept = passes[static_cast<std::size_t>(number)];
+    if (field.gradients.count == 0 || !kept.gathered.empty())
+    {
+      return &kept;
+    }
+    passes.resize(static_cast<std::size_t>(number)); // traced while nothing was tinted
   }
   const auto start = std::chrono::steady_clock::now();
-  scratch.resize(static_cast<std::size_t>(pass.columns * pass.rows));
+  const FieldGradientsView gradients = FieldGradientsView::of(field.grid, field.gradients);
+  scratch.resize(pass, gradients.count);
   bool finished = false;
   if (image.device == Device::Cuda)
   {
@@ -291,11 +376,13 @@ const RayExit* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     {
       held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
-    finished = held.cuda->trace(task, scene.interpolation, pass, scratch.data(), monitor);
+    finished = held.cuda->trace(
+      task, scene.interpolation, pass, gradients, field.gradients.version, scratch, monitor);
   }
   else
   {
-    finished = traceOnCpu(task, scene.interpolation, pass, scratch.data(), scene.threads, monitor);
+    finished =
+      traceOnCpu(task, scene.interpolation, pass, gradients, scratch, scene.threads, monitor);
   }
   image.traceSeconds +=
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -303,18 +390,17 @@ const RayExit* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
   {
     return nullptr;
   }
-  work.raysTraced += std::count_if(scratch.begin(), scratch.end(),
+  work.raysTraced += std::count_if(scratch.exits.begin(), scratch.exits.end(),
     [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
 
-  const std::size_t bytes = scratch.size() * sizeof(RayExit);
   if (static_cast<std::size_t>(number) == passes.size() &&
-    (passes.size() + 1) * bytes <= mostHeldBytes)
+    (passes.size() + 1) * scratch.bytes() <= mostHeldBytes)
   {
     passes.push_back(std::move(scratch));
-    scratch.clear();
-    return passes.back().data();
+    scratch = {};
+    return &passes.back();
   }
-  return scratch.data();
+  return &scratch;
 }
 
 template <class Real>
@@ -340,13 +426,19 @@ Image Bench::Stages::render(
   const RayTask<Real> task = makeTask(held.medium, light, scene.stepSize, field.lengthScale);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
-  prepareRays(
-    { image.frame, view.width, view.height, scene.stepSize, field.lengthScale, scene.seed, device },
-    margin);
+  RaysKey key{ image.frame, view.width, view.height, scene.stepSize, field.lengthScale, scene.seed,
+    device, {} };
+  if (field.gradients.count > 0)
+  {
+    key.gradients = field.gradients.version;
+  }
+  prepareRays(key, margin);
   Pass pass{ -heldMargin, -heldMargin, view.width + 2 * heldMargin, view.height + 2 * heldMargin,
     { 0, 0 } };
-  Film film(view.width, view.height,
-    (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel);
+  const std::int64_t mostRays =
+    (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
+  Film film(view.width, view.height, mostRays);
+  std::unique_ptr<ColorFilm> colorFilm;
   PixelMeans means(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
   const double distance = filmDistance(scene, image.frame);
 
@@ -359,27 +451,39 @@ Image Bench::Stages::render(
       { monitor.progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel); };
     }
     pass.offset = pixelOffset(number, scene.seed);
-    const RayExit* exits = raysOf(number, pass, held, task, scene, ofPass, image);
-    if (exits == nullptr || (monitor.aborted && monitor.aborted()))
+    const TracedPass* traced = raysOf(number, pass, held, task, field, scene, ofPass, image);
+    if (traced == nullptr || (monitor.aborted && monitor.aborted()))
     {
       return aborted;
     }
+    if (number == 0 && field.gradients.count > 0)
+    {
+      const double reference = tintReference(traced->exits.data(), traced->gathered.data(),
+        scene.fieldColors.size(), pass, view.width, view.height);
+      colorFilm = std::make_unique<ColorFilm>(
+        Tint{ scene.fieldColors, reference }, view.width, view.height, mostRays);
+    }
     if (scene.cutoff == Cutoff::Shadowgraph)
     {
-      shade(Shadowgraph{}, distance, exits, pass, margin, scene, image, film, means);
+      shade(
+        Shadowgraph{}, distance, *traced, pass, margin, scene, image, film, colorFilm.get(), means);
       continue;
     }
     if (number == 0)
     {
-      image.kScale = scene.kScale
-        ? *scene.kScale
-        : automaticK(exits, pass, view.width, view.height, noiseFloor(held.medium, field, light));
+      image.kScale = scene.kScale ? *scene.kScale
+                                  : automaticK(traced->exits.data(), pass, view.width, view.height,
+                                      noiseFloor(held.medium, field, light));
     }
-    shade(KnifeEdge::at(scene.knifeEdgeAngle, image.kScale, scene.invertCutoff), distance, exits,
-      pass, margin, scene, image, film, means);
+    shade(KnifeEdge::at(scene.knifeEdgeAngle, image.kScale, scene.invertCutoff), distance, *traced,
+      pass, margin, scene, image, film, colorFilm.get(), means);
   }
   scratch = {};
   image.intensity = film.develop(scene.samplesPerPixel);
+  if (colorFilm)
+  {
+    image.color = colorFilm->develop(scene.samplesPerPixel);
+  }
   means.develop(image);
   return image;
 }
@@ -400,6 +504,7 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
   validate(field.grid);
   validateLengthScale(field.lengthScale);
   validate(scene);
+  validateColors(field.gradients, scene);
   frameOf(field.grid, scene.view); // a bad view is told before the medium is built
 
   std::string reason;

@@ -69,6 +69,17 @@ struct Grid
   std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 };
 
+/// The gradients of the fields by whose colours a picture is to be tinted; nothing by default. The array
+/// belongs to the caller, as those of Field do.
+struct FieldGradients
+{
+  int count = 0; ///< fields
+  /// |grad f| of each field, `count` values for each point of the grid, in units of 1 / smallest spacing
+  /// (see gradientMagnitudes).
+  const float* values = nullptr;
+  std::uint64_t version = 0; ///< the same version, the same data
+};
+
 /// Refractivity N = n - 1 on a grid, x fastest. The arrays belong to the caller and are read during
 /// Bench::render only. Exactly one of the two sample pointers is set.
 struct Field
@@ -79,6 +90,7 @@ struct Field
   const unsigned char* valid = nullptr; ///< 0 where solid or outside; null: only NaN is solid
   std::optional<double> ambient;        ///< N outside; unset: median over the domain's boundary
   double lengthScale = 1;               ///< metres per data unit
+  FieldGradients gradients;             ///< of the fields that Scene::fieldColors belong to
   /// Changes whenever anything that the arrays hold has changed: the same version, the same data.
   std::uint64_t version = 0;
 };
@@ -104,6 +116,9 @@ struct Scene
   bool invertCutoff = false;            ///< I becomes 1 - I (knife edge only)
   std::optional<double> kScale;         ///< k = f/a; unset: 99th percentile of |eps| is full scale
   std::optional<double> screenDistance; ///< exit plane to screen, data units; unset: one data depth
+
+  /// Red, green and blue, 0 ... 1, of each of Field::gradients.
+  std::vector<std::array<float, 3>> fieldColors;
 
   int samplesPerPixel = 4;
   std::uint32_t seed = 1;
@@ -132,6 +147,7 @@ struct Image
   Frame frame;
 
   std::vector<float> intensity;              ///< per pixel; undisturbed: see Cutoff
+  std::vector<float> color;                  ///< 3 per pixel: tinted intensity; empty if untinted
   std::vector<float> deflection;             ///< 2 per pixel: direction cosines along u and v
   std::vector<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
   std::vector<float> displacement;           ///< 2 per pixel: at the exit plane, data units
@@ -187,6 +203,12 @@ private:
 
 /// The picture plane of a view of a grid. Throws Error where the view is degenerate.
 Frame frameOf(const Grid& grid, const View& view);
+
+/// Writes the gradient of one of `count` fields into what will be FieldGradients::values: its length at
+/// each point from central differences, or one-sided ones next to the grid's faces and to points where
+/// `valid` (may be null) is 0 or the value is not finite; 0 at such points.
+void gradientMagnitudes(const Grid& grid, const float* values, const unsigned char* valid,
+  int threads, int count, int field, float* gradients);
 
 /// Whether a CUDA device answers. When it does not, `reason` (if given) says why.
 bool cudaAvailable(std::string* reason = nullptr);

@@ -4,6 +4,7 @@
 
 #include "GasChoices.h"
 
+#include "vtkPiecewiseFunction.h"
 #include "vtkRefractiveIndex.h"
 
 #include <algorithm>
@@ -233,6 +234,39 @@ std::string CiddorAir::warning(const std::string& share) const
 }
 
 //------------------------------------------------------------------------------
+FieldMean fieldMeanFrom(vtkRefractiveIndex* self)
+{
+  const bool isModel = self->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS;
+  const auto& functions = self->GetTransferFunctions();
+  const std::vector<double>& ranges = self->GetFieldRanges();
+  const std::size_t fields = self->GetFields().size();
+  if (isModel && !functions.empty() && functions.size() != fields)
+  {
+    throw std::runtime_error("Fields and TransferFunctions differ in length (" +
+      std::to_string(fields) + " and " + std::to_string(functions.size()) +
+      "). Give one function for each field, or none for straight lines.");
+  }
+  if (!ranges.empty() && ranges.size() != 2 * fields)
+  {
+    throw std::runtime_error("FieldRanges holds " + std::to_string(ranges.size()) + " values for " +
+      std::to_string(fields) + " fields. Give two for each, or none for the fields' own ranges.");
+  }
+  requireFinite("RefractivityScale", self->GetRefractivityScale());
+
+  FieldMean model;
+  model.scale = self->GetRefractivityScale();
+  for (std::size_t i = 0; i < fields; ++i)
+  {
+    const double low = ranges.empty() ? 0 : ranges[2 * i];
+    const double high = ranges.empty() ? 0 : ranges[2 * i + 1];
+    requireFinite("A value of FieldRanges", low);
+    requireFinite("A value of FieldRanges", high);
+    model.curves.emplace_back(isModel && !functions.empty() ? functions[i] : nullptr, low, high);
+  }
+  return model;
+}
+
+//------------------------------------------------------------------------------
 Model modelFrom(vtkRefractiveIndex* self)
 {
   switch (self->GetIndexModel())
@@ -243,6 +277,8 @@ Model modelFrom(vtkRefractiveIndex* self)
       return gasMixture(self);
     case vtkRefractiveIndex::CIDDOR:
       return ciddorAir(self);
+    case vtkRefractiveIndex::TRANSFER_FUNCTIONS:
+      return fieldMeanFrom(self);
     case vtkRefractiveIndex::REFRACTIVE_INDEX:
       return Linear{ 1, -1 };
     default:

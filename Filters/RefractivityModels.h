@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "TransferFunctions.h"
+
 #include "Schlieren.h"
 
 #include <string>
@@ -51,7 +53,11 @@ struct CiddorAir
 };
 
 /// All models. The arrays that each one takes are in RefractivitySource.cxx.
-using Model = std::variant<Linear, GasMixture, CiddorAir>;
+using Model = std::variant<Linear, GasMixture, CiddorAir, FieldMean>;
+
+/// The curves of `self`'s fields, of straight lines unless its model is TRANSFER_FUNCTIONS. Throws
+/// std::runtime_error where its properties make no sense.
+FieldMean fieldMeanFrom(vtkRefractiveIndex* self);
 
 /// The model that was chosen. Throws std::runtime_error where its properties make no sense.
 Model modelFrom(vtkRefractiveIndex* self);

@@ -78,6 +78,16 @@ std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
         add(Index::HUMIDITY, "Humidity");
       }
       break;
+    case Index::TRANSFER_FUNCTIONS:
+      for (const std::string& name : self->GetFields())
+      {
+        selections.push_back({ "Fields", name });
+      }
+      if (selections.empty())
+      {
+        selections.push_back({ "Fields", "" }); // to be told so
+      }
+      break;
     default:
       add(Index::INDEX_ARRAY, "IndexArray");
       break;

@@ -253,7 +253,7 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
 {
   output->Initialize();
-  const Source source = chooseSource(this, input);
+  Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())
   {
@@ -266,6 +266,10 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
   vtkSMPTools::LocalScope(threads,
     [&]()
     {
+      if (auto* fields = std::get_if<FieldMean>(&source.model))
+      {
+        fields->findRanges(source.leaves);
+      }
       if (source.image)
       {
         tally = convertImage(source, this->DoublePrecision, output);

@@ -26,8 +26,10 @@ public:
   ~CudaTracer();
 
   /// Traces a pass into host memory, as traceOnCpu does. Returns false if aborted.
+  /// The gradients are sent to the device again only when `version` is another.
   bool trace(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
-    RayExit* exits, const Monitor& monitor);
+    const FieldGradientsView& gradients, std::uint64_t version, TracedPass& traced,
+    const Monitor& monitor);
 
 private:
   struct DeviceMemory;

@@ -49,33 +49,55 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
   return { 0.5 * bend * way * way * light.unit, bend * way / (forward - bend * way) };
 }
 
-template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
-  RayExit* exits, int threads, const Monitor& monitor)
+template <class Interpolate, class Real>
+bool traceBy(const RayTask<Real>& task, const Pass& pass, const FieldGradientsView& gradients,
+  TracedPass& traced, int threads, const Monitor& monitor)
 {
-  const auto trace = interpolation == Interpolation::Quadratic
-    ? traceRay<QuadraticInterpolation, Real>
-    : traceRay<LinearInterpolation, Real>;
+  const auto traceRays = [&](std::int64_t begin, std::int64_t end, const auto& gatherOf)
+  {
+    for (std::int64_t ray = begin; ray < end; ++ray)
+    {
+      traced.exits[static_cast<std::size_t>(ray)] =
+        traceRay<Interpolate>(task, pass.columnOf(ray), pass.rowOf(ray), gatherOf(ray));
+    }
+  };
   constexpr std::int64_t raysPerPiece = 128;
   return parallelFor(
     pass.columns * pass.rows, raysPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      for (std::int64_t ray = begin; ray < end; ++ray)
+      if (gradients.count == 0)
       {
-        exits[ray] = trace(task, pass.columnOf(ray), pass.rowOf(ray));
+        traceRays(begin, end, [](std::int64_t) { return GatherNothing{}; });
+      }
+      else
+      {
+        float* sums = traced.gathered.data();
+        traceRays(begin, end,
+          [&](std::int64_t ray) {
+            return GatherFields{ gradients, sums + ray * gradients.count };
+          });
       }
     },
     monitor);
+}
+
+template <class Real>
+bool traceOnCpu(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
+  const FieldGradientsView& gradients, TracedPass& traced, int threads, const Monitor& monitor)
+{
+  return interpolation == Interpolation::Quadratic
+    ? traceBy<QuadraticInterpolation>(task, pass, gradients, traced, threads, monitor)
+    : traceBy<LinearInterpolation>(task, pass, gradients, traced, threads, monitor);
 }
 
 template RayTask<float> makeTask(const Medium<float>&, const Light&, double, double);
 template RayTask<double> makeTask(const Medium<double>&, const Light&, double, double);
 template DisplacementBound boundDisplacement(const Medium<float>&, const Light&);
 template DisplacementBound boundDisplacement(const Medium<double>&, const Light&);
-template bool traceOnCpu(
-  const RayTask<float>&, Interpolation, const Pass&, RayExit*, int, const Monitor&);
-template bool traceOnCpu(
-  const RayTask<double>&, Interpolation, const Pass&, RayExit*, int, const Monitor&);
+template bool traceOnCpu(const RayTask<float>&, Interpolation, const Pass&,
+  const FieldGradientsView&, TracedPass&, int, const Monitor&);
+template bool traceOnCpu(const RayTask<double>&, Interpolation, const Pass&,
+  const FieldGradientsView&, TracedPass&, int, const Monitor&);
 
 } // namespace schlieren

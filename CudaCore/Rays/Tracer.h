@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Medium/FieldGradients.h"
 #include "Medium/Medium.h"
 #include "Rays/Integrators.h"
 #include "Rays/Light.h"
 #include "Rays/RayExit.h"
+
+#include <vector>
 
 namespace schlieren
 {
@@ -23,6 +26,26 @@ struct RayTask
   Real step; ///< in units of the light's unit of length
   std::int32_t stepLimit;
   double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
+};
+
+/// What a ray does besides in each step: nothing, or gather the gradients of fields.
+struct GatherNothing
+{
+  template <class Real>
+  SCHLIEREN_HD void operator()(const Vec3<Real>&, Real) const
+  {
+  }
+};
+struct GatherFields
+{
+  FieldGradientsView view;
+  float* sums;
+
+  template <class Real>
+  SCHLIEREN_HD void operator()(const Vec3<Real>& middle, Real step) const
+  {
+    gatherGradients(view, middle, step, sums);
+  }
 };
 
 /// The piece of the line start + s * along, s >= 0, inside the box [0, last]; empty if from > to.
@@ -76,8 +99,9 @@ SCHLIEREN_HD bool shortenToLeave(Real& step, Real x, Real along, Real last)
 
 /// Traces the ray that starts at (column, row) of the picture, in pixels from the centre of pixel
 /// (0, 0), through the medium and on to the exit plane.
-template <class Interpolate, class Real>
-SCHLIEREN_HD RayExit traceRay(const RayTask<Real>& task, double column, double row)
+template <class Interpolate, class Real, class Gather = GatherNothing>
+SCHLIEREN_HD RayExit traceRay(
+  const RayTask<Real>& task, double column, double row, const Gather& gather = {})
 {
   RayExit exit{ { 0, 0 }, { 0, 0 }, 0, RayFate::Missed, 0 };
   const Vec3<double> start = task.light.start(column, row);
@@ -121,6 +145,7 @@ SCHLIEREN_HD RayExit traceRay(const RayTask<Real>& task, double column, double r
       return exit;
     }
     path += Leapfrog::advance(ray, task.straight, step, Interpolate::at(task.medium, middle));
+    gather(middle, step);
     ++exit.steps;
   }
 
@@ -167,10 +192,28 @@ struct DisplacementBound
 template <class Real>
 DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& light);
 
-/// Traces a pass on the CPU; `exits` holds columns * rows rays, row by row.
-/// Returns false if aborted.
+/// The rays of a pass, row by row, and what each has gathered of each field's gradient: its integral
+/// over the ray, a number without unit. Nothing where the view has no fields.
+struct TracedPass
+{
+  std::vector<RayExit> exits;
+  std::vector<float> gathered;
+
+  void resize(const Pass& pass, int fields)
+  {
+    const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+    exits.resize(rays);
+    gathered.assign(rays * static_cast<std::size_t>(fields), 0);
+  }
+  std::size_t bytes() const
+  {
+    return exits.size() * sizeof(RayExit) + gathered.size() * sizeof(float);
+  }
+};
+
+/// Traces a pass on the CPU into `traced`, which has its size. Returns false if aborted.
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
-  RayExit* exits, int threads, const Monitor& monitor);
+  const FieldGradientsView& gradients, TracedPass& traced, int threads, const Monitor& monitor);
 
 } // namespace schlieren

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+class vtkPiecewiseFunction;
+
+/// Several fields, each through its range and a curve, to one refractivity (Brownlee et al. 2011, sec. 8).
+namespace refractivity
+{
+
+struct Leaf;
+
+/// From a field's value to its share of the refractivity: f((x - low) / (high - low)).
+class FieldCurve
+{
+public:
+  /// A straight line from 0 to 1 where `function` is null or has no points. The range is found later if
+  /// `low` and `high` are equal. Throws std::runtime_error where the function has no finite values.
+  FieldCurve(vtkPiecewiseFunction* function, double low, double high);
+
+  bool hasRange() const { return this->low_ != this->high_; }
+  void setRange(double low, double high);
+
+  /// The curve is read from a table of 2^14 intervals of length h, linearly in between: wrong by no more
+  /// than h/4 of the change of slope next to a corner and h^2/8 of the second derivative in a curve. A
+  /// jump takes one interval. `x` is finite.
+  double at(double x) const;
+
+private:
+  double low_, high_;
+  std::vector<double> table_; // empty: a straight line from 0 to 1
+};
+
+/// N = scale * mean of the curves.
+struct FieldMean
+{
+  std::vector<FieldCurve> curves;
+  double scale = 1;
+
+  double refractivity(const double* values) const;
+  bool isDoubtful(const double*) const { return false; }
+  std::string warning(const std::string&) const { return ""; }
+
+  /// Gives those curves that have no range yet that of the field over all leaves: of what is finite and
+  /// not hidden. A field that is the same everywhere counts as 0.
+  void findRanges(const std::vector<Leaf>& leaves);
+};
+
+} // namespace refractivity
