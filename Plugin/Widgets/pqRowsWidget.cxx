@@ -102,6 +102,13 @@ void pqRowsWidget::refresh()
   const int before = this->Table->rowCount(), now = this->rows();
   if (before != now)
   {
+    for (int row = now; row < before; ++row)
+    {
+      for (int column = 0; column < this->Table->columnCount(); ++column)
+      {
+        this->cellWidget(row, column)->setObjectName(QString()); // it is deleted some time later
+      }
+    }
     this->Table->setRowCount(now);
     for (int row = before; row < now; ++row)
     {

@@ -354,8 +354,8 @@ TEST(Tint, OfSeveralRaysIsTheMeanOfTheirColours)
 TEST(Tint, BlockedLightIsBlack)
 {
   TintedField tinted(cube(9, 1), vacuum, { [](double x, double, double) { return x; } });
-  std::fill(
-    tinted.samples.begin(), tinted.samples.begin() + 3 * 81, std::numeric_limits<float>::quiet_NaN());
+  std::fill(tinted.samples.begin(), tinted.samples.begin() + 3 * 81,
+    std::numeric_limits<float>::quiet_NaN());
   const Image image = Bench().render(tinted.field, sceneOf({ red }));
   const std::size_t centre = pixelOf(image, 20, 20);
   EXPECT_EQ(image.blockedFraction[centre], 1);
