@@ -81,8 +81,8 @@ QLineEdit* newLimitEdit(const QString& limit)
   edit->setFrame(false);
   edit->setPlaceholderText(limit);
   edit->setToolTip(
-    pqFieldsWidget::tr("Both limits of the range, or none: that of the data. What lies beyond is "
-                       "clamped."));
+    pqFieldsWidget::tr("Both limits of the range, or none (auto): that of the data. What lies "
+                       "beyond is clamped."));
   return edit;
 }
 
@@ -124,15 +124,16 @@ private:
 //------------------------------------------------------------------------------
 pqFieldsWidget::pqFieldsWidget(
   vtkSMProxy* smproxy, vtkSMPropertyGroup* smgroup, QWidget* parentObject)
-  : pqRowsWidget(smproxy, smgroup, { tr("Array"), tr("From"), tr("To"), tr("Colour") },
-      tr("a field"), parentObject)
+  : pqRowsWidget(smproxy, smgroup, { tr("Array"), tr("From"), tr("To"), QString() }, tr("a field"),
+      QString(), parentObject)
   , HasColors(smproxy->GetProperty("FieldColors") != nullptr)
   , Title(new QLabel(this))
   , Editor(new pqTransferFunctionWidget(this))
   , FunctionsProperty(vtkSMProxyProperty::SafeDownCast(smproxy->GetProperty("TransferFunctions")))
 {
   this->table()->setColumnHidden(COLOR, !this->HasColors);
-  this->table()->horizontalHeader()->setSectionResizeMode(COLOR, QHeaderView::ResizeToContents);
+  this->table()->horizontalHeader()->setSectionResizeMode(COLOR, QHeaderView::Fixed);
+  this->table()->setColumnWidth(COLOR, this->table()->verticalHeader()->defaultSectionSize());
   this->Title->setWordWrap(true);
   this->below()->addWidget(this->Title);
   this->Editor->setObjectName("TransferFunction");
@@ -235,7 +236,7 @@ void pqFieldsWidget::makeRow(int row)
 
   for (const int column : { FROM, TO })
   {
-    QLineEdit* edit = newLimitEdit(tr("automatic"));
+    QLineEdit* edit = newLimitEdit(tr("auto"));
     this->setCell(row, column, edit, column == FROM ? "From" : "To");
     QObject::connect(
       edit, &QLineEdit::editingFinished, this, [this, row]() { this->rangeEdited(row); });
@@ -243,6 +244,7 @@ void pqFieldsWidget::makeRow(int row)
 
   auto* color = new pqColorChooserButton(nullptr);
   color->setShowAlphaChannel(false);
+  color->setToolTip(tr("The field's colour, for Color By Field"));
   this->setCell(row, COLOR, color, "Color");
   QObject::connect(color, &pqColorChooserButton::chosenColorChanged, this,
     [this, row](const QColor& chosen)

@@ -78,6 +78,7 @@ void showNumber(QLineEdit* edit, double value, bool editable)
     edit->setText(QString::number(value, 'g', editable ? 12 : 4));
     edit->setCursorPosition(0);
   }
+  edit->setToolTip(edit->text());
 }
 
 } // namespace
@@ -85,8 +86,8 @@ void showNumber(QLineEdit* edit, double value, bool editable)
 //------------------------------------------------------------------------------
 pqGasMixtureWidget::pqGasMixtureWidget(
   vtkSMProxy* smproxy, vtkSMPropertyGroup* smgroup, QWidget* parentObject)
-  : pqRowsWidget(smproxy, smgroup, { tr("Array"), tr("Gas"), tr("K, m³/kg"), tr("M, kg/mol") },
-      tr("a gas"), parentObject)
+  : pqRowsWidget(smproxy, smgroup, { tr("Array"), tr("Gas"), tr("K"), tr("M") }, tr("a gas"),
+      tr("K: m³/kg, M: kg/mol"), parentObject)
 {
   const char* const tips[] = {
     "The array with the gas's fraction",

@@ -9,6 +9,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
 #include <QSignalBlocker>
 #include <QTableWidget>
 #include <QToolButton>
@@ -34,7 +35,7 @@ QToolButton* newButton(const char* name, const char* icon, const QString& tip, Q
 
 //------------------------------------------------------------------------------
 pqRowsWidget::pqRowsWidget(vtkSMProxy* smproxy, vtkSMPropertyGroup* group,
-  const QStringList& headers, const QString& what, QWidget* parentObject)
+  const QStringList& headers, const QString& what, const QString& note, QWidget* parentObject)
   : pqPropertyWidget(smproxy, parentObject)
   , Layout(new QVBoxLayout(this))
   , Table(new QTableWidget(0, headers.size(), this))
@@ -47,11 +48,9 @@ pqRowsWidget::pqRowsWidget(vtkSMProxy* smproxy, vtkSMPropertyGroup* group,
   this->Table->setObjectName("Table");
   this->Table->setHorizontalHeaderLabels(headers);
   this->Table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  // Where the panel is narrow it has a scroll bar of its own: a second one inside would be a nuisance.
-  const int width = this->fontMetrics().horizontalAdvance("0.00000000");
-  this->Table->horizontalHeader()->setMinimumSectionSize(width / 2);
-  this->Table->setMinimumWidth(headers.size() * width);
+  // The panel is narrow, and has a scroll bar of its own.
   this->Table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  this->Table->horizontalHeader()->setMinimumSectionSize(24);
   this->Table->verticalHeader()->hide();
   this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -65,6 +64,7 @@ pqRowsWidget::pqRowsWidget(vtkSMProxy* smproxy, vtkSMPropertyGroup* group,
   buttons->addWidget(add);
   buttons->addWidget(this->Remove);
   buttons->addStretch();
+  buttons->addWidget(new QLabel(note, this));
   this->Layout->addLayout(buttons);
 
   QObject::connect(add, &QToolButton::clicked, this, &pqRowsWidget::addRow);
@@ -91,7 +91,7 @@ int pqRowsWidget::currentRow() const
 void pqRowsWidget::setCell(int row, int column, QWidget* widget, const QString& name)
 {
   widget->setObjectName(QString("%1%2").arg(name).arg(row));
-  widget->setAccessibleName(this->Table->horizontalHeaderItem(column)->text());
+  widget->setAccessibleName(QString("%1 %2").arg(name).arg(row + 1));
   widget->installEventFilter(this);
   this->Table->setCellWidget(row, column, widget);
 }

@@ -23,9 +23,9 @@ class pqRowsWidget : public pqPropertyWidget
   Q_OBJECT
 
 public:
-  /// `what` completes "Add ...".
+  /// `what` completes "Add ..."; `note` stands below the table.
   pqRowsWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, const QStringList& headers,
-    const QString& what, QWidget* parent = nullptr);
+    const QString& what, const QString& note, QWidget* parent = nullptr);
 
 protected:
   QTableWidget* table() const { return this->Table; }
