@@ -80,6 +80,9 @@ struct FieldGradients
   std::uint64_t version = 0; ///< the same version, the same data
 };
 
+/// Of Field::valid: light passes a place that has no data.
+constexpr unsigned char transparent = 2;
+
 /// Refractivity N = n - 1 on a grid, x fastest. The arrays belong to the caller and are read during
 /// Bench::render only. Exactly one of the two sample pointers is set.
 struct Field
@@ -87,10 +90,12 @@ struct Field
   Grid grid;
   const float* singles = nullptr;
   const double* doubles = nullptr;
-  const unsigned char* valid = nullptr; ///< 0 where solid or outside; null: only NaN is solid
-  std::optional<double> ambient;        ///< N outside; unset: median over the domain's boundary
-  double lengthScale = 1;               ///< metres per data unit
-  FieldGradients gradients;             ///< of the fields that Scene::fieldColors belong to
+  /// 0: solid, blocks light. 1: gas (solid where the sample is not finite). 2 (transparent): no data, but
+  /// light passes; the sample is not read, the gas around is continued. Null: 1 everywhere.
+  const unsigned char* valid = nullptr;
+  std::optional<double> ambient; ///< N outside; unset: median over the domain's boundary
+  double lengthScale = 1;        ///< metres per data unit
+  FieldGradients gradients;      ///< of the fields that Scene::fieldColors belong to
   /// Changes whenever anything that the arrays hold has changed: the same version, the same data.
   std::uint64_t version = 0;
 };

@@ -11,6 +11,7 @@
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
@@ -61,6 +62,12 @@ void describe(vtkDataSet* data, std::vector<double>& description)
     addTime(unstructured->GetCells());
     addTime(unstructured->GetCellTypesArray());
   }
+  else if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    addTime(surface->GetPoints());
+    addTime(surface->GetPolys());
+    addTime(surface->GetStrips());
+  }
   else
   {
     addTime(data);
@@ -69,9 +76,13 @@ void describe(vtkDataSet* data, std::vector<double>& description)
 
 } // namespace
 
-vtkMTimeType upstreamTime(vtkAlgorithm* filter)
+vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port)
 {
-  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(0, 0));
+  if (filter->GetNumberOfInputConnections(port) == 0)
+  {
+    return 0;
+  }
+  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(port, 0));
   return upstream ? upstream->GetPipelineMTime() : 0;
 }
 

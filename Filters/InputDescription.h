@@ -9,8 +9,8 @@
 class vtkAlgorithm;
 class vtkDataObject;
 
-/// The newest time of everything that a filter's first input comes from.
-vtkMTimeType upstreamTime(vtkAlgorithm* filter);
+/// The newest time of everything that the input of a port comes from; 0 where there is none.
+vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
 
 /// Everything that the refractivity of an input may depend on, so that equal numbers mean equal data:
 /// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the

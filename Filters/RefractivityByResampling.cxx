@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityByResampling.h"
 
+#include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
 #include "vtkBoundingBox.h"
@@ -30,7 +31,6 @@ namespace
 // Limits of the grids that are chosen from the input (see SamplingDimensions). Between them, as many
 // points as the mesh has: its cells are linear inside, and a finer grid would show their edges.
 constexpr double fewestVoxels = 64. * 64 * 64;
-constexpr double mostVoxels = 256. * 256 * 256;
 constexpr double mostPointsAskedFor = 2048. * 2048 * 2048;
 
 bool hasVolume(vtkDataSet* data, vtkIdType cell)
@@ -166,6 +166,31 @@ vtkSmartPointer<vtkDataSet> prepare(const Leaf& leaf, const Model& model, Tally&
 
 } // namespace
 
+std::array<int, 3> requireDimensions(const int samplingDimensions[3])
+{
+  std::array<int, 3> given;
+  std::copy_n(samplingDimensions, 3, given.begin());
+  for (const int count : given)
+  {
+    if (count < 0 || count == 1)
+    {
+      throw std::runtime_error("SamplingDimensions holds " + std::to_string(count) +
+        ". Give each axis at least 2 points, or 0 to have their number chosen.");
+    }
+  }
+  return given;
+}
+
+void requireFits(const std::array<int, 3>& dimensions)
+{
+  if (product(dimensions) > mostPointsAskedFor)
+  {
+    throw std::runtime_error("SamplingDimensions asks for " + std::to_string(dimensions[0]) +
+      " x " + std::to_string(dimensions[1]) + " x " + std::to_string(dimensions[2]) +
+      " points, more than can be held. Give fewer.");
+  }
+}
+
 Resampling planResampling(const Source& source, const int samplingDimensions[3])
 {
   Resampling plan;
@@ -196,23 +221,9 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
         "xyz"[axis] + ", so there is no volume for light to cross. Check its points.");
     }
   }
-  std::array<int, 3> given;
-  std::copy_n(samplingDimensions, 3, given.begin());
-  for (const int count : given)
-  {
-    if (count < 0 || count == 1)
-    {
-      throw std::runtime_error("SamplingDimensions holds " + std::to_string(count) +
-        ". Give each axis at least 2 points, or 0 to have their number chosen.");
-    }
-  }
+  const std::array<int, 3> given = requireDimensions(samplingDimensions);
   plan.dimensions = chooseDimensions(lengths, points, given);
-  if (product(plan.dimensions) > mostPointsAskedFor)
-  {
-    throw std::runtime_error("SamplingDimensions asks for " + std::to_string(plan.dimensions[0]) +
-      " x " + std::to_string(plan.dimensions[1]) + " x " + std::to_string(plan.dimensions[2]) +
-      " points, more than can be held. Give fewer.");
-  }
+  requireFits(plan.dimensions);
   return plan;
 }
 
@@ -227,8 +238,8 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
     (bounds[5] - bounds[4]) / (plan.dimensions[2] - 1));
 }
 
-Tally resample(
-  const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output)
+Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+  bool outsideBlocksLight, vtkImageData* output)
 {
   Tally tally;
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -251,7 +262,12 @@ Tally resample(
   output->CopyStructure(sampled);
   auto valid = newMask(output->GetNumberOfPoints());
   hidePoints(sampled, valid);
+  const auto outside = outsideBlocksLight ? nullptr : outsideOf(blocks, output, valid);
   setArrays(output, { values }, Linear(), valid, doublePrecision);
+  if (outside)
+  {
+    setOutside(outside, output);
+  }
   return tally;
 }
 

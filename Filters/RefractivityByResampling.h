@@ -18,6 +18,15 @@ struct Resampling
   double bounds[6];
 };
 
+/// Most points of a grid that is chosen, not given.
+constexpr double mostVoxels = 256. * 256 * 256;
+
+/// SamplingDimensions, each 0 or at least 2. Throws where they are not.
+std::array<int, 3> requireDimensions(const int samplingDimensions[3]);
+
+/// Throws where a grid has more points than can be held.
+void requireFits(const std::array<int, 3>& dimensions);
+
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
 Resampling planResampling(const Source& source, const int samplingDimensions[3]);
 
@@ -25,7 +34,8 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 void gridOf(const Resampling& plan, vtkImageData* structure);
 
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
-Tally resample(
-  const Resampling& plan, const Source& source, bool doublePrecision, vtkImageData* output);
+/// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight.
+Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+  bool outsideBlocksLight, vtkImageData* output);
 
 } // namespace refractivity

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityOfImage.h"
 
+#include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
 #include "vtkImageData.h"
@@ -182,7 +183,12 @@ Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* out
     hidePoints(source.image, valid);
     hidePointsOfHiddenCells(source.image, valid);
   }
-  return setArrays(output, leaf.arrays, source.model, valid, doublePrecision);
+  const Tally tally = setArrays(output, leaf.arrays, source.model, valid, doublePrecision);
+  if (const auto outside = leaf.ofCells ? nullptr : outsideFrom(source.image))
+  {
+    setOutside(outside, output);
+  }
+  return tally;
 }
 
 } // namespace refractivity

@@ -306,11 +306,12 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
 }
 
 /// The refractivity that was computed before, if the image is to be used as it stands: IndexModel does
-/// not ask for an index, and its first array is missing, not chosen or the refractivity itself.
+/// not ask for an index or for fields by name, and its first array is missing, not chosen or the refractivity itself.
 vtkDataArray* computedBefore(
   vtkRefractiveIndex* self, vtkImageData* image, const Selection& selection)
 {
-  if (!image || self->GetIndexModel() == vtkRefractiveIndex::REFRACTIVE_INDEX)
+  if (!image || self->GetIndexModel() == vtkRefractiveIndex::REFRACTIVE_INDEX ||
+    (self->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS && !self->GetFields().empty()))
   {
     return nullptr;
   }

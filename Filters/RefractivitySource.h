@@ -21,6 +21,7 @@ namespace refractivity
 // The point arrays of the output, which are also understood where an input has them.
 constexpr const char* arrayName = "Refractivity";
 constexpr const char* maskName = "vtkValidPointMask"; // as vtkResampleToImage calls it
+constexpr const char* transparentName = "TransparentPointMask";
 
 /// The arrays that a model takes its values from, in its order. Each has one component and one value for
 /// each point, or each has one for each cell.

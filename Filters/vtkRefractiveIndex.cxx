@@ -5,6 +5,8 @@
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
+#include "RefractivityOfAmr.h"
+#include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
 
@@ -66,7 +68,7 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkRefractiveIndex::vtkRefractiveIndex() = default;
+vtkRefractiveIndex::vtkRefractiveIndex() { this->SetNumberOfInputPorts(2); }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
@@ -100,6 +102,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  os << indent << "OutsideBlocksLight: " << this->OutsideBlocksLight << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
@@ -228,8 +231,15 @@ bool vtkRefractiveIndex::HasHumidityArray()
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractiveIndex::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
@@ -243,6 +253,10 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
   {
     gridOfImage(source.image, source.leaves[0].ofCells, structure);
   }
+  else if (const auto amr = planAmr(source, this->SamplingDimensions))
+  {
+    gridOf(*amr, structure);
+  }
   else
   {
     gridOf(planResampling(source, this->SamplingDimensions), structure);
@@ -250,7 +264,8 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 }
 
 //------------------------------------------------------------------------------
-std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* output)
+std::string vtkRefractiveIndex::Convert(
+  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies)
 {
   output->Initialize();
   Source source = chooseSource(this, input);
@@ -274,21 +289,41 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
       {
         tally = convertImage(source, this->DoublePrecision, output);
       }
+      else if (const auto amr = planAmr(source, this->SamplingDimensions))
+      {
+        tally = convertAmr(*amr, source, this->DoublePrecision, output);
+      }
       else
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
-        tally = resample(plan, source, this->DoublePrecision, output);
+        tally = resample(plan, source, this->DoublePrecision, this->OutsideBlocksLight, output);
       }
     });
 
   const unsigned char* valid =
     vtkUnsignedCharArray::SafeDownCast(output->GetPointData()->GetArray(maskName))->GetPointer(0);
-  if (std::none_of(
-        valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; }))
+  const auto hasGas = [&]
+  {
+    return std::any_of(
+      valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; });
+  };
+  if (!hasGas())
   {
     throw std::runtime_error("There is no valid value in the " + source.label +
       " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
       "to cross. Choose another array or check the data.");
+  }
+  std::string warning = warningFrom(source.model, tally);
+  const auto warn = [&warning](const std::string& text)
+  { warning += (warning.empty() || text.empty() ? "" : " ") + text; };
+  if (bodies)
+  {
+    warn(placeBodies(bodies, output));
+    if (!hasGas())
+    {
+      throw std::runtime_error("The Bodies cover all of the gas, so there is none for light to "
+                               "cross. Leave out what encloses the flow.");
+    }
   }
 
   int dimensions[3];
@@ -300,11 +335,10 @@ std::string vtkRefractiveIndex::Convert(vtkDataObject* input, vtkImageData* outp
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
-  std::string warning = warningFrom(source.model, tally);
   if (source.noteOnGases != this->ToldOfGases)
   {
     this->ToldOfGases = source.noteOnGases;
-    warning += (warning.empty() ? "" : " ") + source.noteOnGases;
+    warn(source.noteOnGases);
   }
   return warning;
 }
@@ -368,6 +402,11 @@ int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
     inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
       inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
   }
+  if (vtkInformation* bodies = inputVector[BODIES]->GetInformationObject(0))
+  {
+    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  }
   return 1;
 }
 
@@ -379,7 +418,8 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* output = vtkImageData::GetData(outInfo);
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now = std::max(this->GetMTime(), upstreamTime(this));
+  const vtkMTimeType now =
+    std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
   if (this->FailedAt == now)
   {
     output->Initialize();
@@ -389,7 +429,8 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   try
   {
     this->SetAbortExecute(0); // it stays set after an abort
-    const std::string warning = this->Convert(vtkDataObject::GetData(inputVector[0]), output);
+    const std::string warning = this->Convert(
+      vtkDataObject::GetData(inputVector[0]), output, vtkDataObject::GetData(inputVector[BODIES]));
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);

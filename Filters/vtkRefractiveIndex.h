@@ -11,7 +11,9 @@
  * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1.
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
- * arrays on the grid of the cells' centres, so that nothing is smoothed. All other input is
+ * arrays on the grid of the cells' centres, so that nothing is smoothed. Blocks of images that hold
+ * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
+ * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
  * resampled to a grid (see SamplingDimensions) with vtkResampleToImage, cell arrays after
  * vtkCellDataToPointData. Only cells with a volume count: surfaces in a composite are left out, and
  * so are blocks that lack an array. Where several arrays are needed, all of them belong to points or
@@ -20,6 +22,10 @@
  * Invalid (mask 0) are NaN and infinite values, states that no gas can have (T <= 0), hidden points and cells (vtkGhostType), points whose
  * `vtkValidPointMask` in the input is 0, and places that no cell covers. On images, a point is
  * hidden if all its cells are, and so are all points of a hidden cell that would otherwise vanish.
+ *
+ * The second input, optional, holds the surfaces of bodies (vtkPolyData or composites of it): points
+ * inside closed ones, whichever way these face, and points within half a voxel of open ones are
+ * masked. Bodies may overlap, enclose each other and reach out of the data.
  *
  * IndexModel chooses how N is found. An image that already holds a point array `Refractivity` is
  * used as it stands where IndexModel is not REFRACTIVE_INDEX and the (first) array that it needs is
@@ -51,6 +57,13 @@ public:
   static vtkRefractiveIndex* New();
   vtkTypeMacro(vtkRefractiveIndex, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The input ports. BODIES is optional.
+  enum InputPorts
+  {
+    FLOW = 0,
+    BODIES = 1
+  };
 
   /// How the refractivity N is found. The numbers are part of the interface.
   enum IndexModels
@@ -297,6 +310,20 @@ public:
 
   ///@{
   /**
+   * Whether light stops at places within the grid that no cell covers. Default: true. Where it is
+   * false, light passes there as through the nearest gas: the output has a third point array
+   * `TransparentPointMask` (unsigned char), 1 at such places (whose vtkValidPointMask stays 0), else 0.
+   * Bodies that the mesh leaves out are such places; give their surfaces to make them solid. It
+   * concerns input that is resampled; an image has cells everywhere, but its point array
+   * `TransparentPointMask`, if there is one, is passed on.
+   */
+  vtkSetMacro(OutsideBlocksLight, bool);
+  vtkGetMacro(OutsideBlocksLight, bool);
+  vtkBooleanMacro(OutsideBlocksLight, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether `Refractivity` is a double array. Default: false (float).
    */
   vtkSetMacro(DoublePrecision, bool);
@@ -321,12 +348,13 @@ public:
   VTK_WRAPEXCLUDE void ComputeGrid(vtkDataObject* input, vtkImageData* structure);
 
   /**
-   * What the filter does, without a pipeline: fills `output` from `input`. Returns what the user
+   * What the filter does, without a pipeline: fills `output` from `input` and, where not null, `bodies`. Returns what the user
    * should be warned of, mostly nothing. Throws std::runtime_error with a message for the user, and
    * std::bad_alloc; `output` is then undefined. If AbortExecute is set on the way, it returns early
    * with an empty output.
    */
-  VTK_WRAPEXCLUDE std::string Convert(vtkDataObject* input, vtkImageData* output);
+  VTK_WRAPEXCLUDE std::string Convert(
+    vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
 
   vtkMTimeType GetMTime() override;
 
@@ -374,6 +402,7 @@ private:
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
+  bool OutsideBlocksLight = true;
   bool DoublePrecision = false;
   int NumberOfThreads = 0;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
+#include "FieldTints.h"
 #include "InputDescription.h"
 
 #include "vtkCommand.h"
@@ -44,6 +45,9 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
+  // Of the fields that tint, on the grid of Refractivity; empty where not needed.
+  std::vector<float> FieldGradients;
+
   // Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
 };
@@ -70,19 +74,6 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
     number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
     number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
     number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
-}
-
-schlieren::Grid gridFrom(vtkImageData* image)
-{
-  schlieren::Grid grid;
-  int dimensions[3];
-  image->GetDimensions(dimensions);
-  std::copy_n(dimensions, 3, grid.dimensions.begin());
-  std::copy_n(image->GetSpacing(), 3, grid.spacing.begin());
-  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, grid.direction.begin());
-  const int* extent = image->GetExtent();
-  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], grid.origin.data());
-  return grid;
 }
 
 schlieren::View viewFrom(vtkSchlierenFilter* self)
@@ -175,6 +166,25 @@ void addFieldValue(vtkImageData* output, const char* name, const Value& value)
   output->GetFieldData()->AddArray(array);
 }
 
+/// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`.
+const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& storage)
+{
+  const auto bytesOf = [arrays](const char* name)
+  { return vtkUnsignedCharArray::SafeDownCast(arrays->GetArray(name)); };
+  auto* valid = bytesOf("vtkValidPointMask");
+  auto* outside = bytesOf("TransparentPointMask");
+  if (!outside)
+  {
+    return valid->GetPointer(0);
+  }
+  storage.resize(static_cast<std::size_t>(valid->GetNumberOfValues()));
+  std::transform(valid->GetPointer(0), valid->GetPointer(0) + storage.size(),
+    outside->GetPointer(0), storage.begin(),
+    [](unsigned char isValid, unsigned char isOutside)
+    { return isOutside ? schlieren::transparent : isValid; });
+  return storage.data();
+}
+
 void setOutput(vtkImageData* output, const schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
@@ -201,12 +211,26 @@ void setOutput(vtkImageData* output, const schlieren::Image& image)
   addFieldValue<vtkDoubleArray>(output, "DisplacementBound", image.displacementBound);
 }
 
+/// Adds the colours, of which `white` is white, as the scalars of the picture.
+void addColor(vtkImageData* output, const std::vector<float>& color, float white)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName("Color");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(color.size()) / 3);
+  std::transform(color.begin(), color.end(), array->GetPointer(0),
+    [white](float light)
+    { return static_cast<unsigned char>(std::clamp(light / white, 0.f, 1.f) * 255.f + 0.5f); });
+  output->GetPointData()->SetScalars(array);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
+  this->SetNumberOfInputPorts(2);
   this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
 }
 
@@ -323,8 +347,15 @@ vtkMTimeType vtkSchlierenFilter::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == vtkRefractiveIndex::BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
@@ -354,19 +385,26 @@ void vtkSchlierenFilter::OnMediumProgress()
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
+bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describeInput(input, upstreamTime(this));
+  std::vector<double> description = describeInput(input, upstreamTime(this, 0));
+  if (bodies)
+  {
+    const std::vector<double> ofBodies =
+      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
+    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  }
   if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
   {
     return true;
   }
   inside.MediumTime = 0;
+  inside.FieldGradients.clear();
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  const std::string warning = this->Medium->Convert(input, inside.Refractivity);
+  const std::string warning = this->Medium->Convert(input, inside.Refractivity, bodies);
   if (this->Medium->GetAbortExecute())
   {
     return false;
@@ -381,20 +419,34 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
+{
+  Internals& inside = *this->Inside;
+  if (!this->ColorByField)
+  {
+    inside.FieldGradients = std::vector<float>();
+  }
+  else if (inside.FieldGradients.empty())
+  {
+    inside.FieldGradients =
+      fieldGradients(this->Medium, input, inside.Refractivity, threadsFrom(this));
+  }
+}
+
+//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::Render(vtkImageData* output)
 {
   vtkImageData* refractivity = this->Inside->Refractivity;
   vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
   auto* floats = vtkFloatArray::SafeDownCast(values);
   auto* doubles = vtkDoubleArray::SafeDownCast(values);
-  auto* valid =
-    vtkUnsignedCharArray::SafeDownCast(refractivity->GetPointData()->GetArray("vtkValidPointMask"));
 
   schlieren::Field field;
   field.grid = gridFrom(refractivity);
   field.singles = floats ? floats->GetPointer(0) : nullptr;
   field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
-  field.valid = valid->GetPointer(0);
+  std::vector<unsigned char> mask;
+  field.valid = maskFrom(refractivity->GetPointData(), mask);
   if (!this->AutoAmbientRefractivity)
   {
     field.ambient = this->AmbientRefractivity;
@@ -402,12 +454,21 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   field.lengthScale = this->LengthScale;
   field.version = refractivity->GetMTime();
 
+  schlieren::Scene scene = sceneFrom(this);
+  if (this->ColorByField)
+  {
+    const std::size_t fields = this->Medium->GetFields().size();
+    scene.fieldColors = fieldColors(this->FieldColors, fields);
+    field.gradients = { static_cast<int>(fields), this->Inside->FieldGradients.data(),
+      field.version };
+  }
+
   schlieren::Monitor monitor;
   monitor.progress = [this](double fraction)
   { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
 
-  const schlieren::Image image = this->Inside->Bench.render(field, sceneFrom(this), monitor);
+  const schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
   if (image.aborted)
   {
     return false;
@@ -420,8 +481,9 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   {
     vtkWarningMacro(
       << "All light that meets the data is blocked, so the picture is black there: every "
-         "ray meets a place that is solid (NaN, masked, blanked) or that no cell covers. "
-         "Look along another ViewDirection, or fill the data's box.");
+         "ray meets a place that is solid (NaN, masked, blanked, a body) or that no cell covers. "
+         "Look along another ViewDirection, or let light pass where no cell is with "
+         "OutsideBlocksLight off.");
   }
   if (image.raysLost > 0)
   {
@@ -431,6 +493,11 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
          "back. Is the refractivity (array, unit, index model) right?");
   }
   setOutput(output, image);
+  if (this->ColorByField)
+  {
+    // A shadowgraph's light is 1 where nothing bends it, and more where the flow gathers it.
+    addColor(output, image.color, this->Cutoff == SHADOWGRAPH ? 2 : 1);
+  }
   return true;
 }
 
@@ -463,9 +530,10 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
-  vtkDataObject::SetActiveAttribute(
-    outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Intensity", vtkDataSetAttributes::SCALARS);
-  vtkDataObject::SetPointDataActiveScalarInfo(outInfo, VTK_FLOAT, 1);
+  vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    this->ColorByField ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
+  vtkDataObject::SetPointDataActiveScalarInfo(
+    outInfo, this->ColorByField ? VTK_UNSIGNED_CHAR : VTK_FLOAT, this->ColorByField ? 3 : 1);
   return 1;
 }
 
@@ -473,16 +541,23 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    vtkInformation* inInfo = inputVector[port]->GetInformationObject(0);
+    if (!inInfo)
+    {
+      continue;
+    }
+    if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+    // All of it, on every process: light crosses what several processes would share.
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
-  // All of it, on every process: light crosses what several processes would share.
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   return 1;
 }
 
@@ -513,7 +588,8 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now = std::max(this->GetMTime(), upstreamTime(this));
+  const vtkMTimeType now = std::max(
+    { this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, vtkRefractiveIndex::BODIES) });
   if (this->Inside->FailedAt == now)
   {
     return 1;
@@ -522,10 +598,16 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    if (this->UpdateRefractivity(vtkDataObject::GetData(inputVector[0])) && this->Render(output))
+    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+    if (this->UpdateRefractivity(
+          input, vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES])))
     {
-      outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
-      outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);
+      this->UpdateFieldGradients(input);
+      if (this->Render(output))
+      {
+        outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
+        outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);
+      }
     }
     return 1;
   }

@@ -11,6 +11,8 @@
  * Point arrays of the output, all from the rays that start in the pixel:
  * - `Intensity` (float, active scalars): undisturbed light is 1/2 for a knife edge, 1 for a
  *   shadowgraph;
+ * - `Color` (3 unsigned chars, active scalars then), with ColorByField only: the intensity, tinted;
+ *   undisturbed light is grey, 128;
  * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, against undisturbed light;
@@ -21,7 +23,7 @@
  * `RaysTraced`, `RaysLost` (trapped in the medium or turned back by it), `StepsTaken`,
  * `TraceSeconds` (0 where nothing had to be traced), `DisplacementBound` (data units).
  *
- * The input and the properties that describe the medium are those of vtkRefractiveIndex; an image
+ * The inputs and the properties that describe the medium are those of vtkRefractiveIndex; an image
  * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
  * until something that it depends on changes: another cutoff, k or knife angle traces nothing,
  * another view traces again but keeps the medium.
@@ -119,6 +121,7 @@ public:
   virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
   virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
   vtkSchlierenMediumMacro(RefractivityScale, double);
+  vtkSchlierenMediumMacro(OutsideBlocksLight, bool);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {
     this->Medium->SetSamplingDimensions(x, y, z);
@@ -260,7 +263,11 @@ public:
 
   ///@{
   /**
-   * Whether the picture is tinted by the colours of the Fields, with any IndexModel. Default: off.
+   * Whether the picture is tinted by the colours of the Fields, with any IndexModel (after Brownlee et
+   * al. 2011, sec. 8). Along its way, light gathers g_i = integral |grad f_i| ds of each field f_i (its
+   * place in its range, 0 to 1; with TRANSFER_FUNCTIONS what its function makes of that). Its colour is
+   * 1 + s (sum g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is
+   * G over its 99th percentile in the picture, at most 1. Default: off.
    */
   vtkSetMacro(ColorByField, bool);
   vtkGetMacro(ColorByField, bool);
@@ -370,7 +377,9 @@ private:
   void PassArraySelections();
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
-  bool UpdateRefractivity(vtkDataObject* input);
+  bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
+  /// Finds the gradients of the fields that tint, if they do.
+  void UpdateFieldGradients(vtkDataObject* input);
   /// Makes the picture from the refractivity. False if aborted.
   bool Render(vtkImageData* output);
 

@@ -65,6 +65,9 @@ SCHLIEREN_HD Sample<Real> tensorProduct(const MediumView<Real>& m, const Real* c
 /// boundary shows in a schlieren picture. Position within [0, last].
 struct QuadraticInterpolation
 {
+  /// Grid points beyond a cell's corners whose samples have a weight in the cell.
+  static constexpr int reach = 1;
+
   template <class Real>
   SCHLIEREN_HD static Sample<Real> at(const MediumView<Real>& m, const Vec3<Real>& position)
   {
@@ -93,6 +96,8 @@ struct QuadraticInterpolation
 /// Trilinear: the derivative jumps from cell to cell. Position within [0, last].
 struct LinearInterpolation
 {
+  static constexpr int reach = 0;
+
   template <class Real>
   SCHLIEREN_HD static Sample<Real> at(const MediumView<Real>& m, const Vec3<Real>& position)
   {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace schlieren
 {
@@ -25,26 +26,21 @@ struct Samples
   const Value* values;
   const unsigned char* valid;
 
+  static bool maySayGas(unsigned char mark) { return mark != 0 && mark != transparent; }
   bool isGas(std::int64_t at) const
   {
-    return (valid == nullptr || valid[at] != 0) && std::isfinite(values[at]);
+    return (valid == nullptr || maySayGas(valid[at])) && std::isfinite(values[at]);
+  }
+  bool isSolid(std::int64_t at) const
+  {
+    return !isGas(at) && (valid == nullptr || valid[at] != transparent);
   }
 };
 
-/// Median over the gas on the six faces of the grid; where all of that is solid, over all gas. The
-/// median, because the gas around the flow fills most of the faces, while a mean is pulled by every
-/// jet or wake that passes through one.
-template <class Value>
-double boundaryMedian(const Samples<Value>& samples, const std::array<std::int64_t, 3>& n)
+/// Calls visit(index) for the points of the grid's faces.
+template <class Visit>
+void forFaces(const std::array<std::int64_t, 3>& n, const Visit& visit)
 {
-  std::vector<Value> values;
-  const auto add = [&](std::int64_t at)
-  {
-    if (samples.isGas(at))
-    {
-      values.push_back(samples.values[at]);
-    }
-  };
   for (std::int64_t k = 0; k < n[2]; ++k)
   {
     for (std::int64_t j = 0; j < n[1]; ++j)
@@ -52,13 +48,38 @@ double boundaryMedian(const Samples<Value>& samples, const std::array<std::int64
       const bool wholeRow = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
       for (std::int64_t i = 0; i < n[0]; i += wholeRow ? 1 : n[0] - 1)
       {
-        add((k * n[1] + j) * n[0] + i);
+        visit((k * n[1] + j) * n[0] + i);
       }
     }
   }
+}
+
+/// Median over the gas on the six faces of the grid; where all of that is solid, over all gas. The
+/// median, because the gas around the flow fills most of the faces, while a mean is pulled by every
+/// jet or wake that passes through one. Needs as much memory as the values that it looks at.
+template <class Value>
+double boundaryMedian(const Samples<Value>& samples, const std::array<std::int64_t, 3>& n)
+{
+  const std::int64_t all = n[0] * n[1] * n[2];
+  std::vector<Value> values;
+  values.reserve(static_cast<std::size_t>(all - (n[0] - 2) * (n[1] - 2) * (n[2] - 2)));
+  const auto add = [&](std::int64_t at)
+  {
+    if (samples.isGas(at))
+    {
+      values.push_back(samples.values[at]);
+    }
+  };
+  forFaces(n, add);
   if (values.empty())
   {
-    for (std::int64_t at = 0; at < n[0] * n[1] * n[2]; ++at)
+    std::int64_t gas = 0;
+    for (std::int64_t at = 0; at < all; ++at)
+    {
+      gas += samples.isGas(at) ? 1 : 0;
+    }
+    values.reserve(static_cast<std::size_t>(gas));
+    for (std::int64_t at = 0; at < all; ++at)
     {
       add(at);
     }
@@ -79,37 +100,58 @@ struct Range
   std::int64_t gas = 0;
 };
 
-/// Copies the samples into the padded volume as nu, marks solids (with value 0) and finds the range.
-template <class Real, class Value>
-Range load(const Samples<Value>& samples, double ambient, Medium<Real>& medium, int threads)
+/// Copies a row of samples as nu, 0 where there is no gas. Widens one range per place in the row, which a compiler
+/// can do for neighbours at once; returns the number of points that are gas.
+template <class Real, class Value, class IsValid>
+std::int64_t loadRow(const Value* values, const IsValid& isValid, std::int64_t count,
+  double ambient, double scale, Real* nu, Value* lowest, Value* highest)
 {
-  const auto [nx, ny, nz] = medium.volume.dimensions;
+  std::int64_t gas = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Value n = values[i];
+    const bool isGas = std::abs(n) <= std::numeric_limits<Value>::max() && isValid(i);
+    const double shifted = (static_cast<double>(n) - ambient) * scale;
+    nu[i] = isGas ? static_cast<Real>(shifted) : 0;
+    lowest[i] = isGas && n < lowest[i] ? n : lowest[i];
+    highest[i] = isGas && n > highest[i] ? n : highest[i];
+    gas += isGas ? 1 : 0;
+  }
+  return gas;
+}
+
+/// Copies the samples into the padded volume as nu, 0 where there is no gas, and finds the range.
+template <class Real, class Value>
+Range load(const Samples<Value>& samples, double ambient, PaddedVolume<Real>& volume, int threads)
+{
+  const auto [nx, ny, nz] = volume.dimensions;
   const double scale = 1 / (1 + ambient);
   std::vector<Range> planes(static_cast<std::size_t>(nz));
   parallelFor(nz, 1, threads,
     [&, nx = nx, ny = ny](std::int64_t begin, std::int64_t end)
     {
+      const auto width = static_cast<std::size_t>(nx);
+      constexpr Value none = std::numeric_limits<Value>::infinity();
+      std::vector<Value> lowest(width, none), highest(width, -none);
       for (std::int64_t k = begin; k < end; ++k)
       {
-        Range range;
+        Range& range = planes[static_cast<std::size_t>(k)];
         for (std::int64_t j = 0; j < ny; ++j)
         {
           const std::int64_t row = (k * ny + j) * nx;
-          for (std::int64_t i = 0; i < nx; ++i)
+          const auto loadWith = [&, nx](const auto& isValid)
           {
-            Real nu = 0;
-            if (samples.isGas(row + i))
-            {
-              const double n = static_cast<double>(samples.values[row + i]);
-              range.lowest = std::min(range.lowest, n);
-              range.highest = std::max(range.highest, n);
-              ++range.gas;
-              nu = static_cast<Real>((n - ambient) * scale);
-            }
-            medium.volume.at(i, j, k) = nu;
-          }
+            return loadRow(samples.values + row, isValid, nx, ambient, scale, &volume.at(0, j, k),
+              lowest.data(), highest.data());
+          };
+          const unsigned char* valid = samples.valid;
+          range.gas += valid == nullptr
+            ? loadWith([](std::int64_t) { return true; })
+            : loadWith([valid = valid + row](std::int64_t i)
+                { return Samples<Value>::maySayGas(valid[i]); });
         }
-        planes[static_cast<std::size_t>(k)] = range;
+        range.lowest = static_cast<double>(*std::min_element(lowest.begin(), lowest.end()));
+        range.highest = static_cast<double>(*std::max_element(highest.begin(), highest.end()));
       }
     });
   Range total;
@@ -119,24 +161,50 @@ Range load(const Samples<Value>& samples, double ambient, Medium<Real>& medium, 
     total.highest = std::max(total.highest, plane.highest);
     total.gas += plane.gas;
   }
-  if (total.gas < nx * ny * nz)
-  {
-    medium.solid.assign((medium.volume.samples.size() + 31) / 32, 0);
-    for (std::int64_t k = 0; k < nz; ++k)
+  return total;
+}
+
+/// The points for which is(index) holds.
+template <class Predicate>
+PointMask findPoints(
+  const std::array<std::int64_t, 3>& dimensions, int threads, const Predicate& is)
+{
+  PointMask found(dimensions);
+  parallelFor(dimensions[2], 1, threads,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      for (std::int64_t j = 0; j < ny; ++j)
+      for (std::int64_t k = begin; k < end; ++k)
       {
-        for (std::int64_t i = 0; i < nx; ++i)
+        for (std::int64_t j = 0; j < dimensions[1]; ++j)
         {
-          if (!samples.isGas((k * ny + j) * nx + i))
+          const std::int64_t first = (k * dimensions[1] + j) * dimensions[0];
+          std::uint64_t* row = found.row(j, k);
+          for (std::int64_t i = 0; i < dimensions[0]; ++i)
           {
-            setBit(medium.solid, medium.volume.index(i, j, k), true);
+            const std::uint64_t isNot = is(first + i) ? 0 : 1;
+            row[i >> 6] &= ~(isNot << (i & 63));
           }
         }
       }
+    });
+  return found;
+}
+
+/// Marks the solids and gives them, and what is transparent, values from the gas around.
+template <class Real, class Value>
+void setSolids(const Samples<Value>& samples, Medium<Real>& medium, int threads)
+{
+  const std::array<std::int64_t, 3>& dimensions = medium.volume.dimensions;
+  {
+    const PointMask solid =
+      findPoints(dimensions, threads, [&](std::int64_t at) { return samples.isSolid(at); });
+    if (solid.any())
+    {
+      medium.solid = bitsPerSample(medium.volume, solid);
     }
   }
-  return total;
+  fillEmpty(medium.volume,
+    findPoints(dimensions, threads, [&](std::int64_t at) { return !samples.isGas(at); }), threads);
 }
 
 void checkRange(const Range& range)
@@ -228,28 +296,30 @@ Medium<Real> build(
   const Field& field, const Value* values, Interpolation interpolation, int threads)
 {
   const Samples<Value> samples{ values, field.valid };
-  Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {} };
   if (field.ambient && !(*field.ambient > -1 && *field.ambient <= largestPlausibleN))
   {
     throw Error("The ambient refractivity " + std::to_string(*field.ambient) +
       " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
       "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
   }
-  medium.ambient = field.ambient ? *field.ambient : boundaryMedian(samples, field.grid.dimensions);
-  const Range range = load(samples, medium.ambient, medium, threads);
+  // Before there is a volume: it takes memory, too.
+  const double ambient =
+    field.ambient ? *field.ambient : boundaryMedian(samples, field.grid.dimensions);
+  Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {} };
+  medium.ambient = ambient;
+  const Range range = load(samples, ambient, medium.volume, threads);
   checkRange(range);
   medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
-  if (!medium.solid.empty())
+  if (range.gas < field.grid.dimensions[0] * field.grid.dimensions[1] * field.grid.dimensions[2])
   {
-    fillSolids(medium.volume, medium.solid);
+    setSolids(samples, medium, threads);
   }
   if (interpolation == Interpolation::Quadratic)
   {
     prefilterQuadratic(medium.volume, threads);
   }
   fillGhosts(medium.volume);
-  cutTails(medium.volume,
-    std::max(range.highest - medium.ambient, medium.ambient - range.lowest) / (1 + medium.ambient),
+  cutTails(medium.volume, std::max(range.highest - ambient, ambient - range.lowest) / (1 + ambient),
     threads);
   findBounds(medium, threads);
   return medium;

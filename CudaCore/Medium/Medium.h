@@ -31,8 +31,9 @@ struct Medium
 /// Checks the grid of `field`. Throws Error.
 void validate(const Grid& grid);
 
-/// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they take values
-/// spread from the gas around them, so that they pull at no gradient next to them. Throws Error.
+/// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they, and transparent
+/// places, take values spread from the gas around them, so that they pull at no gradient next to them.
+/// Throws Error.
 template <class Real>
 Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads);
 

@@ -6,12 +6,38 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace schlieren
 {
 
-/// Samples on a grid of `dimensions` points with one layer of ghost points on each side.
+/// Leaves numbers as it finds them in memory: whoever makes a volume writes all of it anyway, and the
+/// system hands out pages on the first write, to many threads faster than to one.
+template <class T>
+struct UninitialisedAllocator : std::allocator<T>
+{
+  template <class Other>
+  struct rebind
+  {
+    using other = UninitialisedAllocator<Other>;
+  };
+
+  template <class Other>
+  void construct(Other* at) noexcept
+  {
+    ::new (static_cast<void*>(at)) Other;
+  }
+  template <class Other, class... Arguments>
+  void construct(Other* at, Arguments&&... arguments)
+  {
+    ::new (static_cast<void*>(at)) Other(std::forward<Arguments>(arguments)...);
+  }
+};
+
+/// Samples, not initialised, on a grid of `dimensions` points with one layer of ghost points on each side.
 template <class Real>
 struct PaddedVolume
 {
@@ -34,7 +60,7 @@ struct PaddedVolume
 
   std::array<std::int64_t, 3> dimensions;
   std::array<std::int64_t, 3> strides;
-  std::vector<Real> samples;
+  std::vector<Real, UninitialisedAllocator<Real>> samples;
 };
 
 /// Replaces samples by the coefficients of the quadratic B-spline through them (Unser, Aldroubi &

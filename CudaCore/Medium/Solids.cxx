@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/Solids.h"
 
+#include "Device/Parallel.h"
+
 #include <algorithm>
+#include <atomic>
+#include <utility>
 
 namespace schlieren
 {
@@ -10,107 +14,124 @@ namespace schlieren
 namespace
 {
 
-/// Calls visit(index) for the up to 26 neighbours of a point that lie within the grid.
-template <class Real, class Visit>
-void forNeighbours(const PaddedVolume<Real>& volume, std::int64_t at, const Visit& visit)
+/// The n-th words of the rows around (j, k): the points of which a neighbour has a value.
+std::uint64_t besideValues(const PointMask& empty, std::int64_t n, std::int64_t j, std::int64_t k)
+{
+  const auto [nx, ny, nz] = empty.dimensions;
+  std::uint64_t beside = 0;
+  for (std::int64_t kk = std::max<std::int64_t>(k - 1, 0); kk <= std::min(k + 1, nz - 1); ++kk)
+  {
+    for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, ny - 1); ++jj)
+    {
+      const std::uint64_t* row = empty.row(jj, kk);
+      const std::uint64_t value = ~row[n];
+      const std::uint64_t before = n > 0 ? ~row[n - 1] : 0;
+      const std::uint64_t behind = n + 1 < empty.wordsPerRow ? ~row[n + 1] : 0;
+      beside |= value | value << 1 | before >> 63 | value >> 1 | behind << 63;
+    }
+  }
+  return beside;
+}
+
+template <class Real>
+Real meanOfNeighbours(const PaddedVolume<Real>& volume, const PointMask& empty, std::int64_t i,
+  std::int64_t j, std::int64_t k)
 {
   const auto [nx, ny, nz] = volume.dimensions;
-  const std::int64_t k = at / volume.strides[2] - 1;
-  const std::int64_t j = at % volume.strides[2] / volume.strides[1] - 1;
-  const std::int64_t i = at % volume.strides[1] - 1;
+  // Relative to one of them, so that the mean of equal values is exactly that value.
+  double first = 0, excess = 0;
+  int count = 0;
   for (std::int64_t kk = std::max<std::int64_t>(k - 1, 0); kk <= std::min(k + 1, nz - 1); ++kk)
   {
     for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, ny - 1); ++jj)
     {
       for (std::int64_t ii = std::max<std::int64_t>(i - 1, 0); ii <= std::min(i + 1, nx - 1); ++ii)
       {
-        const std::int64_t neighbour = volume.index(ii, jj, kk);
-        if (neighbour != at)
+        if (!empty.at(ii, jj, kk))
         {
-          visit(neighbour);
+          const auto value =
+            static_cast<double>(volume.samples[static_cast<std::size_t>(volume.index(ii, jj, kk))]);
+          first = count == 0 ? value : first;
+          excess += value - first;
+          ++count;
         }
       }
     }
   }
+  return static_cast<Real>(first + excess / count);
 }
 
 } // namespace
 
 template <class Real>
-void fillSolids(PaddedVolume<Real>& volume, const std::vector<std::uint32_t>& solid)
+void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads)
 {
-  std::vector<std::uint32_t> empty = solid; // points without a value yet
-  std::vector<std::uint32_t> queued(solid.size(), 0);
-  std::vector<std::int64_t> layer;
-
-  const auto [nx, ny, nz] = volume.dimensions;
-  for (std::int64_t k = 0; k < nz; ++k)
+  PointMask next = empty; // those left when a layer has been filled
+  const std::int64_t ny = volume.dimensions[1];
+  std::atomic<bool> isDone{ false };
+  while (!isDone)
   {
-    for (std::int64_t j = 0; j < ny; ++j)
-    {
-      for (std::int64_t i = 0; i < nx; ++i)
+    isDone = true;
+    parallelFor(volume.dimensions[2], 1, threads,
+      [&](std::int64_t begin, std::int64_t end)
       {
-        const std::int64_t at = volume.index(i, j, k);
-        bool touchesGas = false;
-        if (bitAt(solid, at))
+        for (std::int64_t k = begin; k < end; ++k)
         {
-          forNeighbours(volume, at, [&](std::int64_t n) { touchesGas |= !bitAt(solid, n); });
+          for (std::int64_t j = 0; j < ny; ++j)
+          {
+            for (std::int64_t n = 0; n < empty.wordsPerRow; ++n)
+            {
+              const std::uint64_t left = empty.row(j, k)[n];
+              std::uint64_t layer = left & empty.pointsOf(n);
+              layer = layer == 0 ? 0 : layer & besideValues(empty, n, j, k);
+              next.row(j, k)[n] = left & ~layer;
+              for (std::int64_t i = 64 * n; layer != 0; ++i, layer >>= 1)
+              {
+                if ((layer & 1) != 0)
+                {
+                  volume.at(i, j, k) = meanOfNeighbours(volume, empty, i, j, k);
+                  isDone = false;
+                }
+              }
+            }
+          }
         }
-        if (touchesGas)
+      });
+    std::swap(empty, next);
+  }
+}
+
+template <class Real>
+std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<Real>& volume, const PointMask& mask)
+{
+  std::vector<std::uint32_t> bits((volume.samples.size() + 31) / 32, 0);
+  for (std::int64_t k = 0; k < mask.dimensions[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < mask.dimensions[1]; ++j)
+    {
+      for (std::int64_t n = 0; n < mask.wordsPerRow; ++n)
+      {
+        std::uint64_t word = mask.row(j, k)[n] & mask.pointsOf(n);
+        const std::int64_t at = volume.index(64 * n, j, k);
+        auto to = static_cast<std::size_t>(at >> 5);
+        const int shift = static_cast<int>(at & 31);
+        if (word != 0)
         {
-          setBit(queued, at, true);
-          layer.push_back(at);
+          bits[to] |= static_cast<std::uint32_t>(word << shift);
+          for (word >>= 32 - shift; word != 0; word >>= 32)
+          {
+            bits[++to] |= static_cast<std::uint32_t>(word);
+          }
         }
       }
     }
   }
-
-  std::vector<std::int64_t> nextLayer;
-  std::vector<Real> values;
-  while (!layer.empty())
-  {
-    values.clear();
-    for (const std::int64_t at : layer)
-    {
-      // Relative to one of them, so that the mean of equal values is exactly that value.
-      double first = 0, excess = 0;
-      int count = 0;
-      forNeighbours(volume, at,
-        [&](std::int64_t n)
-        {
-          if (!bitAt(empty, n))
-          {
-            const double value = static_cast<double>(volume.samples[static_cast<std::size_t>(n)]);
-            first = count == 0 ? value : first;
-            excess += value - first;
-            ++count;
-          }
-        });
-      values.push_back(static_cast<Real>(first + excess / count));
-    }
-    for (std::size_t n = 0; n < layer.size(); ++n)
-    {
-      volume.samples[static_cast<std::size_t>(layer[n])] = values[n];
-      setBit(empty, layer[n], false);
-    }
-    nextLayer.clear();
-    for (const std::int64_t at : layer)
-    {
-      forNeighbours(volume, at,
-        [&](std::int64_t n)
-        {
-          if (bitAt(empty, n) && !bitAt(queued, n))
-          {
-            setBit(queued, n, true);
-            nextLayer.push_back(n);
-          }
-        });
-    }
-    layer.swap(nextLayer);
-  }
+  return bits;
 }
 
-template void fillSolids(PaddedVolume<float>&, const std::vector<std::uint32_t>&);
-template void fillSolids(PaddedVolume<double>&, const std::vector<std::uint32_t>&);
+template void fillEmpty(PaddedVolume<float>&, PointMask, int);
+template void fillEmpty(PaddedVolume<double>&, PointMask, int);
+template std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<float>&, const PointMask&);
+template std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<double>&, const PointMask&);
 
 } // namespace schlieren

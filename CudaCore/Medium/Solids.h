@@ -10,22 +10,65 @@
 namespace schlieren
 {
 
-/// Gives the points of `solid` (one bit per sample, as in MediumView) the mean of those neighbours
-/// that have a value already, layer after layer, outward from the gas. Gas keeps its values; next to
-/// a body in uniform gas there is no gradient.
+/// One bit per point of a grid, without ghosts. Every row begins with a word of its own, so that threads
+/// may write different rows. What a row's last word has beyond the row is 1.
+struct PointMask
+{
+  explicit PointMask(const std::array<std::int64_t, 3>& gridDimensions)
+    : dimensions(gridDimensions)
+    , wordsPerRow((gridDimensions[0] + 63) / 64)
+    , words(static_cast<std::size_t>(wordsPerRow * gridDimensions[1] * gridDimensions[2]),
+        ~std::uint64_t{ 0 })
+  {
+  }
+
+  std::uint64_t* row(std::int64_t j, std::int64_t k)
+  {
+    return words.data() + (k * dimensions[1] + j) * wordsPerRow;
+  }
+  const std::uint64_t* row(std::int64_t j, std::int64_t k) const
+  {
+    return words.data() + (k * dimensions[1] + j) * wordsPerRow;
+  }
+
+  /// Those bits of a row's n-th word that stand for points.
+  std::uint64_t pointsOf(std::int64_t n) const
+  {
+    const std::int64_t points = dimensions[0] - 64 * n;
+    return points < 64 ? (std::uint64_t{ 1 } << points) - 1 : ~std::uint64_t{ 0 };
+  }
+
+  bool at(std::int64_t i, std::int64_t j, std::int64_t k) const
+  {
+    return ((row(j, k)[i >> 6] >> (i & 63)) & 1u) != 0;
+  }
+
+  bool any() const
+  {
+    for (std::size_t n = 0; n < words.size(); ++n)
+    {
+      const auto inRow = static_cast<std::int64_t>(n) % wordsPerRow;
+      if ((words[n] & pointsOf(inRow)) != 0)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::array<std::int64_t, 3> dimensions;
+  std::int64_t wordsPerRow;
+  std::vector<std::uint64_t> words;
+};
+
+/// Gives the points of `empty` the mean of those neighbours (of 26) that have a value already, layer
+/// after layer, outward from the gas. Gas keeps its values; next to a body in uniform gas there is no
+/// gradient. Needs two bits of memory a point, `empty` included.
 template <class Real>
-void fillSolids(PaddedVolume<Real>& volume, const std::vector<std::uint32_t>& solid);
+void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads);
 
-inline bool bitAt(const std::vector<std::uint32_t>& bits, std::int64_t at)
-{
-  return ((bits[static_cast<std::size_t>(at >> 5)] >> (at & 31)) & 1u) != 0;
-}
-
-inline void setBit(std::vector<std::uint32_t>& bits, std::int64_t at, bool value)
-{
-  const std::uint32_t bit = 1u << (at & 31);
-  std::uint32_t& word = bits[static_cast<std::size_t>(at >> 5)];
-  word = value ? word | bit : word & ~bit;
-}
+/// The mask laid out as in MediumView, one bit per sample of `volume`.
+template <class Real>
+std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<Real>& volume, const PointMask& mask);
 
 } // namespace schlieren

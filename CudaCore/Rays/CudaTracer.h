@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Device/DeviceError.h"
 #include "Medium/Medium.h"
 #include "Rays/Tracer.h"
 
@@ -9,13 +10,6 @@
 
 namespace schlieren
 {
-
-/// The device is there but could not do the work (memory, driver); the CPU still can.
-class DeviceError : public Error
-{
-public:
-  using Error::Error;
-};
 
 /// Traces rays on the first CUDA device; holds the medium in its memory. Throws DeviceError.
 template <class Real>

@@ -118,6 +118,14 @@ SCHLIEREN_HD RayExit traceRay(
   Ray<Real> ray;
   ray.start =
     clampTo(static_cast<Vec3<Real>>(start + chord.from * task.light.perLength), task.medium.last);
+  // Where it enters and leaves, too: the steps' midpoints do not look at the grid's faces.
+  const auto isBlockedAt = [&task](const Vec3<Real>& at)
+  { return task.medium.solid != nullptr && isSolid(task.medium, at); };
+  if (isBlockedAt(ray.start))
+  {
+    exit.fate = RayFate::Blocked;
+    return exit;
+  }
   // Light enters along w, so that |p| = 1 + nu from the start.
   ray.q = Interpolate::at(task.medium, ray.start).value * task.straight.w;
 
@@ -139,7 +147,7 @@ SCHLIEREN_HD RayExit traceRay(
 
     const Vec3<Real> middle =
       clampTo(Leapfrog::midpoint(ray, task.straight, step), task.medium.last);
-    if (task.medium.solid != nullptr && isSolid(task.medium, middle))
+    if (isBlockedAt(middle))
     {
       exit.fate = RayFate::Blocked;
       return exit;
@@ -147,6 +155,12 @@ SCHLIEREN_HD RayExit traceRay(
     path += Leapfrog::advance(ray, task.straight, step, Interpolate::at(task.medium, middle));
     gather(middle, step);
     ++exit.steps;
+  }
+  if (isBlockedAt(
+        clampTo(ray.start + ray.length * task.straight.perLength + ray.offset, task.medium.last)))
+  {
+    exit.fate = RayFate::Blocked;
+    return exit;
   }
 
   const Vec3<double> q = static_cast<Vec3<double>>(ray.q);

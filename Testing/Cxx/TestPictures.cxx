@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pictures of real flows against baselines. No renderer is used: the intensities become grey levels.
-#include "Fixtures.h"
+#include "BallOnLevels.h"
 
 #include "vtkImageShiftScale.h"
 #include "vtkMultiBlockDataSet.h"
@@ -122,4 +122,13 @@ TEST(Pictures, BluntFinFromAbove)
   filter->SetDevice(vtkSchlierenFilter::CPU);
   filter->Update();
   expectBaseline(filter, 1, "BluntFinFromAbove");
+}
+
+// A ball on three levels of cells. Neither cells nor borders of blocks and levels are to be seen.
+TEST(Pictures, BallOnThreeLevels)
+{
+  auto filter = bench(ballOnLevels(32, { { 0, 32, true }, { 16, 32, true }, { 48, 32 } }), 200);
+  filter->SetDevice(vtkSchlierenFilter::CPU);
+  filter->Update();
+  expectBaseline(filter, 1, "BallOnThreeLevels");
 }

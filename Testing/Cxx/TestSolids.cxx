@@ -5,6 +5,7 @@
 #include "vtkAppendFilter.h"
 #include "vtkImageDataToPointSet.h"
 #include "vtkStructuredGrid.h"
+#include "vtkThreshold.h"
 #include "vtkUniformGrid.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -149,6 +150,7 @@ TEST(Solids, AWallAcrossAllLightIsSaid)
   EXPECT_EQ(largest(valuesOf(filter, "Intensity")), 0);
   ASSERT_EQ(complaints->Warnings.size(), 1u);
   EXPECT_NE(complaints->Warnings[0].find("All light"), std::string::npos);
+  EXPECT_NE(complaints->Warnings[0].find("OutsideBlocksLight"), std::string::npos);
   EXPECT_TRUE(complaints->Errors.empty());
 }
 
@@ -190,4 +192,91 @@ TEST(Solids, CellValuesThatAreNanBlockLight)
   auto filter = bench(append->GetOutput(), 40);
   filter->SetSamplingDimensions(61, 61, 61);
   expectBallInUniformGas(filter, 2 * 0.05);
+}
+
+namespace
+{
+
+/// A mesh of the cells of a cube within r < 0.9, of which those with r < 0.5 are hidden.
+vtkSmartPointer<vtkUnstructuredGrid> shell()
+{
+  auto image = cube(41);
+  addPointArray(image, "N", gas);
+  addCellArray(image, "r", [](const Vec& x) { return std::sqrt(dot(x, x)); });
+  vtkNew<vtkThreshold> threshold;
+  threshold->SetInputData(image);
+  threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "r");
+  threshold->SetThresholdFunction(vtkThreshold::THRESHOLD_LOWER);
+  threshold->SetLowerThreshold(0.9);
+  threshold->Update();
+  vtkUnstructuredGrid* mesh = threshold->GetOutput();
+  mesh->AllocateCellGhostArray();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    const bool isHidden = mesh->GetCellData()->GetArray("r")->GetComponent(i, 0) < radius;
+    mesh->GetCellGhostArray()->SetValue(i, isHidden ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  return mesh;
+}
+
+} // namespace
+
+// Outside of all cells light passes if it may; in hidden cells and in cells with NaN it does not.
+TEST(Solids, OutsideOfTheMeshMayLetLightPass)
+{
+  auto hidden = shell();
+  vtkNew<vtkUnstructuredGrid> nan;
+  nan->DeepCopy(hidden);
+  nan->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  addPointArray(nan, "N", [](const Vec& x) { return inBall(x) ? std::nan("") : gas(x); });
+  vtkNew<vtkUnstructuredGrid> nanCells;
+  nanCells->DeepCopy(nan);
+  addCellArray(nanCells, "N", [](const Vec& x) { return inBall(x) ? std::nan("") : gas(x); });
+  nanCells->GetPointData()->RemoveArray("N");
+  for (vtkUnstructuredGrid* mesh : { hidden.Get(), nan.Get(), nanCells.Get() })
+  {
+    auto filter = bench(mesh, 40);
+    filter->SetSamplingDimensions(61, 61, 61);
+    filter->SetOutsideBlocksLight(false);
+    expectBallInUniformGas(filter, 2 * 0.05);
+    filter->SetOutsideBlocksLight(true);
+    filter->Update();
+    EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(0, 0), 1);
+  }
+}
+
+// The option of RefractiveIndex, whose output is the input of Schlieren, whose own option is left alone.
+TEST(Solids, WhatIsOutsideIsHandedOn)
+{
+  auto direct = bench(shell(), 40);
+  direct->SetOutsideBlocksLight(false);
+  direct->SetViewDirection(0.3, 0.4, -1);
+  direct->Update();
+  vtkNew<vtkRefractiveIndex> index;
+  index->SetInputDataObject(direct->GetInputDataObject(0, 0));
+  index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  index->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  index->Update();
+  EXPECT_EQ(arrayOf(index, "TransparentPointMask"), nullptr);
+  index->OutsideBlocksLightOff();
+  index->Update();
+  const std::vector<double> outside = valuesOf(index, "TransparentPointMask");
+  const std::vector<double> valid = valuesOf(index, "vtkValidPointMask");
+  auto* grid = vtkImageData::SafeDownCast(index->GetOutputDataObject(0));
+  for (std::size_t i = 0; i < outside.size(); ++i)
+  {
+    Vec x;
+    grid->GetPoint(static_cast<vtkIdType>(i), x.data());
+    const double r = std::sqrt(dot(x, x));
+    EXPECT_TRUE(valid[i] == 0 || outside[i] == 0);
+    EXPECT_TRUE(r > 0.8 || outside[i] == 0) << r;
+    EXPECT_TRUE(r < 1 || outside[i] == 1) << r;
+  }
+  auto chained = bench(nullptr, 40);
+  chained->SetInputConnection(index->GetOutputPort());
+  chained->SetViewDirection(0.3, 0.4, -1);
+  chained->Update();
+  EXPECT_EQ(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity"));
+  EXPECT_EQ(valuesOf(chained, "BlockedFraction"), valuesOf(direct, "BlockedFraction"));
 }

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+namespace schlieren
+{
+
+/// The device is there but could not do the work (memory, driver); the CPU still can.
+class DeviceError : public Error
+{
+public:
+  using Error::Error;
+};
+
+} // namespace schlieren

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Device/CudaBuffer.h"
+#include "Medium/CudaHomogeneityMap.h"
+
+#include <optional>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr int threadsPerBlock = 128;
+
+__device__ std::int64_t index()
+{
+  return blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
+}
+
+template <class Interpolate, class Real>
+__global__ void brickKernel(
+  const MediumView<Real> medium, const BrickPyramid pyramid, NuRange<Real>* ranges)
+{
+  const std::int64_t n = index();
+  if (n < pyramid.size(0))
+  {
+    ranges[n] = rangeOfBrick<Interpolate>(medium, pyramid, n);
+  }
+}
+
+template <class Real>
+__global__ void cubeKernel(const BrickPyramid pyramid, int level, NuRange<Real>* ranges)
+{
+  const std::int64_t n = index();
+  if (n < pyramid.size(level))
+  {
+    ranges[pyramid.first(level) + n] = rangeOfCube(ranges, pyramid, level, n);
+  }
+}
+
+template <class Real>
+__global__ void levelKernel(
+  const NuRange<Real>* ranges, const BrickPyramid pyramid, Real tolerance, std::uint8_t* levels)
+{
+  const std::int64_t n = index();
+  if (n < pyramid.size(0))
+  {
+    levels[n] = levelOfBrick(ranges, pyramid, tolerance, n);
+  }
+}
+
+unsigned blocksFor(std::int64_t count)
+{
+  return static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
+}
+
+template <class T>
+void copyToHost(std::vector<T>& host, const T* device)
+{
+  checkCuda<DeviceError>(
+    cudaMemcpy(host.data(), device, host.size() * sizeof(T), cudaMemcpyDeviceToHost),
+    "Building the homogeneity map");
+}
+
+} // namespace
+
+template <class Real>
+HomogeneityMap<Real> buildHomogeneityMapOnCuda(
+  const Medium<Real>& medium, Interpolation interpolation, Real tolerance)
+{
+  const BrickPyramid pyramid = pyramidOver(medium.volume.dimensions);
+  HomogeneityMap<Real> map{ pyramid,
+    std::vector<NuRange<Real>>(static_cast<std::size_t>(pyramid.first(pyramid.levels))),
+    std::vector<std::uint8_t>(static_cast<std::size_t>(pyramid.size(0))) };
+
+  const CudaBuffer<Real, DeviceError> samples(
+    medium.volume.samples.data(), medium.volume.samples.size());
+  MediumView<Real> view = medium.view();
+  view.samples = samples.data();
+  std::optional<CudaBuffer<std::uint32_t, DeviceError>> solid;
+  if (!medium.solid.empty())
+  {
+    solid.emplace(medium.solid.data(), medium.solid.size());
+    view.solid = solid->data();
+  }
+  const CudaBuffer<NuRange<Real>, DeviceError> ranges(map.ranges.size());
+  const CudaBuffer<std::uint8_t, DeviceError> levels(map.levels.size());
+
+  const unsigned blocks = blocksFor(pyramid.size(0));
+  if (interpolation == Interpolation::Quadratic)
+  {
+    brickKernel<QuadraticInterpolation><<<blocks, threadsPerBlock>>>(view, pyramid, ranges.data());
+  }
+  else
+  {
+    brickKernel<LinearInterpolation><<<blocks, threadsPerBlock>>>(view, pyramid, ranges.data());
+  }
+  for (int level = 1; level < pyramid.levels; ++level)
+  {
+    cubeKernel<<<blocksFor(pyramid.size(level)), threadsPerBlock>>>(pyramid, level, ranges.data());
+  }
+  levelKernel<<<blocks, threadsPerBlock>>>(
+    static_cast<const NuRange<Real>*>(ranges.data()), pyramid, tolerance, levels.data());
+  checkCuda<DeviceError>(cudaGetLastError(), "Starting the homogeneity map's kernels");
+  copyToHost(map.ranges, ranges.data());
+  copyToHost(map.levels, levels.data());
+  return map;
+}
+
+template HomogeneityMap<float> buildHomogeneityMapOnCuda(
+  const Medium<float>&, Interpolation, float);
+template HomogeneityMap<double> buildHomogeneityMapOnCuda(
+  const Medium<double>&, Interpolation, double);
+
+} // namespace schlieren

@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BodyVoxels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace refractivity
+{
+
+namespace
+{
+
+using Point = std::array<double, 3>;
+using Index = std::array<int, 3>;
+
+Point operator-(const Point& a, const Point& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+Point cross(const Point& a, const Point& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// The reach of a voxel from its centre along a direction (times the direction's length).
+double reach(const Point& direction)
+{
+  return 0.5 * (std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]));
+}
+
+/// The smallest integer that is not below x, within [low, high + 1].
+int firstFrom(double x, int low, int high)
+{
+  return static_cast<int>(
+    std::clamp(std::ceil(x), static_cast<double>(low), static_cast<double>(high) + 1));
+}
+
+/// The largest integer that is not above x, within [low - 1, high].
+int lastTo(double x, int low, int high)
+{
+  return static_cast<int>(
+    std::clamp(std::floor(x), static_cast<double>(low) - 1, static_cast<double>(high)));
+}
+
+/// One bit for each point of a box of the grid.
+class Bits
+{
+public:
+  Bits(const Index& first, const Index& last)
+    : low(first)
+    , high(last)
+    , bits_(static_cast<std::size_t>(last[0] - first[0] + 1) *
+        static_cast<std::size_t>(last[1] - first[1] + 1) *
+        static_cast<std::size_t>(last[2] - first[2] + 1))
+  {
+  }
+
+  bool at(int i, int j, int k) const { return holds({ i, j, k }) && bits_[place(i, j, k)]; }
+  void flip(int i, int j, int k) { bits_[place(i, j, k)] = !bits_[place(i, j, k)]; }
+
+  template <class Visit>
+  void forAll(const Visit& visit) const
+  {
+    for (int k = low[2]; k <= high[2]; ++k)
+    {
+      for (int j = low[1]; j <= high[1]; ++j)
+      {
+        for (int i = low[0]; i <= high[0]; ++i)
+        {
+          visit(i, j, k);
+        }
+      }
+    }
+  }
+
+  const Index low, high; // both are in
+
+private:
+  bool holds(const Index& at) const
+  {
+    return at[0] >= low[0] && at[0] <= high[0] && at[1] >= low[1] && at[1] <= high[1] &&
+      at[2] >= low[2] && at[2] <= high[2];
+  }
+  std::size_t place(int i, int j, int k) const
+  {
+    const auto width = static_cast<std::size_t>(high[0] - low[0] + 1);
+    const auto height = static_cast<std::size_t>(high[1] - low[1] + 1);
+    return (static_cast<std::size_t>(k - low[2]) * height + static_cast<std::size_t>(j - low[1])) *
+      width +
+      static_cast<std::size_t>(i - low[0]);
+  }
+
+  std::vector<bool> bits_;
+};
+
+struct Corners
+{
+  Point a, b, c;
+
+  Corners(const Surface& surface, const Surface::Triangle& triangle)
+    : a(surface.points[triangle[0]])
+    , b(surface.points[triangle[1]])
+    , c(surface.points[triangle[2]])
+  {
+  }
+  double lowest(std::size_t axis) const { return std::min({ a[axis], b[axis], c[axis] }); }
+  double highest(std::size_t axis) const { return std::max({ a[axis], b[axis], c[axis] }); }
+};
+
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles
+/// that share it, to the last bit, so that no line slips through between them.
+bool isPassed(Point a, Point b, double y, double z)
+{
+  if ((a[2] > z) == (b[2] > z))
+  {
+    return false;
+  }
+  if (b[2] < a[2])
+  {
+    std::swap(a, b);
+  }
+  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
+}
+
+/// The points inside a closed surface: those before which, along x, there is an odd number of crossings
+/// (Nooruddin & Turk 2003).
+void findInside(const Surface& surface, Bits& inside)
+{
+  const Index& low = inside.low;
+  const Index& high = inside.high;
+  for (const Surface::Triangle& triangle : surface.triangles)
+  {
+    const Corners t(surface, triangle);
+    const Point normal = cross(t.b - t.a, t.c - t.a);
+    const int lastZ = lastTo(t.highest(2), low[2], high[2]);
+    const int lastY = lastTo(t.highest(1), low[1], high[1]);
+    for (int k = firstFrom(t.lowest(2), low[2], high[2]); k <= lastZ; ++k)
+    {
+      for (int j = firstFrom(t.lowest(1), low[1], high[1]); j <= lastY; ++j)
+      {
+        const bool isHit =
+          isPassed(t.a, t.b, j, k) ^ isPassed(t.b, t.c, j, k) ^ isPassed(t.c, t.a, j, k);
+        if (isHit)
+        {
+          const double x =
+            t.a[0] - (normal[1] * (j - t.a[1]) + normal[2] * (k - t.a[2])) / normal[0];
+          const double safe = std::isfinite(x) ? x : t.a[0]; // seen from its edge
+          const int i = firstFrom(std::clamp(safe, t.lowest(0), t.highest(0)), low[0], high[0]);
+          if (i <= high[0])
+          {
+            inside.flip(i, j, k);
+          }
+        }
+      }
+    }
+  }
+  inside.forAll(
+    [&](int i, int j, int k)
+    {
+      if (inside.at(i - 1, j, k))
+      {
+        inside.flip(i, j, k);
+      }
+    });
+}
+
+/// Whether a triangle meets the voxel around a grid point: no axis separates them (Akenine-Moller 2001).
+bool meetsVoxel(const Corners& t, const Point& normal, const Point& centre)
+{
+  const Point a = t.a - centre, b = t.b - centre, c = t.c - centre;
+  const auto isSeparated = [&](const Point& axis)
+  {
+    const double pa = dot(axis, a), pb = dot(axis, b), pc = dot(axis, c);
+    const double r = reach(axis);
+    return std::min({ pa, pb, pc }) > r || std::max({ pa, pb, pc }) < -r;
+  };
+  if (isSeparated(normal))
+  {
+    return false;
+  }
+  for (const Point& axis : { Point{ 1, 0, 0 }, Point{ 0, 1, 0 }, Point{ 0, 0, 1 } })
+  {
+    if (isSeparated(axis) || isSeparated(cross(axis, b - a)) || isSeparated(cross(axis, c - b)) ||
+      isSeparated(cross(axis, a - c)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Calls visit(i, j, k) for the points of the box whose voxels a triangle meets.
+template <class Visit>
+void forVoxelsOf(const Corners& t, const Index& low, const Index& high, const Visit& visit)
+{
+  const Point normal = cross(t.b - t.a, t.c - t.a);
+  const auto size = [&](std::size_t axis) { return std::abs(normal[axis]); };
+  std::size_t along = size(1) > size(0) ? 1 : 0; // where the plane is flattest
+  along = size(2) > size(along) ? 2 : along;
+  if (!(size(along) > 0))
+  {
+    return; // a line: the triangles beside it are there, too
+  }
+  const std::size_t u = (along + 1) % 3, v = (along + 2) % 3;
+  const auto first = [&](std::size_t axis)
+  { return firstFrom(t.lowest(axis) - 0.5, low[axis], high[axis]); };
+  const auto last = [&](std::size_t axis)
+  { return lastTo(t.highest(axis) + 0.5, low[axis], high[axis]); };
+  const double depth = reach(normal) / size(along);
+  Index at;
+  for (at[u] = first(u); at[u] <= last(u); ++at[u])
+  {
+    for (at[v] = first(v); at[v] <= last(v); ++at[v])
+    {
+      const double plane =
+        t.a[along] - (normal[u] * (at[u] - t.a[u]) + normal[v] * (at[v] - t.a[v])) / normal[along];
+      const int end = std::min(last(along), lastTo(plane + depth, low[along], high[along]));
+      for (at[along] = std::max(first(along), firstFrom(plane - depth, low[along], high[along]));
+           at[along] <= end; ++at[along])
+      {
+        if (meetsVoxel(t, normal,
+              { static_cast<double>(at[0]), static_cast<double>(at[1]),
+                static_cast<double>(at[2]) }))
+        {
+          visit(at[0], at[1], at[2]);
+        }
+      }
+    }
+  }
+}
+
+/// Whether eight neighbours that are all inside touch a point. A plate that nowhere holds such a block may
+/// hold no point at all where a diagonal ray crosses it; one that can hold it anywhere stops all light.
+bool isBesideThickPart(const Bits& inside, int i, int j, int k)
+{
+  for (int block = 0; block < 64; ++block)
+  {
+    const int x = i - 2 + block % 4, y = j - 2 + block / 4 % 4, z = k - 2 + block / 16;
+    bool isFull = true;
+    for (int corner = 0; corner < 8 && isFull; ++corner)
+    {
+      isFull = inside.at(x + corner % 2, y + corner / 2 % 2, z + corner / 4);
+    }
+    if (isFull)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The box of the grid (and a few points around it, so that thick parts that leave it are known for
+/// such) that a surface can concern. Empty, with low > high, where there is none.
+std::pair<Index, Index> boxAround(const Surface& surface, const Index& dimensions)
+{
+  constexpr int more = 2;
+  std::pair<Index, Index> box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Surface::Triangle& triangle : surface.triangles)
+    {
+      const Corners t(surface, triangle);
+      low = std::min(low, t.lowest(axis));
+      high = std::max(high, t.highest(axis));
+    }
+    box.first[axis] = firstFrom(low - 0.5, -more, dimensions[axis] - 1 + more);
+    box.second[axis] = lastTo(high + 0.5, -more, dimensions[axis] - 1 + more);
+  }
+  return box;
+}
+
+} // namespace
+
+bool isClosed(const Surface& surface)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> edges;
+  edges.reserve(3 * surface.triangles.size());
+  for (const Surface::Triangle& t : surface.triangles)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      edges.emplace_back(std::minmax(t[i], t[(i + 1) % 3]));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (auto edge = edges.begin(); edge != edges.end();)
+  {
+    const auto next = std::upper_bound(edge, edges.end(), *edge);
+    if ((next - edge) % 2 != 0)
+    {
+      return false;
+    }
+    edge = next;
+  }
+  return true;
+}
+
+void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
+  const std::function<void(int, int, int)>& mark)
+{
+  const auto [low, high] = boxAround(surface, dimensions);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (low[axis] > high[axis])
+    {
+      return;
+    }
+  }
+  const auto markInGrid = [&](int i, int j, int k)
+  {
+    if (i >= 0 && i < dimensions[0] && j >= 0 && j < dimensions[1] && k >= 0 && k < dimensions[2])
+    {
+      mark(i, j, k);
+    }
+  };
+
+  Bits inside(low, high);
+  if (isClosed(surface))
+  {
+    findInside(surface, inside);
+    inside.forAll(
+      [&](int i, int j, int k)
+      {
+        if (inside.at(i, j, k))
+        {
+          markInGrid(i, j, k);
+        }
+      });
+  }
+  for (const Surface::Triangle& triangle : surface.triangles)
+  {
+    forVoxelsOf(Corners(surface, triangle), low, high,
+      [&](int i, int j, int k)
+      {
+        if (!inside.at(i, j, k) && !isBesideThickPart(inside, i, j, k))
+        {
+          markInGrid(i, j, k);
+        }
+      });
+  }
+}
+
+} // namespace refractivity

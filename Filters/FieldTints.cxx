@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FieldTints.h"
+
+#include "RefractivityModels.h"
+#include "RefractivitySource.h"
+
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkPointData.h"
+#include "vtkProbeFilter.h"
+#include "vtkRefractiveIndex.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace
+{
+
+using refractivity::arrayName;
+using refractivity::maskName;
+
+/// Makes of a filter one that finds a single field, between 0 and 1, as if it were a refractivity.
+void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::size_t field)
+{
+  reader->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
+  reader->SetRefractivityScale(1);
+  reader->AddField(medium->GetFields()[field].c_str());
+  if (medium->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS &&
+    !medium->GetTransferFunctions().empty())
+  {
+    reader->AddTransferFunction(medium->GetTransferFunctions()[field]);
+  }
+  if (!medium->GetFieldRanges().empty())
+  {
+    reader->AddFieldRange(medium->GetFieldRanges()[2 * field]);
+    reader->AddFieldRange(medium->GetFieldRanges()[2 * field + 1]);
+  }
+}
+
+bool isSameGrid(const schlieren::Grid& a, const schlieren::Grid& b)
+{
+  bool isSame = a.dimensions == b.dimensions && a.direction == b.direction;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double tolerance = 1e-3 * a.spacing[axis];
+    isSame = isSame && std::abs(a.origin[axis] - b.origin[axis]) < tolerance &&
+      std::abs(a.spacing[axis] - b.spacing[axis]) * static_cast<double>(a.dimensions[axis]) <
+        tolerance;
+  }
+  return isSame;
+}
+
+/// The values and the mask of `image`, interpolated linearly where `grid` has its points.
+void probe(vtkImageData* image, vtkImageData* grid)
+{
+  vtkNew<vtkImageData> points;
+  points->CopyStructure(grid);
+  vtkNew<vtkProbeFilter> prober;
+  prober->SetInputData(points);
+  prober->SetSourceData(image);
+  prober->SetValidPointMaskArrayName("probed");
+  prober->Update();
+  vtkPointData* found = prober->GetOutput()->GetPointData();
+  auto* inside = vtkUnsignedCharArray::SafeDownCast(found->GetArray("probed"));
+  auto* valid = vtkUnsignedCharArray::SafeDownCast(found->GetArray(maskName));
+  if (!inside || !valid)
+  {
+    throw std::runtime_error("A field could not be brought to the grid of the refractivity. Check "
+                             "that the arrays of Fields and of the index model overlap.");
+  }
+  for (vtkIdType i = 0; i < inside->GetNumberOfValues(); ++i)
+  {
+    valid->SetValue(i, inside->GetValue(i) ? valid->GetValue(i) : 0);
+  }
+  image->ShallowCopy(prober->GetOutput());
+}
+
+} // namespace
+
+std::vector<float> fieldGradients(
+  vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads)
+{
+  if (medium->GetFields().empty())
+  {
+    throw std::runtime_error(
+      "ColorByField is on, but Fields is empty, so no field gives its colour. "
+      "Name arrays in Fields, or switch ColorByField off.");
+  }
+  refractivity::fieldMeanFrom(medium); // whether its lists belong together
+  const schlieren::Grid grid = gridFrom(refractivity);
+  const std::size_t count = medium->GetFields().size();
+  std::vector<float> gradients(
+    count * static_cast<std::size_t>(refractivity->GetNumberOfPoints()), 0);
+  for (std::size_t field = 0; field < count; ++field)
+  {
+    vtkNew<vtkRefractiveIndex> reader;
+    chooseField(reader, medium, field);
+    reader->SetSamplingDimensions(refractivity->GetDimensions());
+    reader->SetNumberOfThreads(threads);
+    vtkNew<vtkImageData> values;
+    reader->Convert(input, values);
+    if (!isSameGrid(grid, gridFrom(values)))
+    {
+      probe(values, refractivity);
+    }
+    schlieren::gradientMagnitudes(grid,
+      vtkFloatArray::SafeDownCast(values->GetPointData()->GetArray(arrayName))->GetPointer(0),
+      vtkUnsignedCharArray::SafeDownCast(values->GetPointData()->GetArray(maskName))->GetPointer(0),
+      threads, static_cast<int>(count), static_cast<int>(field), gradients.data());
+  }
+  return gradients;
+}
+
+std::vector<std::array<float, 3>> fieldColors(const std::vector<double>& values, std::size_t fields)
+{
+  if (!values.empty() && values.size() != 3 * fields)
+  {
+    throw std::runtime_error("FieldColors holds " + std::to_string(values.size()) + " values for " +
+      std::to_string(fields) +
+      " fields. Give red, green and blue of each, or none for colours that are chosen.");
+  }
+  std::vector<std::array<float, 3>> colors(fields);
+  for (std::size_t field = 0; field < fields; ++field)
+  {
+    constexpr double goldenSection = 0.61803398874989485;
+    const double turns = static_cast<double>(field) * goldenSection;
+    double color[3];
+    vtkMath::HSVToRGB(turns - std::floor(turns), 1, 1, color, color + 1, color + 2);
+    const double* chosen = values.empty() ? color : values.data() + 3 * field;
+    std::transform(chosen, chosen + 3, colors[field].begin(),
+      [](double value) { return static_cast<float>(value); });
+  }
+  return colors;
+}
+
+schlieren::Grid gridFrom(vtkImageData* image)
+{
+  schlieren::Grid grid;
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  std::copy_n(dimensions, 3, grid.dimensions.begin());
+  std::copy_n(image->GetSpacing(), 3, grid.spacing.begin());
+  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, grid.direction.begin());
+  const int* extent = image->GetExtent();
+  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], grid.origin.data());
+  return grid;
+}

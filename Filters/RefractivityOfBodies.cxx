@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractivityOfBodies.h"
+
+#include "BodyVoxels.h"
+#include "RefractivitySource.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataConnectivityFilter.h"
+#include "vtkSmartPointer.h"
+#include "vtkStaticCleanPolyData.h"
+#include "vtkTriangleFilter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace refractivity
+{
+
+namespace
+{
+
+/// Points nearer to each other than this are one, so that surfaces that were written in single precision or
+/// face by face are closed.
+constexpr double mergingVoxels = 1e-4;
+
+/// Calls visit(polygonal data) for all leaves with points.
+template <class Visit>
+void forLeaves(vtkDataObject* bodies, const Visit& visit)
+{
+  const auto visitLeaf = [&visit](vtkDataObject* object)
+  {
+    auto* data = vtkPolyData::SafeDownCast(object);
+    if (object && !data)
+    {
+      throw std::runtime_error(std::string("The Bodies hold a ") + object->GetClassName() +
+        ", but bodies are given by their surfaces. Put the filter Extract Surface before.");
+    }
+    if (data && data->GetNumberOfPoints() > 0)
+    {
+      visit(data);
+    }
+  };
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(bodies))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      visitLeaf(iterator->GetCurrentDataObject());
+    }
+  }
+  else
+  {
+    visitLeaf(bodies);
+  }
+}
+
+/// The polygons of all leaves, as triangles in index coordinates of the grid, counted from its first point.
+vtkSmartPointer<vtkPolyData> trianglesOf(vtkDataObject* bodies, vtkImageData* grid)
+{
+  const int* extent = grid->GetExtent();
+  vtkNew<vtkAppendPolyData> append;
+  forLeaves(bodies,
+    [&](vtkPolyData* data)
+    {
+      vtkNew<vtkPoints> points;
+      points->SetDataTypeToDouble();
+      points->SetNumberOfPoints(data->GetNumberOfPoints());
+      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+      {
+        double x[3];
+        grid->TransformPhysicalPointToContinuousIndex(data->GetPoint(i), x);
+        points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
+      }
+      vtkNew<vtkPolyData> moved;
+      moved->SetPoints(points);
+      moved->SetPolys(data->GetPolys());
+      moved->SetStrips(data->GetStrips());
+      append->AddInputData(moved);
+    });
+  if (append->GetNumberOfInputConnections(0) == 0)
+  {
+    throw std::runtime_error(
+      "The Bodies are empty: they have no points. Check that their source was "
+      "read or updated, or take the input away.");
+  }
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(append->GetOutputPort());
+  triangles->PassLinesOff();
+  triangles->PassVertsOff();
+  triangles->Update();
+  if (triangles->GetOutput()->GetNumberOfPolys() == 0)
+  {
+    throw std::runtime_error(
+      "The Bodies have no polygons, only points or lines, which stop no light. Give surfaces, for "
+      "instance from the filter Extract Surface, or take the input away.");
+  }
+  return triangles->GetOutput();
+}
+
+void requireFinite(vtkPolyData* triangles)
+{
+  auto iterator = vtk::TakeSmartPointer(triangles->GetPolys()->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count;
+    const vtkIdType* points;
+    iterator->GetCurrentCell(count, points);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const double* x = triangles->GetPoint(points[i]);
+      if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+      {
+        throw std::runtime_error("The Bodies have points that are NaN or infinite, so nobody knows "
+                                 "where they are. Check the program or filter that made them.");
+      }
+    }
+  }
+}
+
+/// Polygons, and which of the connected parts each of their points belongs to.
+vtkSmartPointer<vtkPolyData> labelParts(vtkPolyData* triangles)
+{
+  vtkNew<vtkStaticCleanPolyData> merge;
+  merge->SetInputData(triangles);
+  merge->ToleranceIsAbsoluteOn();
+  merge->SetAbsoluteTolerance(mergingVoxels);
+  merge->ConvertPolysToLinesOff();
+  merge->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  vtkNew<vtkPolyDataConnectivityFilter> label;
+  label->SetInputConnection(merge->GetOutputPort());
+  label->SetExtractionModeToAllRegions();
+  label->ColorRegionsOn();
+  label->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  label->Update();
+  return label->GetOutput();
+}
+
+/// The triangles of each part.
+std::vector<std::vector<Surface::Triangle>> partsOf(vtkPolyData* labelled)
+{
+  std::vector<std::vector<Surface::Triangle>> parts;
+  vtkDataArray* labels = labelled->GetPointData()->GetArray("RegionId");
+  auto iterator = vtk::TakeSmartPointer(labelled->GetPolys()->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count;
+    const vtkIdType* points;
+    iterator->GetCurrentCell(count, points);
+    if (count == 3)
+    {
+      const auto part = static_cast<std::size_t>(labels->GetComponent(points[0], 0));
+      parts.resize(std::max(parts.size(), part + 1));
+      Surface::Triangle triangle;
+      std::copy_n(points, 3, triangle.begin());
+      parts[part].push_back(triangle);
+    }
+  }
+  return parts;
+}
+
+} // namespace
+
+std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
+{
+  const auto triangles = trianglesOf(bodies, output);
+  requireFinite(triangles);
+  const auto labelled = labelParts(triangles);
+  std::vector<std::array<double, 3>> points(
+    static_cast<std::size_t>(labelled->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    labelled->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+  }
+
+  std::array<int, 3> dimensions;
+  output->GetDimensions(dimensions.data());
+  vtkPointData* arrays = output->GetPointData();
+  std::vector<vtkDataArray*> cleared = { arrays->GetArray(arrayName), arrays->GetArray(maskName) };
+  if (vtkDataArray* transparent = arrays->GetArray(transparentName))
+  {
+    cleared.push_back(transparent);
+  }
+  bool isMet = false;
+  // Each part on its own, so that bodies may overlap or enclose each other.
+  for (std::vector<Surface::Triangle>& part : partsOf(labelled))
+  {
+    voxelize({ points, std::move(part) }, dimensions,
+      [&](int i, int j, int k)
+      {
+        isMet = true;
+        const vtkIdType at = (static_cast<vtkIdType>(k) * dimensions[1] + j) * dimensions[0] + i;
+        for (vtkDataArray* array : cleared)
+        {
+          array->SetComponent(at, 0, 0);
+        }
+      });
+  }
+  return isMet
+    ? ""
+    : "The Bodies lie outside the data, so they stop no light. Do both have the same unit "
+      "of length and the same origin?";
+}
+
+} // namespace refractivity

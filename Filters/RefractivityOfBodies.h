@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+class vtkDataObject;
+class vtkImageData;
+
+/// Bodies in the gas, given as surfaces.
+namespace refractivity
+{
+
+/// Clears mask and refractivity of `output` inside the closed surfaces among `bodies` (vtkPolyData, or a
+/// composite of them), and where open ones are. Returns what to warn the user of, mostly nothing.
+/// Throws std::runtime_error where they are no surfaces.
+std::string placeBodies(vtkDataObject* bodies, vtkImageData* output);
+
+} // namespace refractivity

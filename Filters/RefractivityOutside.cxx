@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractivityOutside.h"
+
+#include "RefractivityValues.h"
+
+#include "vtkCellData.h"
+#include "vtkCellTypes.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkResampleToImage.h"
+#include "vtkUnsignedCharArray.h"
+
+namespace refractivity
+{
+
+namespace
+{
+
+bool isHiddenVolume(vtkDataSet* data, vtkIdType cell)
+{
+  return (data->GetCellGhostArray()->GetValue(cell) & hiddenCellBits) != 0 &&
+    vtkCellTypes::GetDimension(static_cast<unsigned char>(data->GetCellType(cell))) == 3;
+}
+
+/// A copy of which only the hidden cells with a volume are visible; null where there are none.
+vtkSmartPointer<vtkDataSet> onlyHiddenOf(vtkDataSet* data)
+{
+  const vtkIdType cells = data->GetNumberOfCells();
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(cells);
+  bool hasSome = false;
+  for (vtkIdType i = 0; i < cells; ++i)
+  {
+    const bool isHidden = isHiddenVolume(data, i);
+    ghosts->SetValue(i, isHidden ? 0 : vtkDataSetAttributes::HIDDENCELL);
+    hasSome = hasSome || isHidden;
+  }
+  if (!hasSome)
+  {
+    return nullptr;
+  }
+  auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  copy->CopyStructure(data);
+  copy->GetPointData()->ShallowCopy(data->GetPointData()); // the sampler wants an array
+  copy->GetCellData()->AddArray(ghosts);
+  return copy;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> newOutside(vtkIdType count)
+{
+  auto outside = newMask(count);
+  outside->SetName(transparentName);
+  return outside;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
+  vtkMultiBlockDataSet* blocks, vtkImageData* grid, vtkUnsignedCharArray* visible)
+{
+  auto outside = newOutside(grid->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+  {
+    outside->SetValue(i, visible->GetValue(i) ? 0 : 1);
+  }
+  vtkNew<vtkMultiBlockDataSet> hidden;
+  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+  {
+    if (const auto some = onlyHiddenOf(vtkDataSet::SafeDownCast(blocks->GetBlock(i))))
+    {
+      hidden->SetBlock(hidden->GetNumberOfBlocks(), some);
+    }
+  }
+  if (hidden->GetNumberOfBlocks() > 0)
+  {
+    vtkNew<vtkResampleToImage> resampler;
+    resampler->SetInputDataObject(hidden);
+    resampler->UseInputBoundsOff();
+    resampler->SetSamplingBounds(grid->GetBounds());
+    resampler->SetSamplingDimensions(grid->GetDimensions());
+    resampler->Update();
+    auto covered = newMask(grid->GetNumberOfPoints());
+    hidePoints(resampler->GetOutput(), covered);
+    for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+    {
+      outside->SetValue(i, covered->GetValue(i) ? 0 : outside->GetValue(i));
+    }
+  }
+  return outside;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image)
+{
+  vtkDataArray* given = image->GetPointData()->GetArray(transparentName);
+  if (!given || given->GetNumberOfComponents() != 1 ||
+    given->GetNumberOfTuples() != image->GetNumberOfPoints())
+  {
+    return nullptr;
+  }
+  vtkUnsignedCharArray* ghosts = image->GetPointGhostArray();
+  auto outside = newOutside(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+  {
+    const bool isHidden = ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT);
+    outside->SetValue(i, given->GetComponent(i, 0) != 0 && !isHidden ? 1 : 0);
+  }
+  return outside;
+}
+
+void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output)
+{
+  vtkDataArray* valid = output->GetPointData()->GetArray(maskName);
+  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+  {
+    if (valid->GetComponent(i, 0) != 0)
+    {
+      outside->SetValue(i, 0);
+    }
+  }
+  output->GetPointData()->AddArray(outside);
+}
+
+} // namespace refractivity

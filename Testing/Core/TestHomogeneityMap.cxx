@@ -1,0 +1,421 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the map calls homogeneous is compared with what rays would see there.
+#include "Fields.h"
+#include "Medium/CudaHomogeneityMap.h"
+#include "Medium/HomogeneityMap.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace schlieren
+{
+
+namespace
+{
+
+using Dimensions = std::array<std::int64_t, 3>;
+
+constexpr double anyTolerance = std::numeric_limits<double>::infinity();
+const Dimensions someDimensions[] = { { 2, 2, 2 }, { 2, 2, 9 }, { 5, 2, 3 }, { 9, 8, 7 },
+  { 4, 14, 6 }, { 33, 17, 6 }, { 257, 3, 6 } };
+const Interpolation bothInterpolations[] = { Interpolation::Quadratic, Interpolation::Linear };
+
+Grid gridOf(const Dimensions& dimensions)
+{
+  Grid grid;
+  grid.dimensions = dimensions;
+  return grid;
+}
+
+template <class Real>
+Medium<Real> mediumOf(const Dimensions& dimensions, Interpolation interpolation,
+  const std::function<double(double, double, double)>& refractivity)
+{
+  SampledField<double> field(gridOf(dimensions), refractivity);
+  field.field.ambient = 0;
+  return buildMedium<Real>(field.field, interpolation, 1);
+}
+
+template <class Real>
+Sample<Real> sampleAt(
+  const Medium<Real>& medium, Interpolation interpolation, const Vec3<Real>& position)
+{
+  return interpolation == Interpolation::Quadratic
+    ? QuadraticInterpolation::at(medium.view(), position)
+    : LinearInterpolation::at(medium.view(), position);
+}
+
+/// Calls visit(position) on a lattice of three points a cell that covers the part of an aligned cube
+/// within the grid, its faces included.
+template <class Visit>
+void forPositions(
+  const Dimensions& dimensions, const Dimensions& low, std::int64_t edge, const Visit& visit)
+{
+  constexpr std::int64_t perCell = 3;
+  std::int64_t end[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    end[axis] = perCell * (std::min(low[axis] + edge, dimensions[axis] - 1) - low[axis]);
+  }
+  const auto at = [](std::int64_t from, std::int64_t n)
+  { return static_cast<double>(from) + static_cast<double>(n) / perCell; };
+  for (std::int64_t k = 0; k <= end[2]; ++k)
+  {
+    for (std::int64_t j = 0; j <= end[1]; ++j)
+    {
+      for (std::int64_t i = 0; i <= end[0]; ++i)
+      {
+        visit(Vec3<double>{ at(low[0], i), at(low[1], j), at(low[2], k) });
+      }
+    }
+  }
+}
+
+/// Calls visit(level, low corner, edge, range) for the cubes of all levels.
+template <class Real, class Visit>
+void forCubes(const HomogeneityMap<Real>& map, const Visit& visit)
+{
+  for (int level = 0; level < map.pyramid.levels; ++level)
+  {
+    const std::int64_t edge = std::int64_t{ brickEdge } << level;
+    for (std::int64_t n = 0; n < map.pyramid.size(level); ++n)
+    {
+      const BrickPyramid::Place at = map.pyramid.place(n, level);
+      visit(level, Dimensions{ at.x * edge, at.y * edge, at.z * edge }, edge,
+        map.ranges[static_cast<std::size_t>(map.pyramid.first(level) + n)]);
+    }
+  }
+}
+
+/// A single sample shows in those cubes in which rays can feel it, and in no others.
+TEST(HomogeneityMap, BoundsExactlyTheSamplesThatARayCanFeel)
+{
+  for (const Interpolation interpolation : bothInterpolations)
+  {
+    for (const Dimensions& dimensions : { Dimensions{ 2, 2, 2 }, { 6, 2, 4 }, { 5, 9, 6 } })
+    {
+      Medium<double> medium =
+        mediumOf<double>(dimensions, interpolation, [](double, double, double) { return 0; });
+      for (std::size_t spike = 0; spike < medium.volume.samples.size(); ++spike)
+      {
+        medium.volume.samples[spike] = spike % 2 == 0 ? 1 : -1;
+        const HomogeneityMap<double> map =
+          buildHomogeneityMap<double>(medium, interpolation, 0., 1);
+        forCubes(map,
+          [&](int level, const Dimensions& low, std::int64_t edge, const NuRange<double>& range)
+          {
+            bool isFelt = false;
+            forPositions(dimensions, low, edge,
+              [&](const Vec3<double>& position)
+              { isFelt |= sampleAt(medium, interpolation, position).value != 0; });
+            EXPECT_EQ(range.highest - range.lowest, isFelt ? 1 : 0)
+              << "sample " << spike << ", level " << level;
+          });
+        medium.volume.samples[spike] = 0;
+      }
+    }
+  }
+}
+
+template <class Real>
+void expectBounds(const Dimensions& dimensions, Interpolation interpolation,
+  const std::function<double(double, double, double)>& refractivity)
+{
+  const Medium<Real> medium = mediumOf<Real>(dimensions, interpolation, refractivity);
+  const HomogeneityMap<Real> map = buildHomogeneityMap<Real>(medium, interpolation, 0, 1);
+  const double rounding =
+    32 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * medium.largestNu;
+  forCubes(map,
+    [&](int, const Dimensions& low, std::int64_t edge, const NuRange<Real>& range)
+    {
+      const double lowest = static_cast<double>(range.lowest);
+      const double highest = static_cast<double>(range.highest);
+      double least = anyTolerance, most = -anyTolerance, steepest = 0;
+      double end[3];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        end[axis] = static_cast<double>(std::min(low[axis] + edge, dimensions[axis] - 1));
+      }
+      forPositions(dimensions, low, edge,
+        [&](const Vec3<double>& position)
+        {
+          const Sample<Real> sample =
+            sampleAt(medium, interpolation, static_cast<Vec3<Real>>(position));
+          least = std::min(least, static_cast<double>(sample.value));
+          most = std::max(most, static_cast<double>(sample.value));
+          // On its upper faces, Linear's derivative is the next cell's.
+          if (position.x < end[0] && position.y < end[1] && position.z < end[2])
+          {
+            steepest = std::max({ steepest, std::abs(static_cast<double>(sample.gradient.x)),
+              std::abs(static_cast<double>(sample.gradient.y)),
+              std::abs(static_cast<double>(sample.gradient.z)) });
+          }
+        });
+      EXPECT_GE(least, lowest - rounding);
+      EXPECT_LE(most, highest + rounding);
+      EXPECT_LE(steepest, highest - lowest + rounding);
+      if (interpolation == Interpolation::Linear) // whose extremes are at the samples
+      {
+        EXPECT_NEAR(least, lowest, rounding);
+        EXPECT_NEAR(most, highest, rounding);
+      }
+    });
+}
+
+TEST(HomogeneityMap, BoundsWhateverIsInterpolated)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> weak(-1e-9, 1e-9), strong(-0.9, 5);
+  for (const Dimensions& dimensions : someDimensions)
+  {
+    for (const Interpolation interpolation : bothInterpolations)
+    {
+      SCOPED_TRACE(testing::PrintToString(dimensions));
+      expectBounds<float>(
+        dimensions, interpolation, [&](double, double, double) { return weak(random); });
+      expectBounds<double>(
+        dimensions, interpolation, [&](double, double, double) { return strong(random); });
+      expectBounds<float>(dimensions, interpolation,
+        [](double x, double y, double z) { return x == 1 && y == 1 && z == 1 ? 3e-4 : 0; });
+    }
+  }
+}
+
+/// Whether the points in a cube are gas, and the samples that have weight there differ by no more than
+/// the tolerance.
+bool isHomogeneous(const Medium<double>& medium, Interpolation interpolation, double tolerance,
+  const Dimensions& low, std::int64_t edge)
+{
+  const std::int64_t reach = interpolation == Interpolation::Quadratic ? 1 : 0;
+  double lowest = anyTolerance, highest = -anyTolerance;
+  Dimensions end{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    end[axis] = std::min(low[axis] + edge, medium.volume.dimensions[axis] - 1);
+  }
+  for (std::int64_t k = low[2] - reach; k <= end[2] + reach; ++k)
+  {
+    for (std::int64_t j = low[1] - reach; j <= end[1] + reach; ++j)
+    {
+      for (std::int64_t i = low[0] - reach; i <= end[0] + reach; ++i)
+      {
+        const double sample =
+          medium.volume.samples[static_cast<std::size_t>(medium.volume.index(i, j, k))];
+        lowest = std::min(lowest, sample);
+        highest = std::max(highest, sample);
+        const bool isInside =
+          i >= low[0] && i <= end[0] && j >= low[1] && j <= end[1] && k >= low[2] && k <= end[2];
+        const Vec3<double> point = static_cast<Vec3<double>>(Vec3<std::int64_t>{ i, j, k });
+        if (isInside && !medium.solid.empty() && isSolid(medium.view(), point))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return highest - lowest <= tolerance;
+}
+
+/// Smooth in one half, so that there are cubes of all sizes; with a solid point and a solid wall.
+Medium<double> mediumWithSolids(
+  const Dimensions& dimensions, Interpolation interpolation, double noise)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-noise, noise);
+  SampledField<double> field(gridOf(dimensions),
+    [&](double x, double, double)
+    { return 1e-4 + (2 * x < static_cast<double>(dimensions[0]) ? 0 : any(random)); });
+  std::vector<unsigned char> valid(field.samples.size(), 1);
+  valid[valid.size() / 5] = 0;
+  std::fill(
+    valid.end() - dimensions[0] * dimensions[1], valid.end(), static_cast<unsigned char>(0));
+  field.samples[valid.size() / 3] = std::numeric_limits<double>::quiet_NaN();
+  field.field.valid = valid.data();
+  field.field.ambient = 0;
+  return buildMedium<double>(field.field, interpolation, 1);
+}
+
+TEST(HomogeneityMap, GivesTheLargestHomogeneousCube)
+{
+  constexpr double noise = 1e-5;
+  for (const Dimensions& dimensions :
+    { Dimensions{ 2, 2, 2 }, { 9, 3, 6 }, { 33, 17, 22 }, { 70, 5, 12 } })
+  {
+    for (const Interpolation interpolation : bothInterpolations)
+    {
+      const Medium<double> medium = mediumWithSolids(dimensions, interpolation, noise);
+      HomogeneityMap<double> map = buildHomogeneityMap(medium, interpolation, 0., 2);
+      std::int64_t largest = 0;
+      for (const double tolerance : { 0., 0.3 * noise, noise, 3 * noise, anyTolerance })
+      {
+        SCOPED_TRACE(tolerance);
+        map.setTolerance(tolerance, 1);
+        EXPECT_EQ(map.levels, buildHomogeneityMap(medium, interpolation, tolerance, 1).levels);
+        for (std::int64_t n = 0; n < map.pyramid.size(0); ++n)
+        {
+          const BrickPyramid::Place at = map.pyramid.place(n, 0);
+          const auto middle = [&](std::int64_t brick, std::size_t axis)
+          {
+            return std::min((static_cast<double>(brick) + 0.5) * brickEdge,
+              static_cast<double>(dimensions[axis] - 1));
+          };
+          const HomogeneousCube<double> cube = homogeneousCube<double>(
+            map.view(), { middle(at.x, 0), middle(at.y, 1), middle(at.z, 2) });
+          const auto edge = static_cast<std::int64_t>(cube.edge);
+          const auto cubeAround = [&](std::int64_t size)
+          {
+            const auto low = [size](std::int64_t brick) { return brick * brickEdge / size * size; };
+            return Dimensions{ low(at.x), low(at.y), low(at.z) };
+          };
+          if (edge > 0)
+          {
+            const Dimensions low = cubeAround(edge);
+            EXPECT_EQ(cube.low.x, static_cast<double>(low[0]));
+            EXPECT_EQ(cube.low.y, static_cast<double>(low[1]));
+            EXPECT_EQ(cube.low.z, static_cast<double>(low[2]));
+            EXPECT_TRUE(isHomogeneous(medium, interpolation, tolerance, low, edge));
+            forPositions(dimensions, low, edge,
+              [&](const Vec3<double>& position)
+              { EXPECT_FALSE(medium.solid.empty() || isSolid(medium.view(), position)); });
+          }
+          const std::int64_t next = edge > 0 ? 2 * edge : brickEdge;
+          EXPECT_FALSE(isHomogeneous(medium, interpolation, tolerance, cubeAround(next), next));
+          largest = std::max(largest, edge);
+        }
+      }
+      EXPECT_TRUE(dimensions[0] < 33 || largest > brickEdge);
+    }
+  }
+}
+
+TEST(HomogeneityMap, UniformGasIsOneCube)
+{
+  for (const Dimensions& dimensions : someDimensions)
+  {
+    for (const Interpolation interpolation : bothInterpolations)
+    {
+      SampledField<float> field(gridOf(dimensions), [](double, double, double) { return 2.7e-4; });
+      const Medium<float> medium = buildMedium<float>(field.field, interpolation, 1);
+      const HomogeneityMap<float> map = buildHomogeneityMap(medium, interpolation, 0.f, 1);
+      const Vec3<float> last = medium.view().last;
+      for (const Vec3<float>& position : { Vec3<float>{ 0, 0, 0 }, 0.5f * last, last })
+      {
+        const HomogeneousCube<float> cube = homogeneousCube(map.view(), position);
+        EXPECT_EQ(length(cube.low), 0);
+        EXPECT_GE(cube.edge, std::max({ last.x, last.y, last.z }));
+      }
+    }
+  }
+}
+
+TEST(HomogeneityMap, NoToleranceSkipsASolid)
+{
+  const Medium<double> medium = mediumWithSolids({ 30, 20, 10 }, Interpolation::Linear, 1e-5);
+  const HomogeneityMap<double> map =
+    buildHomogeneityMap(medium, Interpolation::Linear, anyTolerance, 1);
+  for (const NuRange<double>& range : map.ranges)
+  {
+    EXPECT_FALSE(std::isnan(range.highest - range.lowest));
+  }
+  forPositions({ 30, 20, 10 }, { 0, 0, 0 }, 30,
+    [&](const Vec3<double>& position)
+    {
+      if (isSolid(medium.view(), position))
+      {
+        EXPECT_EQ(homogeneousCube(map.view(), position).edge, 0);
+      }
+    });
+}
+
+TEST(HomogeneityMap, NothingIsWithinANegativeOrMissingTolerance)
+{
+  const Medium<double> medium =
+    mediumOf<double>({ 9, 9, 9 }, Interpolation::Linear, [](double, double, double) { return 0; });
+  for (const double tolerance : { -1., std::numeric_limits<double>::quiet_NaN() })
+  {
+    const auto map = buildHomogeneityMap(medium, Interpolation::Linear, tolerance, 1);
+    EXPECT_EQ(homogeneousCube<double>(map.view(), { 4, 4, 4 }).edge, 0);
+  }
+}
+
+TEST(HomogeneityMap, ThreadsDoNotChangeABit)
+{
+  const Medium<double> medium = mediumWithSolids({ 70, 45, 61 }, Interpolation::Quadratic, 1e-5);
+  const auto one = buildHomogeneityMap(medium, Interpolation::Quadratic, 1e-5, 1);
+  for (const int threads : { 2, 7 })
+  {
+    const auto several = buildHomogeneityMap(medium, Interpolation::Quadratic, 1e-5, threads);
+    EXPECT_EQ(one.levels, several.levels);
+    EXPECT_TRUE(std::equal(one.ranges.begin(), one.ranges.end(), several.ranges.begin(),
+      [](const NuRange<double>& a, const NuRange<double>& b)
+      { return a.lowest == b.lowest && a.highest == b.highest; }));
+  }
+}
+
+/// Grids that no memory holds, so only the numbers of their cubes.
+TEST(HomogeneityMap, NumbersHugeGrids)
+{
+  for (const Dimensions& dimensions : { Dimensions{ 50001, 40000, 60000 },
+         { std::int64_t{ 1 } << 30, 3, 2 }, { 2, std::int64_t{ 1 } << 30, 1 << 20 } })
+  {
+    const BrickPyramid pyramid = pyramidOver(dimensions);
+    EXPECT_EQ(pyramid.size(pyramid.levels - 1), 1);
+    EXPECT_LT(pyramid.levels, 255);
+    std::int64_t all = 0;
+    for (int level = 0; level < pyramid.levels; ++level)
+    {
+      EXPECT_EQ(pyramid.first(level), all);
+      all += pyramid.size(level);
+      const BrickPyramid::Place end{ pyramid.along(0, level) - 1, pyramid.along(1, level) - 1,
+        pyramid.along(2, level) - 1 };
+      EXPECT_EQ(pyramid.number(end, level), pyramid.size(level) - 1);
+      const BrickPyramid::Place place = pyramid.place(pyramid.size(level) - 1, level);
+      EXPECT_EQ(place.x, end.x);
+      EXPECT_EQ(place.y, end.y);
+      EXPECT_EQ(place.z, end.z);
+    }
+    const double cells = static_cast<double>(dimensions[0] - 1) *
+      static_cast<double>(dimensions[1] - 1) * static_cast<double>(dimensions[2] - 1);
+    EXPECT_GE(static_cast<double>(pyramid.size(0)), cells / (brickEdge * brickEdge * brickEdge));
+  }
+}
+
+template <class Real>
+void expectSameMaps(const Medium<Real>& medium, Interpolation interpolation, Real tolerance)
+{
+  const auto host = buildHomogeneityMap(medium, interpolation, tolerance, 0);
+  const auto device = buildHomogeneityMapOnCuda(medium, interpolation, tolerance);
+  EXPECT_EQ(host.levels, device.levels);
+  EXPECT_TRUE(
+    std::equal(host.ranges.begin(), host.ranges.end(), device.ranges.begin(), device.ranges.end(),
+      [](const NuRange<Real>& a, const NuRange<Real>& b)
+      { return a.lowest == b.lowest && a.highest == b.highest; }));
+}
+
+/// Nothing is rounded, so nothing may differ.
+TEST(HostAndDevice, MakeTheSameHomogeneityMap)
+{
+  std::string reason;
+  if (!cudaAvailable(&reason))
+  {
+    GTEST_SKIP() << "no CUDA device: " << reason;
+  }
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1e-5, 1e-5);
+  for (const Interpolation interpolation : bothInterpolations)
+  {
+    for (const Dimensions& dimensions : someDimensions)
+    {
+      expectSameMaps<float>(mediumOf<float>(dimensions, interpolation,
+                              [&](double, double, double) { return any(random); }),
+        interpolation, 1e-5f);
+    }
+    expectSameMaps(mediumWithSolids({ 70, 45, 61 }, interpolation, 1e-5), interpolation, 1e-5);
+  }
+}
+
+} // namespace
+
+} // namespace schlieren

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Fixtures.h"
+
+#include "vtkAMRBox.h"
+#include "vtkAMRUtilities.h"
+#include "vtkOverlappingAMR.h"
+#include "vtkUniformGrid.h"
+
+/// A ball A exp(-r^2/s^2) around the origin.
+struct GaussianBall
+{
+  double A = 2.7e-4;
+  double s = 0.3;
+
+  double operator()(const Vec& x) const
+  {
+    return this->A * std::exp(-dot(x, x) / (this->s * this->s));
+  }
+};
+
+/// Its mean over a cube of edge h, which is what finite volumes hold.
+struct MeanOfBall
+{
+  GaussianBall ball;
+  double h;
+
+  double operator()(const Vec& x) const
+  {
+    double mean = this->ball.A;
+    for (const double c : x)
+    {
+      mean *= std::sqrt(pi) / 2 * this->ball.s / this->h *
+        (std::erf((c + this->h / 2) / this->ball.s) - std::erf((c - this->h / 2) / this->ball.s));
+    }
+    return mean;
+  }
+};
+
+/// A region of a level, in cells of that level, as one block or as eight.
+struct AmrRegion
+{
+  int first, count;
+  bool inEight = false;
+};
+
+inline vtkSmartPointer<vtkUniformGrid> amrBlock(const int first[3], int cells, double h)
+{
+  auto grid = vtkSmartPointer<vtkUniformGrid>::New();
+  grid->SetDimensions(cells + 1, cells + 1, cells + 1);
+  grid->SetSpacing(h, h, h);
+  grid->SetOrigin(-1 + first[0] * h, -1 + first[1] * h, -1 + first[2] * h);
+  addCellArray(grid, "N", MeanOfBall{ GaussianBall(), h });
+  return grid;
+}
+
+/// The ball in the cube from -1 to 1: `cells` of the coarsest level along each edge, half the size on every
+/// further level. Cells under finer ones are marked, and hold nonsense.
+inline vtkSmartPointer<vtkOverlappingAMR> ballOnLevels(
+  int cells, const std::vector<AmrRegion>& regions)
+{
+  auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
+  std::vector<int> blocks;
+  for (const AmrRegion& region : regions)
+  {
+    blocks.push_back(region.inEight ? 8 : 1);
+  }
+  amr->Initialize(static_cast<int>(blocks.size()), blocks.data());
+  amr->SetGridDescription(VTK_XYZ_GRID);
+  const double origin[3] = { -1, -1, -1 };
+  amr->SetOrigin(origin);
+  for (unsigned int level = 0; level < regions.size(); ++level)
+  {
+    const double h = 2. / cells / (1 << level);
+    const double spacing[3] = { h, h, h };
+    amr->SetSpacing(level, spacing);
+    amr->SetRefinementRatio(level, 2);
+    const AmrRegion& region = regions[level];
+    const int edge = region.inEight ? region.count / 2 : region.count;
+    for (unsigned int i = 0; i < (region.inEight ? 8u : 1u); ++i)
+    {
+      const int first[3] = { region.first + static_cast<int>(i & 1) * edge,
+        region.first + static_cast<int>(i >> 1 & 1) * edge,
+        region.first + static_cast<int>(i >> 2) * edge };
+      auto grid = amrBlock(first, edge, h);
+      amr->SetAMRBox(
+        level, i, vtkAMRBox(grid->GetOrigin(), grid->GetDimensions(), spacing, origin));
+      amr->SetDataSet(level, i, grid);
+    }
+  }
+  vtkAMRUtilities::BlankCells(amr);
+  for (unsigned int level = 0; level + 1 < regions.size(); ++level)
+  {
+    for (unsigned int i = 0; i < amr->GetNumberOfDataSets(level); ++i)
+    {
+      vtkUniformGrid* grid = amr->GetDataSet(level, i);
+      vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
+      for (vtkIdType cell = 0; ghosts && cell < grid->GetNumberOfCells(); ++cell)
+      {
+        if (ghosts->GetValue(cell) & vtkDataSetAttributes::REFINEDCELL)
+        {
+          grid->GetCellData()->GetArray("N")->SetComponent(cell, 0, -7);
+        }
+      }
+    }
+  }
+  return amr;
+}
