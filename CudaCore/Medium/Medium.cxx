@@ -145,10 +145,9 @@ Range load(const Samples<Value>& samples, double ambient, PaddedVolume<Real>& vo
               lowest.data(), highest.data());
           };
           const unsigned char* valid = samples.valid;
-          range.gas += valid == nullptr
-            ? loadWith([](std::int64_t) { return true; })
-            : loadWith([valid = valid + row](std::int64_t i)
-                { return Samples<Value>::maySayGas(valid[i]); });
+          range.gas += valid == nullptr ? loadWith([](std::int64_t) { return true; })
+                                        : loadWith([valid = valid + row](std::int64_t i)
+                                            { return Samples<Value>::maySayGas(valid[i]); });
         }
         range.lowest = static_cast<double>(*std::min_element(lowest.begin(), lowest.end()));
         range.highest = static_cast<double>(*std::max_element(highest.begin(), highest.end()));

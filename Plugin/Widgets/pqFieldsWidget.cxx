@@ -44,8 +44,8 @@ enum Column
 
 const char* const group = "piecewise_functions";
 
-/// Hues far from each other, however many there are: the golden angle apart.
-QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 0.9, 1); }
+/// What the filter takes where no colours are given.
+QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 1, 1); }
 
 void complete(QVariantList& list, int count)
 {
@@ -86,6 +86,13 @@ QLineEdit* newLimitEdit(const QString& limit)
   return edit;
 }
 
+/// Whether the index model is Transfer Functions, as the panel shows it.
+bool usesFunctions(vtkSMProxy* proxy)
+{
+  constexpr int transferFunctions = 5;
+  return vtkSMUncheckedPropertyHelper(proxy, "IndexModel").GetAsInt() == transferFunctions;
+}
+
 /// Shows the widget where the fields matter. The filter Refractive Index has no ColorByField.
 class Decorator : public pqPropertyWidgetDecorator
 {
@@ -108,9 +115,8 @@ public:
 
   bool canShowWidget(bool) const override
   {
-    constexpr int transferFunctions = 5;
     vtkSMProxy* proxy = this->parentWidget()->proxy();
-    return vtkSMUncheckedPropertyHelper(proxy, "IndexModel").GetAsInt() == transferFunctions ||
+    return usesFunctions(proxy) ||
       (proxy->GetProperty("ColorByField") &&
         vtkSMUncheckedPropertyHelper(proxy, "ColorByField").GetAsInt() != 0);
   }
@@ -149,6 +155,12 @@ pqFieldsWidget::pqFieldsWidget(
   {
     this->addPropertyLink(
       this, "colors", SIGNAL(colorsChanged()), smproxy->GetProperty("FieldColors"));
+  }
+  for (const unsigned long event :
+    { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
+  {
+    this->Connection->Connect(
+      smproxy->GetProperty("IndexModel"), event, this, SLOT(modelChanged()));
   }
   this->Connection->Connect(
     this->FunctionsProperty, vtkCommand::ModifiedEvent, this, SLOT(readFunctions()));
@@ -328,12 +340,18 @@ void pqFieldsWidget::rowSelected(int row)
       function ? vtkPiecewiseFunction::SafeDownCast(function->GetClientSideObject()) : nullptr,
       true);
   }
-  this->Editor->setVisible(function != nullptr);
+  // Without these, Color By Field takes the fields as they are.
+  const bool used = usesFunctions(this->proxy());
+  this->Editor->setVisible(used && function);
+  this->Title->setVisible(used || row < 0);
   this->Title->setText(row < 0
       ? tr("Add a field to begin.")
       : tr("Share of the refractivity over %1, from the low to the high end of its range:")
           .arg(this->Fields.value(row).toString()));
 }
+
+//------------------------------------------------------------------------------
+void pqFieldsWidget::modelChanged() { this->rowSelected(this->currentRow()); }
 
 //------------------------------------------------------------------------------
 void pqFieldsWidget::pointsMoved()

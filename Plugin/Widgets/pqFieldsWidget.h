@@ -18,8 +18,8 @@ class vtkSMProxyProperty;
 
 /// Edits the fields that are taken through transfer functions, one in a row: the array, its range (empty:
 /// that of the data) and, where the filter has FieldColors, its colour; below the table, ParaView's editor
-/// shows the transfer function of the selected row. These are the properties Fields, FieldRanges,
-/// FieldColors and TransferFunctions.
+/// shows the transfer function of the selected row, where the index model is Transfer Functions. These
+/// are the properties Fields, FieldRanges, FieldColors and TransferFunctions.
 ///
 /// The functions are ParaView's opacity functions "SchlierenField1", ...: so state files and scripts
 /// know how to bring them back. A point that is moved is set at once in the function, and in the picture
@@ -64,6 +64,7 @@ protected:
 
 private Q_SLOTS:
   void readFunctions();
+  void modelChanged();
   void pointsMoved();
 
 private:

@@ -22,6 +22,7 @@ from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 FLOW = os.path.join(FOLDER, "flow.vti")
 POINTS = 24
+LINE = [0, 0, 0.5, 0, 1, 1, 0.5, 0]  # points of the function that is not bent
 
 
 def write_flow():
@@ -105,6 +106,16 @@ for event, x, y, buttons in (("mousePress", 0.5, 0.3, 1), ("mouseMove", 0.6, 0.2
 user.apply()
 user.save_state("curve.pvsm")
 
+# The colours of fields go with any model, their functions with one.
+user.check(FIELDS + "/TransferFunction", "visible", "true")
+user.choose("IndexModel/ComboBox", "Gladstone-Dale")
+user.check(FIELDS, "visible", "false")
+user.event(f"{PROPERTIES}/ColorByField/CheckBox", "set_boolean", "true")
+user.check(FIELDS, "visible", "true")
+user.check(FIELDS + "/TransferFunction", "visible", "false")
+user.reset()
+user.check(FIELDS + "/TransferFunction", "visible", "true")
+
 # Undone and done again; the last field removed; then the filter, while its editor is open.
 user.click(FIELDS + "/Remove")
 user.apply()
@@ -123,6 +134,21 @@ flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench")
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [32, 32]
+""")
+
+# Refractive Index has the editor too, but no colours.
+user = Session()
+user.choose("IndexModel/ComboBox", "Transfer Functions")
+user.click(FIELDS + "/Add")
+user.choose(FIELD + "/Field0", "temperature")
+user.check(FIELD + "/Color0", "visible", "false")
+user.apply()
+user.save_state("grid.pvsm")
+user.play(f"""
+from paraview.simple import *
+flow = XMLImageDataReader(FileName=[{FLOW!r}])
+flow.UpdatePipeline()
+RefractiveIndex(Input=flow, registrationName="bench")
 """)
 
 
@@ -152,6 +178,10 @@ def functions(proxy):
     return [list(function.Points) for function in proxy.TransferFunctions]
 
 
+grid = bench_of("grid.pvsm")
+assert values(grid, "Fields") == ["temperature"] and values(grid, "FieldRanges") == [0, 0]
+assert functions(grid) == [LINE], functions(grid)
+
 bench = bench_of("gas.pvsm")
 assert bench.Gas == "helium" and bench.IndexModel == "Gladstone-Dale"
 shown = picture(bench, "OpticalPathDifference")
@@ -168,7 +198,6 @@ assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(
     IndexModel="Gladstone-Dale Mixture", Wavelength=500, MixtureArrays=["Y_He", "Y_CO2"],
     MixtureGases=["He", ""], MixtureConstants=[1, 2.3e-4], BackgroundGas="air"))
 
-LINE = [0, 0, 0.5, 0, 1, 1, 0.5, 0]
 bench = bench_of("fields.pvsm")
 assert values(bench, "Fields") == ["temperature", "Y_He"]
 assert values(bench, "FieldRanges") == [0, 0, 0.1, 0.4]
