@@ -21,6 +21,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter  # noqa: E402
 from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 FLOW = os.path.join(FOLDER, "flow.vti")
+TRACE = os.path.join(FOLDER, "trace.py")
 POINTS = 24
 LINE = [0, 0, 0.5, 0, 1, 1, 0.5, 0]  # points of the function that is not bent
 
@@ -134,6 +135,14 @@ flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench")
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [32, 32]
+
+# What is traced, as it stands when the filter is deleted.
+from paraview import servermanager, smtrace
+smtrace.start_trace()
+def write(*_):
+    with open({TRACE!r}, "w") as file:
+        file.write(smtrace.get_current_trace_output())
+servermanager.ProxyManager().SMProxyManager.AddObserver("UnRegisterEvent", write)
 """)
 
 # Refractive Index has the editor too, but no colours.
@@ -222,6 +231,22 @@ simple.ResetSession()
 exec(script, {})  # pylint: disable=exec-used
 bench = simple.FindSource("bench")
 assert functions(bench) == [LINE, curve], functions(bench)
+assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
+
+# So does the trace, up to where the last field was removed.
+with open(TRACE, encoding="utf-8") as file:
+    script = file.read()
+last = script.index("bench.Fields = ['temperature']\n")
+simple.ResetSession()
+flow = simple.XMLImageDataReader(FileName=[FLOW], registrationName="XMLImageDataReader1")
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench")
+bench.Density = ["POINTS", "rho"]
+bench.ImageSize = [32, 32]
+simple.SetActiveSource(bench)
+exec(script[:last], {})  # pylint: disable=exec-used
+assert functions(bench) == [LINE, curve], functions(bench)
+assert values(bench, "MixtureGases") == ["helium", "Custom"]
 assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
 
 bench = bench_of("removed.pvsm")
