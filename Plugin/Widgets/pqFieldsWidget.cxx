@@ -27,8 +27,8 @@
 #include <QSignalBlocker>
 #include <QTableWidget>
 
-#include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace
@@ -43,6 +43,7 @@ enum Column
 };
 
 const char* const group = "piecewise_functions";
+const std::string prefix = "SchlierenField"; // of the functions' names
 
 /// What the filter takes where no colours are given.
 QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 1, 1); }
@@ -63,7 +64,7 @@ void complete(QVariantList& list, int count)
 vtkSmartPointer<vtkSMProxy> newFunction(vtkSMSessionProxyManager* manager)
 {
   int number = 1;
-  const auto name = [&]() { return "SchlierenField" + std::to_string(number); };
+  const auto name = [&]() { return prefix + std::to_string(number); };
   while (manager->GetProxy(group, (name() + ".PiecewiseFunction").c_str()))
   {
     ++number;
@@ -392,19 +393,23 @@ void pqFieldsWidget::readFunctions()
 }
 
 //------------------------------------------------------------------------------
-void pqFieldsWidget::unregisterUnused(const Functions& candidates)
+void pqFieldsWidget::unregisterUnused(Functions candidates)
 {
   const Functions used = this->usedFunctions();
-  for (const vtkSmartPointer<vtkSMProxy>& function : candidates)
+  for (const vtkSmartPointer<vtkSMProxy>& function : qAsConst(candidates))
   {
-    if (!used.contains(function))
+    // Copied properties share their functions with another filter.
+    if (used.contains(function) || function->GetNumberOfConsumers() > 0)
     {
-      vtkSMSessionProxyManager* manager = function->GetSessionProxyManager();
-      if (const char* name = manager->GetProxyName(group, function))
-      {
-        manager->UnRegisterProxy(group, std::string(name).c_str(), function);
-      }
-      this->Created.removeAll(function);
+      continue;
+    }
+    this->Created.removeAll(function);
+    vtkSMSessionProxyManager* manager = function->GetSessionProxyManager();
+    const char* registered = manager->GetProxyName(group, function);
+    const std::string name = registered ? registered : "";
+    if (name.rfind(prefix, 0) == 0) // else it is not ours
+    {
+      manager->UnRegisterProxy(group, name.c_str(), function);
     }
   }
 }

@@ -73,7 +73,7 @@ private:
   void completeLists();
   void rangeEdited(int row);
   Functions usedFunctions() const;
-  void unregisterUnused(const Functions& candidates);
+  void unregisterUnused(Functions candidates); // a copy: it takes them out of Created
 
   QVariantList Fields, Ranges, Colors;
   Functions RowFunctions;      // null: none is needed yet

@@ -252,6 +252,9 @@ assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
 bench = bench_of("removed.pvsm")
 assert values(bench, "Fields") == ["temperature"] and functions(bench) == [LINE]
 assert len(bench.FieldRanges) == 2 and len(bench.FieldColors) == 3
+with open(os.path.join(FOLDER, "removed.pvsm"), encoding="utf-8") as file:
+    text = file.read()
+assert "SchlierenField1." in text and "SchlierenField2." not in text  # nobody needs it
 
 bench = bench_of("undone.pvsm")
 assert values(bench, "Fields") == ["temperature", "Y_He"]
