@@ -69,16 +69,16 @@ void probe(vtkImageData* image, vtkImageData* grid)
   prober->SetValidPointMaskArrayName("probed");
   prober->Update();
   vtkPointData* found = prober->GetOutput()->GetPointData();
-  auto* inside = vtkUnsignedCharArray::SafeDownCast(found->GetArray("probed"));
+  vtkDataArray* inside = found->GetArray("probed");
   auto* valid = vtkUnsignedCharArray::SafeDownCast(found->GetArray(maskName));
   if (!inside || !valid)
   {
     throw std::runtime_error("A field could not be brought to the grid of the refractivity. Check "
                              "that the arrays of Fields and of the index model overlap.");
   }
-  for (vtkIdType i = 0; i < inside->GetNumberOfValues(); ++i)
+  for (vtkIdType i = 0; i < inside->GetNumberOfTuples(); ++i)
   {
-    valid->SetValue(i, inside->GetValue(i) ? valid->GetValue(i) : 0);
+    valid->SetValue(i, inside->GetComponent(i, 0) != 0 ? valid->GetValue(i) : 0);
   }
   image->ShallowCopy(prober->GetOutput());
 }

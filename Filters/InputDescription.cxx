@@ -9,11 +9,13 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -105,4 +107,16 @@ std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTim
     describe(data, description);
   }
   return description;
+}
+
+void requestWhole(vtkInformation* inInfo)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }

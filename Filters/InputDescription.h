@@ -8,6 +8,7 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkInformation;
 
 /// The newest time of everything that the input of a port comes from; 0 where there is none.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
@@ -16,3 +17,6 @@ vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
 /// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the
 /// dataset's own time, which is a new one whenever a filter upstream hands the same arrays on.
 std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime);
+
+/// Asks for all of an input, on every process: light crosses what several processes would share.
+void requestWhole(vtkInformation* inInfo);

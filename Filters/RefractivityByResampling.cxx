@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityByResampling.h"
 
+#include "FlatData.h"
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCellDataToPointData.h"
 #include "vtkCellTypes.h"
@@ -15,12 +17,16 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkResampleToImage.h"
+#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace refractivity
 {
@@ -28,22 +34,26 @@ namespace refractivity
 namespace
 {
 
-// Limits of the grids that are chosen from the input (see SamplingDimensions). Between them, as many
-// points as the mesh has: its cells are linear inside, and a finer grid would show their edges.
-constexpr double fewestVoxels = 64. * 64 * 64;
+// Grids that are chosen from the input (see SamplingDimensions) are as fine along each axis as the cells
+// that a share of all is smaller than: the smallest such share, from this one on, whose grid fits.
+constexpr double shareOfSmallerCells = 0.1;
+constexpr double mostVoxelsPerPoint = 32;       // so that a few tiny cells do not make a huge grid
+constexpr double fewestVoxels = 64. * 64 * 64;  // of flat data: 64 * 64
+constexpr vtkIdType mostCellsMeasured = 100000; // of a leaf, evenly spread
 constexpr double mostPointsAskedFor = 2048. * 2048 * 2048;
 
-bool hasVolume(vtkDataSet* data, vtkIdType cell)
+/// Whether a cell counts: a volume, or of flat data a surface.
+bool counts(vtkDataSet* data, vtkIdType cell, int dimension)
 {
   const auto type = static_cast<unsigned char>(data->GetCellType(cell));
-  return vtkCellTypes::GetDimension(type) == 3;
+  return vtkCellTypes::GetDimension(type) == dimension;
 }
 
-bool hasVolumeCells(vtkDataSet* data)
+bool hasCells(vtkDataSet* data, int dimension)
 {
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
-    if (hasVolume(data, i))
+    if (counts(data, i, dimension))
     {
       return true;
     }
@@ -51,16 +61,61 @@ bool hasVolumeCells(vtkDataSet* data)
   return false;
 }
 
-/// Points along each axis for voxels of edge h, where no number is given.
+/// Into how many parts a cell's points divide its edges: 1 but for cells of higher order.
+int orderOf(vtkDataSet* data, vtkIdType cell)
+{
+  if (vtkCellTypes::IsLinear(static_cast<unsigned char>(data->GetCellType(cell))))
+  {
+    return 1;
+  }
+  vtkCell* curved = data->GetCell(cell);
+  return curved->GetNumberOfEdges() > 0
+    ? std::max(1, static_cast<int>(curved->GetEdge(0)->GetNumberOfPoints()) - 1)
+    : 1;
+}
+
+/// The sizes of the cells along each axis, sorted; empty along an axis along which no cell has any.
+std::array<std::vector<double>, 3> sizesOfCells(const std::vector<Leaf>& leaves, int dimension)
+{
+  std::array<std::vector<double>, 3> sizes;
+  for (const Leaf& leaf : leaves)
+  {
+    const vtkIdType cells = leaf.data->GetNumberOfCells();
+    for (vtkIdType i = 0; i < cells; i += 1 + cells / mostCellsMeasured)
+    {
+      if (counts(leaf.data, i, dimension))
+      {
+        double bounds[6];
+        leaf.data->GetCellBounds(i, bounds);
+        const int order = orderOf(leaf.data, i);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const double size = (bounds[2 * axis + 1] - bounds[2 * axis]) / order;
+          if (size > 0 && std::isfinite(size))
+          {
+            sizes[axis].push_back(size);
+          }
+        }
+      }
+    }
+  }
+  for (std::vector<double>& ofAxis : sizes)
+  {
+    std::sort(ofAxis.begin(), ofAxis.end());
+  }
+  return sizes;
+}
+
+/// Points along each axis for voxels of h cells, where no number is given.
 std::array<int, 3> dimensionsFor(
-  double h, const std::array<double, 3>& lengths, const std::array<int, 3>& given)
+  double h, const std::array<double, 3>& cells, const std::array<int, 3>& given)
 {
   std::array<int, 3> dimensions = given;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (given[axis] == 0)
     {
-      dimensions[axis] = static_cast<int>(std::clamp(std::round(lengths[axis] / h) + 1, 2., 1e6));
+      dimensions[axis] = static_cast<int>(std::clamp(std::round(cells[axis] / h) + 1, 2., 1e6));
     }
   }
   return dimensions;
@@ -71,28 +126,85 @@ double product(const std::array<int, 3>& dimensions)
   return static_cast<double>(dimensions[0]) * dimensions[1] * dimensions[2];
 }
 
-std::array<int, 3> chooseDimensions(
-  const std::array<double, 3>& lengths, double points, const std::array<int, 3>& given)
+/// A grid: how many cells in a row are as long as the data, and the edge of a voxel in cells.
+struct Fineness
 {
-  double target = std::clamp(points, fewestVoxels, mostVoxels);
-  double atLeast = std::numeric_limits<double>::infinity();
+  std::array<double, 3> cells{};
+  double edge = 1; // within the limits; else what they make of it, or the axes that are given
+};
+
+Fineness chooseFineness(const std::array<double, 3>& lengths,
+  const std::array<std::vector<double>, 3>& sizes, double points, const std::array<int, 3>& given)
+{
+  Fineness choice;
+  const auto voxels = [&](double edge)
+  { return product(dimensionsFor(edge, choice.cells, given)); };
+  const bool isFlat = std::find(given.begin(), given.end(), 1) != given.end();
+  double least = isFlat ? std::pow(fewestVoxels, 2. / 3) : fewestVoxels;
+  double most = std::clamp(mostVoxelsPerPoint * points, least, mostVoxels);
+  for (double share = shareOfSmallerCells; share < 1; share += 0.01)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double>& ofAxis = sizes[axis];
+      if (!ofAxis.empty())
+      {
+        const auto place = static_cast<std::size_t>(share * static_cast<double>(ofAxis.size()));
+        choice.cells[axis] = std::max(1., lengths[axis] / ofAxis[place]);
+      }
+    }
+    if (voxels(1) <= most)
+    {
+      break;
+    }
+  }
+
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (given[axis] > 1)
     {
-      atLeast = std::min(atLeast, lengths[axis] / (given[axis] - 1));
-      target = mostVoxels;
+      const double edge = choice.cells[axis] / (given[axis] - 1);
+      choice.edge = least > 0 ? edge : std::min(choice.edge, edge);
+      least = 0;
+      most = mostVoxels;
     }
   }
-  // The smallest edge that gives no more voxels than the target: their number falls with the edge.
-  const double longest = std::max({ lengths[0], lengths[1], lengths[2] });
-  double low = longest * 1e-6, high = longest;
-  for (int i = 0; i < 60; ++i)
+  const double target = std::clamp(voxels(choice.edge), least, most);
+  if (voxels(choice.edge) != target)
   {
-    const double middle = std::sqrt(low * high);
-    (product(dimensionsFor(middle, lengths, given)) > target ? low : high) = middle;
+    // The smallest edge that gives no more voxels than the target: their number falls with the edge.
+    double low = 1e-6, high = *std::max_element(choice.cells.begin(), choice.cells.end());
+    for (int i = 0; i < 60; ++i)
+    {
+      const double middle = std::sqrt(low * high);
+      (voxels(middle) > target ? low : high) = middle;
+    }
+    choice.edge = high;
   }
-  return dimensionsFor(std::isfinite(atLeast) ? std::max(high, atLeast) : high, lengths, given);
+  return choice;
+}
+
+/// What to say where more cells are smaller than a voxel than there should be, of the axis with the most.
+std::string shareOfFinerCells(const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& lengths, const std::array<std::vector<double>, 3>& sizes)
+{
+  double worst = shareOfSmallerCells + 0.05;
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<double>& ofAxis = sizes[axis];
+    const double spacing = lengths[axis] / std::max(1, dimensions[axis] - 1);
+    const auto resolved = std::lower_bound(ofAxis.begin(), ofAxis.end(), 0.9 * spacing);
+    const double share = static_cast<double>(resolved - ofAxis.begin()) /
+      static_cast<double>(std::max<std::size_t>(1, ofAxis.size()));
+    if (share > worst)
+    {
+      worst = share;
+      text = "; to bound memory, " + std::to_string(std::lround(100 * share)) +
+        " % of them are smaller along " + "xyz"[axis] + " (Sampling Dimensions can be set)";
+    }
+  }
+  return text;
 }
 
 vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
@@ -100,6 +212,19 @@ vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
   auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
   copy->CopyStructure(data);
   return copy;
+}
+
+bool hasPolyhedra(const std::vector<Leaf>& leaves)
+{
+  return std::any_of(leaves.begin(), leaves.end(),
+    [](const Leaf& leaf)
+    {
+      auto* mesh = vtkUnstructuredGrid::SafeDownCast(leaf.data);
+      vtkUnsignedCharArray* types = mesh ? mesh->GetCellTypesArray() : nullptr;
+      return types &&
+        std::find(types->GetPointer(0), types->GetPointer(0) + types->GetNumberOfValues(),
+          VTK_POLYHEDRON) != types->GetPointer(0) + types->GetNumberOfValues();
+    });
 }
 
 /// The mean over the valid cells at each point, NaN where there are none: sums of value and of
@@ -125,8 +250,9 @@ vtkSmartPointer<vtkDataArray> cellsToPoints(
   return means;
 }
 
-/// A leaf that holds nothing but N at its points (NaN where invalid), its cells without volume hidden.
-vtkSmartPointer<vtkDataSet> prepare(const Leaf& leaf, const Model& model, Tally& tally)
+/// A leaf that holds nothing but N at its points (NaN where invalid), its other cells hidden.
+vtkSmartPointer<vtkDataSet> prepare(
+  const Leaf& leaf, int dimension, const Model& model, Tally& tally)
 {
   vtkDataSet* data = leaf.data;
   const vtkIdType cells = data->GetNumberOfCells();
@@ -134,7 +260,7 @@ vtkSmartPointer<vtkDataSet> prepare(const Leaf& leaf, const Model& model, Tally&
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
   for (vtkIdType i = 0; i < cells; ++i)
   {
-    if ((ghosts && (ghosts->GetValue(i) & hiddenCellBits)) || !hasVolume(data, i))
+    if ((ghosts && (ghosts->GetValue(i) & hiddenCellBits)) || !counts(data, i, dimension))
     {
       valid->SetValue(i, 0);
     }
@@ -194,48 +320,68 @@ void requireFits(const std::array<int, 3>& dimensions)
 Resampling planResampling(const Source& source, const int samplingDimensions[3])
 {
   Resampling plan;
+  plan.flatAxis = flatAxisOf(source);
+  const int dimension = plan.flatAxis < 0 ? 3 : 2;
   vtkBoundingBox box;
   double points = 0;
   for (const Leaf& leaf : source.leaves)
   {
-    if (hasVolumeCells(leaf.data))
+    if (hasCells(leaf.data, dimension))
     {
       plan.leaves.push_back(leaf);
       points += static_cast<double>(leaf.data->GetNumberOfPoints());
       box.AddBounds(leaf.data->GetBounds());
     }
   }
-  if (plan.leaves.empty())
-  {
-    throw std::runtime_error("The input has no 3-D cells with the " + source.label +
-      ", so there is no volume for light to cross. Use volume data (for 2-D data: extrude it).");
-  }
   box.GetBounds(plan.bounds);
-  std::array<double, 3> lengths;
+  std::array<int, 3> given = requireDimensions(samplingDimensions);
+  const std::array<std::vector<double>, 3> sizes = sizesOfCells(plan.leaves, dimension);
+  std::array<double, 3> lengths{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     lengths[axis] = plan.bounds[2 * axis + 1] - plan.bounds[2 * axis];
-    if (!(lengths[axis] > 0) || !std::isfinite(lengths[axis]))
+    if (static_cast<int>(axis) == plan.flatAxis)
+    {
+      given[axis] = 1;
+    }
+    else if (!(lengths[axis] > 0) || sizes[axis].empty() || !std::isfinite(lengths[axis]))
     {
       throw std::runtime_error(std::string("The input has no finite, positive length along ") +
         "xyz"[axis] + ", so there is no volume for light to cross. Check its points.");
     }
   }
-  const std::array<int, 3> given = requireDimensions(samplingDimensions);
-  plan.dimensions = chooseDimensions(lengths, points, given);
+  const Fineness fineness = chooseFineness(lengths, sizes, points, given);
+  plan.dimensions = dimensionsFor(fineness.edge, fineness.cells, given);
   requireFits(plan.dimensions);
+  if (std::find(given.begin(), given.end(), 0) == given.end())
+  {
+    plan.note = "as given";
+  }
+  else
+  {
+    plan.note =
+      "chosen from the sizes of the cells" + shareOfFinerCells(plan.dimensions, lengths, sizes);
+  }
   return plan;
 }
 
 void gridOf(const Resampling& plan, vtkImageData* structure)
 {
   const double* bounds = plan.bounds;
+  double spacing[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    spacing[axis] =
+      (bounds[2 * axis + 1] - bounds[2 * axis]) / std::max(1, plan.dimensions[axis] - 1);
+  }
   structure->Initialize();
   structure->SetDimensions(plan.dimensions.data());
   structure->SetOrigin(bounds[0], bounds[2], bounds[4]);
-  structure->SetSpacing((bounds[1] - bounds[0]) / (plan.dimensions[0] - 1),
-    (bounds[3] - bounds[2]) / (plan.dimensions[1] - 1),
-    (bounds[5] - bounds[4]) / (plan.dimensions[2] - 1));
+  structure->SetSpacing(spacing);
+  if (plan.flatAxis >= 0)
+  {
+    extrudeGrid(structure, plan.flatAxis);
+  }
 }
 
 Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
@@ -245,12 +391,20 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (std::size_t i = 0; i < plan.leaves.size(); ++i)
   {
-    blocks->SetBlock(static_cast<unsigned int>(i), prepare(plan.leaves[i], source.model, tally));
+    blocks->SetBlock(static_cast<unsigned int>(i),
+      prepare(plan.leaves[i], plan.flatAxis < 0 ? 3 : 2, source.model, tally));
   }
   vtkNew<vtkResampleToImage> resampler;
   resampler->SetInputDataObject(blocks);
   resampler->SetSamplingDimensions(plan.dimensions[0], plan.dimensions[1], plan.dimensions[2]);
-  resampler->Update();
+  // VTK finds out whether a point is inside a polyhedron with random numbers that all threads share,
+  // which with several of them ends the program.
+  const vtkSMPTools::Config one(1, "Sequential", false);
+  if (hasPolyhedra(plan.leaves))
+  {
+    vtkSMPTools::LocalScope(one, [&]() { resampler->Update(); });
+  }
+  resampler->Update(); // nothing, where it was done
 
   vtkImageData* sampled = resampler->GetOutput();
   vtkDataArray* values = sampled->GetPointData()->GetArray(arrayName);
@@ -262,11 +416,17 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   output->CopyStructure(sampled);
   auto valid = newMask(output->GetNumberOfPoints());
   hidePoints(sampled, valid);
-  const auto outside = outsideBlocksLight ? nullptr : outsideOf(blocks, output, valid);
+  const auto outside =
+    outsideBlocksLight ? nullptr : outsideOf(blocks, plan.flatAxis < 0 ? 3 : 2, output, valid);
   setArrays(output, { values }, Linear(), valid, doublePrecision);
   if (outside)
   {
     setOutside(outside, output);
+  }
+  if (plan.flatAxis >= 0)
+  {
+    extrudeGrid(output, plan.flatAxis);
+    extrudeArrays(output, plan.flatAxis);
   }
   return tally;
 }

@@ -5,17 +5,20 @@
 #include "RefractivitySource.h"
 
 #include <array>
+#include <string>
 
 /// The refractivity of everything that is not one image: resampled to a grid.
 namespace refractivity
 {
 
-/// The leaves that have 3-D cells, and the grid that covers them.
+/// The leaves that have 3-D cells (of flat data: 2-D cells), and the grid that covers them.
 struct Resampling
 {
   std::vector<Leaf> leaves;
-  std::array<int, 3> dimensions;
+  std::array<int, 3> dimensions; // 1 along the flat axis
   double bounds[6];
+  int flatAxis;     // -1: none
+  std::string note; // what the user may want to know of the grid
 };
 
 /// Most points of a grid that is chosen, not given.

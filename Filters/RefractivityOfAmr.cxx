@@ -503,20 +503,11 @@ std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]
     return std::nullopt;
   }
   const Counts given = requireDimensions(samplingDimensions);
-  const auto dimensionsAt = [&](std::size_t level)
-  {
-    Counts counts = amr.levels[level].cells;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      counts[axis] = given[axis] ? given[axis] : std::max(counts[axis], 2);
-    }
-    return counts;
-  };
+  const bool isGiven = std::find(given.begin(), given.end(), 0) == given.end();
   // Not a finer level than fits, or than a grid that is given can show.
   const auto fits = [&](std::size_t level)
   {
     const double cells = static_cast<double>(volume(amr.levels[level].cells));
-    const bool isGiven = std::find(given.begin(), given.end(), 0) == given.end();
     return cells <= (isGiven ? 2 * static_cast<double>(volume(given)) : mostVoxels);
   };
   amr.used = amr.levels.size() - 1;
@@ -538,7 +529,20 @@ std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]
     return std::nullopt;
   }
 
-  amr.dimensions = dimensionsAt(amr.used);
+  amr.note = isGiven ? "as given" : "the cells of level " + std::to_string(amr.used);
+  if (!isGiven && amr.used + 1 < amr.levels.size())
+  {
+    const Counts finest = amr.levels.back().cells;
+    amr.note += " of " + std::to_string(amr.levels.size()) +
+      ", coarser than the finest to bound memory (as fine as it is: Sampling Dimensions " +
+      std::to_string(finest[0]) + " " + std::to_string(finest[1]) + " " +
+      std::to_string(finest[2]) + ")";
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    amr.dimensions[axis] =
+      given[axis] ? given[axis] : std::max(amr.levels[amr.used].cells[axis], 2);
+  }
   requireFits(amr.dimensions);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

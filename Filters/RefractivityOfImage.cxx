@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityOfImage.h"
 
+#include "FlatData.h"
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
@@ -21,25 +22,26 @@ namespace refractivity
 namespace
 {
 
-/// Calls visit(cell, its eight corners) for every cell of a 3-D image.
+/// Calls visit(cell, its eight corners) for every cell of an image; in a flat one corners coincide.
 template <class Visit>
 void forCells(vtkImageData* image, const Visit& visit)
 {
   int points[3];
   image->GetDimensions(points);
-  const vtkIdType nx = points[0];
-  const vtkIdType nxy = nx * points[1];
+  const vtkIdType dx = points[0] > 1 ? 1 : 0;
+  const vtkIdType dy = points[1] > 1 ? points[0] : 0;
+  const vtkIdType dz = points[2] > 1 ? static_cast<vtkIdType>(points[0]) * points[1] : 0;
   vtkIdType cell = 0;
-  for (int k = 0; k < points[2] - 1; ++k)
+  for (int k = 0; k < std::max(points[2] - 1, 1); ++k)
   {
-    for (int j = 0; j < points[1] - 1; ++j)
+    for (int j = 0; j < std::max(points[1] - 1, 1); ++j)
     {
-      for (int i = 0; i < points[0] - 1; ++i)
+      for (int i = 0; i < std::max(points[0] - 1, 1); ++i)
       {
-        const vtkIdType p = k * nxy + j * nx + i;
+        const vtkIdType p = k * dz + j * dy + i * dx;
         visit(cell++,
           std::array<vtkIdType, 8>{
-            p, p + 1, p + nx, p + nx + 1, p + nxy, p + nxy + 1, p + nxy + nx, p + nxy + nx + 1 });
+            p, p + dx, p + dy, p + dx + dy, p + dz, p + dx + dz, p + dy + dz, p + dx + dy + dz });
       }
     }
   }
@@ -50,7 +52,7 @@ void forCells(vtkImageData* image, const Visit& visit)
 void hidePointsOfHiddenCells(vtkImageData* image, vtkUnsignedCharArray* valid)
 {
   vtkUnsignedCharArray* ghosts = image->GetCellGhostArray();
-  if (!ghosts || image->GetDataDimension() != 3)
+  if (!ghosts || image->GetDataDimension() < 2)
   {
     return;
   }
@@ -108,7 +110,7 @@ void hideCells(vtkImageData* image, vtkUnsignedCharArray* valid)
     }
   }
   vtkUnsignedCharArray* ghosts = image->GetPointGhostArray();
-  if (!ghosts || image->GetDataDimension() != 3)
+  if (!ghosts || image->GetDataDimension() < 2)
   {
     return;
   }
@@ -134,6 +136,15 @@ void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
   image->GetOrigin(origin);
   double spacing[3];
   image->GetSpacing(spacing);
+  int flat = -1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (extent[2 * axis + 1] == extent[2 * axis])
+    {
+      flat = axis;
+      spacing[axis] = 1; // means nothing, and may be 0
+    }
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     if (!(spacing[axis] > 0) || !std::isfinite(spacing[axis]) || !std::isfinite(origin[axis]))
@@ -167,13 +178,17 @@ void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
   structure->SetOrigin(origin);
   structure->SetSpacing(spacing);
   structure->SetDirectionMatrix(image->GetDirectionMatrix());
+  if (flat >= 0)
+  {
+    extrudeGrid(structure, flat);
+  }
 }
 
 Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* output)
 {
   const Leaf& leaf = source.leaves[0];
   gridOfImage(source.image, leaf.ofCells, output);
-  auto valid = newMask(output->GetNumberOfPoints());
+  auto valid = newMask(leaf.arrays[0]->GetNumberOfTuples());
   if (leaf.ofCells)
   {
     hideCells(source.image, valid);
@@ -187,6 +202,10 @@ Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* out
   if (const auto outside = leaf.ofCells ? nullptr : outsideFrom(source.image))
   {
     setOutside(outside, output);
+  }
+  if (const int flat = flatAxisOf(source); flat >= 0)
+  {
+    extrudeArrays(output, flat);
   }
   return tally;
 }

@@ -8,7 +8,8 @@
 namespace refractivity
 {
 
-/// Makes `structure` the grid of the image's points, or of the centres of its cells.
+/// Makes `structure` the grid of the image's points, or of the centres of its cells; of a flat image, two
+/// such layers.
 void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure);
 
 /// Fills `output` from source.image.

@@ -19,14 +19,14 @@ namespace refractivity
 namespace
 {
 
-bool isHiddenVolume(vtkDataSet* data, vtkIdType cell)
+bool isHidden(vtkDataSet* data, vtkIdType cell, int dimension)
 {
   return (data->GetCellGhostArray()->GetValue(cell) & hiddenCellBits) != 0 &&
-    vtkCellTypes::GetDimension(static_cast<unsigned char>(data->GetCellType(cell))) == 3;
+    vtkCellTypes::GetDimension(static_cast<unsigned char>(data->GetCellType(cell))) == dimension;
 }
 
-/// A copy of which only the hidden cells with a volume are visible; null where there are none.
-vtkSmartPointer<vtkDataSet> onlyHiddenOf(vtkDataSet* data)
+/// A copy of which only the hidden cells of this dimension are visible; null where there are none.
+vtkSmartPointer<vtkDataSet> onlyHiddenOf(vtkDataSet* data, int dimension)
 {
   const vtkIdType cells = data->GetNumberOfCells();
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -35,9 +35,9 @@ vtkSmartPointer<vtkDataSet> onlyHiddenOf(vtkDataSet* data)
   bool hasSome = false;
   for (vtkIdType i = 0; i < cells; ++i)
   {
-    const bool isHidden = isHiddenVolume(data, i);
-    ghosts->SetValue(i, isHidden ? 0 : vtkDataSetAttributes::HIDDENCELL);
-    hasSome = hasSome || isHidden;
+    const bool hidden = isHidden(data, i, dimension);
+    ghosts->SetValue(i, hidden ? 0 : vtkDataSetAttributes::HIDDENCELL);
+    hasSome = hasSome || hidden;
   }
   if (!hasSome)
   {
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkUnsignedCharArray> newOutside(vtkIdType count)
 } // namespace
 
 vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
-  vtkMultiBlockDataSet* blocks, vtkImageData* grid, vtkUnsignedCharArray* visible)
+  vtkMultiBlockDataSet* blocks, int dimension, vtkImageData* grid, vtkUnsignedCharArray* visible)
 {
   auto outside = newOutside(grid->GetNumberOfPoints());
   for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
@@ -70,7 +70,7 @@ vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
   vtkNew<vtkMultiBlockDataSet> hidden;
   for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
   {
-    if (const auto some = onlyHiddenOf(vtkDataSet::SafeDownCast(blocks->GetBlock(i))))
+    if (const auto some = onlyHiddenOf(vtkDataSet::SafeDownCast(blocks->GetBlock(i)), dimension))
     {
       hidden->SetBlock(hidden->GetNumberOfBlocks(), some);
     }

@@ -13,10 +13,10 @@ class vtkUnsignedCharArray;
 namespace refractivity
 {
 
-/// Which points of a grid lie outside of all cells with a volume. The leaves of `blocks` have cell ghost
+/// Which points of a grid lie outside of all cells of this dimension. The leaves of `blocks` have cell ghost
 /// arrays that hide some cells; `visible` tells (not 0) which points lie in the others.
 vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
-  vtkMultiBlockDataSet* blocks, vtkImageData* grid, vtkUnsignedCharArray* visible);
+  vtkMultiBlockDataSet* blocks, int dimension, vtkImageData* grid, vtkUnsignedCharArray* visible);
 
 /// The points that an image says to be such in an array of its own; null where it has none.
 vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image);

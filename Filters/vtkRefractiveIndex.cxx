@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "FlatData.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "RefractivityByResampling.h"
@@ -103,6 +104,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
   os << indent << "OutsideBlocksLight: " << this->OutsideBlocksLight << "\n";
+  os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
@@ -233,15 +235,13 @@ bool vtkRefractiveIndex::HasHumidityArray()
 //------------------------------------------------------------------------------
 int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == BODIES)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
+  // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  if (port == BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -268,6 +268,7 @@ std::string vtkRefractiveIndex::Convert(
   vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies)
 {
   output->Initialize();
+  this->Grid.clear();
   Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())
@@ -278,6 +279,7 @@ std::string vtkRefractiveIndex::Convert(
   // Most builds of ParaView run VTK's threaded loops on one core unless told otherwise.
   const vtkSMPTools::Config threads(this->NumberOfThreads, "STDThread", false);
   Tally tally;
+  std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,
     [&]()
     {
@@ -291,11 +293,13 @@ std::string vtkRefractiveIndex::Convert(
       }
       else if (const auto amr = planAmr(source, this->SamplingDimensions))
       {
+        note = amr->note;
         tally = convertAmr(*amr, source, this->DoublePrecision, output);
       }
       else
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
+        note = plan.note;
         tally = resample(plan, source, this->DoublePrecision, this->OutsideBlocksLight, output);
       }
     });
@@ -328,8 +332,9 @@ std::string vtkRefractiveIndex::Convert(
 
   int dimensions[3];
   output->GetDimensions(dimensions);
-  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << dimensions[0] << " x "
-                << dimensions[1] << " x " << dimensions[2] << " points.");
+  this->Grid = std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
+    std::to_string(dimensions[2]) + " points: " + note;
+  vtkDebugMacro(<< "Refractivity from the " << source.label << " on " << this->Grid);
   vtkNew<vtkIntArray> used;
   used->SetName("SamplingDimensions");
   used->SetNumberOfComponents(3);
@@ -339,6 +344,10 @@ std::string vtkRefractiveIndex::Convert(
   {
     this->ToldOfGases = source.noteOnGases;
     warn(source.noteOnGases);
+  }
+  if (const int flat = flatAxisOf(source); flat >= 0)
+  {
+    warn(warningOfExtrusion(flat));
   }
   return warning;
 }
@@ -397,15 +406,10 @@ int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-  }
+  requestWhole(inInfo);
   if (vtkInformation* bodies = inputVector[BODIES]->GetInformationObject(0))
   {
-    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-    bodies->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    requestWhole(bodies);
   }
   return 1;
 }

@@ -12,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -221,7 +222,8 @@ void addColor(vtkImageData* output, const std::vector<float>& color, float white
   std::transform(color.begin(), color.end(), array->GetPointer(0),
     [white](float light)
     { return static_cast<unsigned char>(std::clamp(light / white, 0.f, 1.f) * 255.f + 0.5f); });
-  output->GetPointData()->SetScalars(array);
+  output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
+  output->GetPointData()->SetActiveScalars("Color");
 }
 
 } // namespace
@@ -275,6 +277,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
 }
@@ -349,15 +352,13 @@ vtkMTimeType vtkSchlierenFilter::GetMTime()
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == vtkRefractiveIndex::BODIES)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
+  // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  if (port == vtkRefractiveIndex::BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -498,6 +499,14 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
     // A shadowgraph's light is 1 where nothing bends it, and more where the flow gathers it.
     addColor(output, image.color, this->Cutoff == SHADOWGRAPH ? 2 : 1);
   }
+  addFieldValue<vtkStringArray>(output, "Grid", std::string(this->Medium->GetGrid()));
+  if (vtkDataArray* used = refractivity->GetFieldData()->GetArray("SamplingDimensions"))
+  {
+    vtkNew<vtkIntArray> dimensions;
+    dimensions->DeepCopy(used);
+    dimensions->SetName("MediumDimensions");
+    output->GetFieldData()->AddArray(dimensions);
+  }
   return true;
 }
 
@@ -543,20 +552,10 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    vtkInformation* inInfo = inputVector[port]->GetInformationObject(0);
-    if (!inInfo)
+    if (vtkInformation* inInfo = inputVector[port]->GetInformationObject(0))
     {
-      continue;
+      requestWhole(inInfo);
     }
-    if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-    {
-      inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-        inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-    }
-    // All of it, on every process: light crosses what several processes would share.
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
   return 1;
 }

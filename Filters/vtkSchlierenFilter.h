@@ -134,6 +134,7 @@ public:
   {
     return this->Medium->GetSamplingDimensions();
   }
+  const char* GetGrid() const { return this->Medium->GetGrid(); }
   ///@}
 
   ///@{

@@ -100,21 +100,24 @@ struct Range
   std::int64_t gas = 0;
 };
 
-/// Copies a row of samples as nu, 0 where there is no gas. Widens one range per place in the row, which a compiler
-/// can do for neighbours at once; returns the number of points that are gas.
+/// Copies a row of samples as nu, 0 where there is no gas; returns the number of points that are gas.
+/// Without branches and with one range per place in the row, so that it vectorises.
 template <class Real, class Value, class IsValid>
-std::int64_t loadRow(const Value* values, const IsValid& isValid, std::int64_t count,
-  double ambient, double scale, Real* nu, Value* lowest, Value* highest)
+int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, double ambient,
+  double scale, Real* nu, Value* lowest, Value* highest)
 {
-  std::int64_t gas = 0;
+  constexpr Value infinite = std::numeric_limits<Value>::infinity();
+  int gas = 0;
   for (std::int64_t i = 0; i < count; ++i)
   {
     const Value n = values[i];
-    const bool isGas = std::abs(n) <= std::numeric_limits<Value>::max() && isValid(i);
-    const double shifted = (static_cast<double>(n) - ambient) * scale;
-    nu[i] = isGas ? static_cast<Real>(shifted) : 0;
-    lowest[i] = isGas && n < lowest[i] ? n : lowest[i];
-    highest[i] = isGas && n > highest[i] ? n : highest[i];
+    const bool isGas = (std::abs(n) < infinite) & isValid(i);
+    const Real shifted = static_cast<Real>((static_cast<double>(n) - ambient) * scale);
+    nu[i] = isGas ? shifted : Real(0);
+    const Value low = isGas ? n : infinite;
+    const Value high = isGas ? n : -infinite;
+    lowest[i] = low < lowest[i] ? low : lowest[i];
+    highest[i] = high > highest[i] ? high : highest[i];
     gas += isGas ? 1 : 0;
   }
   return gas;
@@ -177,11 +180,15 @@ PointMask findPoints(
         for (std::int64_t j = 0; j < dimensions[1]; ++j)
         {
           const std::int64_t first = (k * dimensions[1] + j) * dimensions[0];
-          std::uint64_t* row = found.row(j, k);
-          for (std::int64_t i = 0; i < dimensions[0]; ++i)
+          for (std::int64_t n = 0; n < found.wordsPerRow; ++n)
           {
-            const std::uint64_t isNot = is(first + i) ? 0 : 1;
-            row[i >> 6] &= ~(isNot << (i & 63));
+            const std::int64_t points = std::min<std::int64_t>(64, dimensions[0] - 64 * n);
+            std::uint64_t others = 0;
+            for (std::int64_t i = 0; i < points; ++i)
+            {
+              others |= std::uint64_t{ !is(first + 64 * n + i) } << i;
+            }
+            found.row(j, k)[n] = ~others;
           }
         }
       }
@@ -244,6 +251,17 @@ void cutTails(PaddedVolume<Real>& volume, double largest, int threads)
     });
 }
 
+/// The larger of `most` and |b - a|, place by place, so that it vectorises.
+template <class Real>
+void widenByDifferences(const Real* a, const Real* b, std::int64_t count, Real* most)
+{
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Real difference = std::abs(b[i] - a[i]);
+    most[i] = most[i] < difference ? difference : most[i];
+  }
+}
+
 /// Largest difference of neighbouring samples along each axis, ghosts included where they are used,
 /// and largest |sample|. The derivative of a linear or quadratic B-spline is a weighted mean of these
 /// differences, its value one of the samples, so that neither can be larger.
@@ -260,25 +278,28 @@ void findBounds(Medium<Real>& medium, int threads)
   parallelFor(nz + 2, 1, threads,
     [&, nx = nx, ny = ny, nz = nz](std::int64_t begin, std::int64_t end)
     {
+      const std::int64_t width = nx + 2;
+      const std::vector<Real> zeros(static_cast<std::size_t>(width), 0);
+      std::vector<Real> nu, x, y, z;
       for (std::int64_t k = begin; k < end; ++k)
       {
-        Real nu = 0, x = 0, y = 0, z = 0;
+        for (std::vector<Real>* most : { &nu, &x, &y, &z })
+        {
+          most->assign(static_cast<std::size_t>(width), 0);
+        }
         for (std::int64_t j = -1; j <= ny; ++j)
         {
           const Real* row = volume.samples.data() + volume.index(-1, j, k - 1);
           const std::int64_t toY = j < ny ? volume.strides[1] : 0;
           const std::int64_t toZ = k - 1 < nz ? volume.strides[2] : 0;
-          for (std::int64_t i = 0; i < nx + 2; ++i)
-          {
-            const std::int64_t toX = i < nx + 1 ? 1 : 0;
-            nu = std::max(nu, std::abs(row[i]));
-            x = std::max(x, std::abs(row[i + toX] - row[i]));
-            y = std::max(y, std::abs(row[i + toY] - row[i]));
-            z = std::max(z, std::abs(row[i + toZ] - row[i]));
-          }
+          widenByDifferences(row, zeros.data(), width, nu.data());
+          widenByDifferences(row, row + 1, width - 1, x.data());
+          widenByDifferences(row, row + toY, width, y.data());
+          widenByDifferences(row, row + toZ, width, z.data());
         }
-        planes[static_cast<std::size_t>(k)] = { static_cast<double>(nu), static_cast<double>(x),
-          static_cast<double>(y), static_cast<double>(z) };
+        const auto largest = [](const std::vector<Real>& most)
+        { return static_cast<double>(*std::max_element(most.begin(), most.end())); };
+        planes[static_cast<std::size_t>(k)] = { largest(nu), largest(x), largest(y), largest(z) };
       }
     });
   for (const Bounds& plane : planes)

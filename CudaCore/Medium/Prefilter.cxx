@@ -62,6 +62,35 @@ void solveLines(Real* first, std::int64_t n, std::int64_t stride, std::int64_t w
   }
 }
 
+/// Rows are solved side by side, because each step of a single row waits for the one before.
+constexpr std::int64_t rowsAtOnce = 8;
+
+template <class Real>
+void transpose(
+  const Real* from, std::int64_t stride, std::int64_t rows, std::int64_t columns, Real* to)
+{
+  for (std::int64_t row = 0; row < rows; ++row)
+  {
+    for (std::int64_t column = 0; column < columns; ++column)
+    {
+      to[column * rows + row] = from[row * stride + column];
+    }
+  }
+}
+
+template <class Real>
+void transposeBack(
+  const Real* from, std::int64_t rows, std::int64_t columns, Real* to, std::int64_t stride)
+{
+  for (std::int64_t row = 0; row < rows; ++row)
+  {
+    for (std::int64_t column = 0; column < columns; ++column)
+    {
+      to[row * stride + column] = from[column * rows + row];
+    }
+  }
+}
+
 template <class Real>
 std::vector<Real> pivotsOf(std::int64_t n)
 {
@@ -87,12 +116,16 @@ void prefilterQuadratic(PaddedVolume<Real>& volume, int threads)
   parallelFor(nz, 1, threads,
     [&, ny = ny, nx = nx](std::int64_t begin, std::int64_t end)
     {
-      std::vector<Real> saved(static_cast<std::size_t>(width));
+      std::vector<Real> saved(static_cast<std::size_t>(std::max(width, rowsAtOnce)));
+      std::vector<Real> side(static_cast<std::size_t>(nx * rowsAtOnce));
       for (std::int64_t k = begin; k < end; ++k)
       {
-        for (std::int64_t j = 0; j < ny; ++j)
+        for (std::int64_t j = 0; j < ny; j += rowsAtOnce)
         {
-          solveLines(&volume.at(0, j, k), nx, 1, 1, xPivots, saved);
+          const std::int64_t rows = std::min(rowsAtOnce, ny - j);
+          transpose(&volume.at(0, j, k), volume.strides[1], rows, nx, side.data());
+          solveLines(side.data(), nx, rows, rows, xPivots, saved);
+          transposeBack(side.data(), rows, nx, &volume.at(0, j, k), volume.strides[1]);
         }
         solveLines(&volume.at(0, 0, k), ny, volume.strides[1], width, yPivots, saved);
       }

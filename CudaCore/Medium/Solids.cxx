@@ -45,12 +45,13 @@ Real meanOfNeighbours(const PaddedVolume<Real>& volume, const PointMask& empty, 
   {
     for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, ny - 1); ++jj)
     {
+      const std::uint64_t* isEmpty = empty.row(jj, kk);
+      const Real* row = volume.samples.data() + volume.index(0, jj, kk);
       for (std::int64_t ii = std::max<std::int64_t>(i - 1, 0); ii <= std::min(i + 1, nx - 1); ++ii)
       {
-        if (!empty.at(ii, jj, kk))
+        if (((isEmpty[ii >> 6] >> (ii & 63)) & 1) == 0)
         {
-          const auto value =
-            static_cast<double>(volume.samples[static_cast<std::size_t>(volume.index(ii, jj, kk))]);
+          const auto value = static_cast<double>(row[ii]);
           first = count == 0 ? value : first;
           excess += value - first;
           ++count;

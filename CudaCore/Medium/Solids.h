@@ -38,11 +38,6 @@ struct PointMask
     return points < 64 ? (std::uint64_t{ 1 } << points) - 1 : ~std::uint64_t{ 0 };
   }
 
-  bool at(std::int64_t i, std::int64_t j, std::int64_t k) const
-  {
-    return ((row(j, k)[i >> 6] >> (i & 63)) & 1u) != 0;
-  }
-
   bool any() const
   {
     for (std::size_t n = 0; n < words.size(); ++n)

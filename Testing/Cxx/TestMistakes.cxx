@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Fixtures.h"
 
+#include "vtkLineSource.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPlaneSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSphereSource.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -47,13 +51,43 @@ Mistake input(const char* name, const std::function<vtkSmartPointer<vtkDataObjec
     [](vtkSchlierenFilter* filter) { filter->SetInputDataObject(columnImage()); } };
 }
 
-vtkSmartPointer<vtkDataObject> flat()
+vtkSmartPointer<vtkDataObject> line()
 {
   auto image = columnImage();
-  image->SetDimensions(16, 16, 1);
+  image->SetDimensions(16, 1, 1);
   image->GetPointData()->Initialize();
   addPointArray(image, "N", GaussianColumn());
   return image;
+}
+
+vtkSmartPointer<vtkDataObject> lineOfMesh()
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->Update();
+  vtkPolyData* square = plane->GetOutput();
+  for (vtkIdType i = 0; i < square->GetNumberOfPoints(); ++i)
+  {
+    square->GetPoints()->SetPoint(i, square->GetPoint(i)[0], 0, 0);
+  }
+  addPointArray(square, "N", GaussianColumn());
+  return square;
+}
+
+vtkSmartPointer<vtkDataObject> tiltedPlane()
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetNormal(1, 1, 1);
+  plane->Update();
+  addPointArray(plane->GetOutput(), "N", GaussianColumn());
+  return plane->GetOutput();
+}
+
+vtkSmartPointer<vtkDataObject> polyLine()
+{
+  vtkNew<vtkLineSource> source;
+  source->Update();
+  addPointArray(source->GetOutput(), "N", GaussianColumn());
+  return source->GetOutput();
 }
 
 vtkSmartPointer<vtkDataObject> surface()
@@ -100,8 +134,11 @@ std::vector<Mistake> mistakes()
         return image;
       },
       { "'N'", "no valid value" }),
-    input("OneVoxelThick", flat, { "1 point", "extrude" }),
-    input("Surface", surface, { "no 3-D cells", "'N'" }),
+    input("Line", line, { "a line or a point", "2-D" }),
+    input("LineOfMesh", lineOfMesh, { "a line or a point" }),
+    input("Surface", surface, { "no 3-D cells", "'N'", "one plane" }),
+    input("TiltedPlane", tiltedPlane, { "no 3-D cells", "one plane", "Transform" }),
+    input("PolyLine", polyLine, { "no 3-D cells", "one plane" }),
     input("ZeroSpacing",
       []
       {

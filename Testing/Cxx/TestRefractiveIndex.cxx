@@ -187,8 +187,8 @@ TEST(RefractiveIndex, SamplingDimensionsAreChosenFromTheCells)
   filter->Update();
   vtkImageData* output = outputOf(filter);
   const double* spacing = output->GetSpacing();
-  EXPECT_NEAR(spacing[1] / spacing[0], 1, 0.02); // cubic, but for rounding to whole numbers
-  EXPECT_NEAR(spacing[2] / spacing[0], 1, 0.02);
+  EXPECT_NEAR(spacing[1] / spacing[0], 1, 0.02); // but for rounding to whole numbers
+  EXPECT_NEAR(spacing[2] / spacing[0], 0.5, 0.02);
   EXPECT_NEAR(static_cast<double>(output->GetNumberOfPoints()), 64. * 64 * 64, 0.05 * 64 * 64 * 64);
   int dimensions[3];
   output->GetDimensions(dimensions);
@@ -205,7 +205,7 @@ TEST(RefractiveIndex, SamplingDimensionsAreChosenFromTheCells)
   outputOf(filter)->GetDimensions(dimensions);
   EXPECT_EQ(dimensions[0], 21);
   EXPECT_EQ(dimensions[1], 81);
-  EXPECT_EQ(dimensions[2], 21);
+  EXPECT_EQ(dimensions[2], 41);
 
   filter->SetSamplingDimensions(7, 5, 3);
   filter->Update();
@@ -226,7 +226,7 @@ TEST(RefractiveIndex, ChosenGridHasAtLeastTwoPointsAlongEachAxis)
   filter->Update();
   int dimensions[3];
   outputOf(filter)->GetDimensions(dimensions);
-  EXPECT_EQ(dimensions[2], 2);
+  EXPECT_LE(dimensions[2], 4);
   EXPECT_EQ(dimensions[0], dimensions[1]);
   EXPECT_NEAR(
     static_cast<double>(outputOf(filter)->GetNumberOfPoints()), 64. * 64 * 64, 0.05 * 64 * 64 * 64);

@@ -3,6 +3,7 @@
 """Names, values and defaults that scripts rely on, and what a change of each one does again."""
 
 import numpy as np
+from paraview.simple import AppendDatasets, Clip, Sphere
 from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, picture
 
 source = gaussian_column(32)
@@ -12,7 +13,8 @@ MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "Den
           "Gas": "Custom", "MixtureGases": [], "BackgroundGas": "Custom",
           "MixtureMolarMasses": [], "BackgroundConstant": 2.26e-4, "BackgroundMolarMass": 0.0289647,
           "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
-          "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8}
+          "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
+          "OutsideBlocksLight": 1, "Bodies": None}
 BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
@@ -21,7 +23,7 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1, "Device": "Auto",
          "NumberOfThreads": 0}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
-                        "Refractivity"},
+                        "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
          "Cutoff": {"Knife Edge", "Shadowgraph"}, "Interpolation": {"Quadratic", "Linear"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
@@ -93,6 +95,27 @@ moved = output(bench).GetOrigin()
 assert np.allclose(np.subtract(moved, centred), [0.25, -0.5, 0]), (moved, centred)
 bench.FocalPoint = []
 assert np.allclose(output(bench).GetOrigin(), centred)
+
+# A body: its shadow, and no other picture without it.
+for proxy in (bench, RefractiveIndex(source, Density=["POINTS", "rho"])):
+    chained = proxy if proxy is bench else Schlieren(proxy, ImageSize=[48, 32])
+    free = picture(chained, "Deflection")
+    proxy.Bodies = Sphere(Radius=0.4)
+    blocked = picture(chained, "BlockedFraction") * output(chained).GetSpacing()[0]**2
+    assert abs(blocked.sum() / (np.pi * 0.4**2) - 1) < 0.2, blocked.sum()
+    proxy.Bodies = None
+    assert np.array_equal(picture(chained, "Deflection"), free)
+    assert picture(chained, "BlockedFraction").max() == 0
+with_body = Schlieren(Input=source, Bodies=Sphere(Radius=0.4), Density=["POINTS", "rho"])
+assert picture(with_body, "BlockedFraction").max() == 1
+
+# Outside of a mesh light may pass.
+mesh = Clip(AppendDatasets(source), ClipType="Sphere")
+mesh.ClipType.Radius = 0.8
+outside = Schlieren(mesh, Density=["POINTS", "rho"], ImageSize=[16, 16])
+assert picture(outside, "BlockedFraction")[8, 1] == 1
+outside.OutsideBlocksLight = 0
+assert picture(outside, "BlockedFraction").max() == 0
 
 # A shadowgraph's screen.
 bench.Cutoff = "Shadowgraph"

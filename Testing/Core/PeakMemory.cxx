@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PeakMemory.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace
+{
+
+std::atomic<std::size_t> held{ 0 };
+std::atomic<std::size_t> most{ 0 };
+
+/// Before each block stands its size.
+constexpr std::size_t header = alignof(std::max_align_t);
+
+void* allocate(std::size_t size) noexcept
+{
+  void* block = std::malloc(size + header);
+  if (block == nullptr)
+  {
+    return nullptr;
+  }
+  *static_cast<std::size_t*>(block) = size;
+  const std::size_t now = held += size;
+  std::size_t before = most;
+  while (before < now && !most.compare_exchange_weak(before, now))
+  {
+  }
+  return static_cast<char*>(block) + header;
+}
+
+void* allocateOrThrow(std::size_t size)
+{
+  void* memory = allocate(size);
+  if (memory == nullptr)
+  {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+void release(void* memory) noexcept
+{
+  if (memory != nullptr)
+  {
+    void* block = static_cast<char*>(memory) - header;
+    held -= *static_cast<std::size_t*>(block);
+    std::free(block);
+  }
+}
+
+} // namespace
+
+// All but those for over-aligned types, which stay the library's own.
+void* operator new(std::size_t size) { return allocateOrThrow(size); }
+void* operator new[](std::size_t size) { return allocateOrThrow(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { release(memory); }
+
+namespace schlieren
+{
+
+PeakMemory::PeakMemory()
+  : before_(held)
+{
+  most = before_;
+}
+
+std::size_t PeakMemory::bytes() const { return most - before_; }
+
+} // namespace schlieren

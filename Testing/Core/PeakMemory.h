@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+namespace schlieren
+{
+
+/// Counts what this program holds through operator new, which PeakMemory.cxx replaces: bytes asked for,
+/// so that the count is the same everywhere. One at a time.
+class PeakMemory
+{
+public:
+  PeakMemory();
+
+  /// The most that was held at once since the constructor, beyond what was held then.
+  std::size_t bytes() const;
+
+private:
+  std::size_t before_;
+};
+
+} // namespace schlieren

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the medium and its homogeneity map take while they are built, in bytes, against the samples that
+// they are built from.
+#include "Fields.h"
+#include "Medium/HomogeneityMap.h"
+#include "PeakMemory.h"
+
+#include <algorithm>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr double mostPerVolume = 1.35;
+
+enum class Body
+{
+  None,
+  Ball,
+  Foam,       ///< every other point
+  AllButABall ///< the ambient value cannot be found on the faces
+};
+
+bool isSolidAt(Body body, double x, double y, double z)
+{
+  const bool isInBall = x * x + y * y + z * z < 0.5;
+  switch (body)
+  {
+    case Body::None:
+      return false;
+    case Body::Ball:
+      return isInBall;
+    case Body::Foam:
+      return std::sin(1e5 * x + 2e5 * y + 3e5 * z) > 0;
+    case Body::AllButABall:
+      return !isInBall;
+  }
+  return false;
+}
+
+double peakOf(const Field& field, Interpolation interpolation, int threads)
+{
+  const PeakMemory peak;
+  const Medium<float> medium = buildMedium<float>(field, interpolation, threads);
+  const HomogeneityMap<float> map = buildHomogeneityMap(medium, interpolation, 1e-6f, threads);
+  EXPECT_FALSE(map.levels.empty());
+  return static_cast<double>(peak.bytes());
+}
+
+TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
+{
+  for (const std::int64_t n : { 64, 101 })
+  {
+    SampledField<float> field(
+      cube(n, 1), [](double x, double y, double z) { return 1e-4 * (x * y + z); });
+    const double volume = 4 * static_cast<double>(field.samples.size());
+    for (const Body body : { Body::None, Body::Ball, Body::Foam, Body::AllButABall })
+    {
+      const std::vector<float> solid = SampledField<float>(cube(n, 1),
+        [body](double x, double y, double z) {
+          return isSolidAt(body, x, y, z);
+        }).samples;
+      std::vector<unsigned char> valid;
+      std::transform(solid.begin(), solid.end(), std::back_inserter(valid),
+        [](float isSolid) { return static_cast<unsigned char>(isSolid > 0 ? 0 : 1); });
+      field.field.valid = valid.data();
+      for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+      {
+        SCOPED_TRACE(testing::PrintToString(static_cast<int>(body)));
+        const double peak = peakOf(field.field, interpolation, 2);
+        EXPECT_GT(peak, volume); // or else nothing was counted
+        EXPECT_LE(peak, mostPerVolume * volume);
+      }
+    }
+  }
+}
+
+} // namespace
+
+} // namespace schlieren

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pictures tinted by the colours of the fields whose gradients light crosses (ColorByField).
+#include "Fixtures.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace
+{
+
+using Color = std::array<double, 3>;
+
+constexpr Color red = { 1, 0, 0 };
+constexpr Color blue = { 0, 0.5, 1 };
+constexpr Color white = { 1, 1, 1 };
+
+double acrossX(const Vec& x) { return 5 + x[0]; }
+double acrossY(const Vec& x) { return -300 * x[1]; }
+
+/// The cube from -1 to 1, in which light bends a little, with fields of the same slope in their ranges.
+vtkSmartPointer<vtkImageData> flow(int points = 17)
+{
+  auto image = cube(points);
+  addPointArray(image, "N", [](const Vec& x) { return 1e-6 * (x[0] * x[0] + x[0] * x[1]); });
+  addPointArray(image, "A", acrossX);
+  addPointArray(image, "B", acrossY);
+  return image;
+}
+
+vtkSmartPointer<vtkSchlierenFilter> tinted(vtkDataObject* input,
+  const std::vector<std::string>& fields = { "A", "B" },
+  const std::vector<Color>& colors = { red, blue })
+{
+  auto filter = bench(input, 32);
+  filter->SetParallelScale(0.9);
+  filter->SetDevice(vtkSchlierenFilter::CPU);
+  filter->ColorByFieldOn();
+  for (const std::string& field : fields)
+  {
+    filter->AddField(field.c_str());
+  }
+  for (const Color& color : colors)
+  {
+    std::for_each(color.begin(), color.end(), [&](double c) { filter->AddFieldColor(c); });
+  }
+  return filter;
+}
+
+Color mix(const Color& a, double share, const Color& b)
+{
+  Color mixed;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    mixed[i] = share * a[i] + (1 - share) * b[i];
+  }
+  return mixed;
+}
+
+/// The largest difference, in levels of 255, of the colours from the intensity times a tint, where u is
+/// between the limits.
+double largestDifference(vtkSchlierenFilter* filter, const Color& tint, double fromU = -1,
+  double toU = 1, double brightest = 1)
+{
+  filter->Update();
+  if (isEmpty(filter) || !arrayOf(filter, "Color"))
+  {
+    return HUGE_VAL;
+  }
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  double largest = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double u = image->GetPoint(i)[0];
+    for (int channel = 0; channel < 3 && u > fromU && u < toU; ++channel)
+    {
+      const double expected = 255 / brightest * tint[static_cast<std::size_t>(channel)] *
+        arrayOf(filter, "Intensity")->GetComponent(i, 0);
+      largest =
+        std::max(largest, std::abs(arrayOf(filter, "Color")->GetComponent(i, channel) - expected));
+    }
+  }
+  return largest;
+}
+
+constexpr double rounding = 0.51; // to whole levels
+
+} // namespace
+
+TEST(ColorByField, AddsTheTintedPictureAndChangesNoOther)
+{
+  auto filter = tinted(flow());
+  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), rounding);
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_STREQ(image->GetPointData()->GetScalars()->GetName(), "Color");
+  EXPECT_EQ(image->GetPointData()->GetScalars()->GetDataType(), VTK_UNSIGNED_CHAR);
+  EXPECT_GT(relativeDifference(
+              valuesOf(filter, "Color"), std::vector<double>(valuesOf(filter, "Color").size(), 64)),
+    0.5)
+    << "the picture shows something";
+
+  const std::vector<double> intensity = valuesOf(filter, "Intensity");
+  const std::vector<double> deflection = valuesOf(filter, "Deflection");
+  auto plain = tinted(flow());
+  plain->ColorByFieldOff();
+  plain->Update();
+  EXPECT_EQ(arrayOf(plain, "Color"), nullptr);
+  EXPECT_EQ(valuesOf(plain, "Intensity"), intensity);
+  EXPECT_EQ(valuesOf(plain, "Deflection"), deflection);
+}
+
+TEST(ColorByField, OfAShadowgraphLeavesRoomForBrightLight)
+{
+  auto filter = tinted(flow());
+  filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
+  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue), -0.8, 0.8, 2), rounding);
+}
+
+TEST(ColorByField, RangesWeighTheFields)
+{
+  auto filter = tinted(flow());
+  for (const double value : { 3., 7., 0., 0. }) // A: twice its own range
+  {
+    filter->AddFieldRange(value);
+  }
+  EXPECT_LT(largestDifference(filter, mix(red, 1. / 3, blue)), rounding);
+}
+
+TEST(ColorByField, TransferFunctionsCountWhereTheyMakeTheMedium)
+{
+  auto filter = tinted(flow());
+  vtkNew<vtkPiecewiseFunction> flat, steep;
+  flat->AddPoint(0, 0.3);
+  flat->AddPoint(1, 0.3);
+  steep->AddPoint(0, 0);
+  steep->AddPoint(1, 2);
+  filter->AddTransferFunction(flat);
+  filter->AddTransferFunction(steep);
+  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), rounding);
+  filter->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
+  EXPECT_LT(largestDifference(filter, blue), rounding);
+}
+
+// The refractivity is that of points, a field that of cells: it is brought to the points. Outside of the
+// outermost cells' centres it has no values.
+TEST(ColorByField, OfCellsOnTheGridOfPoints)
+{
+  auto image = flow(33);
+  addCellArray(image, "cells", acrossX);
+  auto filter = tinted(image, { "cells", "B" });
+  // Steeper by 32/31 in the centres' range, over a way shorter by as much.
+  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), 1.01);
+}
+
+TEST(ColorByField, OfAMesh)
+{
+  vtkNew<vtkAppendFilter> toMesh;
+  toMesh->AddInputData(flow());
+  toMesh->Update();
+  auto filter = tinted(toMesh->GetOutput());
+  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), 1.01);
+}
+
+// Light that crosses no gradient stays grey.
+TEST(ColorByField, ABlockWithoutTheFieldIsNotTinted)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (int i = 0; i < 2; ++i)
+  {
+    auto block = cube(9);
+    block->SetOrigin(2 * i - 2, -1, -1);
+    addPointArray(block, "N", [](const Vec& x) { return 1e-6 * x[0] * x[1]; });
+    if (i == 1)
+    {
+      addPointArray(block, "A", acrossY);
+    }
+    blocks->SetBlock(static_cast<unsigned>(i), block);
+  }
+  auto filter = tinted(blocks, { "A" }, { blue });
+  filter->SetImageSize(64, 32);
+  filter->SetSamplingDimensions(17, 9, 9);
+  EXPECT_LT(largestDifference(filter, white, -1.7, -0.3), rounding);
+  EXPECT_LT(largestDifference(filter, blue, 0.3, 1.7), 1.01);
+}
+
+TEST(ColorByField, ChoosesColoursFarApart)
+{
+  EXPECT_LT(largestDifference(tinted(flow(), { "A" }, {}), red), rounding);
+  // The second: 0.618 of the circle is between cyan (1/2) and blue (2/3).
+  const double hue = (std::sqrt(5.) - 1) / 2;
+  auto filter = tinted(flow(), { "A", "B" }, {});
+  filter->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
+  vtkNew<vtkPiecewiseFunction> flat, line;
+  flat->AddPoint(0, 0);
+  line->AddPoint(0, 0);
+  line->AddPoint(1, 1);
+  filter->AddTransferFunction(flat);
+  filter->AddTransferFunction(line);
+  EXPECT_LT(largestDifference(filter, { 0, 4 - 6 * hue, 1 }), rounding);
+}
+
+TEST(ColorByField, ColoursTraceNothing)
+{
+  auto filter = tinted(flow());
+  filter->Update();
+  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
+  filter->ClearFieldColors();
+  filter->Update();
+  filter->ColorByFieldOff();
+  filter->Update();
+  filter->ColorByFieldOn();
+  filter->SetKnifeEdgeAngle(90);
+  filter->Update();
+  EXPECT_EQ(filter->GetTotalRaysTraced(), rays);
+  EXPECT_EQ(filter->GetMediumBuilds(), 1);
+}
+
+TEST(ColorByField, Mistakes)
+{
+  const auto off = [](vtkSchlierenFilter* self) { self->ColorByFieldOff(); };
+  expectOneMessage(
+    tinted(flow()).Get(), [](auto* self) { self->ClearFields(); },
+    { "ColorByField", "Fields is empty" }, off);
+  expectOneMessage(
+    tinted(flow()).Get(), [](auto* self) { self->AddField("none"); },
+    { "no array 'none'", "Fields", "A, B" }, off);
+  expectOneMessage(
+    tinted(flow()).Get(), [](auto* self) { self->AddFieldColor(1); },
+    { "FieldColors holds 7 values for 2 fields" }, [](auto* self) { self->ClearFieldColors(); });
+  expectOneMessage(
+    tinted(flow(), { "A" }, { { 1, 0, 255 } }).Get(), [](auto*) {},
+    { "FieldColors", "between 0 and 1" }, [](auto* self) { self->ClearFieldColors(); });
+  expectOneMessage(
+    tinted(flow()).Get(), [](auto* self) { self->AddFieldRange(1); },
+    { "FieldRanges", "1 values for 2" }, [](auto* self) { self->ClearFieldRanges(); });
+  auto computed = flow();
+  addPointArray(computed, "Refractivity", [](const Vec& x) { return 1e-6 * x[0]; });
+  expectOneMessage(
+    tinted(computed).Get(), [](auto* self) { self->AddField("typo"); }, { "no array 'typo'" }, off);
+}
