@@ -48,9 +48,9 @@ public:
   static std::string GetFormula(const std::string& gas);
 
   /**
-   * Gladstone-Dale constant K in m^3/kg for light of this wavelength in vacuum, nanometres. Outside
-   * the wavelengths that were measured, it is continued to 1700 nm and constant from there on; NaN
-   * for a wavelength that is not positive.
+   * Gladstone-Dale constant K in m^3/kg for light of this wavelength in vacuum, nanometres. Beyond
+   * the longest wavelength that was measured it is continued, to 1700 nm; further out, and below the
+   * shortest, it is constant. NaN for a wavelength that is not positive.
    */
   static double GetConstant(const std::string& gas, double wavelength);
 

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkNew.h"
+#include "vtkWeakPointer.h"
+
+#include <QComboBox>
+
+class vtkEventQtSlotConnect;
+class vtkSMArrayListDomain;
+class vtkSMProperty;
+
+/// Chooses one of the arrays that another property of the proxy offers, whatever the input is then. A name
+/// that the input does not have stays as it is and is offered, too.
+class pqArrayComboBox : public QComboBox
+{
+  Q_OBJECT
+
+public:
+  /// `offering` has a vtkSMArrayListDomain; null offers nothing.
+  explicit pqArrayComboBox(vtkSMProperty* offering, QWidget* parent = nullptr);
+  ~pqArrayComboBox() override;
+
+  void setArray(const QString& name);
+
+  /// The first array on offer that is not among `taken`; empty where there is none.
+  static QString firstBut(const QStringList& taken, vtkSMProperty* offering);
+
+private Q_SLOTS:
+  void fill();
+
+private:
+  vtkWeakPointer<vtkSMArrayListDomain> Domain;
+  vtkNew<vtkEventQtSlotConnect> Connection;
+};

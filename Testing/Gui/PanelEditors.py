@@ -1,0 +1,261 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Gases, a gas mixture and fields with their transfer functions, made in the properties panel.
+
+The window saves its state after every part; what the state holds is checked here, and what it shows
+against a filter that was set up by a script.
+"""
+
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from paraview import smstate  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter  # noqa: E402
+from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
+
+FLOW = os.path.join(FOLDER, "flow.vti")
+TRACE = os.path.join(FOLDER, "trace.py")
+POINTS = 24
+LINE = [0, 0, 0.5, 0, 1, 1, 0.5, 0]  # points of the function that is not bent
+
+
+def write_flow():
+    """A column of helium in air, with some carbon dioxide and a temperature."""
+    z, y, x = np.meshgrid(*3 * [np.linspace(-1, 1, POINTS)], indexing="ij")
+    column = np.exp(-(x**2 + z**2) / 0.3**2)
+    image = vtkImageData()
+    image.SetDimensions(3 * [POINTS])
+    image.SetOrigin(-1, -1, -1)
+    image.SetSpacing(3 * [2 / (POINTS - 1)])
+    for name, values in (("Y_CO2", 0.2 + 0.1 * y), ("Y_He", 0.5 * column),
+                         ("rho", 1.2 - 0.8 * column), ("temperature", 300 + 100 * y)):
+        array = numpy_to_vtk(values.ravel(), deep=True)
+        array.SetName(name)
+        image.GetPointData().AddArray(array)
+    writer = vtkXMLImageDataWriter()
+    writer.SetFileName(FLOW)
+    writer.SetDataModeToBinary()
+    writer.SetInputData(image)
+    assert writer.Write() == 1
+
+
+write_flow()
+user = Session()
+GAS, ROW = "SchlierenGasMixture", "SchlierenGasMixture/Table/qt_scrollarea_viewport"
+FIELDS, FIELD = "SchlierenFields", "SchlierenFields/Table/qt_scrollarea_viewport"
+
+# One gas.
+user.choose("Gas/ComboBox", "helium")
+user.check("Wavelength", "visible", "true")
+user.apply()
+user.save_state("gas.pvsm")
+
+# A mixture: first given up, then made.
+for reset in (True, False):
+    user.choose("IndexModel/ComboBox", "Gladstone-Dale Mixture")
+    user.check(GAS + "/Table", "rowCount", 0)
+    user.check(GAS + "/Remove", "enabled", "false")
+    user.click(GAS + "/Add")
+    user.check(ROW + "/Array0", "currentText", "Y_CO2")
+    user.choose(ROW + "/Array0", "Y_He")
+    user.choose(ROW + "/Gas0", "helium")
+    user.check(ROW + "/Constant0", "enabled", "false")
+    user.check(ROW + "/Constant0", "text", "0.0001954")
+    user.check(ROW + "/MolarMass0", "text", "0.004003")
+    user.click(GAS + "/Add")
+    user.check(ROW + "/Array1", "currentText", "Y_CO2")
+    user.check(ROW + "/Gas1", "currentText", "Custom")
+    user.check(ROW + "/Constant1", "enabled", "true")
+    user.type(ROW + "/Constant1", "2.3e-4")
+    user.type(ROW + "/MolarMass1", "0.044")
+    user.click(GAS + "/Add")
+    user.check(GAS + "/Table", "rowCount", 3)
+    user.click(GAS + "/Remove")
+    user.check(GAS + "/Table", "rowCount", 2)
+    user.type("Wavelength/DoubleLineEdit0", "500")
+    user.check(ROW + "/Constant0", "text", "0.0001961")
+    if reset:
+        user.reset()
+        user.check("IndexModel/ComboBox", "currentText", "Gladstone-Dale")
+user.choose("BackgroundGas/ComboBox", "air")
+user.apply()
+user.save_state("mixture.pvsm")
+
+# Fields, one of them with a range; a point of the second one's function is made and moved.
+user.choose("IndexModel/ComboBox", "Transfer Functions")
+user.check(FIELDS + "/Table", "rowCount", 0)
+user.click(FIELDS + "/Add")
+user.choose(FIELD + "/Field0", "temperature")
+user.click(FIELDS + "/Add")
+user.choose(FIELD + "/Field1", "Y_He")
+user.type(FIELD + "/From1", "0.1")
+user.type(FIELD + "/To1", "0.4")
+user.event(f"{PROPERTIES}/{FIELD}/Color1", "setChosenColor", "0,255,0")
+user.apply()
+user.save_state("fields.pvsm")
+CURVE = f"{PROPERTIES}/{FIELDS}/TransferFunction/1QVTKWidget0"
+for event, x, y, buttons in (("mousePress", 0.5, 0.3, 1), ("mouseMove", 0.6, 0.2, 1),
+                             ("mouseRelease", 0.6, 0.2, 0)):
+    user.event(CURVE, event, f"({x},{y},1,{buttons},0)")
+user.apply()
+user.save_state("curve.pvsm")
+
+# The colours of fields go with any model, their functions with one.
+user.check(FIELDS + "/TransferFunction", "visible", "true")
+user.choose("IndexModel/ComboBox", "Gladstone-Dale")
+user.check(FIELDS, "visible", "false")
+user.event(f"{PROPERTIES}/ColorByField/CheckBox", "set_boolean", "true")
+user.check(FIELDS, "visible", "true")
+user.check(FIELDS + "/TransferFunction", "visible", "false")
+user.reset()
+user.check(FIELDS + "/TransferFunction", "visible", "true")
+
+# Undone and done again; the last field removed; then the filter, while its editor is open.
+user.click(FIELDS + "/Remove")
+user.apply()
+user.check(FIELDS + "/Table", "rowCount", 1)
+user.save_state("removed.pvsm")
+user.menu("menu_Edit", "actionEditUndo")
+user.check(FIELDS + "/Table", "rowCount", 2)
+user.save_state("undone.pvsm")
+user.click(FIELDS + "/Add")
+user.delete()
+
+user.play(f"""
+from paraview.simple import *
+flow = XMLImageDataReader(FileName=[{FLOW!r}])
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench")
+bench.Density = ["POINTS", "rho"]
+bench.ImageSize = [32, 32]
+
+# What is traced, as it stands when the filter is deleted.
+from paraview import servermanager, smtrace
+smtrace.start_trace()
+def write(*_):
+    with open({TRACE!r}, "w") as file:
+        file.write(smtrace.get_current_trace_output())
+servermanager.ProxyManager().SMProxyManager.AddObserver("UnRegisterEvent", write)
+""")
+
+# Refractive Index has the editor too, but no colours.
+user = Session()
+user.choose("IndexModel/ComboBox", "Transfer Functions")
+user.click(FIELDS + "/Add")
+user.choose(FIELD + "/Field0", "temperature")
+user.check(FIELD + "/Color0", "visible", "false")
+user.apply()
+user.save_state("grid.pvsm")
+user.play(f"""
+from paraview.simple import *
+flow = XMLImageDataReader(FileName=[{FLOW!r}])
+flow.UpdatePipeline()
+RefractiveIndex(Input=flow, registrationName="bench")
+""")
+
+
+def bench_of(state):
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, state))
+    return simple.FindSource("bench")
+
+
+def values(proxy, name):
+    return list(proxy.GetProperty(name).GetData())
+
+
+def scripted(**properties):
+    """The picture of a filter that a script has set up."""
+    flow = simple.XMLImageDataReader(FileName=[FLOW])
+    flow.UpdatePipeline()
+    bench = Schlieren(Input=flow)
+    bench.Density = ["POINTS", "rho"]
+    bench.ImageSize = [32, 32]
+    for name, value in properties.items():
+        setattr(bench, name, value)
+    return picture(bench, "OpticalPathDifference")
+
+
+def functions(proxy):
+    return [list(function.Points) for function in proxy.TransferFunctions]
+
+
+grid = bench_of("grid.pvsm")
+assert values(grid, "Fields") == ["temperature"] and values(grid, "FieldRanges") == [0, 0]
+assert functions(grid) == [LINE], functions(grid)
+
+bench = bench_of("gas.pvsm")
+assert bench.Gas == "helium" and bench.IndexModel == "Gladstone-Dale"
+shown = picture(bench, "OpticalPathDifference")
+assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(Gas="He"))
+
+bench = bench_of("mixture.pvsm")
+assert bench.IndexModel == "Gladstone-Dale Mixture" and bench.BackgroundGas == "air"
+assert values(bench, "MixtureArrays") == ["Y_He", "Y_CO2"]
+assert values(bench, "MixtureGases") == ["helium", "Custom"]
+assert len(bench.MixtureConstants) == len(bench.MixtureMolarMasses) == 2
+assert bench.MixtureConstants[1] == 2.3e-4 and bench.MixtureMolarMasses[1] == 0.044
+shown = picture(bench, "OpticalPathDifference")
+assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(
+    IndexModel="Gladstone-Dale Mixture", Wavelength=500, MixtureArrays=["Y_He", "Y_CO2"],
+    MixtureGases=["He", ""], MixtureConstants=[1, 2.3e-4], BackgroundGas="air"))
+
+bench = bench_of("fields.pvsm")
+assert values(bench, "Fields") == ["temperature", "Y_He"]
+assert values(bench, "FieldRanges") == [0, 0, 0.1, 0.4]
+assert len(bench.FieldColors) == 6 and values(bench, "FieldColors")[3:] == [0, 1, 0]
+assert functions(bench) == [LINE, LINE], functions(bench)
+straight = picture(bench, "OpticalPathDifference")
+
+bench = bench_of("curve.pvsm")
+first, curve = functions(bench)
+assert first == LINE and len(curve) == 12 and curve[:4] == LINE[:4], (first, curve)
+assert abs(curve[4] - 0.6) < 0.1 and abs(curve[5] - 0.8) < 0.1, curve  # 0.2 from the top
+shown = picture(bench, "OpticalPathDifference")
+assert np.abs(shown - straight).max() > 0.01 * np.ptp(straight)
+assert np.array_equal(shown, scripted(
+    IndexModel="Transfer Functions", Fields=["temperature", "Y_He"], FieldRanges=[0, 0, 0.1, 0.4],
+    TransferFunctions=[simple.CreatePiecewiseFunction(Points=points) for points in (LINE, curve)]))
+
+# The state as a script brings all of it back.
+simple.SetActiveSource(bench_of("curve.pvsm"))
+script = smstate.get_state()
+simple.ResetSession()
+exec(script, {})  # pylint: disable=exec-used
+bench = simple.FindSource("bench")
+assert functions(bench) == [LINE, curve], functions(bench)
+assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
+
+# So does the trace, up to where the last field was removed.
+with open(TRACE, encoding="utf-8") as file:
+    script = file.read()
+last = script.index("bench.Fields = ['temperature']\n")
+simple.ResetSession()
+flow = simple.XMLImageDataReader(FileName=[FLOW], registrationName="XMLImageDataReader1")
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench")
+bench.Density = ["POINTS", "rho"]
+bench.ImageSize = [32, 32]
+simple.SetActiveSource(bench)
+exec(script[:last], {})  # pylint: disable=exec-used
+assert functions(bench) == [LINE, curve], functions(bench)
+assert values(bench, "MixtureGases") == ["helium", "Custom"]
+assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
+
+bench = bench_of("removed.pvsm")
+assert values(bench, "Fields") == ["temperature"] and functions(bench) == [LINE]
+assert len(bench.FieldRanges) == 2 and len(bench.FieldColors) == 3
+with open(os.path.join(FOLDER, "removed.pvsm"), encoding="utf-8") as file:
+    text = file.read()
+assert "SchlierenField1." in text and "SchlierenField2." not in text  # nobody needs it
+
+bench = bench_of("undone.pvsm")
+assert values(bench, "Fields") == ["temperature", "Y_He"]
+assert functions(bench) == [LINE, curve], functions(bench)

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plays what a user does in ParaView's window and sees that all of it works."""
+
+import os
+import re
+import subprocess
+from xml.sax.saxutils import quoteattr
+
+FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
+PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
+PROPERTIES = (PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents"
+              "/PropertiesFrame/ProxyPanel")
+
+
+class Session:
+    """What the user does, step by step; play() does it, and checks what it should have led to."""
+
+    def __init__(self):
+        self.lines = []
+
+    def event(self, widget, command, argument=""):
+        self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} "
+                          f"arguments={quoteattr(str(argument))}/>")
+
+    def check(self, widget, name, value):
+        """The widget, named below the properties, has this Qt property."""
+        self.lines.append(f"<pqcheck object={quoteattr(PROPERTIES + '/' + widget)} "
+                          f"property={quoteattr(name)} arguments={quoteattr(str(value))}/>")
+
+    def click(self, widget):
+        self.event(f"{PROPERTIES}/{widget}", "activate")
+
+    def choose(self, widget, text):
+        self.event(f"{PROPERTIES}/{widget}", "set_string", text)
+
+    def type(self, widget, text):
+        """Types into a line and presses Return."""
+        self.choose(widget, text)
+        self.event(f"{PROPERTIES}/{widget}", "key", "16777220")
+
+    def apply(self):
+        self.event(PANEL + "/Accept", "activate")
+
+    def reset(self):
+        self.event(PANEL + "/Reset", "activate")
+
+    def delete(self):
+        self.event(PANEL + "/Delete", "activate")
+
+    def menu(self, menu, action):
+        self.event(f"pqClientMainWindow/menubar/{menu}", "activate", action)
+
+    def save_state(self, name):
+        self.menu("menu_File", "actionFileSaveServerState")
+        self.event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected",
+                   os.path.join(FOLDER, name))
+
+    def play(self, script, seconds=240):
+        """Plays it after the Python script `script`, and fails where a step does or VTK complains."""
+        events, before = os.path.join(FOLDER, "events.xml"), os.path.join(FOLDER, "before.py")
+        with open(events, "w", encoding="utf-8") as file:
+            file.write("\n".join(["<pqevents>"] + self.lines + ["</pqevents>", ""]))
+        with open(before, "w", encoding="utf-8") as file:
+            file.write(script)
+        environment = dict(os.environ, XDG_CONFIG_HOME=self.no_welcome(),
+                           PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
+        done = subprocess.run(
+            [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
+             f"--test-script={events}", f"--test-directory={FOLDER}", "--exit"],
+            env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            timeout=seconds, check=False)
+        print(done.stdout)
+        assert done.returncode == 0, f"paraview ended with {done.returncode}"
+        assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", done.stdout)
+
+    @staticmethod
+    def no_welcome():
+        """A folder of settings of the test's own, without the dialog that greets new users."""
+        settings = os.path.join(FOLDER, "window")
+        os.makedirs(os.path.join(settings, "ParaView"), exist_ok=True)
+        for name, text in (
+                ("ParaView-UserSettings.json",
+                 '{"settings": {"GeneralSettings": {"ShowWelcomeDialog": 0}}}'),
+                ("ParaView5.11.0.ini", "[General]\nGeneralSettings.ShowWelcomeDialog=false\n")):
+            with open(os.path.join(settings, "ParaView", name), "w", encoding="utf-8") as file:
+                file.write(text)
+        return settings
