@@ -11,8 +11,11 @@
 #include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 namespace refractivity
 {
@@ -37,6 +40,8 @@ struct Results
   }
 };
 
+/// Block by block, so that what a block has of bad values is found while it is in the cache: there are
+/// hardly ever any, and all that is left then is a loop over two arrays.
 template <class Real>
 struct LinearConversion
 {
@@ -50,12 +55,35 @@ struct LinearConversion
     vtkSMPTools::For(0, array->GetNumberOfTuples(),
       [&](vtkIdType begin, vtkIdType end)
       {
-        for (vtkIdType i = begin; i < end; ++i)
+        constexpr vtkIdType block = 2048;
+        for (vtkIdType first = begin; first < end; first += block)
         {
-          this->results.set(
-            i, this->model.scale * static_cast<double>(values[i]) + this->model.offset);
+          this->ConvertBlock(values.begin() + first, first, std::min(block, end - first));
         }
       });
+  }
+
+  template <class Iterator>
+  void ConvertBlock(Iterator values, vtkIdType first, vtkIdType count) const
+  {
+    const double scale = this->model.scale;
+    const double offset = this->model.offset;
+    Real* out = this->results.out + first;
+    int bad = 0;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const Real n = static_cast<Real>(scale * static_cast<double>(values[i]) + offset);
+      out[i] = n;
+      bad |= std::abs(n) <= std::numeric_limits<Real>::max() ? 0 : 1;
+    }
+    if (bad != 0 ||
+      std::memchr(this->results.valid + first, 0, static_cast<std::size_t>(count)) != nullptr)
+    {
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        this->results.set(first + i, out[i]);
+      }
+    }
   }
 };
 
@@ -108,7 +136,8 @@ vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetName(maskName);
   mask->SetNumberOfValues(count);
-  mask->FillValue(1);
+  vtkSMPTools::Fill(
+    mask->GetPointer(0), mask->GetPointer(0) + count, static_cast<unsigned char>(1));
   return mask;
 }
 

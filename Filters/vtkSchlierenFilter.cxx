@@ -27,6 +27,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -148,6 +149,17 @@ schlieren::Scene sceneFrom(vtkSchlierenFilter* self)
   }
   scene.threads = threadsFrom(self);
   return scene;
+}
+
+/// Where all is gas, a mask would only take memory, a fifth of what is held, and be read by the tracer.
+void dropMaskOfOnes(vtkPointData* arrays)
+{
+  auto* valid = vtkUnsignedCharArray::SafeDownCast(arrays->GetArray("vtkValidPointMask"));
+  const auto count = static_cast<std::size_t>(valid->GetNumberOfValues());
+  if (std::memchr(valid->GetPointer(0), 0, count) == nullptr)
+  {
+    arrays->RemoveArray("vtkValidPointMask");
+  }
 }
 
 template <class Array, class Value>
@@ -354,6 +366,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input)
   {
     vtkWarningMacro(<< warning);
   }
+  dropMaskOfOnes(inside.Refractivity->GetPointData());
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
@@ -373,7 +386,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   field.grid = gridFrom(refractivity);
   field.singles = floats ? floats->GetPointer(0) : nullptr;
   field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
-  field.valid = valid->GetPointer(0);
+  field.valid = valid ? valid->GetPointer(0) : nullptr;
   if (!this->AutoAmbientRefractivity)
   {
     field.ambient = this->AmbientRefractivity;

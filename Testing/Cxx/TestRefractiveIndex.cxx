@@ -15,6 +15,10 @@
 #include "vtkXMLImageDataReader.h"
 #include "vtkXMLImageDataWriter.h"
 
+#include <cmath>
+#include <limits>
+#include <map>
+
 namespace
 {
 
@@ -138,6 +142,52 @@ TEST(RefractiveIndex, InvalidValuesAreMasked)
     const bool valid = i < 7 || i > 9;
     EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(i, 0), valid ? 1 : 0) << i;
     EXPECT_EQ(arrayOf(filter, "Refractivity")->GetComponent(i, 0), valid ? 1 : 0) << i;
+  }
+}
+
+// The values are converted in blocks, and a block without bad values in a shorter way.
+TEST(RefractiveIndex, FewBadValuesAmongManyAreMasked)
+{
+  const double inf = std::numeric_limits<double>::infinity();
+  const double largest = std::numeric_limits<double>::max(); // infinite as a float
+  auto image = cube(27);
+  const vtkIdType count = image->GetNumberOfPoints();
+  std::map<vtkIdType, double> bad{ { 0, std::nan("") }, { 2047, inf }, { 2048, -inf },
+    { 9000, largest }, { count - 1, -largest } };
+  vtkNew<vtkUnsignedCharArray> mask;
+  mask->SetName("vtkValidPointMask");
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    mask->InsertNextValue(i == 15000 ? 0 : 1);
+  }
+  for (const bool isMasked : { false, true })
+  {
+    if (isMasked)
+    {
+      image->GetPointData()->AddArray(mask);
+      bad[15000] = 1;
+    }
+    vtkIdType next = 0;
+    addPointArray(image, "rho",
+      [&](const Vec&)
+      {
+        const vtkIdType i = next++;
+        return bad.count(i) != 0 ? bad.at(i) : 1 + 1e-6 * static_cast<double>(i);
+      });
+    auto filter = refractiveIndex(
+      image, vtkRefractiveIndex::GLADSTONE_DALE, vtkRefractiveIndex::DENSITY, "rho");
+    filter->SetGladstoneDaleConstant(2e-4);
+    filter->Update();
+    vtkDataArray* n = arrayOf(filter, "Refractivity");
+    vtkDataArray* valid = arrayOf(filter, "vtkValidPointMask");
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const bool isGood = bad.count(i) == 0;
+      EXPECT_EQ(valid->GetTuple1(i), isGood ? 1 : 0) << i;
+      EXPECT_EQ(n->GetTuple1(i),
+        isGood ? static_cast<float>(2e-4 * (1 + 1e-6 * static_cast<double>(i))) : 0.f)
+        << i;
+    }
   }
 }
 

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// A density to refractivity, against the least that could be done: reading it, writing as many numbers
+// and a byte each for the mask. Both into new memory, which the system hands out page by page on the
+// first write and which is most of the cost; the two take turns, so that both meet the same machine.
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRefractiveIndex.h"
+#include "vtkSMPTools.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace
+{
+
+template <class Work>
+double secondsOf(const Work& work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void stream(vtkFloatArray* density, vtkFloatArray* copy, vtkUnsignedCharArray* mask)
+{
+  const vtkIdType count = density->GetNumberOfValues();
+  copy->SetNumberOfValues(count);
+  mask->SetNumberOfValues(count);
+  vtkSMPTools::For(0, count,
+    [from = density->GetPointer(0), to = copy->GetPointer(0), ones = mask->GetPointer(0)](
+      vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        to[i] = 2.26e-4f * from[i];
+      }
+      std::fill(ones + begin, ones + end, static_cast<unsigned char>(1));
+    });
+  benchmark::DoNotOptimize(copy->GetPointer(0));
+  benchmark::DoNotOptimize(mask->GetPointer(0));
+}
+
+/// Arguments: grid points per axis, threads.
+void convertDensity(benchmark::State& state)
+{
+  const int n = static_cast<int>(state.range(0));
+  const int threads = static_cast<int>(state.range(1));
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(n, n, n);
+  vtkNew<vtkFloatArray> density;
+  density->SetName("rho");
+  density->SetNumberOfValues(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < density->GetNumberOfValues(); ++i)
+  {
+    density->SetValue(i, 1 + 1e-3f * static_cast<float>(i % 1000));
+  }
+  image->GetPointData()->AddArray(density);
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetNumberOfThreads(threads);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+
+  double conversion = 1e30, streaming = 1e30;
+  for (auto _ : state)
+  {
+    vtkNew<vtkImageData> output;
+    conversion = std::min(conversion, secondsOf([&] { filter->Convert(image, output); }));
+    output->Initialize();
+    vtkNew<vtkFloatArray> copy;
+    vtkNew<vtkUnsignedCharArray> mask;
+    const auto streamOnce = [&] { stream(density, copy, mask); };
+    const vtkSMPTools::Config config(threads, "STDThread", false);
+    vtkSMPTools::LocalScope(
+      config, [&] { streaming = std::min(streaming, secondsOf(streamOnce)); });
+  }
+  const auto points = static_cast<double>(image->GetNumberOfPoints());
+  state.counters["points/s"] = points / conversion;
+  state.counters["streamed/s"] = points / streaming;
+  state.counters["ratio"] = conversion / streaming;
+}
+BENCHMARK(convertDensity)
+  ->ArgNames({ "n", "threads" })
+  ->ArgsProduct({ { 128, 256 }, { 1, 2 } })
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+} // namespace
+
+BENCHMARK_MAIN();
