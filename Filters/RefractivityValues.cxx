@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 namespace refractivity
 {
@@ -66,24 +67,41 @@ struct LinearConversion
   template <class Iterator>
   void ConvertBlock(Iterator values, vtkIdType first, vtkIdType count) const
   {
-    const double scale = this->model.scale;
-    const double offset = this->model.offset;
-    Real* out = this->results.out + first;
-    int bad = 0;
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      const Real n = static_cast<Real>(scale * static_cast<double>(values[i]) + offset);
-      out[i] = n;
-      bad |= std::abs(n) <= std::numeric_limits<Real>::max() ? 0 : 1;
-    }
-    if (bad != 0 ||
+    // A product of floats is rounded as little as one that is computed in double and stored as float,
+    // apart from the factor's own rounding, which is the same for all points.
+    using Value = std::decay_t<decltype(values[0])>;
+    const float factor = static_cast<float>(this->model.scale);
+    const bool isInFloats = std::is_same_v<Value, float> && std::is_same_v<Real, float> &&
+      this->model.offset == 0 && std::isnormal(factor);
+    const bool isGood = isInFloats
+      ? this->Store(values, first, count,
+          [factor](auto v) { return static_cast<Real>(factor * static_cast<float>(v)); })
+      : this->Store(values, first, count,
+          [scale = this->model.scale, offset = this->model.offset](auto v)
+          { return static_cast<Real>(scale * static_cast<double>(v) + offset); });
+    if (!isGood ||
       std::memchr(this->results.valid + first, 0, static_cast<std::size_t>(count)) != nullptr)
     {
       for (vtkIdType i = 0; i < count; ++i)
       {
-        this->results.set(first + i, out[i]);
+        this->results.set(first + i, this->results.out[first + i]);
       }
     }
+  }
+
+  /// Whether all refractivities are finite.
+  template <class Iterator, class Convert>
+  bool Store(Iterator values, vtkIdType first, vtkIdType count, const Convert& convert) const
+  {
+    Real* out = this->results.out + first;
+    int bad = 0;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const Real n = convert(values[i]);
+      out[i] = n;
+      bad |= std::abs(n) <= std::numeric_limits<Real>::max() ? 0 : 1;
+    }
+    return bad == 0;
   }
 };
 

@@ -21,8 +21,8 @@
 namespace schlieren
 {
 
-/// In cells. On real flows the next larger size finds up to a third less to skip, while bricks this
-/// small cost 4 % of the medium's memory (Documentation/performance.md).
+/// In cells. Larger ones find clearly less to skip in real flows, and these cost but 4 % of the medium's
+/// memory (Documentation/performance.md).
 constexpr int brickEdge = 4;
 
 template <class Real>

@@ -166,29 +166,6 @@ void traceArguments(benchmark::internal::Benchmark* b)
 }
 BENCHMARK(trace)->Apply(traceArguments)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-/// The medium alone: a picture of one pixel.
-void buildMedium(benchmark::State& state)
-{
-  Scene scene = sceneAcross(1);
-  scene.device = Device::Cpu;
-  scene.threads = static_cast<int>(state.range(1));
-  Field field = column(state.range(0)).field;
-  for (auto _ : state)
-  {
-    field.version += 1000;
-    benchmark::DoNotOptimize(Bench().render(field, scene));
-  }
-  const double voxels = std::pow(static_cast<double>(state.range(0)), 3);
-  state.counters["voxels/s"] =
-    benchmark::Counter(voxels, benchmark::Counter::kIsIterationInvariantRate);
-}
-BENCHMARK(buildMedium)
-  ->ArgNames({ "n", "threads" })
-  ->Args({ 256, 1 })
-  ->Args({ 256, 0 })
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
-
 /// A new knife angle: held rays meet another cutoff, nothing is traced.
 void shadeAgain(benchmark::State& state)
 {
