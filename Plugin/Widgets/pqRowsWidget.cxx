@@ -63,8 +63,8 @@ pqRowsWidget::pqRowsWidget(vtkSMProxy* smproxy, vtkSMPropertyGroup* group,
     newButton("Remove", ":/QtWidgets/Icons/pqMinus.svg", tr("Remove %1").arg(what), this);
   buttons->addWidget(add);
   buttons->addWidget(this->Remove);
-  buttons->addStretch();
   buttons->addWidget(new QLabel(note, this));
+  buttons->addStretch();
   this->Layout->addLayout(buttons);
 
   QObject::connect(add, &QToolButton::clicked, this, &pqRowsWidget::addRow);
