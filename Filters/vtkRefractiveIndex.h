@@ -304,14 +304,14 @@ public:
   /**
    * Points along x, y and z of the grid to which other input than images is resampled. An axis that
    * is 0 is chosen; with all three 0 (the default) as fine along each axis as the cells that a tenth
-   * of all is smaller than, 64^3 to 256^3 points in all but no more than 16 for each point of the
-   * mesh, at least 2 along each axis. Where a limit is met, or other axes are given, voxels have the
-   * proportions of those cells.
+   * of all is smaller than. Limits: 64^3 (2-D data: 64^2) to 256^3 points in all, 32 for each point of
+   * the mesh, at least 2 along each axis. Where that is too much, the tenth grows until it fits. Where
+   * a limit is met all the same, or other axes are given, voxels have the proportions of those cells.
    *
-   * Measured on meshes of 33 x 65 x 33 points, stretched towards a wall along y, with a Gaussian layer of 6
-   * (20) smallest cells there: largest error of the deflection, of its largest value, was 0.02 (0.02)
-   * at 1:10 and 0.09 (0.03) at 1:100. With cubic voxels, as many as points (at least 64^3): 0.45 (0.02)
-   * and 0.57 (0.96).
+   * Measured on meshes of 33 x 65 x 33 points, stretched towards a wall along y, with a Gaussian layer
+   * of 6 (20) smallest cells there: largest error of the deflection, of its largest value, 0.06 (0.03)
+   * at 1:10 and 0.09 (0.03) at 1:100. With cubic voxels, as many as points but at least 64^3: 0.45
+   * (0.02) and 0.57 (0.96).
    */
   vtkSetVector3Macro(SamplingDimensions, int);
   vtkGetVector3Macro(SamplingDimensions, int);
