@@ -132,6 +132,14 @@ void requireFinite(vtkPolyData* triangles)
   }
 }
 
+/// A coordinate in voxels, to 1/4096. Walls often go through points of the grid, but for rounding, which
+/// would leave some of these points inside and others outside; now they all lie on the wall.
+double rounded(double x)
+{
+  constexpr double parts = 4096;
+  return std::round(parts * x) / parts;
+}
+
 /// Polygons, and which of the connected parts each of their points belongs to.
 vtkSmartPointer<vtkPolyData> labelParts(vtkPolyData* triangles)
 {
@@ -185,6 +193,7 @@ std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     labelled->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+    std::transform(points[i].begin(), points[i].end(), points[i].begin(), rounded);
   }
 
   std::array<int, 3> dimensions;

@@ -8,6 +8,7 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCubeSource.h"
+#include "vtkCylinderSource.h"
 #include "vtkLineSource.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiBlockDataSet.h"
@@ -18,8 +19,10 @@
 #include "vtkThreshold.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
+#include "vtkTriangleFilter.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <array>
 #include <limits>
 #include <random>
 
@@ -225,6 +228,44 @@ TEST(Bodies, ABoxOnTheGridKeepsItsVolume)
 {
   const std::vector<bool> solids = solidsOf(uniform(33), box({ 0.5, 0.25, 1 }));
   EXPECT_EQ(std::count(solids.begin(), solids.end(), true), 8 * 4 * 16);
+}
+
+// Walls through points of the grid, but for rounding, are even.
+TEST(Bodies, WallsOnTheGridHaveNoHolesAndNoBumps)
+{
+  vtkNew<vtkCylinderSource> cylinder; // along y
+  cylinder->SetRadius(0.51);
+  cylinder->SetHeight(0.5);
+  cylinder->SetResolution(100);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(cylinder->GetOutputPort());
+  triangles->Update();
+  vtkPoints* points = triangles->GetOutput()->GetPoints();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> rounding(-1e-7, 1e-7);
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    const double* x = points->GetPoint(i);
+    points->SetPoint(i, x[0], x[1] + rounding(random), x[2]);
+  }
+  const auto flow = uniform(33);
+  const std::vector<bool> solids = solidsOf(flow, triangles->GetOutput());
+  std::array<int, 33> layers{};
+  int wholeLayer = 0;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+  {
+    const double* x = flow->GetPoint(static_cast<vtkIdType>(i));
+    const bool isFarFromEdges = std::hypot(x[0], x[2]) < 0.4;
+    layers[i / 33 % 33] += isFarFromEdges && solids[i] ? 1 : 0;
+    wholeLayer += isFarFromEdges && x[1] == 0 ? 1 : 0;
+  }
+  int solidLayers = 0;
+  for (const int count : layers)
+  {
+    solidLayers += count > 0 ? 1 : 0;
+    EXPECT_TRUE(count == 0 || count == wholeLayer) << count;
+  }
+  EXPECT_EQ(solidLayers, 8);
 }
 
 namespace

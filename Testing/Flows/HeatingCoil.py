@@ -33,7 +33,7 @@ schlieren = Schlieren(Input=water, Bodies=coil, IndexModel="Refractivity",
                       AutoAmbientRefractivity=0, AmbientRefractivity=0.331418,
                       SamplingDimensions=[81, 81, 91], SamplesPerPixel=1,
                       ImageSize=[240, 270], ViewDirection=[0, 1, 0], ViewUp=[0, 0, 1],
-                      ParallelScale=1.125)
+                      ParallelScale=1.1)
 x, z = coordinates(schlieren)
 path = picture(schlieren, "OpticalPathDifference") / 0.1
 deflection = picture(schlieren, "Deflection")
