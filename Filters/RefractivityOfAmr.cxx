@@ -599,7 +599,7 @@ Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtk
   gridOf(amr, output);
   vtkNew<vtkDoubleArray> values;
   values->SetArray(grid.values.data(), static_cast<vtkIdType>(grid.values.size()), 1);
-  setArrays(output, { values }, Linear(), newMask(values->GetNumberOfValues()), doublePrecision);
+  setArrays(output, { values }, Linear(), nullptr, doublePrecision);
   return tally;
 }
 

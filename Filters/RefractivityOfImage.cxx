@@ -8,6 +8,7 @@
 
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -126,6 +127,13 @@ void hideCells(vtkImageData* image, vtkUnsignedCharArray* valid)
     });
 }
 
+/// Whether the image may have points or cells that are hidden.
+bool hidesSome(vtkImageData* image)
+{
+  return image->GetPointGhostArray() || image->GetCellGhostArray() ||
+    image->GetPointData()->HasArray(maskName);
+}
+
 } // namespace
 
 void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
@@ -188,12 +196,16 @@ Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* out
 {
   const Leaf& leaf = source.leaves[0];
   gridOfImage(source.image, leaf.ofCells, output);
-  auto valid = newMask(leaf.arrays[0]->GetNumberOfTuples());
-  if (leaf.ofCells)
+  vtkSmartPointer<vtkUnsignedCharArray> valid;
+  if (hidesSome(source.image))
+  {
+    valid = newMask(leaf.arrays[0]->GetNumberOfTuples());
+  }
+  if (valid && leaf.ofCells)
   {
     hideCells(source.image, valid);
   }
-  else
+  else if (valid)
   {
     hidePoints(source.image, valid);
     hidePointsOfHiddenCells(source.image, valid);

@@ -30,6 +30,7 @@ struct Results
 {
   Real* out;
   unsigned char* valid;
+  bool isValidSet; // else all is valid as yet, and `valid` holds anything
   Real invalid;
 
   void set(vtkIdType i, double refractivity) const
@@ -79,8 +80,13 @@ struct LinearConversion
       : this->Store(values, first, count,
           [scale = this->model.scale, offset = this->model.offset](auto v)
           { return static_cast<Real>(scale * static_cast<double>(v) + offset); });
-    if (!isGood ||
-      std::memchr(this->results.valid + first, 0, static_cast<std::size_t>(count)) != nullptr)
+    unsigned char* valid = this->results.valid + first;
+    const auto bytes = static_cast<std::size_t>(count);
+    if (!this->results.isValidSet)
+    {
+      std::memset(valid, 1, bytes);
+    }
+    if (!isGood || (this->results.isValidSet && std::memchr(valid, 0, bytes) != nullptr))
     {
       for (vtkIdType i = 0; i < count; ++i)
       {
@@ -120,6 +126,10 @@ void convertBy(
 template <class Gas, class Real>
 void convertBy(const Gas& model, const Arrays& values, const Results<Real>& results, Tally& tally)
 {
+  if (!results.isValidSet)
+  {
+    std::fill_n(results.valid, values[0]->GetNumberOfTuples(), static_cast<unsigned char>(1));
+  }
   std::atomic<long long> all{ 0 }, doubtful{ 0 };
   vtkSMPTools::For(0, values[0]->GetNumberOfTuples(),
     [&](vtkIdType begin, vtkIdType end)
@@ -147,13 +157,34 @@ void convertBy(const Gas& model, const Arrays& values, const Results<Real>& resu
   tally += { all, doubtful };
 }
 
-} // namespace
-
-vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
+/// A mask that holds anything.
+vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetName(maskName);
   mask->SetNumberOfValues(count);
+  return mask;
+}
+
+template <class Array>
+vtkSmartPointer<Array> convertWith(const Arrays& values, const Model& model,
+  vtkUnsignedCharArray* valid, bool isValidSet, double invalid, Tally& tally)
+{
+  using Real = typename Array::ValueType;
+  auto refractivity = vtkSmartPointer<Array>::New();
+  refractivity->SetName(arrayName);
+  refractivity->SetNumberOfValues(values[0]->GetNumberOfTuples());
+  const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0), isValidSet,
+    static_cast<Real>(invalid) };
+  std::visit([&](const auto& chosen) { convertBy(chosen, values, results, tally); }, model);
+  return refractivity;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
+{
+  auto mask = newUnsetMask(count);
   vtkSMPTools::Fill(
     mask->GetPointer(0), mask->GetPointer(0) + count, static_cast<unsigned char>(1));
   return mask;
@@ -190,14 +221,7 @@ template <class Array>
 vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally)
 {
-  using Real = typename Array::ValueType;
-  auto refractivity = vtkSmartPointer<Array>::New();
-  refractivity->SetName(arrayName);
-  refractivity->SetNumberOfValues(values[0]->GetNumberOfTuples());
-  const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0),
-    static_cast<Real>(invalid) };
-  std::visit([&](const auto& chosen) { convertBy(chosen, values, results, tally); }, model);
-  return refractivity;
+  return convertWith<Array>(values, model, valid, true, invalid, tally);
 }
 
 template vtkSmartPointer<vtkFloatArray> convert(
@@ -209,17 +233,23 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, bool doublePrecision)
 {
   Tally tally;
+  const bool isValidSet = valid != nullptr;
+  vtkSmartPointer<vtkUnsignedCharArray> mask = valid;
+  if (!isValidSet)
+  {
+    mask = newUnsetMask(values[0]->GetNumberOfTuples());
+  }
   vtkSmartPointer<vtkDataArray> refractivity;
   if (doublePrecision)
   {
-    refractivity = convert<vtkDoubleArray>(values, model, valid, 0, tally);
+    refractivity = convertWith<vtkDoubleArray>(values, model, mask, isValidSet, 0, tally);
   }
   else
   {
-    refractivity = convert<vtkFloatArray>(values, model, valid, 0, tally);
+    refractivity = convertWith<vtkFloatArray>(values, model, mask, isValidSet, 0, tally);
   }
   output->GetPointData()->SetScalars(refractivity);
-  output->GetPointData()->AddArray(valid);
+  output->GetPointData()->AddArray(mask);
   return tally;
 }
 

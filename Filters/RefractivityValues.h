@@ -28,7 +28,8 @@ template <class Array>
 vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally);
 
-/// Adds both arrays to `output`, whose points the values and the mask belong to.
+/// Adds both arrays to `output`, whose points the values and the mask belong to. Without a mask all are
+/// valid as yet.
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, bool doublePrecision);
 
