@@ -155,6 +155,7 @@ vtkSmartPointer<vtkPolyData> labelParts(vtkPolyData* triangles)
   label->ColorRegionsOn();
   label->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   label->Update();
+  merge->SetMergingArray(nullptr); // its destructor forgets it
   return label->GetOutput();
 }
 
