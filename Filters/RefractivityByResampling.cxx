@@ -7,6 +7,7 @@
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
+#include "LocalResampler.h"
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
 #include "vtkCellData.h"
@@ -17,7 +18,6 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkResampleToImage.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -373,7 +373,7 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
     blocks->SetBlock(static_cast<unsigned int>(i),
       prepare(plan.leaves[i], plan.flatAxis < 0 ? 3 : 2, source.model, tally));
   }
-  vtkNew<vtkResampleToImage> resampler;
+  vtkNew<LocalResampler> resampler;
   resampler->SetInputDataObject(blocks);
   resampler->SetSamplingDimensions(plan.dimensions[0], plan.dimensions[1], plan.dimensions[2]);
   resampler->Update();

@@ -4,13 +4,13 @@
 
 #include "RefractivityValues.h"
 
+#include "LocalResampler.h"
 #include "vtkCellData.h"
 #include "vtkCellTypes.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkResampleToImage.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
   }
   if (hidden->GetNumberOfBlocks() > 0)
   {
-    vtkNew<vtkResampleToImage> resampler;
+    vtkNew<LocalResampler> resampler;
     resampler->SetInputDataObject(hidden);
     resampler->UseInputBoundsOff();
     resampler->SetSamplingBounds(grid->GetBounds());

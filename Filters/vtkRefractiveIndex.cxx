@@ -5,6 +5,7 @@
 #include "FlatData.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
+#include "Processes.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfAmr.h"
 #include "RefractivityOfBodies.h"
@@ -425,6 +426,18 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
   vtkImageData* output = vtkImageData::GetData(outInfo);
+
+  const ProcessRole role = roleOfProcess();
+  if (role == ProcessRole::Other)
+  {
+    output->Initialize();
+    return 1;
+  }
+  if (role == ProcessRole::First && !this->HasWarnedOfProcesses)
+  {
+    vtkWarningMacro(<< warningOfFirstProcess("refractivity"));
+    this->HasWarnedOfProcesses = true;
+  }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
   const vtkMTimeType now =

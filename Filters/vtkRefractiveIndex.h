@@ -395,6 +395,8 @@ private:
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;
 
+  bool HasWarnedOfProcesses = false;
+
   int IndexModel = GLADSTONE_DALE;
   std::string Gas = "Custom";
   double GladstoneDaleConstant = 2.26e-4;

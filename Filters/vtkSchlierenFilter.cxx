@@ -4,6 +4,7 @@
 
 #include "FieldTints.h"
 #include "InputDescription.h"
+#include "Processes.h"
 
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
@@ -14,7 +15,6 @@
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
@@ -582,22 +582,15 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* output = vtkImageData::GetData(outInfo);
   output->Initialize();
 
-  // One picture, made by the first process, from all that its source gives when asked for everything.
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetNumberOfProcesses() > 1)
+  const ProcessRole role = roleOfProcess();
+  if (role == ProcessRole::Other)
   {
-    if (controller->GetLocalProcessId() > 0)
-    {
-      return 1;
-    }
-    if (!this->HasWarnedOfProcesses)
-    {
-      vtkWarningMacro(
-        << "The first of several processes makes the picture, from all that it is given "
-           "when it asks for the whole data. Data that a filter has distributed are not "
-           "gathered: if a part is missing, use one process.");
-      this->HasWarnedOfProcesses = true;
-    }
+    return 1;
+  }
+  if (role == ProcessRole::First && !this->HasWarnedOfProcesses)
+  {
+    vtkWarningMacro(<< warningOfFirstProcess("picture"));
+    this->HasWarnedOfProcesses = true;
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.

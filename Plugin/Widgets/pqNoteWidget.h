@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pqPropertyWidget.h"
+
+#include "vtkNew.h"
+
+class QLabel;
+class vtkEventQtSlotConnect;
+
+/// Shows what a filter tells in a text property, to be read and copied but not changed: ParaView would
+/// show a line for typing.
+class pqNoteWidget : public pqPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  pqNoteWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+  ~pqNoteWidget() override;
+
+private Q_SLOTS:
+  void showText();
+
+private:
+  QLabel* Label;
+  vtkNew<vtkEventQtSlotConnect> Connection;
+};

@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A filter from the menu: made without a question for its optional input, it tells the grid that it uses."""
+
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+from plugin_testing import picture, simple  # noqa: E402
+from window_testing import FOLDER, Session  # noqa: E402
+
+user = Session()
+user.menu("menuFilters", "Schlieren")
+user.menu("menuFilters/Schlieren", "Schlieren")
+user.check("Grid/Note", "text", "known after Apply")
+user.apply()
+user.check("Grid/Note", "text", "17 x 17 x 17 points: the data's own")
+user.save_state("menu.pvsm")
+user.play("""
+from paraview.simple import *
+Sphere(Radius=3, registrationName="ball").UpdatePipeline()
+flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+SetActiveSource(flow)
+""", seconds=100)
+
+simple.ResetSession()
+simple.LoadState(os.path.join(FOLDER, "menu.pvsm"))
+bench = simple.FindSource("Schlieren1")
+assert bench.Bodies is None and bench.Density == ["POINTS", "RTData"]
+assert np.ptp(picture(bench, "Intensity")) > 0

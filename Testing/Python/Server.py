@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A picture that a server makes, as scripts of its client ask for it and get it. Skipped without pvserver."""
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+
+import numpy as np
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+PLUGIN = os.environ["SCHLIEREN_PLUGIN"]
+
+
+def bench():
+    """Two fields, one through a curve, with a ball in them."""
+    wavelet = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    fields = simple.Calculator(Input=wavelet, Function="coordsX", ResultArrayName="x")
+    fields.UpdatePipeline()
+    curve = simple.CreatePiecewiseFunction(Points=[0, 1, 0.5, 0, 0.5, 0, 0.5, 0, 1, 1, 0.5, 0])
+    line = simple.CreatePiecewiseFunction(Points=[0, 0, 0.5, 0, 1, 1, 0.5, 0])
+    return simple.Schlieren(Input=fields, Bodies=simple.Sphere(Radius=3), IndexModel="Transfer Functions",
+                            Fields=["RTData", "x"], TransferFunctions=[curve, line], ImageSize=[32, 32])
+
+
+def arrays():
+    picture = servermanager.Fetch(bench()).GetPointData()
+    names = ("Intensity", "Deflection", "OpticalPathDifference", "BlockedFraction")
+    return {name: vtk_to_numpy(picture.GetArray(name)).copy() for name in names}
+
+
+pvserver = shutil.which("pvserver")
+if not pvserver:
+    print("Skipped: there is no pvserver.")
+    sys.exit(77)
+simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))
+here = arrays()
+simple.Disconnect()
+
+with socket.socket() as free:
+    free.bind(("localhost", 0))
+    port = free.getsockname()[1]
+# It tries until this process listens, and ends when this process does.
+server = subprocess.Popen([pvserver, "--reverse-connection", "--client-host=localhost",
+                           f"--server-port={port}", "--force-offscreen-rendering"])
+try:
+    simple.ReverseConnect(str(port))
+    assert servermanager.ActiveConnection.IsRemote()
+    simple.LoadPlugin(PLUGIN, remote=True, ns=vars(simple))
+    there = arrays()
+except BaseException:
+    server.kill()
+    raise
+for name, values in here.items():
+    assert np.array_equal(values, there[name]), name
+assert np.ptp(here["Intensity"]) > 0.5 and here["BlockedFraction"].max() == 1
