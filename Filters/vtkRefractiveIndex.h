@@ -48,10 +48,16 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for TransferFunctions
 
+#include <memory> // for Search
 #include <string> // for std::string
 #include <vector> // for std::vector
 
 class vtkPiecewiseFunction;
+
+namespace refractivity
+{
+struct MeshSearch;
+}
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -371,6 +377,21 @@ public:
   VTK_WRAPEXCLUDE std::string Convert(
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
 
+  ///@{
+  /**
+   * Where a grid's points lie in a mesh is kept for the next conversion, 16 bytes for each point (17 where
+   * OutsideBlocksLight is off), if the mesh (points, cells, which of them are hidden, and the grid) is the
+   * same as in the conversion before; not for more than 2^26 points. A conversion with another mesh frees it.
+   * Where it is known that more conversions follow, KeepMeshSearch keeps it at once, and
+   * DropMeshSearch frees it then, unless this filter itself has converted the mesh twice in a row.
+   * Filters may share what one of them keeps. GetMeshSearches() counts the searches of all that share.
+   */
+  VTK_WRAPEXCLUDE void KeepMeshSearch();
+  VTK_WRAPEXCLUDE void DropMeshSearch();
+  VTK_WRAPEXCLUDE void ShareMeshSearch(vtkRefractiveIndex* owner);
+  vtkTypeInt64 GetMeshSearches();
+  ///@}
+
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -391,6 +412,9 @@ private:
 
   /// Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
+
+  std::shared_ptr<refractivity::MeshSearch> Search;
+  bool IsSearchShared = false; // by another filter, whose it is
 
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;
