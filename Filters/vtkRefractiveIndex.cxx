@@ -318,10 +318,12 @@ std::string vtkRefractiveIndex::Convert(
       }
       if (source.image)
       {
+        this->Search->release();
         tally = convertImage(source, this->DoublePrecision, output);
       }
       else if (const auto amr = planAmr(source, this->SamplingDimensions))
       {
+        this->Search->release();
         note = amr->note;
         tally = convertAmr(*amr, source, this->DoublePrecision, output);
         if (!this->OutsideBlocksLight)

@@ -16,10 +16,11 @@
  * coordinate axis are extruded along it, half a unit to each side, with a warning. Blocks of images that hold
  * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
  * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
- * resampled to a grid (see SamplingDimensions) with vtkResampleToImage, cell arrays after
- * vtkCellDataToPointData. Only cells with a volume count: surfaces in a composite are left out, and
- * so are blocks that lack an array. Where several arrays are needed, all of them belong to points or
- * all to cells; the refractivity is formed there, before anything is resampled.
+ * resampled to a grid (see SamplingDimensions): each of its points takes the value that the first cell
+ * which holds it interpolates there, cell arrays after vtkCellDataToPointData. Only cells with a volume
+ * count: surfaces in a composite are left out, and so are blocks that lack an array. Where several
+ * arrays are needed, all of them belong to points or all to cells; the refractivity is formed there,
+ * before anything is resampled.
  *
  * Invalid (mask 0) are NaN and infinite values, states that no gas can have (T <= 0), hidden points and cells (vtkGhostType), points whose
  * `vtkValidPointMask` in the input is 0, and places that no cell covers. On images, a point is
@@ -355,8 +356,7 @@ public:
   ///@{
   /**
    * Threads for conversion and resampling; 0 (the default): VTK_SMP_MAX_THREADS where that is set,
-   * else all cores. The result does not depend on it, but for rounding in points that several cells
-   * of a mesh share; so setting it does not call Modified().
+   * else all cores. The result does not depend on it; so setting it does not call Modified().
    */
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = threads < 0 ? 0 : threads; }
   vtkGetMacro(NumberOfThreads, int);
