@@ -97,6 +97,10 @@ std::vector<float> fieldGradients(
   refractivity::fieldMeanFrom(medium); // whether its lists belong together
   const schlieren::Grid grid = gridFrom(refractivity);
   const std::size_t count = medium->GetFields().size();
+  if (count > 1)
+  {
+    medium->KeepMeshSearch();
+  }
   std::vector<float> gradients(
     count * static_cast<std::size_t>(refractivity->GetNumberOfPoints()), 0);
   for (std::size_t field = 0; field < count; ++field)
@@ -105,6 +109,7 @@ std::vector<float> fieldGradients(
     chooseField(reader, medium, field);
     reader->SetSamplingDimensions(refractivity->GetDimensions());
     reader->SetNumberOfThreads(threads);
+    reader->ShareMeshSearch(medium);
     vtkNew<vtkImageData> values;
     reader->Convert(input, values);
     if (!isSameGrid(grid, gridFrom(values)))
@@ -116,6 +121,7 @@ std::vector<float> fieldGradients(
       vtkUnsignedCharArray::SafeDownCast(values->GetPointData()->GetArray(maskName))->GetPointer(0),
       threads, static_cast<int>(count), static_cast<int>(field), gradients.data());
   }
+  medium->DropMeshSearch();
   return gradients;
 }
 

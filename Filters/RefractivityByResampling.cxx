@@ -7,7 +7,6 @@
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
-#include "LocalResampler.h"
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
 #include "vtkCellData.h"
@@ -15,9 +14,9 @@
 #include "vtkCellTypes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -269,6 +268,22 @@ vtkSmartPointer<vtkDataSet> prepare(
   return withoutPolyhedra(prepared);
 }
 
+/// Makes `structure` the grid of the plan before it is extruded.
+void setPoints(const Resampling& plan, vtkImageData* structure)
+{
+  const double* bounds = plan.bounds;
+  double spacing[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    spacing[axis] =
+      (bounds[2 * axis + 1] - bounds[2 * axis]) / std::max(1, plan.dimensions[axis] - 1);
+  }
+  structure->Initialize();
+  structure->SetDimensions(plan.dimensions.data());
+  structure->SetOrigin(bounds[0], bounds[2], bounds[4]);
+  structure->SetSpacing(spacing);
+}
+
 } // namespace
 
 std::array<int, 3> requireDimensions(const int samplingDimensions[3])
@@ -346,17 +361,7 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 
 void gridOf(const Resampling& plan, vtkImageData* structure)
 {
-  const double* bounds = plan.bounds;
-  double spacing[3];
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    spacing[axis] =
-      (bounds[2 * axis + 1] - bounds[2 * axis]) / std::max(1, plan.dimensions[axis] - 1);
-  }
-  structure->Initialize();
-  structure->SetDimensions(plan.dimensions.data());
-  structure->SetOrigin(bounds[0], bounds[2], bounds[4]);
-  structure->SetSpacing(spacing);
+  setPoints(plan, structure);
   if (plan.flatAxis >= 0)
   {
     extrudeGrid(structure, plan.flatAxis);
@@ -364,32 +369,38 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
 }
 
 Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
-  bool outsideBlocksLight, vtkImageData* output)
+  bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
 {
   Tally tally;
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  for (std::size_t i = 0; i < plan.leaves.size(); ++i)
+  std::vector<vtkSmartPointer<vtkDataSet>> prepared;
+  std::vector<vtkDataSet*> leaves;
+  for (const Leaf& leaf : plan.leaves)
   {
-    blocks->SetBlock(static_cast<unsigned int>(i),
-      prepare(plan.leaves[i], plan.flatAxis < 0 ? 3 : 2, source.model, tally));
+    prepared.push_back(prepare(leaf, plan.flatAxis < 0 ? 3 : 2, source.model, tally));
+    leaves.push_back(prepared.back());
   }
-  vtkNew<LocalResampler> resampler;
-  resampler->SetInputDataObject(blocks);
-  resampler->SetSamplingDimensions(plan.dimensions[0], plan.dimensions[1], plan.dimensions[2]);
-  resampler->Update();
-
-  vtkImageData* sampled = resampler->GetOutput();
-  vtkDataArray* values = sampled->GetPointData()->GetArray(arrayName);
-  if (!values)
-  {
-    throw std::runtime_error(
-      "Resampling the " + source.label + " to a grid found no data. Check the input's cells.");
-  }
-  output->CopyStructure(sampled);
+  setPoints(plan, output);
+  vtkNew<vtkDoubleArray> values;
+  values->SetNumberOfValues(output->GetNumberOfPoints());
   auto valid = newMask(output->GetNumberOfPoints());
-  hidePoints(sampled, valid);
-  const auto outside =
-    outsideBlocksLight ? nullptr : outsideOf(blocks, plan.flatAxis < 0 ? 3 : 2, output, valid);
+  const double share = outsideBlocksLight ? 1 : 0.5; // of the search for visible cells
+  if (!sampleMeshes(
+        leaves, output, plan.flatAxis, search, [&](double done) { return progress(share * done); },
+        values, valid))
+  {
+    return tally;
+  }
+  vtkSmartPointer<vtkUnsignedCharArray> outside;
+  if (!outsideBlocksLight)
+  {
+    outside = outsideOf(
+      leaves, output, plan.flatAxis, search,
+      [&](double done) { return progress(share + (1 - share) * done); }, valid);
+    if (!outside)
+    {
+      return tally;
+    }
+  }
   setArrays(output, { values }, Linear(), valid, doublePrecision);
   if (outside)
   {

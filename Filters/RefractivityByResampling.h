@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "MeshSearch.h"
 #include "RefractivitySource.h"
 
 #include <array>
@@ -37,8 +38,9 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 void gridOf(const Resampling& plan, vtkImageData* structure);
 
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
-/// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight.
+/// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight. Where `progress` says to stop,
+/// the output has no arrays.
 Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
-  bool outsideBlocksLight, vtkImageData* output);
+  bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output);
 
 } // namespace refractivity

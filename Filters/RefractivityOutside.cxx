@@ -4,12 +4,7 @@
 
 #include "RefractivityValues.h"
 
-#include "LocalResampler.h"
-#include "vtkCellData.h"
-#include "vtkCellTypes.h"
 #include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -23,37 +18,6 @@ namespace refractivity
 namespace
 {
 
-bool isHidden(vtkDataSet* data, vtkIdType cell, int dimension)
-{
-  return (data->GetCellGhostArray()->GetValue(cell) & hiddenCellBits) != 0 &&
-    vtkCellTypes::GetDimension(static_cast<unsigned char>(data->GetCellType(cell))) == dimension;
-}
-
-/// A copy of which only the hidden cells of this dimension are visible; null where there are none.
-vtkSmartPointer<vtkDataSet> onlyHiddenOf(vtkDataSet* data, int dimension)
-{
-  const vtkIdType cells = data->GetNumberOfCells();
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(cells);
-  bool hasSome = false;
-  for (vtkIdType i = 0; i < cells; ++i)
-  {
-    const bool hidden = isHidden(data, i, dimension);
-    ghosts->SetValue(i, hidden ? 0 : vtkDataSetAttributes::HIDDENCELL);
-    hasSome = hasSome || hidden;
-  }
-  if (!hasSome)
-  {
-    return nullptr;
-  }
-  auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
-  copy->CopyStructure(data);
-  copy->GetPointData()->ShallowCopy(data->GetPointData()); // the sampler wants an array
-  copy->GetCellData()->AddArray(ghosts);
-  return copy;
-}
-
 vtkSmartPointer<vtkUnsignedCharArray> newOutside(vtkIdType count)
 {
   auto outside = newMask(count);
@@ -62,40 +26,6 @@ vtkSmartPointer<vtkUnsignedCharArray> newOutside(vtkIdType count)
 }
 
 } // namespace
-
-vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
-  vtkMultiBlockDataSet* blocks, int dimension, vtkImageData* grid, vtkUnsignedCharArray* visible)
-{
-  auto outside = newOutside(grid->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
-  {
-    outside->SetValue(i, visible->GetValue(i) ? 0 : 1);
-  }
-  vtkNew<vtkMultiBlockDataSet> hidden;
-  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
-  {
-    if (const auto some = onlyHiddenOf(vtkDataSet::SafeDownCast(blocks->GetBlock(i)), dimension))
-    {
-      hidden->SetBlock(hidden->GetNumberOfBlocks(), some);
-    }
-  }
-  if (hidden->GetNumberOfBlocks() > 0)
-  {
-    vtkNew<LocalResampler> resampler;
-    resampler->SetInputDataObject(hidden);
-    resampler->UseInputBoundsOff();
-    resampler->SetSamplingBounds(grid->GetBounds());
-    resampler->SetSamplingDimensions(grid->GetDimensions());
-    resampler->Update();
-    auto covered = newMask(grid->GetNumberOfPoints());
-    hidePoints(resampler->GetOutput(), covered);
-    for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
-    {
-      outside->SetValue(i, covered->GetValue(i) ? 0 : outside->GetValue(i));
-    }
-  }
-  return outside;
-}
 
 vtkSmartPointer<vtkUnsignedCharArray> outsideOfBoxes(
   const std::vector<Leaf>& leaves, vtkImageData* grid)

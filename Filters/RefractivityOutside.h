@@ -10,17 +10,11 @@
 
 class vtkDataSet;
 class vtkImageData;
-class vtkMultiBlockDataSet;
 class vtkUnsignedCharArray;
 
 /// The places that have no gas and still let light pass, see vtkRefractiveIndex::OutsideBlocksLight.
 namespace refractivity
 {
-
-/// Which points of a grid lie outside of all cells of this dimension. The leaves of `blocks` have cell ghost
-/// arrays that hide some cells; `visible` tells (not 0) which points lie in the others.
-vtkSmartPointer<vtkUnsignedCharArray> outsideOf(
-  vtkMultiBlockDataSet* blocks, int dimension, vtkImageData* grid, vtkUnsignedCharArray* visible);
 
 /// Which points of a grid lie in the box of no leaf, where leaves fill their boxes. One without length
 /// along an axis holds all of it.

@@ -5,6 +5,7 @@
 #include "FlatData.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
+#include "MeshSearch.h"
 #include "Processes.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfAmr.h"
@@ -71,7 +72,34 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkRefractiveIndex::vtkRefractiveIndex() { this->SetNumberOfInputPorts(2); }
+vtkRefractiveIndex::vtkRefractiveIndex()
+  : Search(std::make_shared<MeshSearch>())
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::KeepMeshSearch() { this->Search->isNeededAgain = true; }
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::DropMeshSearch()
+{
+  this->Search->isNeededAgain = false;
+  if (!this->Search->isSeries)
+  {
+    this->Search->release();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ShareMeshSearch(vtkRefractiveIndex* owner)
+{
+  this->Search = owner->Search;
+  this->IsSearchShared = true;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractiveIndex::GetMeshSearches() { return this->Search->count; }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
@@ -291,10 +319,12 @@ std::string vtkRefractiveIndex::Convert(
       }
       if (source.image)
       {
+        this->Search->release();
         tally = convertImage(source, this->DoublePrecision, output);
       }
       else if (const auto amr = planAmr(source, this->SamplingDimensions))
       {
+        this->Search->release();
         note = amr->note;
         tally = convertAmr(*amr, source, this->DoublePrecision, output);
         if (!this->OutsideBlocksLight)
@@ -306,10 +336,27 @@ std::string vtkRefractiveIndex::Convert(
       {
         const Resampling plan = planResampling(source, this->SamplingDimensions);
         note = plan.note;
-        tally = resample(plan, source, this->DoublePrecision, this->OutsideBlocksLight, output);
+        const bool wasSeries = this->Search->isSeries;
+        tally = resample(
+          plan, source, this->DoublePrecision, this->OutsideBlocksLight, *this->Search,
+          [this](double done)
+          {
+            this->UpdateProgress(0.05 + 0.95 * done);
+            return !this->GetAbortExecute();
+          },
+          output);
+        if (this->IsSearchShared)
+        {
+          this->Search->isSeries = wasSeries;
+        }
       }
     });
 
+  if (this->GetAbortExecute())
+  {
+    output->Initialize();
+    return "";
+  }
   const unsigned char* valid =
     vtkUnsignedCharArray::SafeDownCast(output->GetPointData()->GetArray(maskName))->GetPointer(0);
   const auto hasGas = [&]

@@ -16,10 +16,11 @@
  * coordinate axis are extruded along it, half a unit to each side, with a warning. Blocks of images that hold
  * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
  * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
- * resampled to a grid (see SamplingDimensions) with vtkResampleToImage, cell arrays after
- * vtkCellDataToPointData. Only cells with a volume count: surfaces in a composite are left out, and
- * so are blocks that lack an array. Where several arrays are needed, all of them belong to points or
- * all to cells; the refractivity is formed there, before anything is resampled.
+ * resampled to a grid (see SamplingDimensions): each of its points takes the value that the first cell
+ * which holds it interpolates there, cell arrays after vtkCellDataToPointData. Only cells with a volume
+ * count: surfaces in a composite are left out, and so are blocks that lack an array. Where several
+ * arrays are needed, all of them belong to points or all to cells; the refractivity is formed there,
+ * before anything is resampled.
  *
  * Invalid (mask 0) are NaN and infinite values, states that no gas can have (T <= 0), hidden points and cells (vtkGhostType), points whose
  * `vtkValidPointMask` in the input is 0, and places that no cell covers. On images, a point is
@@ -48,10 +49,16 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for TransferFunctions
 
+#include <memory> // for Search
 #include <string> // for std::string
 #include <vector> // for std::vector
 
 class vtkPiecewiseFunction;
+
+namespace refractivity
+{
+struct MeshSearch;
+}
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -349,8 +356,7 @@ public:
   ///@{
   /**
    * Threads for conversion and resampling; 0 (the default): VTK_SMP_MAX_THREADS where that is set,
-   * else all cores. The result does not depend on it, but for rounding in points that several cells
-   * of a mesh share; so setting it does not call Modified().
+   * else all cores. The result does not depend on it; so setting it does not call Modified().
    */
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = threads < 0 ? 0 : threads; }
   vtkGetMacro(NumberOfThreads, int);
@@ -370,6 +376,21 @@ public:
    */
   VTK_WRAPEXCLUDE std::string Convert(
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
+
+  ///@{
+  /**
+   * Where a grid's points lie in a mesh is kept for the next conversion, 16 bytes for each point (17 where
+   * OutsideBlocksLight is off), if the mesh (points, cells, which of them are hidden, and the grid) is the
+   * same as in the conversion before; not for more than 2^26 points. A conversion with another mesh frees it.
+   * Where it is known that more conversions follow, KeepMeshSearch keeps it at once, and
+   * DropMeshSearch frees it then, unless this filter itself has converted the mesh twice in a row.
+   * Filters may share what one of them keeps. GetMeshSearches() counts the searches of all that share.
+   */
+  VTK_WRAPEXCLUDE void KeepMeshSearch();
+  VTK_WRAPEXCLUDE void DropMeshSearch();
+  VTK_WRAPEXCLUDE void ShareMeshSearch(vtkRefractiveIndex* owner);
+  vtkTypeInt64 GetMeshSearches();
+  ///@}
 
   vtkMTimeType GetMTime() override;
 
@@ -391,6 +412,9 @@ private:
 
   /// Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
+
+  std::shared_ptr<refractivity::MeshSearch> Search;
+  bool IsSearchShared = false; // by another filter, whose it is
 
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;

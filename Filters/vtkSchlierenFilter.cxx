@@ -357,6 +357,9 @@ vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMeshSearches(); }
+
+//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
 {
   return std::max(this->Superclass::GetMTime(), this->Medium->GetMTime());
@@ -418,6 +421,10 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.FieldGradients.clear();
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
+  if (this->ColorByField)
+  {
+    this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
+  }
   const std::string warning = this->Medium->Convert(input, inside.Refractivity, bodies);
   if (this->Medium->GetAbortExecute())
   {

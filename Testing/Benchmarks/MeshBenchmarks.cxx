@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes to refractivity on a grid: the first conversion, which searches the cells that hold the grid's
+// points; the third, which has kept them; and vtkResampleToImage, on the same mesh and in turns with the
+// others, so that all meet the same machine. The least times of all turns.
+#include "vtkCellType.h"
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRefractiveIndex.h"
+#include "vtkResampleToImage.h"
+#include "vtkSMPTools.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace
+{
+
+using Mesh = vtkSmartPointer<vtkDataSet>;
+
+vtkSmartPointer<vtkImageData> cube(int points)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(points, points, points);
+  image->SetSpacing(1. / (points - 1), 1. / (points - 1), 1. / (points - 1));
+  return image;
+}
+
+/// n^3 hexahedra, parallelepipeds or moved so that they are none.
+vtkSmartPointer<vtkUnstructuredGrid> hexahedra(int n, bool isDistorted)
+{
+  const auto image = cube(n + 1);
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    image->GetPoint(i, x);
+    const double move = isDistorted ? 0.3 / n * std::sin(37. * static_cast<double>(i)) : 0;
+    points->InsertNextPoint(x[0] + move * x[0] * (1 - x[0]), x[1] + move * x[1] * (1 - x[1]),
+      x[2] + move * x[2] * (1 - x[2]));
+  }
+  mesh->SetPoints(points);
+  mesh->Allocate(image->GetNumberOfCells());
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
+  {
+    image->GetCellPoints(i, ids);
+    std::swap(*ids->GetPointer(2), *ids->GetPointer(3)); // a voxel's to a hexahedron's order
+    std::swap(*ids->GetPointer(6), *ids->GetPointer(7));
+    mesh->InsertNextCell(VTK_HEXAHEDRON, ids);
+  }
+  return mesh;
+}
+
+Mesh tetrahedra(int n)
+{
+  vtkNew<vtkDataSetTriangleFilter> cut;
+  cut->SetInputData(cube(n + 1));
+  cut->Update();
+  return cut->GetOutput();
+}
+
+Mesh cubicHexahedra()
+{
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(SCHLIEREN_TEST_DATA "/blob_lagrange_hex.vtu");
+  reader->Update();
+  return reader->GetOutput();
+}
+
+double secondsOf(const std::function<void()>& work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The largest difference of points that both have, relative to the largest value; -1 where one has more.
+double difference(vtkImageData* ours, vtkImageData* other)
+{
+  vtkDataArray* a = ours->GetPointData()->GetArray("Refractivity");
+  vtkDataArray* b = other->GetPointData()->GetArray("N");
+  vtkDataArray* inA = ours->GetPointData()->GetArray("vtkValidPointMask");
+  vtkDataArray* inB = other->GetPointData()->GetArray("vtkValidPointMask");
+  double worst = 0, most = 0;
+  for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+  {
+    if (inA->GetComponent(i, 0) != 0 && inB->GetComponent(i, 0) != 0)
+    {
+      worst = std::max(worst, std::abs(a->GetComponent(i, 0) - b->GetComponent(i, 0)));
+      most = std::max(most, std::abs(b->GetComponent(i, 0)));
+    }
+  }
+  return worst / most;
+}
+
+/// Arguments: grid points per axis, threads.
+void sample(benchmark::State& state, const std::function<Mesh()>& make)
+{
+  const int n = static_cast<int>(state.range(0));
+  const Mesh mesh = make();
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("N");
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    const double* x = mesh->GetPoint(i);
+    values->InsertNextValue(3e-4 * std::exp(-10 * (x[0] * x[0] + x[1] * x[1])) + 1e-5 * x[2]);
+  }
+  mesh->GetPointData()->Initialize();
+  mesh->GetPointData()->AddArray(values);
+
+  const auto convert = [&](vtkRefractiveIndex* filter, vtkImageData* output)
+  {
+    filter->SetNumberOfThreads(static_cast<int>(state.range(1)));
+    filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+    filter->SetInputArrayToProcess(
+      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+    filter->SetSamplingDimensions(n, n, n);
+    filter->SetDoublePrecision(true);
+    filter->Convert(mesh, output);
+  };
+  vtkNew<vtkRefractiveIndex> kept;
+  vtkNew<vtkImageData> output;
+  kept->KeepMeshSearch();
+  convert(kept, output);
+  double first = 1e30, next = 1e30, vtk = 1e30;
+  vtkNew<vtkResampleToImage> resampler;
+  resampler->SetInputDataObject(mesh);
+  resampler->SetSamplingDimensions(n, n, n);
+  const vtkSMPTools::Config threads(static_cast<int>(state.range(1)), "STDThread", false);
+  for (auto _ : state)
+  {
+    vtkNew<vtkRefractiveIndex> fresh;
+    first = std::min(first, secondsOf([&] { convert(fresh, output); }));
+    next = std::min(next, secondsOf([&] { convert(kept, output); }));
+    resampler->Modified();
+    vtkSMPTools::LocalScope(
+      threads, [&] { vtk = std::min(vtk, secondsOf([&] { resampler->Update(); })); });
+  }
+  if (kept->GetMeshSearches() != 1)
+  {
+    throw std::logic_error("The search was not kept.");
+  }
+  state.counters["first/s"] = first;
+  state.counters["next/s"] = next;
+  state.counters["vtk/s"] = vtk;
+  state.counters["difference"] = difference(output, resampler->GetOutput());
+}
+
+BENCHMARK_CAPTURE(sample, tetrahedra_1080000, [] { return tetrahedra(60); })
+  ->ArgNames({ "n", "threads" })
+  ->ArgsProduct({ { 121 }, { 1, 2 } })
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sample, parallelepipeds_262144, [] { return hexahedra(64, false); })
+  ->ArgNames({ "n", "threads" })
+  ->ArgsProduct({ { 129 }, { 1, 2 } })
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sample, hexahedra_262144, [] { return hexahedra(64, true); })
+  ->ArgNames({ "n", "threads" })
+  ->ArgsProduct({ { 129 }, { 1, 2 } })
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sample, cubicHexahedra, cubicHexahedra)
+  ->ArgNames({ "n", "threads" })
+  ->ArgsProduct({ { 65 }, { 1, 2 } })
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
+
+} // namespace

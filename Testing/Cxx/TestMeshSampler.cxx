@@ -1,0 +1,584 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a mesh becomes on a grid. Isoparametric cells interpolate linear fields exactly, however their points
+// are moved: that is the truth here.
+#include "Fixtures.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellType.h"
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPoints.h"
+#include "vtkResampleToImage.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+namespace
+{
+
+using Mesh = vtkSmartPointer<vtkUnstructuredGrid>;
+
+double linear(const Vec& x) { return 1e-4 * (2 + x[0] - 0.5 * x[1] + 0.25 * x[2]); }
+
+/// Moves what is inside the unit cube around, and leaves its faces in their planes.
+Vec moved(const Vec& x, double by)
+{
+  Vec y = x;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    y[axis] += by * x[axis] * (1 - x[axis]) *
+      std::sin(5 * x[0] + 7 * x[1] * x[1] + 3 * x[2] + static_cast<double>(axis));
+  }
+  return y;
+}
+
+/// n^3 cells in the unit cube (n^2 in its face z = 0). Each has its points at `corners` of a unit cell.
+Mesh meshOf(int type, int n, const std::vector<std::vector<Vec>>& cells, double by, bool isFlat)
+{
+  auto mesh = Mesh::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::vector<Vec> known; // by place, so that neighbours share points
+  for (int k = 0; k < (isFlat ? 1 : n); ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        for (const std::vector<Vec>& corners : cells)
+        {
+          vtkNew<vtkIdList> ids;
+          for (const Vec& corner : corners)
+          {
+            const Vec at = { (i + corner[0]) / n, (j + corner[1]) / n, (k + corner[2]) / n };
+            std::size_t id = 0;
+            while (id < known.size() &&
+              std::abs(known[id][0] - at[0]) + std::abs(known[id][1] - at[1]) +
+                  std::abs(known[id][2] - at[2]) >
+                1e-9)
+            {
+              ++id;
+            }
+            if (id == known.size())
+            {
+              known.push_back(at);
+              Vec x = moved(at, by);
+              x[2] = isFlat ? 0 : x[2];
+              points->InsertNextPoint(x.data());
+            }
+            ids->InsertNextId(static_cast<vtkIdType>(id));
+          }
+          mesh->InsertNextCell(type, ids);
+        }
+      }
+    }
+  }
+  mesh->SetPoints(points);
+  addPointArray(mesh, "N", linear);
+  return mesh;
+}
+
+/// VTK's own unit cell of a type, of `count` points where these give its order.
+std::vector<Vec> unitCell(int type, int count)
+{
+  vtkNew<vtkUnstructuredGrid> one;
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    points->SetPoint(i, 0, 0, 0);
+    ids->InsertNextId(i);
+  }
+  one->SetPoints(points);
+  one->InsertNextCell(type, ids);
+  vtkNew<vtkGenericCell> cell;
+  one->GetCell(0, cell);
+  const double* places = cell->GetParametricCoords();
+  std::vector<Vec> corners;
+  for (int i = 0; i < count; ++i)
+  {
+    corners.push_back({ places[3 * i], places[3 * i + 1], places[3 * i + 2] });
+  }
+  return corners;
+}
+
+/// A box cut into cells that are images of the unit cell, each by its corners: origin and three edges' ends.
+std::vector<std::vector<Vec>> cut(
+  const std::vector<Vec>& unitCorners, const std::vector<std::array<Vec, 4>>& frames)
+{
+  std::vector<std::vector<Vec>> cells;
+  for (const std::array<Vec, 4>& frame : frames)
+  {
+    cells.emplace_back();
+    for (const Vec& p : unitCorners)
+    {
+      Vec x = frame[0];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        for (std::size_t edge = 0; edge < 3; ++edge)
+        {
+          x[axis] += p[edge] * (frame[edge + 1][axis] - frame[0][axis]);
+        }
+      }
+      cells.back().push_back(x);
+    }
+  }
+  return cells;
+}
+
+using Frames = std::vector<std::array<Vec, 4>>;
+const Frames boxes = { { Vec{ 0, 0, 0 }, Vec{ 1, 0, 0 }, Vec{ 0, 1, 0 }, Vec{ 0, 0, 1 } } };
+const Frames prisms = { boxes[0],
+  { Vec{ 1, 1, 0 }, Vec{ 0, 1, 0 }, Vec{ 1, 0, 0 }, Vec{ 1, 1, 1 } } };
+const Frames kuhn = []
+{
+  Frames frames;
+  std::array<std::size_t, 3> order = { 0, 1, 2 };
+  do
+  {
+    std::array<Vec, 4> frame = { Vec{ 0, 0, 0 }, Vec{}, Vec{}, Vec{ 1, 1, 1 } };
+    frame[1][order[0]] = 1;
+    frame[2] = frame[1];
+    frame[2][order[1]] = 1;
+    frames.push_back(frame);
+  } while (std::next_permutation(order.begin(), order.end()));
+  return frames;
+}();
+
+vtkSmartPointer<vtkRefractiveIndex> reader(int n = 21, int threads = 2)
+{
+  auto filter = vtkSmartPointer<vtkRefractiveIndex>::New();
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  filter->SetSamplingDimensions(n, n, n);
+  filter->SetDoublePrecision(true);
+  filter->SetNumberOfThreads(threads);
+  return filter;
+}
+
+struct Sampled
+{
+  std::vector<double> values, valid;
+  vtkSmartPointer<vtkImageData> image = vtkSmartPointer<vtkImageData>::New();
+};
+
+Sampled sampled(vtkRefractiveIndex* filter, vtkDataObject* mesh)
+{
+  Sampled result;
+  filter->Convert(mesh, result.image);
+  for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+  {
+    vtkPointData* arrays = result.image->GetPointData();
+    result.values.push_back(arrays->GetArray("Refractivity")->GetComponent(i, 0));
+    result.valid.push_back(arrays->GetArray("vtkValidPointMask")->GetComponent(i, 0));
+  }
+  return result;
+}
+
+/// The largest error where a linear field is sampled in all of its box, relative to the largest value.
+double errorOf(const Sampled& result)
+{
+  double error = 0;
+  int holes = 0;
+  for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    result.image->GetPoint(i, x.data());
+    const auto at = static_cast<std::size_t>(i);
+    if (result.valid[at] == 0)
+    {
+      ++holes;
+    }
+    else
+    {
+      error = std::max(error, std::abs(result.values[at] - linear(x)));
+    }
+  }
+  EXPECT_EQ(holes, 0);
+  return error / 3.25e-4;
+}
+
+struct Kind
+{
+  std::string name;
+  int type;
+  int count;
+  const Frames* frames;
+  bool isFlat = false;
+};
+
+class MeshCells : public testing::TestWithParam<Kind>
+{
+};
+
+} // namespace
+
+// Straight and moved; on a grid that has points on faces, edges and corners of the straight cells.
+TEST_P(MeshCells, InterpolateLinearFieldsExactlyAndLeaveNoHoles)
+{
+  const Kind& kind = GetParam();
+  for (const double by : { 0., 0.1 })
+  {
+    const auto cells = cut(unitCell(kind.type, kind.count), *kind.frames);
+    const Mesh mesh = meshOf(kind.type, 2, cells, by, kind.isFlat);
+    if (kind.isFlat)
+    {
+      auto filter = reader();
+      filter->SetSamplingDimensions(21, 21, 0);
+      const Sampled result = sampled(filter, mesh);
+      double error = 0;
+      for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+      {
+        Vec x;
+        result.image->GetPoint(i, x.data());
+        x[2] = 0;
+        ASSERT_EQ(result.valid[static_cast<std::size_t>(i)], 1);
+        error = std::max(error, std::abs(result.values[static_cast<std::size_t>(i)] - linear(x)));
+      }
+      EXPECT_LT(error, 1e-7 * 3e-4) << by;
+    }
+    else
+    {
+      EXPECT_LT(errorOf(sampled(reader(), mesh)), 1e-7) << by;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, MeshCells,
+  testing::Values(Kind{ "Tetrahedra", VTK_TETRA, 4, &kuhn },
+    Kind{ "Hexahedra", VTK_HEXAHEDRON, 8, &boxes }, Kind{ "Wedges", VTK_WEDGE, 6, &prisms },
+    Kind{ "QuadraticTetrahedra", VTK_QUADRATIC_TETRA, 10, &kuhn },
+    Kind{ "QuadraticHexahedra", VTK_QUADRATIC_HEXAHEDRON, 20, &boxes },
+    Kind{ "TriquadraticHexahedra", VTK_TRIQUADRATIC_HEXAHEDRON, 27, &boxes },
+    Kind{ "BiquadraticHexahedra", VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 24, &boxes },
+    Kind{ "QuadraticWedges", VTK_QUADRATIC_WEDGE, 15, &prisms },
+    Kind{ "QuadraticLinearWedges", VTK_QUADRATIC_LINEAR_WEDGE, 12, &prisms },
+    Kind{ "BiquadraticWedges", VTK_BIQUADRATIC_QUADRATIC_WEDGE, 18, &prisms },
+    Kind{ "LagrangeHexahedra", VTK_LAGRANGE_HEXAHEDRON, 64, &boxes },
+    Kind{ "LagrangeTetrahedra", VTK_LAGRANGE_TETRAHEDRON, 20, &kuhn },
+    Kind{ "LagrangeWedges", VTK_LAGRANGE_WEDGE, 40, &prisms },
+    Kind{ "Triangles", VTK_TRIANGLE, 3, &prisms, true }, Kind{ "Quads", VTK_QUAD, 4, &boxes, true },
+    Kind{ "QuadraticTriangles", VTK_QUADRATIC_TRIANGLE, 6, &prisms, true },
+    Kind{ "QuadraticQuads", VTK_QUADRATIC_QUAD, 8, &boxes, true },
+    Kind{ "LagrangeQuads", VTK_LAGRANGE_QUADRILATERAL, 16, &boxes, true },
+    Kind{ "LagrangeTriangles", VTK_LAGRANGE_TRIANGLE, 10, &prisms, true }),
+  [](const auto& tested) { return tested.param.name; });
+
+namespace
+{
+
+Mesh tetrahedra(int n = 20, double by = 0)
+{
+  vtkNew<vtkDataSetTriangleFilter> toTetrahedra;
+  toTetrahedra->SetInputData(cube(n + 1));
+  toTetrahedra->Update();
+  Mesh mesh = toTetrahedra->GetOutput();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    mesh->GetPoint(i, x.data());
+    for (double& along : x)
+    {
+      along = (along + 1) / 2;
+    }
+    mesh->GetPoints()->SetPoint(i, moved(x, by).data());
+  }
+  mesh->GetPoints()->Modified();
+  addPointArray(mesh, "N", [](const Vec& x) { return std::sin(1e4 * (x[0] + x[1] + 2 * x[2])); });
+  return mesh;
+}
+
+} // namespace
+
+// A rough field, by another sampler. VTK's grid is smaller by a millionth of its length, and within a
+// thousandth of a cell from its faces VTK may extrapolate its neighbour.
+TEST(MeshSampler, AgreesWithVtk)
+{
+  for (const bool isPyramids : { false, true })
+  {
+    Mesh mesh = tetrahedra(6, 0.1);
+    if (isPyramids)
+    {
+      const auto c = unitCell(VTK_HEXAHEDRON, 8);
+      mesh = meshOf(VTK_PYRAMID, 3,
+        { { c[0], c[1], c[2], c[3], c[6] }, { c[0], c[4], c[5], c[1], c[6] },
+          { c[0], c[3], c[7], c[4], c[6] } },
+        0.1, false);
+    }
+    const Sampled ours = sampled(reader(23), mesh);
+    vtkNew<vtkResampleToImage> resampler;
+    resampler->SetInputDataObject(mesh);
+    resampler->SetSamplingDimensions(23, 23, 23);
+    resampler->Update();
+    vtkPointData* vtks = resampler->GetOutput()->GetPointData();
+    int inside = 0, apart = 0;
+    for (std::size_t i = 0; i < ours.values.size(); ++i)
+    {
+      if (vtks->GetArray("vtkValidPointMask")->GetComponent(static_cast<vtkIdType>(i), 0) != 0)
+      {
+        ++inside;
+        ASSERT_EQ(ours.valid[i], 1) << i;
+        const double difference = std::abs(
+          ours.values[i] - vtks->GetArray("N")->GetComponent(static_cast<vtkIdType>(i), 0));
+        ASSERT_LT(difference, 1e-2);
+        apart += difference > 3e-5 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(inside, 20 * 23 * 23);
+    EXPECT_LT(apart, inside / 100);
+  }
+}
+
+// Curved cells around a ball: VTK's own sampler is off by 6e-3 of the range here.
+TEST(MeshSampler, CurvedCellsOfOrder3AreExact)
+{
+  vtkNew<vtkXMLUnstructuredGridReader> file;
+  file->SetFileName(SCHLIEREN_TEST_DATA "/blob_lagrange_hex.vtu");
+  file->Update();
+  vtkUnstructuredGrid* mesh = file->GetOutput();
+  addPointArray(mesh, "N", linear);
+  const Sampled result = sampled(reader(12), mesh);
+  for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    result.image->GetPoint(i, x.data());
+    ASSERT_EQ(result.valid[static_cast<std::size_t>(i)], 1) << x[0] << " " << x[1] << " " << x[2];
+    ASSERT_NEAR(result.values[static_cast<std::size_t>(i)], linear(x), 1e-7 * 3.5e-3);
+  }
+}
+
+// Most points of the grid are shared by several cells, of which any other would give another value.
+TEST(MeshSampler, AnyNumberOfThreadsGivesTheSameValues)
+{
+  const Mesh mesh = tetrahedra(20, 0.1);
+  const Sampled one = sampled(reader(21, 1), mesh);
+  for (const int threads : { 2, 7 })
+  {
+    const Sampled more = sampled(reader(21, threads), mesh);
+    EXPECT_EQ(more.values, one.values) << threads;
+    EXPECT_EQ(more.valid, one.valid) << threads;
+  }
+}
+
+TEST(MeshSampler, TheFirstOfOverlappingBlocksCounts)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned i = 0; i < 2; ++i)
+  {
+    const Mesh mesh = tetrahedra(4 + static_cast<int>(i));
+    mesh->GetPointData()->Initialize();
+    addPointArray(mesh, "N", [i](const Vec&) { return 1 + i; });
+    blocks->SetBlock(i, mesh);
+  }
+  const Sampled result = sampled(reader(), blocks);
+  EXPECT_EQ(result.values, std::vector<double>(21 * 21 * 21, 1));
+}
+
+// Found once, kept from the second time on; as exact as what is found anew.
+TEST(MeshSampler, AMeshThatStaysIsSearchedNoMoreThanTwice)
+{
+  auto filter = reader();
+  for (int step = 0; step < 4; ++step)
+  {
+    const Mesh mesh = tetrahedra(); // a new one with the same content
+    mesh->GetPointData()->Initialize();
+    addPointArray(
+      mesh, "N", [step](const Vec& x) { return (step + 1) * std::sin(9 * x[0] * x[1]); });
+    for (const bool isBlocked : { true, false })
+    {
+      filter->SetOutsideBlocksLight(isBlocked);
+      const Sampled kept = sampled(filter, mesh);
+      auto fresh = reader();
+      EXPECT_EQ(kept.values, sampled(fresh, mesh).values) << step;
+      EXPECT_EQ(fresh->GetMeshSearches(), 1);
+    }
+  }
+  EXPECT_EQ(filter->GetMeshSearches(), 2);
+}
+
+TEST(MeshSampler, WhatChangesTheMeshIsSearchedFor)
+{
+  auto filter = reader();
+  const Mesh mesh = tetrahedra();
+  const auto expectKept = [&](const std::string& what)
+  {
+    sampled(filter, mesh);
+    sampled(filter, mesh);
+    const long long before = filter->GetMeshSearches();
+    sampled(filter, mesh);
+    EXPECT_EQ(filter->GetMeshSearches(), before) << what; // it is kept now
+  };
+  const auto expectFresh = [&](const std::string& what)
+  {
+    const long long before = filter->GetMeshSearches();
+    const Sampled changed = sampled(filter, mesh);
+    EXPECT_EQ(filter->GetMeshSearches(), before + 1) << what;
+    auto fresh = reader();
+    fresh->SetSamplingDimensions(filter->GetSamplingDimensions());
+    const Sampled expected = sampled(fresh, mesh);
+    EXPECT_EQ(changed.values, expected.values) << what;
+    EXPECT_EQ(changed.valid, expected.valid) << what;
+  };
+  expectKept("first");
+  mesh->GetPoints()->SetPoint(3000, 0.31, 0.33, 0.29); // and not told: no Modified()
+  expectFresh("point");
+
+  expectKept("point");
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(mesh->GetNumberOfCells());
+  ghosts->FillValue(0);
+  ghosts->SetValue(777, vtkDataSetAttributes::HIDDENCELL);
+  mesh->GetCellData()->AddArray(ghosts);
+  expectFresh("ghost");
+
+  expectKept("ghost");
+  filter->SetSamplingDimensions(20, 21, 21);
+  expectFresh("grid");
+}
+
+TEST(MeshSampler, OutsideIsKeptToo)
+{
+  const Mesh mesh = tetrahedra();
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(mesh->GetNumberOfCells());
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    double bounds[6];
+    mesh->GetCellBounds(i, bounds);
+    const bool isCut = bounds[0] > 0.5 && bounds[2] > 0.5;
+    ghosts->SetValue(i, isCut ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  mesh->GetCellData()->AddArray(ghosts);
+  auto filter = reader(31);
+  filter->SetOutsideBlocksLight(false);
+  for (int time = 0; time < 3; ++time)
+  {
+    const Sampled result = sampled(filter, mesh);
+    vtkDataArray* outside = result.image->GetPointData()->GetArray("TransparentPointMask");
+    int solid = 0;
+    for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+    {
+      EXPECT_EQ(outside->GetComponent(i, 0), 0); // the hidden cells are a body
+      solid += result.valid[static_cast<std::size_t>(i)] == 0 ? 1 : 0;
+    }
+    EXPECT_GT(solid, 10 * 10 * 31);
+  }
+  EXPECT_EQ(filter->GetMeshSearches(), 2);
+}
+
+// The medium and all of the fields that tint it.
+TEST(MeshSampler, TintsSearchOnce)
+{
+  const Mesh mesh = tetrahedra();
+  addPointArray(mesh, "A", [](const Vec& x) { return x[0]; });
+  addPointArray(mesh, "B", [](const Vec& x) { return x[1]; });
+  auto filter = bench(mesh);
+  filter->AddField("A");
+  filter->AddField("B");
+  filter->SetSamplingDimensions(21, 21, 21);
+  filter->SetColorByField(true);
+  filter->Update();
+  EXPECT_FALSE(isEmpty(filter));
+  EXPECT_EQ(filter->GetMeshSearches(), 1);
+}
+
+TEST(MeshSampler, StopsAndStartsAnew)
+{
+  auto filter = reader(64, 1);
+  const Mesh mesh = tetrahedra();
+  filter->SetInputData(mesh);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void* value)
+    {
+      if (*static_cast<double*>(value) > 0.3)
+      {
+        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+      }
+    });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  filter->Update();
+  EXPECT_TRUE(isEmpty(filter));
+  filter->RemoveObserver(tag);
+  filter->Modified();
+  filter->Update();
+  EXPECT_FALSE(isEmpty(filter));
+}
+
+// Cells without a volume, turned inside out or nowhere are among good ones.
+TEST(Extremes, BadCellsHarmNoOthers)
+{
+  const auto c = unitCell(VTK_HEXAHEDRON, 8);
+  const Mesh good = meshOf(VTK_HEXAHEDRON, 3, { c }, 0.1, false);
+  const double nan = std::nan("");
+  for (const double far : { 0.5, nan, HUGE_VAL })
+  {
+    auto mesh = Mesh::New();
+    vtkNew<vtkPoints> points;
+    points->DeepCopy(good->GetPoints());
+    const vtkIdType bad = points->InsertNextPoint(far, 0.5, 0.5);
+    mesh->SetPoints(points);
+    const vtkIdType none[8] = { 0, 0, 0, 0, bad, bad, bad, bad };
+    const vtkIdType flat[8] = { 0, 1, 2, 3, 0, 1, 2, 3 };
+    for (const int type : { VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID, VTK_TETRA, VTK_VOXEL })
+    {
+      const int count =
+        type == VTK_TETRA ? 4 : (type == VTK_PYRAMID ? 5 : (type == VTK_WEDGE ? 6 : 8));
+      mesh->InsertNextCell(type, count, none);
+      mesh->InsertNextCell(type, count, flat);
+    }
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType i = 0; i < good->GetNumberOfCells(); ++i)
+    {
+      good->GetCellPoints(i, ids);
+      for (vtkIdType k = 0; k < 4 && i % 2; ++k) // inside out
+      {
+        std::swap(*ids->GetPointer(k), *ids->GetPointer(k + 4));
+      }
+      mesh->InsertNextCell(VTK_HEXAHEDRON, ids);
+    }
+    addPointArray(mesh, "N", linear);
+    if (std::isfinite(far))
+    {
+      EXPECT_LT(errorOf(sampled(reader(), mesh)), 1e-7);
+    }
+    else
+    {
+      vtkNew<vtkImageData> output; // either a picture or a message
+      try
+      {
+        reader()->Convert(mesh, output);
+      }
+      catch (const std::runtime_error& problem)
+      {
+        EXPECT_NE(std::string(problem.what()).find("finite"), std::string::npos) << problem.what();
+      }
+    }
+  }
+}
+
+TEST(Extremes, OneCellAndCellsFarAway)
+{
+  const auto c = unitCell(VTK_HEXAHEDRON, 8);
+  EXPECT_LT(errorOf(sampled(reader(), meshOf(VTK_HEXAHEDRON, 1, { c }, 0, false))), 1e-7);
+  for (const int type : { VTK_TETRA, VTK_HEXAHEDRON })
+  {
+    const Mesh mesh = type == VTK_TETRA ? meshOf(type, 3, cut(unitCell(type, 4), kuhn), 0.1, false)
+                                        : meshOf(type, 3, { c }, 0.1, false);
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      double x[3];
+      mesh->GetPoint(i, x);
+      mesh->GetPoints()->SetPoint(i, 1e7 + 1e-2 * x[0], 1e7 + 1e-2 * x[1], 1e7 + 1e-2 * x[2]);
+    }
+    const Sampled result = sampled(reader(), mesh);
+    EXPECT_EQ(result.valid, std::vector<double>(21 * 21 * 21, 1)) << type;
+  }
+}
