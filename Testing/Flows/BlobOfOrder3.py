@@ -23,7 +23,7 @@ assert data.GetNumberOfCells() == 376 and data.GetCellType(0) == 72, "These are 
 
 schlieren = Schlieren(near, Density=["POINTS", "rho"], GladstoneDaleConstant=K, LengthScale=0.01,
                       AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
-                      SamplingDimensions=[61, 41, 41], SamplesPerPixel=1,
+                      SamplingDimensions=[60, 40, 40], SamplesPerPixel=1,
                       ImageSize=[240, 160], ParallelScale=2.5)
 x, y = coordinates(schlieren)
 path = picture(schlieren, "OpticalPathDifference") / 0.01
@@ -38,13 +38,13 @@ straight = K * (total - AMBIENT * length)
 error = (path[rows, columns] - straight) / path.max()
 rms, largest = np.sqrt(np.mean(error**2)), np.abs(error).max()
 print(f"Optical paths against sums through the cells: rms {rms:.2%}, largest {largest:.2%}")
-# The solution jumps at the faces of its cells, most at x = -15: the grid has one of the two values.
-assert rms < 0.004 and largest < 0.03
+# The solution jumps at the faces of its cells, most at x = -15, and VTK finds places in such cells roughly.
+assert rms < 0.004 and largest < 0.02
 
-# Wind and blob are the same upside down (but for the choice at the faces), and light bends towards the blob from all sides.
-assert np.abs(path - path[::-1]).max() < 0.015 * path.max()
+# Wind and blob are the same upside down, and light bends towards the blob from all sides.
+assert np.abs(path - path[::-1]).max() < 1e-5 * path.max()
 v = deflection[..., 1]
-assert np.sqrt(np.mean((v + v[::-1])**2)) < 0.02 * np.sqrt(np.mean(v**2))
+assert np.sqrt(np.mean((v + v[::-1])**2)) < 1e-5 * np.sqrt(np.mean(v**2))
 row, column = np.unravel_index(path.argmax(), path.shape)
 print(f"Densest at x = {x[column]:.2f}")
 assert abs(y[row]) < 0.1 and v[row + 20, column] < 0 < v[row - 20, column]
