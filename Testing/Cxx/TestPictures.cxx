@@ -4,11 +4,13 @@
 // Pictures of real flows against baselines. No renderer is used: the intensities become grey levels.
 #include "BallOnLevels.h"
 
+#include "vtkAMRGaussianPulseSource.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkExtractGrid.h"
 #include "vtkImageShiftScale.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiBlockPLOT3DReader.h"
+#include "vtkOverlappingAMR.h"
 #include "vtkPNGReader.h"
 #include "vtkPNGWriter.h"
 #include "vtkPolyData.h"
@@ -162,6 +164,26 @@ TEST(Pictures, BallOnThreeLevels)
   filter->SetDevice(vtkSchlierenFilter::CPU);
   filter->Update();
   expectBaseline(filter, 1, "BallOnThreeLevels");
+}
+
+// VTK's own adaptive mesh: 5 x 5 x 5 cells, of which two blocks are refined once. They show faintly, because
+// it gives values at the cells' centres, not means.
+TEST(Pictures, PulseOfVtk)
+{
+  vtkNew<vtkAMRGaussianPulseSource> source;
+  source->SetDimension(3);
+  source->SetPulseAmplitude(1e-4);
+  source->SetPulseOrigin(-0.75, -0.75, 1.25);
+  source->SetPulseWidth(3, 3, 3);
+  source->Update();
+  vtkNew<vtkOverlappingAMR> amr;
+  amr->ShallowCopy(source->GetOutputDataObject(0));
+  auto filter = bench(amr, 200);
+  filter->SetDevice(vtkSchlierenFilter::CPU);
+  filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
+    vtkDataObject::FIELD_ASSOCIATION_CELLS, "Gaussian-Pulse");
+  filter->Update();
+  expectBaseline(filter, 1, "PulseOfVtk");
 }
 
 // The lambda shock that the fin drives up the plate's boundary layer (z = 0), seen from the side: through
