@@ -10,6 +10,7 @@
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -88,35 +89,53 @@ vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port)
   return upstream ? upstream->GetPipelineMTime() : 0;
 }
 
-std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime)
+std::vector<vtkDataObject*> leavesOf(vtkDataObject* data)
 {
-  std::vector<double> description{ static_cast<double>(pipelineTime) };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
+  std::vector<vtkDataObject*> leaves;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
     auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
     for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
     {
-      if (auto* leaf = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
-      {
-        describe(leaf, description);
-      }
+      leaves.push_back(iterator->GetCurrentDataObject());
     }
   }
-  else if (auto* data = vtkDataSet::SafeDownCast(input))
+  else if (data)
   {
-    describe(data, description);
+    leaves.push_back(data);
+  }
+  return leaves;
+}
+
+std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime)
+{
+  std::vector<double> description{ static_cast<double>(pipelineTime) };
+  for (vtkDataObject* leaf : leavesOf(input))
+  {
+    if (auto* data = vtkDataSet::SafeDownCast(leaf))
+    {
+      describe(data, description);
+    }
   }
   return description;
 }
 
-void requestWhole(vtkInformation* inInfo)
+void requestWhole(vtkInformationVector** inputs, int ports)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
+  for (int port = 0; port < ports; ++port)
   {
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+    vtkInformation* inInfo = inputs[port]->GetInformationObject(0);
+    if (!inInfo)
+    {
+      continue;
+    }
+    if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
-  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }

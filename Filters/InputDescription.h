@@ -8,15 +8,19 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
-class vtkInformation;
+class vtkInformationVector;
 
 /// The newest time of everything that the input of a port comes from; 0 where there is none.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
+
+/// What a composite holds, or else the data itself; nothing for null.
+std::vector<vtkDataObject*> leavesOf(vtkDataObject* data);
 
 /// Everything that the refractivity of an input may depend on, so that equal numbers mean equal data:
 /// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the
 /// dataset's own time, which is a new one whenever a filter upstream hands the same arrays on.
 std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime);
 
-/// Asks for all of an input, on every process: light crosses what several processes would share.
-void requestWhole(vtkInformation* inInfo);
+/// Asks for all of the inputs, those there are, on every process: light crosses what several processes would
+/// share.
+void requestWhole(vtkInformationVector** inputs, int ports);

@@ -3,13 +3,12 @@
 #include "RefractivityOfBodies.h"
 
 #include "BodyVoxels.h"
+#include "InputDescription.h"
 #include "RefractivitySource.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -37,35 +36,24 @@ namespace
 /// face by face are closed.
 constexpr double mergingVoxels = 1e-4;
 
-/// Calls visit(polygonal data) for all leaves with points.
-template <class Visit>
-void forLeaves(vtkDataObject* bodies, const Visit& visit)
+/// The surfaces with points.
+std::vector<vtkPolyData*> surfacesOf(vtkDataObject* bodies)
 {
-  const auto visitLeaf = [&visit](vtkDataObject* object)
+  std::vector<vtkPolyData*> surfaces;
+  for (vtkDataObject* leaf : leavesOf(bodies))
   {
-    auto* data = vtkPolyData::SafeDownCast(object);
-    if (object && !data)
+    auto* surface = vtkPolyData::SafeDownCast(leaf);
+    if (!surface)
     {
-      throw std::runtime_error(std::string("The Bodies hold a ") + object->GetClassName() +
+      throw std::runtime_error(std::string("The Bodies hold a ") + leaf->GetClassName() +
         ", but bodies are given by their surfaces. Put the filter Extract Surface before.");
     }
-    if (data && data->GetNumberOfPoints() > 0)
+    if (surface->GetNumberOfPoints() > 0)
     {
-      visit(data);
-    }
-  };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(bodies))
-  {
-    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      visitLeaf(iterator->GetCurrentDataObject());
+      surfaces.push_back(surface);
     }
   }
-  else
-  {
-    visitLeaf(bodies);
-  }
+  return surfaces;
 }
 
 /// The polygons of all leaves, as triangles in index coordinates of the grid, counted from its first point.
@@ -73,24 +61,23 @@ vtkSmartPointer<vtkPolyData> trianglesOf(vtkDataObject* bodies, vtkImageData* gr
 {
   const int* extent = grid->GetExtent();
   vtkNew<vtkAppendPolyData> append;
-  forLeaves(bodies,
-    [&](vtkPolyData* data)
+  for (vtkPolyData* data : surfacesOf(bodies))
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(data->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
     {
-      vtkNew<vtkPoints> points;
-      points->SetDataTypeToDouble();
-      points->SetNumberOfPoints(data->GetNumberOfPoints());
-      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-      {
-        double x[3];
-        grid->TransformPhysicalPointToContinuousIndex(data->GetPoint(i), x);
-        points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
-      }
-      vtkNew<vtkPolyData> moved;
-      moved->SetPoints(points);
-      moved->SetPolys(data->GetPolys());
-      moved->SetStrips(data->GetStrips());
-      append->AddInputData(moved);
-    });
+      double x[3];
+      grid->TransformPhysicalPointToContinuousIndex(data->GetPoint(i), x);
+      points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
+    }
+    vtkNew<vtkPolyData> moved;
+    moved->SetPoints(points);
+    moved->SetPolys(data->GetPolys());
+    moved->SetStrips(data->GetStrips());
+    append->AddInputData(moved);
+  }
   if (append->GetNumberOfInputConnections(0) == 0)
   {
     throw std::runtime_error(

@@ -3,9 +3,8 @@
 #include "RefractivitySource.h"
 
 #include "GasChoices.h"
+#include "InputDescription.h"
 
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -115,25 +114,13 @@ vtkDataArray* find(vtkDataSetAttributes* attributes, const Selection& selection)
 std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
 {
   std::vector<vtkDataSet*> dataSets;
-  const auto add = [&dataSets](vtkDataObject* object)
+  for (vtkDataObject* leaf : leavesOf(input))
   {
-    vtkDataSet* data = vtkDataSet::SafeDownCast(object);
+    vtkDataSet* data = vtkDataSet::SafeDownCast(leaf);
     if (data && data->GetNumberOfPoints() > 0)
     {
       dataSets.push_back(data);
     }
-  };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
-  {
-    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      add(iterator->GetCurrentDataObject());
-    }
-  }
-  else
-  {
-    add(input);
   }
   return dataSets;
 }

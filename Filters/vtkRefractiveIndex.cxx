@@ -122,12 +122,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RelativeHumidity: " << this->RelativeHumidity << "\n";
   os << indent << "CO2: " << this->CO2 << "\n";
   os << indent << "Wavelength: " << this->Wavelength << "\n";
-  os << indent << "Fields:";
-  for (const std::string& name : this->Fields)
-  {
-    os << " '" << name << "'";
-  }
-  os << "\n";
+  printList(os, indent, "Fields", this->Fields);
   os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
   printList(os, indent, "FieldRanges", this->FieldRanges);
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
@@ -458,12 +453,7 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  requestWhole(inInfo);
-  if (vtkInformation* bodies = inputVector[BODIES]->GetInformationObject(0))
-  {
-    requestWhole(bodies);
-  }
+  requestWhole(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 

@@ -571,13 +571,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    if (vtkInformation* inInfo = inputVector[port]->GetInformationObject(0))
-    {
-      requestWhole(inInfo);
-    }
-  }
+  requestWhole(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 

@@ -5,9 +5,12 @@
 #include "Fixtures.h"
 
 #include "vtkAMRBox.h"
+#include "vtkAMRGaussianPulseSource.h"
 #include "vtkAMRUtilities.h"
 #include "vtkOverlappingAMR.h"
 #include "vtkUniformGrid.h"
+
+#include <array>
 
 /// A ball A exp(-r^2/s^2) around the origin.
 struct GaussianBall
@@ -107,4 +110,23 @@ inline vtkSmartPointer<vtkOverlappingAMR> ballOnLevels(
     }
   }
   return amr;
+}
+
+/// A bench for VTK's own adaptive mesh, which has values of 1e-4 at most: 5 x 5 x 5 cells of edge 0.5, of which
+/// two blocks are refined once.
+inline vtkSmartPointer<vtkSchlierenFilter> benchOfPulse(
+  const std::array<double, 3>& centre, double width, int pixels)
+{
+  vtkNew<vtkAMRGaussianPulseSource> source;
+  source->SetDimension(3);
+  source->SetPulseAmplitude(1e-4);
+  source->SetPulseOrigin(centre[0], centre[1], centre[2]);
+  source->SetPulseWidth(width, width, width);
+  source->Update();
+  vtkNew<vtkOverlappingAMR> amr;
+  amr->ShallowCopy(source->GetOutputDataObject(0));
+  auto filter = bench(amr, pixels);
+  filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
+    vtkDataObject::FIELD_ASSOCIATION_CELLS, "Gaussian-Pulse");
+  return filter;
 }

@@ -4,7 +4,6 @@
 // Adaptive meshes whose cells hold the values, as the codes that make them write them.
 #include "BallOnLevels.h"
 
-#include "vtkAMRGaussianPulseSource.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNonOverlappingAMR.h"
 
@@ -171,19 +170,10 @@ TEST(Amr, SolidsBlockLightAndBendNone)
 // centres, not means, which is the same only in a field of little curvature.
 TEST(Amr, PulseOfVtkMatchesTheClosedForm)
 {
-  vtkNew<vtkAMRGaussianPulseSource> source;
-  source->SetDimension(3);
-  source->SetPulseAmplitude(1e-4);
-  const double centre[3] = { -300, -250, 1.25 }, width = 1000;
-  source->SetPulseOrigin(centre[0], centre[1], centre[2]);
-  source->SetPulseWidth(width, width, width);
-  source->Update();
-  vtkNew<vtkOverlappingAMR> amr;
-  amr->ShallowCopy(source->GetOutputDataObject(0));
-  auto filter = bench(amr, 33);
+  const std::array<double, 3> centre{ -300, -250, 1.25 };
+  const double width = 1000;
+  auto filter = benchOfPulse(centre, width, 33);
   filter->SetPrecision(vtkSchlierenFilter::DOUBLE);
-  filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
-    vtkDataObject::FIELD_ASSOCIATION_CELLS, "Gaussian-Pulse");
   filter->Update();
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   const double depth = 2.25; // between the centres of the first and the last cell
