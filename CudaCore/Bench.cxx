@@ -416,7 +416,7 @@ Image Bench::Stages::render(
   image.height = view.height;
   image.frame = frameOf(field.grid, view);
   image.device = device;
-  image.pathModel = "Refracted";
+  image.pathModel = PathModel::Refracted;
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;

@@ -35,7 +35,25 @@ public:
 enum class Interpolation
 {
   Quadratic, ///< quadratic B-spline: 27 loads, continuous gradient, third-order values
-  Linear     ///< trilinear: 8 loads, gradient jumps from cell to cell (for drafts)
+  Linear,    ///< trilinear: 8 loads, gradient jumps from cell to cell (for drafts)
+  Central,   ///< trilinear values, trilinear central differences as gradient: the paper's, 32 loads
+  Cubic      ///< cubic B-spline: 64 loads, continuous second derivatives, fourth-order values
+};
+
+enum class PathModel
+{
+  Auto,     ///< Straight where its error is proven to be below Scene::pathTolerance, else Refracted
+  Straight, ///< line of sight: the medium is looked at along the undisturbed ray
+  Refracted ///< the ray bends
+};
+
+/// How a refracted ray takes its steps. A straight one always looks at their midpoints.
+enum class Integrator
+{
+  Leapfrog, ///< one gradient a step, second order, symplectic
+  Rk4,      ///< four gradients a step, fourth order
+  Adaptive, ///< three gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
+  Euler ///< one gradient a step, first order: the paper's, kept so that it can be reproduced
 };
 
 enum class Precision
@@ -128,9 +146,20 @@ struct Scene
   int samplesPerPixel = 4;
   std::uint32_t seed = 1;
 
+  PathModel pathModel = PathModel::Auto;
+  Integrator integrator = Integrator::Leapfrog;
   Interpolation interpolation = Interpolation::Quadratic;
   Precision precision = Precision::Single;
-  double stepSize = 1; ///< voxels, 0.001 ... 16: length of one step measured in index space
+  double stepSize =
+    1; ///< voxels, 0.001 ... 16: length of one step in index space; Adaptive: the longest
+  /// Of Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
+  /// gradient would bend over the same way. 1e-12 ... 1.
+  double adaptiveTolerance = 1e-5;
+  /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
+  /// share of its range in the whole medium; 0: never. 0 ... 1.
+  double homogeneityTolerance = 0;
+  /// How far, in pixels, a straight ray may be from the refracted one for PathModel::Auto to take it.
+  double pathTolerance = 0.01;
   Device device = Device::Auto;
   int threads = 0; ///< CPU threads; 0: all cores this process may use
 };
@@ -158,18 +187,23 @@ struct Image
   std::vector<float> displacement;           ///< 2 per pixel: at the exit plane, data units
   std::vector<float> blockedFraction;        ///< per pixel: share of rays that a solid stopped
 
-  Device device = Device::Cpu;  ///< where the rays were traced
-  std::string deviceNote;       ///< why Device::Auto left a device that answers; else empty
-  std::string pathModel;        ///< "Refracted"
-  double kScale = 0;            ///< the k used; 0 for a shadowgraph
-  double ambient = 0;           ///< the ambient refractivity used
-  std::int64_t raysTraced = 0;  ///< rays of this picture that crossed the grid
-  std::int64_t stepsTaken = 0;  ///< integration steps of these rays
-  std::int64_t raysBlocked = 0; ///< rays that a solid stopped
+  Device device = Device::Cpu; ///< where the rays were traced
+  std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
+  PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
+  double kScale = 0;                          ///< the k used; 0 for a shadowgraph
+  double ambient = 0;                         ///< the ambient refractivity used
+  std::int64_t raysTraced = 0;                ///< rays of this picture that crossed the grid
+  std::int64_t stepsTaken = 0;                ///< integration steps of these rays
+  std::int64_t raysBlocked = 0;               ///< rays that a solid stopped
   std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
   double traceSeconds = 0;      ///< spent tracing for this call; 0 when held rays were re-shaded
   double displacementBound = 0; ///< no ray of this medium is displaced further, data units
-  bool aborted = false;         ///< the monitor asked to stop; all arrays are empty
+  /// Skipping homogeneous cubes changes no deflection cosine by more than this.
+  double skippingBound = 0;
+  /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it tells
+  /// the error of steps and interpolation.
+  double momentumDrift = 0;
+  bool aborted = false; ///< the monitor asked to stop; all arrays are empty
 };
 
 /// How far a render has come, and whether to stop. Both are called by the calling thread only.

@@ -215,7 +215,8 @@ void setOutput(vtkImageData* output, const schlieren::Image& image)
 
   addFieldValue<vtkStringArray>(
     output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
-  addFieldValue<vtkStringArray>(output, "PathModel", image.pathModel);
+  addFieldValue<vtkStringArray>(output, "PathModel",
+    image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
   addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
   addFieldValue<vtkDoubleArray>(output, "AmbientRefractivity", image.ambient);
   addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);

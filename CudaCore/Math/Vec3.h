@@ -9,6 +9,15 @@
 namespace schlieren
 {
 
+/// The type of the numbers in a pack; of a number, itself.
+template <class Real>
+struct NumberIn
+{
+  using type = Real;
+};
+template <class Real>
+using NumberOf = typename NumberIn<Real>::type;
+
 template <class Real>
 struct Vec3
 {

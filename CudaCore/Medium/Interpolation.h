@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Math/Vec3.h"
+#include "Schlieren.h"
 
 #include <cstdint>
 
@@ -32,8 +33,8 @@ struct Sample
   Vec3<Real> gradient;
 };
 
-/// Three-point products along x, then y, then z; `w` are the weights of the value, `d` those of the
-/// derivative, one row per axis.
+/// Sums over rows and columns of samples from `corner` on: `w` are the weights of the value, `d` those
+/// of the derivative, one row per axis.
 template <class Real, int Points>
 SCHLIEREN_HD Sample<Real> tensorProduct(const MediumView<Real>& m, const Real* corner,
   const Real (&w)[3][Points], const Real (&d)[3][Points])
@@ -61,63 +62,144 @@ SCHLIEREN_HD Sample<Real> tensorProduct(const MediumView<Real>& m, const Real* c
   return sum;
 }
 
+// The schemes. Each weighs `points` samples along every axis.
+//   nearest    whether `f` is counted from the nearest grid point, in [-1/2, 1/2], or from the lower end
+//              of the cell, in [0, 1]
+//   first      where the first sample lies, from there
+//   reach      grid points beyond a cell's corners whose samples have a weight in the cell
+//   weights    of the value (w) and of the derivative (d); Real is a number or a pack of numbers
+
 /// Quadratic B-spline (Unser, Aldroubi & Eden 1993): the derivative is continuous, so that no cell
-/// boundary shows in a schlieren picture. Position within [0, last].
+/// boundary shows in a schlieren picture.
 struct QuadraticInterpolation
 {
-  /// Grid points beyond a cell's corners whose samples have a weight in the cell.
+  static constexpr int points = 3;
+  static constexpr bool nearest = true;
+  static constexpr int first = -1;
   static constexpr int reach = 1;
 
   template <class Real>
-  SCHLIEREN_HD static Sample<Real> at(const MediumView<Real>& m, const Vec3<Real>& position)
+  SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
   {
-    const Real half = static_cast<Real>(0.5);
-    const Real x[3] = { position.x, position.y, position.z };
-    std::int64_t nearest[3];
-    Real w[3][3], d[3][3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const int i = static_cast<int>(x[axis] + half);
-      const Real f = x[axis] - static_cast<Real>(i);
-      nearest[axis] = i;
-      w[axis][0] = half * (half - f) * (half - f);
-      w[axis][1] = static_cast<Real>(0.75) - f * f;
-      w[axis][2] = half * (half + f) * (half + f);
-      d[axis][0] = f - half;
-      d[axis][1] = -2 * f;
-      d[axis][2] = f + half;
-    }
-    // The ghost layer shifts the stored indices by one, which is the left neighbour's shift.
-    return tensorProduct<Real, 3>(
-      m, m.samples + nearest[2] * m.planeStride + nearest[1] * m.rowStride + nearest[0], w, d);
+    using Number = NumberOf<Real>;
+    const Number half = static_cast<Number>(0.5);
+    d[0] = f - half;
+    d[1] = Number(-2) * f;
+    d[2] = f + half;
+    w[0] = half * d[0] * d[0];
+    w[1] = static_cast<Number>(0.75) - f * f;
+    w[2] = half * d[2] * d[2];
   }
 };
 
-/// Trilinear: the derivative jumps from cell to cell. Position within [0, last].
+/// Trilinear: the derivative jumps from cell to cell.
 struct LinearInterpolation
 {
+  static constexpr int points = 2;
+  static constexpr bool nearest = false;
+  static constexpr int first =
+    0; // the cell past the grid's last point ends in ghosts with weight 0
   static constexpr int reach = 0;
 
   template <class Real>
-  SCHLIEREN_HD static Sample<Real> at(const MediumView<Real>& m, const Vec3<Real>& position)
+  SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
   {
-    const Real x[3] = { position.x, position.y, position.z };
-    std::int64_t cell[3];
-    Real w[3][2], d[3][2];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const int i = static_cast<int>(x[axis]);
-      const Real f = x[axis] - static_cast<Real>(i);
-      cell[axis] = i + 1; // past the ghost layer; the cell past `last` ends in ghosts with weight 0
-      w[axis][0] = 1 - f;
-      w[axis][1] = f;
-      d[axis][0] = -1;
-      d[axis][1] = 1;
-    }
-    return tensorProduct<Real, 2>(
-      m, m.samples + cell[2] * m.planeStride + cell[1] * m.rowStride + cell[0], w, d);
+    w[0] = 1 - f;
+    w[1] = f;
+    d[0] = f - f - 1;
+    d[1] = f - f + 1;
   }
 };
+
+/// Trilinear values and, as gradient, central differences at the grid points interpolated trilinearly
+/// (Brownlee et al. 2011, section 4.1): continuous, but no derivative of the values.
+struct CentralInterpolation
+{
+  static constexpr int points = 4;
+  static constexpr bool nearest = false;
+  static constexpr int first = -1;
+  static constexpr int reach = 1;
+
+  template <class Real>
+  SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
+  {
+    using Number = NumberOf<Real>;
+    const Number half = static_cast<Number>(0.5);
+    w[0] = f - f;
+    w[1] = 1 - f;
+    w[2] = f;
+    w[3] = f - f;
+    d[0] = half * f - half;
+    d[1] = -half * f;
+    d[2] = half - half * f;
+    d[3] = half * f;
+  }
+};
+
+/// Cubic B-spline (Unser, Aldroubi & Eden 1993): the second derivatives are continuous.
+struct CubicInterpolation
+{
+  static constexpr int points = 4;
+  static constexpr bool nearest = false;
+  static constexpr int first = -1;
+  static constexpr int reach = 1;
+
+  template <class Real>
+  SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
+  {
+    using Number = NumberOf<Real>;
+    const Number half = static_cast<Number>(0.5);
+    const Number third = Number(1) / 3;
+    const Real g = 1 - f;
+    d[0] = -half * g * g;
+    d[1] = f * (Number(1.5) * f - 2);
+    d[2] = g * (2 - Number(1.5) * g);
+    d[3] = half * f * f;
+    w[0] = -third * d[0] * g;
+    w[1] = 2 * third + f * f * (half * f - 1);
+    w[2] = 2 * third + g * g * (half * g - 1);
+    w[3] = third * d[3] * f;
+  }
+};
+
+/// Calls visit with the scheme, an object of its type.
+template <class Visit>
+auto visitScheme(Interpolation interpolation, const Visit& visit)
+{
+  switch (interpolation)
+  {
+    case Interpolation::Linear:
+      return visit(LinearInterpolation{});
+    case Interpolation::Central:
+      return visit(CentralInterpolation{});
+    case Interpolation::Cubic:
+      return visit(CubicInterpolation{});
+    default:
+      return visit(QuadraticInterpolation{});
+  }
+}
+
+/// Value and gradient at a position within [0, last].
+template <class Scheme, class Real>
+SCHLIEREN_HD Sample<Real> interpolate(const MediumView<Real>& m, const Vec3<Real>& position)
+{
+  const Real x[3] = { position.x, position.y, position.z };
+  const Real last[3] = { m.last.x, m.last.y, m.last.z };
+  const std::int64_t strides[3] = { 1, m.rowStride, m.planeStride };
+  const Real* corner = m.samples;
+  Real w[3][Scheme::points], d[3][Scheme::points];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    int i = static_cast<int>(Scheme::nearest ? x[axis] + static_cast<Real>(0.5) : x[axis]);
+    if (Scheme::points == 4 && i >= static_cast<int>(last[axis]))
+    {
+      i = static_cast<int>(last[axis]) - 1; // the last point ends the last cell
+    }
+    Scheme::weights(x[axis] - static_cast<Real>(i), w[axis], d[axis]);
+    corner += (i + 1 + Scheme::first) * strides[axis]; // 1: the ghost layer
+  }
+  return tensorProduct<Real, Scheme::points>(m, corner, w, d);
+}
 
 /// Whether the grid point nearest to a position within [0, last] is solid.
 template <class Real>

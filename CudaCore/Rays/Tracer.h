@@ -127,7 +127,7 @@ SCHLIEREN_HD RayExit traceRay(
     return exit;
   }
   // Light enters along w, so that |p| = 1 + nu from the start.
-  ray.q = Interpolate::at(task.medium, ray.start).value * task.straight.w;
+  ray.q = interpolate<Interpolate>(task.medium, ray.start).value * task.straight.w;
 
   double path = 0;
   bool leaving = false;
@@ -152,7 +152,8 @@ SCHLIEREN_HD RayExit traceRay(
       exit.fate = RayFate::Blocked;
       return exit;
     }
-    path += Leapfrog::advance(ray, task.straight, step, Interpolate::at(task.medium, middle));
+    path +=
+      Leapfrog::advance(ray, task.straight, step, interpolate<Interpolate>(task.medium, middle));
     gather(middle, step);
     ++exit.steps;
   }

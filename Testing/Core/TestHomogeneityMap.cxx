@@ -43,8 +43,8 @@ Sample<Real> sampleAt(
   const Medium<Real>& medium, Interpolation interpolation, const Vec3<Real>& position)
 {
   return interpolation == Interpolation::Quadratic
-    ? QuadraticInterpolation::at(medium.view(), position)
-    : LinearInterpolation::at(medium.view(), position);
+    ? interpolate<QuadraticInterpolation>(medium.view(), position)
+    : interpolate<LinearInterpolation>(medium.view(), position);
 }
 
 /// Calls visit(position) on a lattice of three points a cell that covers the part of an aligned cube

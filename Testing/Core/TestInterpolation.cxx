@@ -18,7 +18,7 @@ namespace
 template <class Interpolate, class Real>
 Sample<Real> sampleAt(const Medium<Real>& medium, double x, double y, double z)
 {
-  return Interpolate::at(
+  return interpolate<Interpolate>(
     medium.view(), { static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z) });
 }
 
