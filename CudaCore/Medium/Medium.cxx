@@ -313,6 +313,21 @@ void findBounds(Medium<Real>& medium, int threads)
   }
 }
 
+/// Linear's derivative on the grid's far faces is that of the last cells, Central's is of second order there
+/// as it is inside, and the B-splines go on as they do in the prefilter.
+int degreeOfGhosts(Interpolation interpolation)
+{
+  switch (interpolation)
+  {
+    case Interpolation::Linear:
+      return 1;
+    case Interpolation::Cubic:
+      return 3;
+    default:
+      return 2;
+  }
+}
+
 template <class Real, class Value>
 Medium<Real> build(
   const Field& field, const Value* values, Interpolation interpolation, int threads)
@@ -345,8 +360,7 @@ Medium<Real> build(
   {
     prefilterCubic(medium.volume, threads);
   }
-  // A parabola makes Central's differences on the grid's faces one-sided ones of second order.
-  fillGhosts(medium.volume, interpolation == Interpolation::Cubic ? 3 : 2);
+  fillGhosts(medium.volume, degreeOfGhosts(interpolation));
   cutTails(medium.volume, std::max(range.highest - ambient, ambient - range.lowest) / (1 + ambient),
     threads);
   findBounds(medium, threads);
