@@ -13,6 +13,7 @@
 #include "Rays/CudaTracer.h"
 #include "Rays/Light.h"
 #include "Rays/Tracer.h"
+#include "Validation.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,80 +33,6 @@ namespace
 
 /// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
 constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
-
-constexpr double shortestStep = 0.001;
-constexpr double longestStep = 16;
-
-void validate(const Scene& scene)
-{
-  if (scene.samplesPerPixel < 1)
-  {
-    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
-      ", so no light is traced. Set it to 1 or more.");
-  }
-  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
-  {
-    throw Error("StepSize is " + std::to_string(scene.stepSize) +
-      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
-      "flow); "
-      "the default is 1.");
-  }
-  if (!std::isfinite(scene.knifeEdgeAngle))
-  {
-    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
-  }
-  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
-  {
-    throw Error("KScale is " + std::to_string(*scene.kScale) +
-      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
-      "bright "
-      "and dark use InvertCutoff.");
-  }
-  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
-  {
-    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
-      ". Set it to zero or more, in data units.");
-  }
-  if (scene.threads < 0)
-  {
-    throw Error("The number of threads is " + std::to_string(scene.threads) +
-      ". Set it to 1 or more, or to 0 for all cores.");
-  }
-}
-
-void validateColors(const FieldGradients& gradients, const Scene& scene)
-{
-  if (gradients.count == 0)
-  {
-    return;
-  }
-  if (gradients.count < 0 || gradients.values == nullptr)
-  {
-    throw Error("Field gradients need values.");
-  }
-  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
-  {
-    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
-      std::to_string(gradients.count) + " fields. Give each field one.");
-  }
-  for (const std::array<float, 3>& color : scene.fieldColors)
-  {
-    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
-    {
-      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
-                  "as shares of 1.");
-    }
-  }
-}
-
-void validateLengthScale(double lengthScale)
-{
-  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
-  {
-    throw Error("LengthScale is " + std::to_string(lengthScale) +
-      ", but it is the length of one data unit in metres. Set it to a positive number.");
-  }
-}
 
 /// What a held medium was built from.
 struct MediumKey
@@ -501,11 +428,7 @@ const Work& Bench::work() const { return stages_->work; }
 
 Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)
 {
-  validate(field.grid);
-  validateLengthScale(field.lengthScale);
-  validate(scene);
-  validateColors(field.gradients, scene);
-  frameOf(field.grid, scene.view); // a bad view is told before the medium is built
+  validate(field, scene);
 
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
