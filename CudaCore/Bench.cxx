@@ -6,6 +6,7 @@
 #include "Device/Parallel.h"
 #include "Film/Film.h"
 #include "Film/PixelMeans.h"
+#include "Film/Shading.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Cutoffs.h"
@@ -161,7 +162,7 @@ void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, 
 {
   const std::int64_t width = scene.view.width;
   const std::int64_t height = scene.view.height;
-  const double perDataUnit = 1 / image.frame.pixelSize;
+  const Projection projection{ distance, 1 / image.frame.pixelSize };
   std::atomic<std::int64_t> crossed{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
   constexpr std::int64_t rowsPerPiece = 16;
   parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
@@ -185,19 +186,14 @@ void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, 
           }
           if (exit.reachesFilm())
           {
-            const double* eps = exit.deflection;
-            const double perLength =
-              distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-300));
-            const double x = static_cast<double>(column) + held.offset.column +
-              (exit.displacement[0] + perLength * eps[0]) * perDataUnit;
-            const double y = static_cast<double>(row) + held.offset.row +
-              (exit.displacement[1] + perLength * eps[1]) * perDataUnit;
+            const Landing at = landingOf(exit, static_cast<double>(column) + held.offset.column,
+              static_cast<double>(row) + held.offset.row, projection);
             const double light = cutoff.transmission(exit.deflection);
-            film.splat(x, y, light);
+            film.splat(at.column, at.row, light);
             if (colorFilm != nullptr)
             {
               colorFilm->splat(
-                x, y, light, traced.gathered.data() + ray * scene.fieldColors.size());
+                at.column, at.row, light, traced.gathered.data() + ray * scene.fieldColors.size());
             }
           }
         }
