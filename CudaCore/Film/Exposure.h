@@ -41,8 +41,10 @@ struct RayCounts
   {
     crossed += exit.fate != RayFate::Missed ? 1 : 0;
     steps += exit.steps;
-    blocked += exit.fate == RayFate::Blocked ? 1 : 0;
-    lost += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
+    if (!exit.reachesFilm())
+    {
+      ++(exit.fate == RayFate::Blocked ? blocked : lost);
+    }
   }
   void add(const RayCounts& other)
   {
