@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Film/Splat.h"
+#include "PixelArray.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,10 +22,10 @@ public:
 
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
-  double one() const { return one_; } ///< fixed-point value of a full ray
+  std::size_t pixels() const { return pixels_.size(); }
 
   /// Light per pixel divided by `raysPerPixel`.
-  std::vector<float> develop(double raysPerPixel, int threads) const;
+  PixelArray<float> develop(double raysPerPixel, int threads) const;
 
 private:
   friend class FilmBand;
@@ -34,7 +35,7 @@ private:
 
   std::int64_t width_;
   std::int64_t height_;
-  double one_;
+  double one_; ///< fixed-point value of a full ray
   std::vector<std::int64_t> pixels_;
   std::vector<std::mutex> locks_; ///< of some rows each
 };
