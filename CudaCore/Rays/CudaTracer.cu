@@ -114,8 +114,8 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, const KernelChoice& kernel,
-  const Pass& pass, std::uint64_t version, TracedPass& traced, const Monitor& monitor)
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, std::uint64_t version,
+  TracedPass& traced, const Monitor& monitor)
 {
   RayTask<Real> onDevice = task;
   onDevice.medium.samples = memory_->samples.data();
@@ -131,7 +131,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const KernelChoice& kern
   {
     const std::int64_t count = std::min(raysPerLaunch, rays - first);
     const auto blocks = static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
-    visitKernel(kernel,
+    visitKernel(task.kernel,
       [&](auto kind)
       {
         traceKernel<decltype(kind)><<<blocks, threadsPerBlock>>>(
