@@ -9,7 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
+#include <cstring>
 
 namespace schlieren
 {
@@ -32,30 +32,18 @@ constexpr int lanesOf = PackTraits<Real>::lanes;
 
 SCHLIEREN_HD bool any(bool condition) { return condition; }
 
-/// Of a pack of numbers or of what comparing packs gives.
-template <class Pack>
-SCHLIEREN_HD auto lane(const Pack& pack, int i)
+/// The numbers of a pack, lane by lane.
+template <class Real>
+SCHLIEREN_HD Real fromArray(const NumberOf<Real> (&array)[lanesOf<Real>])
 {
-  if constexpr (std::is_arithmetic_v<Pack>)
-  {
-    return pack;
-  }
-  else
-  {
-    return pack[i];
-  }
+  Real pack;
+  memcpy(&pack, array, sizeof(pack));
+  return pack;
 }
-template <class Pack>
-SCHLIEREN_HD void setLane(Pack& pack, int i, NumberOf<Pack> to)
+template <class Real>
+SCHLIEREN_HD void toArray(const Real& pack, NumberOf<Real> (&array)[lanesOf<Real>])
 {
-  if constexpr (std::is_arithmetic_v<Pack>)
-  {
-    pack = to;
-  }
-  else
-  {
-    pack[i] = to;
-  }
+  memcpy(array, &pack, sizeof(pack));
 }
 
 template <class Real>
@@ -78,12 +66,13 @@ SCHLIEREN_HD Real squareRoot(const Real& a)
   }
   else
   {
-    Real root{};
-    for (int i = 0; i < lanesOf<Real>; ++i)
+    NumberOf<Real> roots[lanesOf<Real>];
+    toArray(a, roots);
+    for (NumberOf<Real>& root : roots)
     {
-      root[i] = static_cast<NumberOf<Real>>(std::sqrt(a[i]));
+      root = std::sqrt(root);
     }
-    return root;
+    return fromArray<Real>(roots);
   }
 }
 

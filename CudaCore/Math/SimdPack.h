@@ -86,10 +86,23 @@ SCHLIEREN_HD auto any(const Mask& mask) -> decltype(mask[0] != 0)
   return one;
 }
 
+// Of these the compiler does not see that they are single instructions.
+#if defined(__AVX512F__)
+SCHLIEREN_HD SimdPack<float, 16> lesser(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)
+{
+  return (SimdPack<float, 16>)_mm512_min_ps((__m512)a, (__m512)b);
+}
+SCHLIEREN_HD SimdPack<float, 16> greater(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)
+{
+  return (SimdPack<float, 16>)_mm512_max_ps((__m512)a, (__m512)b);
+}
+#endif
+
 namespace simd
 {
 
 /// Four numbers that lie one after the other, one such row of each of Lanes / 4 rays.
+/// load<Group>: those at row + offsets[Group], [4 + Group] and so on.
 template <class Real, int Lanes>
 struct RowLoader;
 
@@ -105,9 +118,9 @@ template <class Real>
 struct RowLoader<Real, 4>
 {
   template <int Group>
-  SCHLIEREN_HD static SimdPack<Real, 4> load(const Real* const* corners, std::int64_t offset)
+  SCHLIEREN_HD static SimdPack<Real, 4> load(const Real* row, const std::int64_t* offsets)
   {
-    return load4(corners[Group] + offset);
+    return load4(row + offsets[Group]);
   }
 };
 
@@ -116,11 +129,10 @@ template <>
 struct RowLoader<float, 8>
 {
   template <int Group>
-  SCHLIEREN_HD static SimdPack<float, 8> load(const float* const* corners, std::int64_t offset)
+  SCHLIEREN_HD static SimdPack<float, 8> load(const float* row, const std::int64_t* offsets)
   {
-    const __m256 low = _mm256_zextps128_ps256(_mm_loadu_ps(corners[Group] + offset));
-    return (SimdPack<float, 8>)_mm256_insertf128_ps(
-      low, _mm_loadu_ps(corners[4 + Group] + offset), 1);
+    const __m256 low = _mm256_zextps128_ps256(_mm_loadu_ps(row + offsets[Group]));
+    return (SimdPack<float, 8>)_mm256_insertf128_ps(low, _mm_loadu_ps(row + offsets[4 + Group]), 1);
   }
 };
 #endif
@@ -130,12 +142,12 @@ template <>
 struct RowLoader<float, 16>
 {
   template <int Group>
-  SCHLIEREN_HD static SimdPack<float, 16> load(const float* const* corners, std::int64_t offset)
+  SCHLIEREN_HD static SimdPack<float, 16> load(const float* row, const std::int64_t* offsets)
   {
-    __m512 rows = _mm512_zextps128_ps512(_mm_loadu_ps(corners[Group] + offset));
-    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(corners[4 + Group] + offset), 1);
-    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(corners[8 + Group] + offset), 2);
-    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(corners[12 + Group] + offset), 3);
+    __m512 rows = _mm512_zextps128_ps512(_mm_loadu_ps(row + offsets[Group]));
+    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row + offsets[4 + Group]), 1);
+    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row + offsets[8 + Group]), 2);
+    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row + offsets[12 + Group]), 3);
     return (SimdPack<float, 16>)rows;
   }
 };
@@ -143,11 +155,11 @@ template <>
 struct RowLoader<double, 8>
 {
   template <int Group>
-  SCHLIEREN_HD static SimdPack<double, 8> load(const double* const* corners, std::int64_t offset)
+  SCHLIEREN_HD static SimdPack<double, 8> load(const double* row, const std::int64_t* offsets)
   {
-    const __m512d low = _mm512_zextpd256_pd512(_mm256_loadu_pd(corners[Group] + offset));
+    const __m512d low = _mm512_zextpd256_pd512(_mm256_loadu_pd(row + offsets[Group]));
     return (SimdPack<double, 8>)_mm512_insertf64x4(
-      low, _mm256_loadu_pd(corners[4 + Group] + offset), 1);
+      low, _mm256_loadu_pd(row + offsets[4 + Group]), 1);
   }
 };
 #endif

@@ -23,6 +23,9 @@ struct MediumView
   Vec3<Real> last;          ///< dimensions - 1: the largest index coordinates
   /// One bit per point, 1 in solids, laid out like the samples; null where there are no solids.
   const std::uint32_t* solid;
+  /// From a sample to what the ray that looks at it will look at some steps later: a processor can be told
+  /// to fetch that in time.
+  std::int64_t ahead = 0;
 };
 
 /// A value and its derivatives by the index coordinates.
@@ -110,8 +113,8 @@ struct LinearInterpolation
   {
     w[0] = 1 - f;
     w[1] = f;
-    d[0] = f - f - 1;
-    d[1] = f - f + 1;
+    d[0] = Real{} - 1;
+    d[1] = Real{} + 1;
   }
 };
 
@@ -130,10 +133,10 @@ struct CentralInterpolation
   {
     using Number = NumberOf<Real>;
     const Number half = static_cast<Number>(0.5);
-    w[0] = f - f;
+    w[0] = Real{};
     w[1] = 1 - f;
     w[2] = f;
-    w[3] = f - f;
+    w[3] = Real{};
     d[0] = half * f - half;
     d[1] = -half * f;
     d[2] = half - half * f;

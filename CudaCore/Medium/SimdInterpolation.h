@@ -14,9 +14,9 @@ namespace simd
 /// Sums over y and z for a fourth of a pack's rays: of the values, of the derivatives by y and by z, each
 /// for four neighbours along x. Rows are read whole, whatever number of samples the scheme weighs.
 template <class Scheme, int Group, class Real, class Pack>
-SCHLIEREN_HD void sumRows(const MediumView<Real>& m, const Real* const* corners,
-  const Pack (&w)[3][Scheme::points], const Pack (&d)[3][Scheme::points], Pack& values, Pack& byY,
-  Pack& byZ)
+SCHLIEREN_HD void sumRows(const MediumView<Real>& m, const Real* origin,
+  const std::int64_t* offsets, const Pack (&w)[3][Scheme::points],
+  const Pack (&d)[3][Scheme::points], Pack& values, Pack& byY, Pack& byZ)
 {
   constexpr int points = Scheme::points;
   Pack wy[points], dy[points];
@@ -34,7 +34,7 @@ SCHLIEREN_HD void sumRows(const MediumView<Real>& m, const Real* const* corners,
     for (int j = 0; j < points; ++j)
     {
       const Pack row = RowLoader<Real, lanesOf<Pack>>::template load<Group>(
-        corners, k * m.planeStride + j * m.rowStride);
+        origin + k * m.planeStride + j * m.rowStride, offsets);
       value = j == 0 ? wy[0] * row : value + wy[j] * row;
       slope = j == 0 ? dy[0] * row : slope + dy[j] * row;
     }
@@ -59,46 +59,190 @@ SCHLIEREN_HD Pack weigh(const Pack (&weights)[Points], const Pack (&columns)[4])
 
 } // namespace simd
 
+/// Where a pack's rays look: the first of their samples, and the weights of these.
+template <class Scheme, class Real, class Pack>
+struct Stencil
+{
+  IntOf<Pack> index[3]; ///< along each axis, from that of the first grid point
+  Pack w[3][Scheme::points];
+  Pack d[3][Scheme::points];
+
+  SCHLIEREN_HD Stencil(const MediumView<Real>& m, const Vec3<Pack>& position)
+  {
+    using Int = IntOf<Pack>;
+    const Pack x[3] = { position.x, position.y, position.z };
+    const Real last[3] = { m.last.x, m.last.y, m.last.z };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Int i =
+        __builtin_convertvector(Scheme::nearest ? x[axis] + static_cast<Real>(0.5) : x[axis], Int);
+      if (Scheme::points == 4)
+      {
+        const Int lastCell = Int{} + (static_cast<int>(last[axis]) - 1);
+        i = i < lastCell ? i : lastCell;
+      }
+      Scheme::weights(x[axis] - __builtin_convertvector(i, Pack), w[axis], d[axis]);
+      index[axis] = i;
+    }
+  }
+};
+
+#if defined(__AVX512F__)
+
+/// Gathers what a pack's rays look at. Samples that lie side by side are gathered as if they were one of
+/// twice the size: a gather costs a load per number.
+template <class Pack>
+struct Gatherer;
+
+template <>
+struct Gatherer<SimdPack<float, 16>>
+{
+  using Pack = SimdPack<float, 16>;
+  __m512i offsets[2]; ///< of the rays 0 1, 4 5, 8 9, 12 13 and of the others
+
+  SCHLIEREN_HD Gatherer(const MediumView<float>& m, const SimdPack<std::int32_t, 16> (&index)[3])
+  {
+    const auto wide = [](SimdPack<std::int32_t, 16> i, int half) __attribute__((always_inline))
+    {
+      const __m512i none = _mm512_setzero_si512();
+      return half == 0 ? _mm512_unpacklo_epi32((__m512i)i, none)
+                       : _mm512_unpackhi_epi32((__m512i)i, none);
+    };
+    for (int half = 0; half < 2; ++half)
+    {
+      offsets[half] = _mm512_add_epi64(wide(index[0], half),
+        _mm512_add_epi64(_mm512_mul_epu32(wide(index[1], half), _mm512_set1_epi64(m.rowStride)),
+          _mm512_mul_epu32(wide(index[2], half), _mm512_set1_epi64(m.planeStride))));
+    }
+  }
+
+  template <int Points>
+  SCHLIEREN_HD void load(const float* row, Pack (&samples)[Points]) const
+  {
+#pragma GCC unroll 2
+    for (int i = 0; i < Points; i += 2)
+    {
+      const __m512 a = (__m512)_mm512_i64gather_pd(offsets[0], row + i, sizeof(float));
+      const __m512 b = (__m512)_mm512_i64gather_pd(offsets[1], row + i, sizeof(float));
+      samples[i] = (Pack)_mm512_shuffle_ps(a, b, 0x88);
+      if (i + 1 < Points)
+      {
+        samples[i + 1] = (Pack)_mm512_shuffle_ps(a, b, 0xdd);
+      }
+    }
+  }
+};
+
+template <>
+struct Gatherer<SimdPack<double, 8>>
+{
+  using Pack = SimdPack<double, 8>;
+  __m512i offsets;
+
+  SCHLIEREN_HD Gatherer(const MediumView<double>& m, const SimdPack<std::int32_t, 8> (&index)[3])
+  {
+    const auto wide = [](SimdPack<std::int32_t, 8> i) __attribute__((always_inline))
+    {
+      return _mm512_cvtepi32_epi64((__m256i)i);
+    };
+    offsets = _mm512_add_epi64(wide(index[0]),
+      _mm512_add_epi64(_mm512_mul_epu32(wide(index[1]), _mm512_set1_epi64(m.rowStride)),
+        _mm512_mul_epu32(wide(index[2]), _mm512_set1_epi64(m.planeStride))));
+  }
+
+  template <int Points>
+  SCHLIEREN_HD void load(const double* row, Pack (&samples)[Points]) const
+  {
+#pragma GCC unroll 4
+    for (int i = 0; i < Points; ++i)
+    {
+      samples[i] = (Pack)_mm512_i64gather_pd(offsets, row + i, sizeof(double));
+    }
+  }
+};
+
+/// tensorProduct for packs.
+template <class Scheme, class Real, class Pack>
+SCHLIEREN_HD Sample<Pack> sumGathered(
+  const MediumView<Real>& m, const Stencil<Scheme, Real, Pack>& stencil, const Real* origin)
+{
+  constexpr int points = Scheme::points;
+  const auto& w = stencil.w;
+  const auto& d = stencil.d;
+  const Gatherer<Pack> rows(m, stencil.index);
+  if (Scheme::points == 2) // the others have enough to do meanwhile
+  {
+    std::int64_t at[lanesOf<Pack>];
+    std::memcpy(at, &rows.offsets, sizeof(at));
+#pragma GCC unroll 16
+    for (int i = 0; i < lanesOf<Pack>; ++i)
+    {
+      __builtin_prefetch(origin + m.ahead + at[i]);
+    }
+  }
+  Sample<Pack> sum{};
+#pragma GCC unroll 4
+  for (int k = 0; k < points; ++k)
+  {
+    Pack value{}, byX{}, byY{};
+#pragma GCC unroll 4
+    for (int j = 0; j < points; ++j)
+    {
+      Pack samples[points];
+      rows.load(origin + k * m.planeStride + j * m.rowStride, samples);
+      Pack rowValue = w[0][0] * samples[0];
+      Pack rowByX = d[0][0] * samples[0];
+#pragma GCC unroll 4
+      for (int i = 1; i < points; ++i)
+      {
+        rowValue += w[0][i] * samples[i];
+        rowByX += d[0][i] * samples[i];
+      }
+      value = j == 0 ? w[1][0] * rowValue : value + w[1][j] * rowValue;
+      byX = j == 0 ? w[1][0] * rowByX : byX + w[1][j] * rowByX;
+      byY = j == 0 ? d[1][0] * rowValue : byY + d[1][j] * rowValue;
+    }
+    sum.value = k == 0 ? w[2][0] * value : sum.value + w[2][k] * value;
+    sum.gradient.x = k == 0 ? w[2][0] * byX : sum.gradient.x + w[2][k] * byX;
+    sum.gradient.y = k == 0 ? w[2][0] * byY : sum.gradient.y + w[2][k] * byY;
+    sum.gradient.z = k == 0 ? d[2][0] * value : sum.gradient.z + d[2][k] * value;
+  }
+  return sum;
+}
+
+#endif
+
 /// Values and gradients at the positions, within [0, last], of a pack of rays.
 ///
-/// Instead of one gather per sample, whose cost is that of a load per ray and sample: rows of four
-/// samples are loaded and summed over y and z, four rays' in one register where that is 512 bits wide,
-/// and transposed so that the sums over x are done on packs of rays again.
+/// With AVX-512 samples are gathered. Without, where a gather costs more than its loads: rows of four
+/// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
+/// the sums over x are done on packs of rays again.
 template <class Scheme, class Real, class Pack>
 SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Pack>& position)
   -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
 {
-  using Int = IntOf<Pack>;
-  constexpr int lanes = lanesOf<Pack>;
-  const Pack x[3] = { position.x, position.y, position.z };
-  const Real last[3] = { m.last.x, m.last.y, m.last.z };
-  Pack w[3][Scheme::points], d[3][Scheme::points];
-  alignas(64) std::int32_t index[3][lanes];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    Int i =
-      __builtin_convertvector(Scheme::nearest ? x[axis] + static_cast<Real>(0.5) : x[axis], Int);
-    if (Scheme::points == 4)
-    {
-      const Int lastCell = Int{} + (static_cast<int>(last[axis]) - 1);
-      i = i < lastCell ? i : lastCell;
-    }
-    Scheme::weights(x[axis] - __builtin_convertvector(i, Pack), w[axis], d[axis]);
-    std::memcpy(index[axis], &i, sizeof(i));
-  }
-  const Real* corners[lanes];
+  const Stencil<Scheme, Real, Pack> stencil(m, position);
   const Real* origin = m.samples + (1 + Scheme::first) * (m.planeStride + m.rowStride + 1);
+#if defined(__AVX512F__)
+  return sumGathered(m, stencil, origin);
+#else
+  constexpr int lanes = lanesOf<Pack>;
+  const auto& w = stencil.w;
+  const auto& d = stencil.d;
+  std::int32_t index[3][lanes];
+  std::memcpy(index, stencil.index, sizeof(index));
+  std::int64_t offsets[lanes];
+#pragma GCC unroll 1 // once it has unrolled the loop, GCC does not vectorise it any more
   for (int ray = 0; ray < lanes; ++ray)
   {
-    corners[ray] =
-      origin + index[2][ray] * m.planeStride + index[1][ray] * m.rowStride + index[0][ray];
+    offsets[ray] = index[2][ray] * m.planeStride + index[1][ray] * m.rowStride + index[0][ray];
   }
 
   Pack values[4]{}, byY[4]{}, byZ[4]{};
-  simd::sumRows<Scheme, 0>(m, corners, w, d, values[0], byY[0], byZ[0]);
-  simd::sumRows<Scheme, 1>(m, corners, w, d, values[1], byY[1], byZ[1]);
-  simd::sumRows<Scheme, 2>(m, corners, w, d, values[2], byY[2], byZ[2]);
-  simd::sumRows<Scheme, 3>(m, corners, w, d, values[3], byY[3], byZ[3]);
+  simd::sumRows<Scheme, 0>(m, origin, offsets, w, d, values[0], byY[0], byZ[0]);
+  simd::sumRows<Scheme, 1>(m, origin, offsets, w, d, values[1], byY[1], byZ[1]);
+  simd::sumRows<Scheme, 2>(m, origin, offsets, w, d, values[2], byY[2], byZ[2]);
+  simd::sumRows<Scheme, 3>(m, origin, offsets, w, d, values[3], byY[3], byZ[3]);
   Pack valuesAlongX[4], byYAlongX[4], byZAlongX[4];
   simd::transpose(values, valuesAlongX);
   simd::transpose(byY, byYAlongX);
@@ -106,6 +250,7 @@ SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Pack>& posit
   return { simd::weigh<Real>(w[0], valuesAlongX),
     { simd::weigh<Real>(d[0], valuesAlongX), simd::weigh<Real>(w[0], byYAlongX),
       simd::weigh<Real>(w[0], byZAlongX) } };
+#endif
 }
 
 } // namespace schlieren

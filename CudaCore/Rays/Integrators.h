@@ -67,6 +67,14 @@ struct RefractedPath
   {
     return light.perLength + scaled(light.indexScale, ray.q);
   }
+  /// The position that a straight step from here leads to.
+  template <class Real>
+  SCHLIEREN_HD static Vec3<Real> ahead(
+    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light, const Real& step)
+  {
+    return ray.start + (ray.length + step) * light.perLength +
+      (ray.offset + scaled(step * light.indexScale, ray.q));
+  }
   /// dq/ds.
   template <class Real>
   SCHLIEREN_HD static Vec3<Real> kick(
@@ -102,6 +110,12 @@ struct StraightPath
   {
     const Real none = ray.length - ray.length;
     return { light.perLength.x + none, light.perLength.y + none, light.perLength.z + none };
+  }
+  template <class Real>
+  SCHLIEREN_HD static Vec3<Real> ahead(
+    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light, const Real& step)
+  {
+    return ray.start + (ray.length + step) * light.perLength;
   }
   template <class Real>
   SCHLIEREN_HD static Vec3<Real> kick(

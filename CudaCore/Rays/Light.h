@@ -20,11 +20,13 @@ struct Light
   Vec3<double> perColumn; ///< index coordinates per pixel along u
   Vec3<double> perRow;    ///< index coordinates per pixel along v
   Vec3<double> perLength; ///< index coordinates per unit of length along w
+  Vec3<double> lengthPer; ///< its inverse, axis by axis; infinite where it is 0
 
-  Vec3<double> u, v, w;    ///< the picture's axes in the grid's axes
-  Vec3<double> indexScale; ///< index coordinates per unit of length along each grid axis
-  double depth;            ///< entry plane to exit plane
-  double unit;             ///< the unit of length, data units
+  Vec3<double> u, v, w;       ///< the picture's axes in the grid's axes
+  Vec3<double> indexScale;    ///< index coordinates per unit of length along each grid axis
+  Vec3<double> unitsPerIndex; ///< its inverse, axis by axis
+  double depth;               ///< entry plane to exit plane
+  double unit;                ///< the unit of length, data units
 
   SCHLIEREN_HD Vec3<double> start(double column, double row) const
   {

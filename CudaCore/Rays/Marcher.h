@@ -39,7 +39,9 @@ struct RayTask
   std::int32_t stepLimit;
   double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
   bool bends;           ///< whether the path is refracted
-  Number allowedBend;   ///< Adaptive: error of q allowed in a step, per unit of length
+  Vec3<Number>
+    stepsPerIndex;    ///< 1 by the furthest that a step leads along each axis, in index coordinates
+  Number allowedBend; ///< Adaptive: error of q allowed in a step, per unit of length
   Number allowedOffset; ///< Adaptive: the same of the offset
 };
 
@@ -59,12 +61,11 @@ struct RayBatch
   float* gathered[Lanes]; ///< sums of the fields' gradients, where there are any
 };
 
+/// NaN becomes 0.
 template <class Real, class Number>
 SCHLIEREN_HD Real clampTo(const Real& x, const Number& last)
 {
-  // Written so that NaN becomes 0.
-  const Real low = x > 0 ? x : Real{};
-  return low < last ? low : Real{} + last;
+  return lesser(greater(x, Real{}), Real{} + last);
 }
 
 template <class Real, class Number>
@@ -77,9 +78,9 @@ SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Number>& last)
 template <class Real, class Number>
 SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Number>& last)
 {
-  const Real ofX = lesser<Real>(x.x, last.x - x.x);
-  const Real ofY = lesser<Real>(x.y, last.y - x.y);
-  const Real ofZ = lesser<Real>(x.z, last.z - x.z);
+  const Real ofX = lesser(x.x, last.x - x.x);
+  const Real ofY = lesser(x.y, last.y - x.y);
+  const Real ofZ = lesser(x.z, last.z - x.z);
   return lesser(ofX, lesser(ofY, ofZ));
 }
 
@@ -98,20 +99,6 @@ SCHLIEREN_HD Real wayOut(
 {
   return lesser(wayOut(x.x, along.x, low.x, high.x),
     lesser(wayOut(x.y, along.y, low.y, high.y), wayOut(x.z, along.z, low.z, high.z)));
-}
-
-template <class Real>
-SCHLIEREN_HD Vec3<NumberOf<Real>> laneOf(const Vec3<Real>& a, int i)
-{
-  return { lane(a.x, i), lane(a.y, i), lane(a.z, i) };
-}
-
-template <class Real>
-SCHLIEREN_HD void setLaneOf(Vec3<Real>& a, int i, const Vec3<NumberOf<Real>>& to)
-{
-  setLane(a.x, i, to.x);
-  setLane(a.y, i, to.y);
-  setLane(a.z, i, to.z);
 }
 
 /// A function of its own where a step takes several samples: in line, their code would be too much.
@@ -140,28 +127,29 @@ struct March
   Ray<Real> ray;
   Real cruise;   ///< the usual step; 0 for rays that are not under way
   Real nextStep; ///< Adaptive: no longer than this
-  int underWay = 0;
+  std::int32_t steps = 0;
+  std::int32_t nextLook = 0; ///< at the homogeneity map
+  bool areUnderWay = false;
+
+  // Rays are told apart by masks, or in arrays, but never by an index into a pack: that would keep the
+  // pack in memory, in every step.
 
   SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
     : task(ofTask)
     , batch(ofBatch)
     , ray{}
-    , cruise{}
     , nextStep(Real{} + ofTask.step)
   {
+    Number usual[lanes];
     for (int i = 0; i < lanes; ++i)
     {
-      if (batch.fate[i] == RayFate::Left)
-      {
-        ++underWay;
-        setLane(cruise, i, task.step);
-        setLaneOf(ray.start, i, { batch.start[0][i], batch.start[1][i], batch.start[2][i] });
-      }
-      else
-      {
-        park(i);
-      }
+      usual[i] = batch.fate[i] == RayFate::Left ? task.step : 0;
     }
+    cruise = fromArray<Real>(usual);
+    ray.start = { fromArray<Real>(batch.start[0]), fromArray<Real>(batch.start[1]),
+      fromArray<Real>(batch.start[2]) };
+    areUnderWay = any(cruise > 0);
+    park(cruise == 0);
     if constexpr (Path::bends)
     {
       // Light enters along w, so that |p| = 1 + nu from the start.
@@ -169,84 +157,117 @@ struct March
     }
   }
 
-  /// Puts a ray where it disturbs no others.
-  SCHLIEREN_HD void park(int i)
+  /// Puts rays where they disturb no others.
+  template <class Mask>
+  SCHLIEREN_HD void park(const Mask& which)
   {
-    setLane(cruise, i, Number(0));
-    setLaneOf(ray.start, i, Number(0.5) * task.medium.last);
-    setLaneOf(ray.offset, i, Vec3<Number>{ 0, 0, 0 });
-    setLaneOf(ray.q, i, Vec3<Number>{ 0, 0, 0 });
-    setLane(ray.length, i, Number(0));
+    const Vec3<Number> middle = Number(0.5) * task.medium.last;
+    cruise = which ? Real{} : cruise;
+    ray.start.x = which ? Real{} + middle.x : ray.start.x;
+    ray.start.y = which ? Real{} + middle.y : ray.start.y;
+    ray.start.z = which ? Real{} + middle.z : ray.start.z;
+    ray.offset.x = which ? Real{} : ray.offset.x;
+    ray.offset.y = which ? Real{} : ray.offset.y;
+    ray.offset.z = which ? Real{} : ray.offset.z;
+    ray.q.x = which ? Real{} : ray.q.x;
+    ray.q.y = which ? Real{} : ray.q.y;
+    ray.q.z = which ? Real{} : ray.q.z;
+    ray.length = which ? Real{} : ray.length;
   }
 
-  SCHLIEREN_HD bool isUnderWay(int i) const { return lane(cruise, i) > 0; }
-
-  SCHLIEREN_HD void finish(int i, RayFate fate, std::int32_t steps)
+  template <class Mask>
+  SCHLIEREN_HD void finish(const Mask& which, RayFate fate, std::int32_t stepsTaken)
   {
-    const Vec3<Number> offset = laneOf(ray.offset, i);
-    const Vec3<Number> q = laneOf(ray.q, i);
-    batch.offset[0][i] = offset.x;
-    batch.offset[1][i] = offset.y;
-    batch.offset[2][i] = offset.z;
-    batch.q[0][i] = q.x;
-    batch.q[1][i] = q.y;
-    batch.q[2][i] = q.z;
-    batch.length[i] = lane(ray.length, i);
-    batch.path[i] = lane(ray.path, i);
-    batch.pathError[i] = lane(ray.pathError, i);
-    batch.fate[i] = fate;
-    batch.steps[i] = steps;
-    park(i);
-    --underWay;
+    const auto put = [&which](const Real& from, Number(&to)[lanes])
+    { toArray(which ? from : fromArray<Real>(to), to); };
+    put(ray.offset.x, batch.offset[0]);
+    put(ray.offset.y, batch.offset[1]);
+    put(ray.offset.z, batch.offset[2]);
+    put(ray.q.x, batch.q[0]);
+    put(ray.q.y, batch.q[1]);
+    put(ray.q.z, batch.q[2]);
+    put(ray.length, batch.length);
+    put(ray.path, batch.path);
+    put(ray.pathError, batch.pathError);
+    Number isIt[lanes];
+    toArray(which ? Real{} + 1 : Real{}, isIt);
+    for (int i = 0; i < lanes; ++i)
+    {
+      if (isIt[i] != 0)
+      {
+        batch.fate[i] = fate;
+        batch.steps[i] = stepsTaken;
+      }
+    }
+    park(which);
   }
 
-  /// Up to the far side of the homogeneous cubes that the rays are in, where that is further.
+  /// Calls visit(i, position, step) for the rays that are under way.
+  template <class Visit>
+  SCHLIEREN_HD void forRays(
+    const Vec3<Real>& positions, const Real& lengths, const Visit& visit) const
+  {
+    Number x[lanes], y[lanes], z[lanes], step[lanes], isUnderWay[lanes];
+    toArray(positions.x, x);
+    toArray(positions.y, y);
+    toArray(positions.z, z);
+    toArray(lengths, step);
+    toArray(cruise, isUnderWay);
+    for (int i = 0; i < lanes; ++i)
+    {
+      if (isUnderWay[i] > 0)
+      {
+        visit(i, Vec3<Number>{ x[i], y[i], z[i] }, step[i]);
+      }
+    }
+  }
+
+  /// Up to the far side of the homogeneous cubes that the rays are in, where that is further. Returns
+  /// whether there is any such cube.
   SCHLIEREN_HD bool lengthen(Real& step, const Vec3<Real>& x, const Vec3<Real>& along) const
   {
-    Vec3<Real> low{}, high{};
-    bool found = false;
-    for (int i = 0; i < lanes; ++i)
-    {
-      if (isUnderWay(i))
+    Number low[3][lanes]{}, edge[lanes]{};
+    forRays(clampTo(x, task.medium.last), step,
+      [&](int i, const Vec3<Number>& at, Number)
       {
-        const HomogeneousCube<Number> cube =
-          homogeneousCube(task.map, clampTo(laneOf(x, i), task.medium.last));
-        found |= cube.edge > 0;
-        setLaneOf(low, i, cube.low);
-        setLaneOf(high, i, cube.low + Vec3<Number>{ cube.edge, cube.edge, cube.edge });
-      }
-    }
-    if (found)
+        const HomogeneousCube<Number> cube = homogeneousCube(task.map, at);
+        low[0][i] = cube.low.x;
+        low[1][i] = cube.low.y;
+        low[2][i] = cube.low.z;
+        edge[i] = cube.edge;
+      });
+    const Real edges = fromArray<Real>(edge);
+    const auto isIn = edges > 0;
+    if (!any(isIn))
     {
-      const Real far = wayOut(x, along, low, high);
-      // Where there is no cube, low and high are 0 and say nothing.
-      const Real toFarSide = high.x > low.x ? far : Real{};
-      step = cruise > 0 ? greater(step, toFarSide) : step;
+      return false;
     }
-    return found;
+    const Vec3<Real> lows = { fromArray<Real>(low[0]), fromArray<Real>(low[1]),
+      fromArray<Real>(low[2]) };
+    const Real far = wayOut(x, along, lows, lows + Vec3<Real>{ edges, edges, edges });
+    step = isIn ? greater(step, far) : step;
+    return true;
   }
 
-  SCHLIEREN_HD void stopInSolids(Real& step, const Vec3<Real>& middle, std::int32_t steps)
+  SCHLIEREN_HD void stopInSolids(Real& step, const Vec3<Real>& middle)
   {
-    for (int i = 0; i < lanes; ++i)
+    Number blocked[lanes]{};
+    forRays(middle, step,
+      [&](int i, const Vec3<Number>& at, Number)
+      { blocked[i] = isSolid(task.medium, at) ? 1 : 0; });
+    const auto which = fromArray<Real>(blocked) > 0;
+    if (any(which))
     {
-      if (isUnderWay(i) && isSolid(task.medium, laneOf(middle, i)))
-      {
-        finish(i, RayFate::Blocked, steps);
-        setLane(step, i, Number(0));
-      }
+      finish(which, RayFate::Blocked, steps);
+      step = which ? Real{} : step;
     }
   }
 
   SCHLIEREN_HD void gather(const Vec3<Real>& middle, const Real& step) const
   {
-    for (int i = 0; i < lanes; ++i)
-    {
-      if (isUnderWay(i))
-      {
-        gatherGradients(task.gradients, laneOf(middle, i), lane(step, i), batch.gathered[i]);
-      }
-    }
+    forRays(middle, step,
+      [this](int i, const Vec3<Number>& at, Number length)
+      { gatherGradients(task.gradients, at, length, batch.gathered[i]); });
   }
 
   SCHLIEREN_HD Sample<Real> sample(const Vec3<Real>& at) const
@@ -262,28 +283,27 @@ struct March
     }
   }
 
-  /// The rays after a step, and (Adaptive) its error by what is allowed.
-  SCHLIEREN_HD Ray<Real> moved(const Real& step, const Vec3<Real>& middle, Real& error) const
+  struct Sampler // a lambda could not be told to be compiled into its caller
   {
-    if constexpr (isAdaptive)
-    {
-      const auto trial = Adaptive::attempt<Path>(
-        ray, task.straight, step, [this](const Vec3<Real>& at) { return sample(at); });
-      const Real q = dot(trial.qError, trial.qError);
-      const Real offset = dot(trial.offsetError, trial.offsetError);
-      const Number byBend = 1 / (task.allowedBend * task.allowedBend);
-      const Number byOffset = 1 / (task.allowedOffset * task.allowedOffset);
-      error = greater<Real>(byBend * q, byOffset * offset);
-      error = step > 0 ? error / (step * step) : error; // its square, for all of the above
-      return trial.ray;
-    }
-    else
-    {
-      Ray<Real> there = ray;
-      Integrator::template advance<Path>(
-        there, task.straight, step, middle, [this](const Vec3<Real>& at) { return sample(at); });
-      return there;
-    }
+    const March& rays;
+    SCHLIEREN_HD Sample<Real> operator()(const Vec3<Real>& at) const { return rays.sample(at); }
+  };
+
+  SCHLIEREN_HD void advance(Ray<Real>& there, const Real& step, const Vec3<Real>& middle) const
+  {
+    Integrator::template advance<Path>(there, task.straight, step, middle, Sampler{ *this });
+  }
+
+  /// Adaptive: the rays after a step, and the square of its error by what is allowed.
+  SCHLIEREN_HD Ray<Real> attempt(const Real& step, Real& error) const
+  {
+    const auto trial = Adaptive::attempt<Path>(ray, task.straight, step, Sampler{ *this });
+    const Number byBend = 1 / (task.allowedBend * task.allowedBend);
+    const Number byOffset = 1 / (task.allowedOffset * task.allowedOffset);
+    error = greater(byBend * dot(trial.qError, trial.qError),
+      byOffset * dot(trial.offsetError, trial.offsetError));
+    error = step > 0 ? error / (step * step) : error;
+    return trial.ray;
   }
 
   /// The step that ends where the rays leave the grid, of those that do: Newton's method on all of it,
@@ -295,8 +315,16 @@ struct March
     constexpr int iterations = 3;
     for (int iteration = 0; iteration < iterations; ++iteration)
     {
-      Real error{};
-      const Ray<Real> there = moved(step, x + (Number(0.5) * step) * along, error);
+      Ray<Real> there = ray;
+      if constexpr (isAdaptive)
+      {
+        Real error{};
+        there = attempt(step, error);
+      }
+      else
+      {
+        advance(there, step, x + (Number(0.5) * step) * along);
+      }
       const Real rest = wayOut(Path::position(there, task.straight),
         Path::along(there, task.straight), Vec3<Number>{ 0, 0, 0 }, task.medium.last);
       step = leaving ? clampTo(step + rest, 2 * task.step) : step;
@@ -313,7 +341,7 @@ struct March
     // The error of a step of the second order, which is what is compared, goes by its cube.
     const Real factor = Number(0.9) / squareRoot(squareRoot(error));
     const Real kept = factor > Number(0.2) ? factor : Real{} + Number(0.2);
-    nextStep = greater<Real>(shortest, step * (kept < 4 ? kept : Real{} + 4));
+    nextStep = greater(shortest, step * (kept < 4 ? kept : Real{} + 4));
     return good;
   }
 
@@ -332,104 +360,124 @@ struct March
   }
 
   template <class Mask>
-  SCHLIEREN_HD void finishOutside(const Mask& leaving, std::int32_t steps)
+  SCHLIEREN_HD void finishOutside(const Mask& leaving)
   {
     // Of a step: nearer to the grid's side than this is there.
     constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
     const Real rest = wayOut(Path::position(ray, task.straight), Path::along(ray, task.straight),
       Vec3<Number>{ 0, 0, 0 }, task.medium.last);
-    for (int i = 0; i < lanes; ++i)
+    const auto done = leaving & (cruise > 0) & (rest <= Number(near) * task.step);
+    if (any(done))
     {
-      if (isUnderWay(i) && lane(leaving, i) && !(lane(rest, i) > Number(near) * task.step))
-      {
-        finish(i, RayFate::Left, steps);
-      }
+      finish(done, RayFate::Left, steps + 1);
     }
   }
 
   /// How far | |p| / n - 1 | is from 0 at the end, which nothing in the integration forces it to be.
   SCHLIEREN_HD void findDrift()
   {
-    Vec3<Real> at{}, q{};
-    for (int i = 0; i < lanes; ++i)
+    if constexpr (!Path::bends)
     {
-      setLaneOf(at, i,
-        Vec3<Number>{ batch.start[0][i], batch.start[1][i], batch.start[2][i] } +
-          batch.length[i] * task.straight.perLength +
-          Vec3<Number>{ batch.offset[0][i], batch.offset[1][i], batch.offset[2][i] });
-      setLaneOf(q, i, { batch.q[0][i], batch.q[1][i], batch.q[2][i] });
+      return;
     }
+    const auto packs = [](const Number(&from)[3][lanes])
+    {
+      return Vec3<Real>{ fromArray<Real>(from[0]), fromArray<Real>(from[1]),
+        fromArray<Real>(from[2]) };
+    };
+    const Vec3<Real> q = packs(batch.q);
+    const Vec3<Real> at = packs(batch.start) +
+      fromArray<Real>(batch.length) * task.straight.perLength + packs(batch.offset);
     const Real nu = sample(at).value;
     const Real n = 1 + nu;
     const Real drift = (2 * (dot(q, task.straight.w) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
+    toArray(drift < 0 ? -drift : drift, batch.drift);
     for (int i = 0; i < lanes; ++i)
     {
-      const Number one = lane(drift, i);
-      batch.drift[i] = Path::bends && batch.fate[i] == RayFate::Left ? (one < 0 ? -one : one) : 0;
+      batch.drift[i] = batch.fate[i] == RayFate::Left ? batch.drift[i] : 0;
     }
   }
 
-  SCHLIEREN_HD void run()
+  /// How many steps the rays can take before any of them can reach the grid's side, as |p| = n.
+  SCHLIEREN_HD std::int32_t stepsInside() const
   {
+    const Vec3<Real> x = Path::position(ray, task.straight);
+    const Vec3<Number>& last = task.medium.last;
+    const Real least = lesser(lesser(x.x, last.x - x.x) * task.stepsPerIndex.x,
+      lesser(lesser(x.y, last.y - x.y) * task.stepsPerIndex.y,
+        lesser(x.z, last.z - x.z) * task.stepsPerIndex.z));
+    Number most[lanes];
+    toArray(least, most);
+    Number all = static_cast<Number>(task.stepLimit - steps);
+    for (const Number one : most)
+    {
+      all = one < all ? one : all;
+    }
+    return static_cast<std::int32_t>(all);
+  }
+
+  /// One step of rays of which none leaves the grid, with nothing to look at but the medium.
+  SCHLIEREN_HD void takeStepInside()
+  {
+    advance(ray, cruise, Path::ahead(ray, task.straight, Number(0.5) * cruise));
+    ++steps;
+  }
+
+  /// One step of all rays that are under way.
+  SCHLIEREN_HD void takeStep()
+  {
+    if (steps == task.stepLimit)
+    {
+      finish(cruise > 0, RayFate::Trapped, steps);
+      areUnderWay = false;
+      return;
+    }
     constexpr Vec3<Number> zero{ 0, 0, 0 };
     constexpr int stepsBetweenLooks = 3;
-    std::int32_t nextLook = 0;
-    for (std::int32_t steps = 0; underWay > 0; ++steps)
+    const Vec3<Real> x = Path::position(ray, task.straight);
+    const Vec3<Real> along = Path::along(ray, task.straight);
+    Real step = isAdaptive ? lesser(cruise, nextStep) : cruise;
+    if (!isAdaptive && task.map.levels != nullptr && steps >= nextLook)
     {
-      if (steps == task.stepLimit)
+      nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
+    }
+    auto leaving = insetOf(x + step * along, task.medium.last) < 0;
+    const bool someLeave = any(leaving);
+    if (someLeave)
+    {
+      const Real out = lesser(step, wayOut(x, along, zero, task.medium.last));
+      step = leaving ? (out > 0 ? out : Real{}) : step;
+      if constexpr (isExact)
       {
-        for (int i = 0; i < lanes; ++i)
-        {
-          if (isUnderWay(i))
-          {
-            finish(i, RayFate::Trapped, steps);
-          }
-        }
-        break;
-      }
-      const Vec3<Real> x = Path::position(ray, task.straight);
-      const Vec3<Real> along = Path::along(ray, task.straight);
-      Real step = isAdaptive ? lesser(cruise, nextStep) : cruise;
-      if (!isAdaptive && task.map.levels != nullptr && steps >= nextLook)
-      {
-        nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
-      }
-      auto leaving = insetOf(x + step * along, task.medium.last) < 0;
-      const bool someLeave = any(leaving);
-      if (someLeave)
-      {
-        const Real out = lesser(step, wayOut(x, along, zero, task.medium.last));
-        step = leaving ? (out > 0 ? out : Real{}) : step;
-        if constexpr (isExact)
-        {
-          step = endingOutside(step, leaving, x, along);
-        }
-      }
-      const Vec3<Real> middle = x + (Number(0.5) * step) * along;
-      if (task.medium.solid != nullptr)
-      {
-        stopInSolids(step, clampTo(middle, task.medium.last), steps);
-      }
-      Real error{};
-      const Ray<Real> there = moved(step, middle, error);
-      if constexpr (isAdaptive)
-      {
-        leaving = leaving & takeIfGood(there, step, error);
-      }
-      else
-      {
-        ray = there;
-      }
-      if (task.gradients.count > 0)
-      {
-        gather(clampTo(middle, task.medium.last), step);
-      }
-      if (someLeave)
-      {
-        finishOutside(leaving, steps + 1);
+        step = endingOutside(step, leaving, x, along);
       }
     }
-    findDrift();
+    const Vec3<Real> middle = x + (Number(0.5) * step) * along;
+    if (task.medium.solid != nullptr)
+    {
+      stopInSolids(step, clampTo(middle, task.medium.last));
+      areUnderWay = any(cruise > 0);
+    }
+    if constexpr (isAdaptive)
+    {
+      Real error{};
+      const Ray<Real> there = attempt(step, error);
+      leaving = leaving & takeIfGood(there, step, error);
+    }
+    else
+    {
+      advance(ray, step, middle);
+    }
+    if (task.gradients.count > 0)
+    {
+      gather(clampTo(middle, task.medium.last), step);
+    }
+    if (someLeave)
+    {
+      finishOutside(leaving);
+      areUnderWay = any(cruise > 0);
+    }
+    ++steps;
   }
 };
 
@@ -438,7 +486,51 @@ template <class Kernel, class Real>
 SCHLIEREN_HD void march(
   const RayTask<NumberOf<Real>>& task, RayBatch<NumberOf<Real>, lanesOf<Real>>& batch)
 {
-  March<Kernel, Real>(task, batch).run();
+  March<Kernel, Real> rays(task, batch);
+  while (rays.areUnderWay)
+  {
+    rays.takeStep();
+  }
+  rays.findDrift();
+}
+
+/// The same for two batches in turn: while one waits for what it has read, the other is computed.
+template <class Kernel, class Real>
+SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
+  RayBatch<NumberOf<Real>, lanesOf<Real>>& one, RayBatch<NumberOf<Real>, lanesOf<Real>>& other)
+{
+  March<Kernel, Real> a(task, one);
+  March<Kernel, Real> b(task, other);
+  const bool isPlain = !Kernel::Integrator::samplesBeyond && task.map.levels == nullptr &&
+    task.medium.solid == nullptr && task.gradients.count == 0;
+  constexpr std::int32_t worthIt = 4;
+  constexpr std::int32_t pause = 8;
+  std::int32_t next = 0;
+  while (a.areUnderWay && b.areUnderWay)
+  {
+    if (isPlain && a.steps >= next)
+    {
+      const std::int32_t inside = lesser(a.stepsInside(), b.stepsInside());
+      next = a.steps + (inside < worthIt ? pause : inside);
+      while (a.steps < next && inside >= worthIt)
+      {
+        a.takeStepInside();
+        b.takeStepInside();
+      }
+    }
+    a.takeStep();
+    b.takeStep();
+  }
+  while (a.areUnderWay)
+  {
+    a.takeStep();
+  }
+  while (b.areUnderWay)
+  {
+    b.takeStep();
+  }
+  a.findDrift();
+  b.findDrift();
 }
 
 /// Calls visit with an object of the kernel's type.

@@ -7,9 +7,10 @@
 namespace schlieren
 {
 
-/// Takes `Lanes` rays through the medium side by side.
+/// Takes two batches of `Lanes` rays, side by side, through the medium.
 template <class Number, int Lanes>
-using MarchFunction = void (*)(const RayTask<Number>&, RayBatch<Number, Lanes>&);
+using MarchFunction = void (*)(
+  const RayTask<Number>&, RayBatch<Number, Lanes>& one, RayBatch<Number, Lanes>& other);
 
 /// The one for a kernel. Each width is compiled once, for the instructions that have it: 4 floats for any
 /// processor; 8 floats and 4 doubles for AVX2 with FMA; 16 floats and 8 doubles for AVX-512.

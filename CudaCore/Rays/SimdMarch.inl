@@ -10,17 +10,25 @@ namespace schlieren
 {
 
 template <class Kernel, class Pack>
-void marchPack(
-  const RayTask<NumberOf<Pack>>& task, RayBatch<NumberOf<Pack>, lanesOf<Pack>>& batch)
+void marchPacks(const RayTask<NumberOf<Pack>>& task, RayBatch<NumberOf<Pack>, lanesOf<Pack>>& one,
+  RayBatch<NumberOf<Pack>, lanesOf<Pack>>& other)
 {
-  march<Kernel, Pack>(task, batch);
+  if constexpr (Kernel::Integrator::samplesBeyond)
+  {
+    march<Kernel, Pack>(task, one); // steps that are long enough to keep the processor busy
+    march<Kernel, Pack>(task, other);
+  }
+  else
+  {
+    marchTwo<Kernel, Pack>(task, one, other);
+  }
 }
 
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice)
 {
   return visitKernel(choice, [](auto kernel) -> MarchFunction<Number, Lanes>
-    { return &marchPack<decltype(kernel), SimdPack<Number, Lanes>>; });
+    { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
 }
 
 } // namespace schlieren

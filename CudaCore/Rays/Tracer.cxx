@@ -29,6 +29,15 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
     static_cast<Vec3<Real>>(light.indexScale) };
   const double step = settings.stepVoxels / length(light.perLength);
   task.step = static_cast<Real>(step);
+  constexpr double stepsAhead = 4;
+  const auto ahead = [&](double along) { return std::llround(stepsAhead * step * along); };
+  task.medium.ahead = ahead(light.perLength.z) * task.medium.planeStride +
+    ahead(light.perLength.y) * task.medium.rowStride + ahead(light.perLength.x);
+  const double furthest =
+    1.01 * step * (1 + medium.largestNu); // |p| = n, but for the integrator's error
+  task.stepsPerIndex = { static_cast<Real>(1 / (furthest * light.indexScale.x)),
+    static_cast<Real>(1 / (furthest * light.indexScale.y)),
+    static_cast<Real>(1 / (furthest * light.indexScale.z)) };
   const double straightSteps = std::ceil(light.depth / step) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
   task.stepLimit = static_cast<std::int32_t>(std::min(trappedFactor * straightSteps, largestLimit));
@@ -78,18 +87,16 @@ struct Block
 constexpr std::int64_t tileEdge = 16;
 
 template <class Number, int Lanes>
-bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatch,
+bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
   const Pass& pass, TracedPass& traced, int threads, const Monitor& monitor)
 {
   const std::int64_t tilesAlong = (pass.columns + tileEdge - 1) / tileEdge;
   const std::int64_t tilesUp = (pass.rows + tileEdge - 1) / tileEdge;
   std::vector<double> worstDrifts(static_cast<std::size_t>(tilesAlong * tilesUp), 0);
 
-  const auto traceBlock = [&](std::int64_t column, std::int64_t row, std::size_t tile)
+  const auto enterBlock = [&](std::int64_t column, std::int64_t row, RayBatch<Number, Lanes>& batch,
+                            double(&from)[Lanes], std::int64_t(&rays)[Lanes])
   {
-    RayBatch<Number, Lanes> batch;
-    double from[Lanes];
-    std::int64_t rays[Lanes];
     for (int i = 0; i < Lanes; ++i)
     {
       const std::int64_t atColumn = column + i % Block<Lanes>::columns;
@@ -103,13 +110,16 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
         batch.gathered[i] = traced.gathered.data() + rays[i] * task.gradients.count;
       }
     }
-    marchBatch(task, batch);
+  };
+  const auto leaveBlock = [&](const RayBatch<Number, Lanes>& batch, const double(&from)[Lanes],
+                            const std::int64_t(&rays)[Lanes], double& worstDrift)
+  {
     for (int i = 0; i < Lanes; ++i)
     {
       if (rays[i] >= 0)
       {
         traced.exits[static_cast<std::size_t>(rays[i])] = leaveGrid(task, batch, i, from[i]);
-        worstDrifts[tile] = std::max(worstDrifts[tile], static_cast<double>(batch.drift[i]));
+        worstDrift = std::max(worstDrift, static_cast<double>(batch.drift[i]));
       }
     }
   };
@@ -126,9 +136,17 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
              row += Block<Lanes>::rows)
         {
           for (std::int64_t column = left; column < std::min(left + tileEdge, pass.columns);
-               column += Block<Lanes>::columns)
+               column += 2 * Block<Lanes>::columns)
           {
-            traceBlock(column, row, static_cast<std::size_t>(tile));
+            RayBatch<Number, Lanes> batches[2]{};
+            double from[2][Lanes]{};
+            std::int64_t rays[2][Lanes];
+            enterBlock(column, row, batches[0], from[0], rays[0]);
+            enterBlock(column + Block<Lanes>::columns, row, batches[1], from[1], rays[1]);
+            marchBatches(task, batches[0], batches[1]);
+            double& worstDrift = worstDrifts[static_cast<std::size_t>(tile)];
+            leaveBlock(batches[0], from[0], rays[0], worstDrift);
+            leaveBlock(batches[1], from[1], rays[1], worstDrift);
           }
         }
       }
@@ -144,8 +162,12 @@ MarchFunction<Number, 1> marchOneByOne(const KernelChoice& choice)
   return visitKernel(choice,
     [](auto kernel) -> MarchFunction<Number, 1>
     {
-      return [](const RayTask<Number>& task, RayBatch<Number, 1>& batch)
-      { march<decltype(kernel), Number>(task, batch); };
+      using Kind = decltype(kernel);
+      return [](const RayTask<Number>& task, RayBatch<Number, 1>& one, RayBatch<Number, 1>& other)
+      {
+        march<Kind, Number>(task, one);
+        march<Kind, Number>(task, other);
+      };
     });
 }
 
@@ -173,8 +195,12 @@ bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
   const Monitor& monitor, Simd simd)
 {
   const KernelChoice& kernel = task.kernel;
-  const auto traceWith = [&](auto marchBatch)
-  { return traceTiles(task, marchBatch, pass, traced, threads, monitor); };
+  if (task.medium.planeStride > std::numeric_limits<std::uint32_t>::max())
+  {
+    simd = Simd::None; // the others multiply strides of 32 bits
+  }
+  const auto traceWith = [&](auto marchBatches)
+  { return traceTiles(task, marchBatches, pass, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
 #ifdef SCHLIEREN_HAS_AVX
   if (simd == Simd::Avx512)

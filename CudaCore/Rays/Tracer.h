@@ -22,20 +22,18 @@ struct Chord
   double from, to;
 };
 
-SCHLIEREN_HD void clip(Chord& chord, double start, double along, double last)
+/// `per` is 1 / along.
+SCHLIEREN_HD void clip(Chord& chord, double start, double along, double per, double last)
 {
   if (along == 0)
   {
-    if (start < 0 || start > last)
-    {
-      chord.to = -1;
-    }
+    chord.to = start < 0 || start > last ? -1 : chord.to;
     return;
   }
-  const double a = (0 - start) / along;
-  const double b = (last - start) / along;
-  chord.from = fmax(chord.from, fmin(a, b));
-  chord.to = fmin(chord.to, fmax(a, b));
+  const double a = (0 - start) * per;
+  const double b = (last - start) * per;
+  chord.from = greater(chord.from, lesser(a, b));
+  chord.to = lesser(chord.to, greater(a, b));
 }
 
 /// Puts the ray that starts at (column, row) of the picture, in pixels from the centre of pixel (0, 0),
@@ -48,9 +46,9 @@ SCHLIEREN_HD double enterGrid(
   const Vec3<double> start = task.light.start(column, row);
   const Vec3<double> last = static_cast<Vec3<double>>(task.medium.last);
   Chord chord{ 0, task.light.depth };
-  clip(chord, start.x, task.light.perLength.x, last.x);
-  clip(chord, start.y, task.light.perLength.y, last.y);
-  clip(chord, start.z, task.light.perLength.z, last.z);
+  clip(chord, start.x, task.light.perLength.x, task.light.lengthPer.x, last.x);
+  clip(chord, start.y, task.light.perLength.y, task.light.lengthPer.y, last.y);
+  clip(chord, start.z, task.light.perLength.z, task.light.lengthPer.z, last.z);
   if (!(chord.from < chord.to))
   {
     batch.fate[i] = RayFate::Missed;
@@ -102,22 +100,21 @@ SCHLIEREN_HD RayExit leaveGrid(
     }
     momentum = std::sqrt(alongU * alongU + alongV * alongV + forward * forward);
   }
-  exit.deflection[0] = alongU / momentum;
-  exit.deflection[1] = alongV / momentum;
+  const double perMomentum = 1 / momentum;
+  exit.deflection[0] = alongU * perMomentum;
+  exit.deflection[1] = alongV * perMomentum;
   exit.opticalPathDifference =
     (static_cast<double>(batch.path[i]) - static_cast<double>(batch.pathError[i])) *
     task.metresPerUnit;
 
   // From where it leaves the grid, straight on to the exit plane.
-  const Vec3<double> offset = { static_cast<double>(gridOffset.x) / task.light.indexScale.x,
-    static_cast<double>(gridOffset.y) / task.light.indexScale.y,
-    static_cast<double>(gridOffset.z) / task.light.indexScale.z };
+  const Vec3<double> offset =
+    scaled(task.light.unitsPerIndex, static_cast<Vec3<double>>(gridOffset));
   const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
     (bends ? dot(offset, task.light.w) : 0);
-  exit.displacement[0] =
-    (dot(offset, task.light.u) + remaining * alongU / forward) * task.light.unit;
-  exit.displacement[1] =
-    (dot(offset, task.light.v) + remaining * alongV / forward) * task.light.unit;
+  const double further = remaining / forward;
+  exit.displacement[0] = (dot(offset, task.light.u) + further * alongU) * task.light.unit;
+  exit.displacement[1] = (dot(offset, task.light.v) + further * alongV) * task.light.unit;
   return exit;
 }
 
@@ -126,7 +123,7 @@ template <class Kernel, class Number>
 SCHLIEREN_HD RayExit traceRay(
   const RayTask<Number>& task, double column, double row, float* gathered, Number& drift)
 {
-  RayBatch<Number, 1> batch;
+  RayBatch<Number, 1> batch{};
   const double from = enterGrid(task, column, row, batch, 0);
   batch.gathered[0] = gathered;
   march<Kernel, Number>(task, batch);
