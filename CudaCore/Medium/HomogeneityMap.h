@@ -171,7 +171,7 @@ HomogeneityMap<Real> buildHomogeneityMap(
 // One cube's share of the work, the same on host and device.
 
 /// Whether any of the `count` <= 32 bits from `at` on is 1.
-SCHLIEREN_HD inline bool anyBit(const std::uint32_t* bits, std::int64_t at, int count)
+SCHLIEREN_HD bool anyBit(const std::uint32_t* bits, std::int64_t at, int count)
 {
   const int shift = static_cast<int>(at & 31);
   std::uint64_t window = bits[at >> 5] >> shift;

@@ -187,7 +187,7 @@ auto visitScheme(Interpolation interpolation, const Visit& visit)
 
 /// Value and gradient at a position within [0, last].
 template <class Scheme, class Real>
-SCHLIEREN_HD Sample<Real> interpolate(const MediumView<Real>& m, const Vec3<Real>& position)
+SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Real>& position) -> Sample<Real>
 {
   const Real x[3] = { position.x, position.y, position.z };
   const Real last[3] = { m.last.x, m.last.y, m.last.z };
