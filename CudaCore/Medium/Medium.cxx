@@ -233,7 +233,8 @@ void checkRange(const Range& range)
 }
 
 /// Sets to zero what is too small to matter beside `largest` |nu|. The tails of a spline's coefficients
-/// fall by 5.8 a point and soon reach denormal numbers, on which a CPU is a hundred times slower.
+/// fall by 5.8 (quadratic) or 3.7 a point and soon reach denormal numbers, on which a CPU is a hundred
+/// times slower.
 template <class Real>
 void cutTails(PaddedVolume<Real>& volume, double largest, int threads)
 {

@@ -97,19 +97,21 @@ void mediumAndMap(benchmark::State& state)
 
 void arguments(benchmark::internal::Benchmark* b)
 {
-  b->ArgNames({ "n", "linear", "body", "threads" });
+  b->ArgNames({ "n", "interpolation", "body", "threads" });
   for (const int n : { 128, 256, 512 })
   {
-    for (const int linear : { 0, 1 })
+    for (int interpolation = 0; interpolation < 4; ++interpolation)
     {
       for (const Body body : { None, Ball, Foam })
       {
-        b->Args({ n, linear, body, 0 });
+        b->Args({ n, interpolation, body, 0 });
       }
     }
   }
-  b->Args({ 256, 0, 0, 1 });
-  b->Args({ 256, 1, 0, 1 });
+  for (int interpolation = 0; interpolation < 4; ++interpolation)
+  {
+    b->Args({ 256, interpolation, None, 1 });
+  }
 }
 BENCHMARK(mediumAndMap)->Apply(arguments)->UseRealTime()->MinTime(2)->Unit(benchmark::kMillisecond);
 
@@ -133,8 +135,8 @@ void mapOnCuda(benchmark::State& state)
     static_cast<double>(flow.samples.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(mapOnCuda)
-  ->ArgNames({ "n", "linear" })
-  ->ArgsProduct({ { 256, 512 }, { 0, 1 } })
+  ->ArgNames({ "n", "interpolation" })
+  ->ArgsProduct({ { 256, 512 }, { 0, 1, 2, 3 } })
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
