@@ -47,6 +47,11 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
+  bool holdsRefractivityOf(const std::vector<double>& input, vtkRefractiveIndex* medium) const
+  {
+    return this->MediumTime == medium->GetMTime() && this->Input == input;
+  }
+
   // Of the fields that tint, on the grid of Refractivity; empty where not needed.
   std::vector<float> FieldGradients;
 
@@ -76,6 +81,20 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
     number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
     number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
     number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+}
+
+/// Everything of the inputs that the refractivity depends on.
+std::vector<double> describeInputs(
+  vtkSchlierenFilter* self, vtkDataObject* input, vtkDataObject* bodies)
+{
+  std::vector<double> description = describeInput(input, upstreamTime(self, 0));
+  if (bodies)
+  {
+    const std::vector<double> ofBodies =
+      describeInput(bodies, upstreamTime(self, vtkRefractiveIndex::BODIES));
+    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  }
+  return description;
 }
 
 schlieren::View viewFrom(vtkSchlierenFilter* self)
@@ -154,14 +173,16 @@ void dropMaskOfOnes(vtkPointData* arrays)
   }
 }
 
+/// Takes the memory of the values over.
 template <class Array, class Value>
-vtkSmartPointer<Array> newArray(const char* name, const std::vector<Value>& values, int components)
+vtkSmartPointer<Array> newArray(
+  const char* name, schlieren::PixelArray<Value>& values, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  const auto size = static_cast<vtkIdType>(values.size());
+  array->SetArray(values.release(), size, 0, Array::VTK_DATA_ARRAY_DELETE);
   if (components == 2)
   {
     array->SetComponentName(0, "u");
@@ -199,7 +220,7 @@ const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& 
   return storage.data();
 }
 
-void setOutput(vtkImageData* output, const schlieren::Image& image)
+void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
   output->SetOrigin(image.frame.origin[0], image.frame.origin[1], 0);
@@ -227,7 +248,7 @@ void setOutput(vtkImageData* output, const schlieren::Image& image)
 }
 
 /// Adds the colours, of which `white` is white, as the scalars of the picture.
-void addColor(vtkImageData* output, const std::vector<float>& color, float white)
+void addColor(vtkImageData* output, const schlieren::PixelArray<float>& color, float white)
 {
   vtkNew<vtkUnsignedCharArray> array;
   array->SetName("Color");
@@ -407,14 +428,8 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describeInput(input, upstreamTime(this, 0));
-  if (bodies)
-  {
-    const std::vector<double> ofBodies =
-      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
-    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
-  }
-  if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
+  std::vector<double> description = describeInputs(this, input, bodies);
+  if (inside.holdsRefractivityOf(description, this->Medium))
   {
     return true;
   }
@@ -491,16 +506,18 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
 
-  const schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
+  schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
   if (image.aborted)
   {
     return false;
   }
-  if (!image.deviceNote.empty())
+  const bool isTracedNow =
+    image.traceSeconds > 0; // another knife edge is no reason to say it again
+  if (isTracedNow && !image.deviceNote.empty())
   {
     vtkWarningMacro(<< image.deviceNote);
   }
-  if (image.raysTraced > 0 && image.raysBlocked == image.raysTraced)
+  if (isTracedNow && image.raysTraced > 0 && image.raysBlocked == image.raysTraced)
   {
     vtkWarningMacro(
       << "All light that meets the data is blocked, so the picture is black there: every "
@@ -508,7 +525,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
          "Look along another ViewDirection, or let light pass where no cell is with "
          "OutsideBlocksLight off.");
   }
-  if (image.raysLost > 0)
+  if (isTracedNow && image.raysLost > 0)
   {
     vtkWarningMacro(
       << image.raysLost << " of " << image.raysTraced
@@ -548,8 +565,13 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
     if (vtkDataObject* input = vtkDataObject::GetData(inputVector[0]))
     {
       this->PassArraySelections();
-      vtkNew<vtkImageData> grid;
-      this->Medium->ComputeGrid(input, grid);
+      vtkSmartPointer<vtkImageData> grid = this->Inside->Refractivity;
+      vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+      if (!this->Inside->holdsRefractivityOf(describeInputs(this, input, bodies), this->Medium))
+      {
+        grid = vtkSmartPointer<vtkImageData>::New();
+        this->Medium->ComputeGrid(input, grid);
+      }
       const schlieren::Frame frame = schlieren::frameOf(gridFrom(grid), viewFrom(this));
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
