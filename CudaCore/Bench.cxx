@@ -292,6 +292,11 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  if (scratch.exits.capacity() < rays || scratch.exits.capacity() / 2 > rays)
+  {
+    scratch = {}; // first: two sets of rays at once might not fit
+  }
   scratch.resize(pass, field.gradients.count);
   bool finished = false;
   if (image.device == Device::Cuda)

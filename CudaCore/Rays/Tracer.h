@@ -113,8 +113,10 @@ SCHLIEREN_HD RayExit leaveGrid(
   const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
     (bends ? dot(offset, task.light.w) : 0);
   const double further = remaining / forward;
-  exit.displacement[0] = (dot(offset, task.light.u) + further * alongU) * task.light.unit;
-  exit.displacement[1] = (dot(offset, task.light.v) + further * alongV) * task.light.unit;
+  exit.displacement[0] = static_cast<float>(
+    (dot(offset, task.light.u) + further * alongU) * task.light.unit);
+  exit.displacement[1] = static_cast<float>(
+    (dot(offset, task.light.v) + further * alongV) * task.light.unit);
   return exit;
 }
 
