@@ -4,8 +4,9 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
-#include "Film/Film.h"
+#include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
+#include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Cutoffs.h"
@@ -13,6 +14,7 @@
 #include "Rays/CudaTracer.h"
 #include "Rays/Light.h"
 #include "Rays/Tracer.h"
+#include "Validation.h"
 
 #include <algorithm>
 #include <atomic>
@@ -20,7 +22,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <sstream>
 #include <tuple>
 #include <type_traits>
 #include <variant>
@@ -33,104 +34,6 @@ namespace
 
 /// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
 constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
-
-constexpr double shortestStep = 0.001;
-constexpr double longestStep = 16;
-
-void validateTolerances(const Scene& scene)
-{
-  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
-  {
-    if (!isGood)
-    {
-      std::ostringstream text;
-      text << name << " is " << value << ". Set it " << remedy;
-      throw Error(text.str());
-    }
-  };
-  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "AdaptiveTolerance",
-    scene.adaptiveTolerance,
-    "between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
-    "StepSize).");
-  require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
-    "HomogeneityTolerance", scene.homogeneityTolerance,
-    "between 0 (nothing is skipped) and 1 (all of the flow is), as a share of the refractivity's "
-    "range.");
-  require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
-    scene.pathTolerance, "to zero or more, in pixels.");
-}
-
-void validate(const Scene& scene)
-{
-  if (scene.samplesPerPixel < 1)
-  {
-    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
-      ", so no light is traced. Set it to 1 or more.");
-  }
-  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
-  {
-    throw Error("StepSize is " + std::to_string(scene.stepSize) +
-      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
-      "flow); "
-      "the default is 1.");
-  }
-  validateTolerances(scene);
-  if (!std::isfinite(scene.knifeEdgeAngle))
-  {
-    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
-  }
-  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
-  {
-    throw Error("KScale is " + std::to_string(*scene.kScale) +
-      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
-      "bright "
-      "and dark use InvertCutoff.");
-  }
-  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
-  {
-    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
-      ". Set it to zero or more, in data units.");
-  }
-  if (scene.threads < 0)
-  {
-    throw Error("The number of threads is " + std::to_string(scene.threads) +
-      ". Set it to 1 or more, or to 0 for all cores.");
-  }
-}
-
-void validateColors(const FieldGradients& gradients, const Scene& scene)
-{
-  if (gradients.count == 0)
-  {
-    return;
-  }
-  if (gradients.count < 0 || gradients.values == nullptr)
-  {
-    throw Error("Field gradients need values.");
-  }
-  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
-  {
-    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
-      std::to_string(gradients.count) + " fields. Give each field one.");
-  }
-  for (const std::array<float, 3>& color : scene.fieldColors)
-  {
-    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
-    {
-      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
-                  "as shares of 1.");
-    }
-  }
-}
-
-void validateLengthScale(double lengthScale)
-{
-  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
-  {
-    throw Error("LengthScale is " + std::to_string(lengthScale) +
-      ", but it is the length of one data unit in metres. Set it to a positive number.");
-  }
-}
 
 /// What a held medium was built from.
 struct MediumKey
@@ -157,8 +60,8 @@ struct RaysKey
 {
   Frame frame;
   int width, height;
-  double stepSize;
-  double lengthScale;
+  RaySettings settings;
+  double homogeneityTolerance;
   std::uint32_t seed;
   Device device;
   std::optional<std::uint64_t> gradients; ///< version of those that were gathered
@@ -166,16 +69,83 @@ struct RaysKey
   auto tie() const
   {
     return std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry,
-      frame.exit, width, height, stepSize, lengthScale, seed, device, gradients);
+      frame.exit, width, height, settings.kernel.path, settings.kernel.integrator,
+      settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
+      seed, device, gradients);
   }
 };
 
 template <class Real>
 struct MediumOnDevices
 {
+  explicit MediumOnDevices(Medium<Real> ofField)
+    : medium(std::move(ofField))
+  {
+  }
+
   Medium<Real> medium;
   std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
+
+  std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
+  double mapTolerance = 0;                   ///< of nu
+
+  /// The map for a tolerance; null for 0.
+  const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads)
+  {
+    if (tolerance == 0)
+    {
+      return nullptr;
+    }
+    const Real limit = static_cast<Real>(tolerance);
+    if (!map)
+    {
+      map = std::make_unique<HomogeneityMap<Real>>(
+        buildHomogeneityMap(medium, interpolation, limit, threads));
+    }
+    else if (mapTolerance != tolerance)
+    {
+      map->setTolerance(limit, threads);
+    }
+    mapTolerance = tolerance;
+    return map.get();
+  }
 };
+
+/// How a scene's rays are to be traced where no ray is displaced further than `bound`. What does not matter
+/// to them has its default, so that changing it traces nothing.
+RaySettings settingsOf(
+  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame)
+{
+  RaySettings settings;
+  const bool straightWillDo = scene.pathModel == PathModel::Auto &&
+    bound.displacement <= scene.pathTolerance * frame.pixelSize;
+  settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
+    ? PathModel::Straight
+    : PathModel::Refracted;
+  settings.kernel.interpolation = scene.interpolation;
+  if (settings.kernel.path == PathModel::Refracted)
+  {
+    settings.kernel.integrator = scene.integrator;
+  }
+  if (settings.kernel.integrator == Integrator::Adaptive)
+  {
+    settings.adaptiveTolerance = scene.adaptiveTolerance;
+  }
+  settings.stepVoxels = scene.stepSize;
+  settings.lengthScale = lengthScale;
+  return settings;
+}
+
+/// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
+/// each: see NuRange, with the whole way through the grid as the way through cubes.
+template <class Real>
+double skippingBound(
+  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
+{
+  const double steepest = visitScheme(
+    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
+  return 2 * steepest * tolerance * length(light.indexScale) * light.depth * (1 + medium.largestNu);
+}
 
 /// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
 /// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
@@ -211,104 +181,26 @@ double filmDistance(const Scene& scene, const Frame& frame)
   return scene.cutoff == Cutoff::Shadowgraph ? scene.screenDistance.value_or(depth) : -0.5 * depth;
 }
 
-/// The picture in tinted light: red, green and blue.
-struct ColorFilm
+Cutoffs cutoffFrom(const Scene& scene, double k)
 {
-  ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t mostRays)
-    : tint(tintOfRays)
-    , channels{ Film(width, height, mostRays), Film(width, height, mostRays),
-      Film(width, height, mostRays) }
+  if (scene.cutoff == Cutoff::Shadowgraph)
   {
+    return Shadowgraph{};
   }
+  return KnifeEdge::at(scene.knifeEdgeAngle, k, scene.invertCutoff);
+}
 
-  void splat(double column, double row, double light, const float* gathered)
-  {
-    const std::array<double, 3> color = tint.of(gathered);
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      channels[channel].splat(column, row, light * color[channel]);
-    }
-  }
-
-  /// Three values per pixel.
-  std::vector<float> develop(double raysPerPixel) const
-  {
-    std::vector<float> picture;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      const std::vector<float> light = channels[channel].develop(raysPerPixel);
-      picture.resize(3 * light.size());
-      for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
-      {
-        picture[3 * pixel + channel] = light[pixel];
-      }
-    }
-    return picture;
-  }
-
-  Tint tint;
-  std::array<Film, 3> channels;
-};
-
-/// Adds one pass of rays to the films and to the means. `traced` covers `held`, of which the picture and
-/// `margin` pixels around it are used. `colorFilm`: null where nothing tints.
-template <class CutoffKind>
-void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, const Pass& held,
-  std::int64_t margin, const Scene& scene, Image& image, Film& film, ColorFilm* colorFilm,
-  PixelMeans& means)
+std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
-  const std::int64_t width = scene.view.width;
-  const std::int64_t height = scene.view.height;
-  const double perDataUnit = 1 / image.frame.pixelSize;
-  std::atomic<std::int64_t> crossed{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
-  constexpr std::int64_t rowsPerPiece = 16;
-  parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
+  std::atomic<std::int64_t> crossed{ 0 };
+  constexpr std::int64_t raysPerPiece = 1 << 15;
+  parallelFor(static_cast<std::int64_t>(traced.exits.size()), raysPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      std::int64_t crossedHere = 0, stepsHere = 0, blockedHere = 0, lostHere = 0;
-      for (std::int64_t row = begin - margin; row < end - margin; ++row)
-      {
-        for (std::int64_t column = -margin; column < width + margin; ++column)
-        {
-          const auto ray = static_cast<std::size_t>(
-            (row - held.firstRow) * held.columns + column - held.firstColumn);
-          const RayExit& exit = traced.exits[ray];
-          crossedHere += exit.fate != RayFate::Missed ? 1 : 0;
-          blockedHere += exit.fate == RayFate::Blocked ? 1 : 0;
-          lostHere += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
-          stepsHere += exit.steps;
-          if (column >= 0 && column < width && row >= 0 && row < height)
-          {
-            means.add(static_cast<std::size_t>(row * width + column), exit);
-          }
-          if (exit.reachesFilm())
-          {
-            const double* eps = exit.deflection;
-            const double perLength =
-              distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-300));
-            const double x = static_cast<double>(column) + held.offset.column +
-              (exit.displacement[0] + perLength * eps[0]) * perDataUnit;
-            const double y = static_cast<double>(row) + held.offset.row +
-              (exit.displacement[1] + perLength * eps[1]) * perDataUnit;
-            const double light = cutoff.transmission(exit.deflection);
-            film.splat(x, y, light);
-            if (colorFilm != nullptr)
-            {
-              colorFilm->splat(
-                x, y, light, traced.gathered.data() + ray * scene.fieldColors.size());
-            }
-          }
-        }
-      }
-      crossed += crossedHere;
-      steps += stepsHere;
-      blocked += blockedHere;
-      lost += lostHere;
+      crossed += std::count_if(traced.exits.begin() + begin, traced.exits.begin() + end,
+        [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
     });
-  image.raysTraced += crossed;
-  image.stepsTaken += steps;
-  image.raysBlocked += blocked;
-  image.raysLost += lost;
+  return crossed;
 }
 
 } // namespace
@@ -324,6 +216,8 @@ struct Bench::Stages
   std::int64_t heldMargin = 0;
   std::deque<TracedPass> passes; ///< from pass 0 on
   TracedPass scratch;            ///< a pass that is not held
+  std::optional<double> k;       ///< the automatic one, once these rays have been asked for it
+  std::optional<double> tint;    ///< the reference of what they have gathered, likewise
 
   template <class Real>
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
@@ -355,8 +249,7 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
     raysKey.reset();
     passes.clear();
     medium = std::monostate{};
-    medium = MediumOnDevices<Real>{ buildMedium<Real>(field, scene.interpolation, scene.threads),
-      nullptr };
+    medium = MediumOnDevices<Real>(buildMedium<Real>(field, scene.interpolation, scene.threads));
     mediumKey = key;
     ++work.mediumBuilds;
   }
@@ -371,7 +264,13 @@ void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
   }
   if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
   {
+    if (!passes.empty())
+    {
+      scratch = std::move(passes.front()); // its memory serves again
+    }
     passes.clear();
+    k.reset();
+    tint.reset();
     raysKey = key;
     heldMargin = margin;
   }
@@ -390,10 +289,10 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
       return &kept;
     }
     passes.resize(static_cast<std::size_t>(number)); // traced while nothing was tinted
+    tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
-  const FieldGradientsView gradients = FieldGradientsView::of(field.grid, field.gradients);
-  scratch.resize(pass, gradients.count);
+  scratch.resize(pass, field.gradients.count);
   bool finished = false;
   if (image.device == Device::Cuda)
   {
@@ -401,13 +300,11 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     {
       held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
-    finished = held.cuda->trace(
-      task, scene.interpolation, pass, gradients, field.gradients.version, scratch, monitor);
+    finished = held.cuda->trace(task, pass, field.gradients.version, scratch, monitor);
   }
   else
   {
-    finished =
-      traceOnCpu(task, scene.interpolation, pass, gradients, scratch, scene.threads, monitor);
+    finished = traceOnCpu(task, pass, scratch, scene.threads, monitor);
   }
   image.traceSeconds +=
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -415,8 +312,7 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
   {
     return nullptr;
   }
-  work.raysTraced += std::count_if(scratch.exits.begin(), scratch.exits.end(),
-    [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
+  work.raysTraced += raysThatCrossed(scratch, scene.threads);
 
   if (static_cast<std::size_t>(number) == passes.size() &&
     (passes.size() + 1) * scratch.bytes() <= mostHeldBytes)
@@ -441,18 +337,25 @@ Image Bench::Stages::render(
   image.height = view.height;
   image.frame = frameOf(field.grid, view);
   image.device = device;
-  image.pathModel = PathModel::Refracted;
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;
   const Light light = collimatedLight(field.grid, image.frame);
   const DisplacementBound bound = boundDisplacement(held.medium, light);
   image.displacementBound = bound.displacement;
-  const RayTask<Real> task = makeTask(held.medium, light, scene.stepSize, field.lengthScale);
+  const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
+  image.pathModel = settings.kernel.path;
+  // An adaptive step is as long as the medium lets it be without a map.
+  const double skips =
+    settings.kernel.integrator == Integrator::Adaptive ? 0 : scene.homogeneityTolerance;
+  const double tolerance = skips * held.medium.rangeOfNu;
+  image.skippingBound = skippingBound(held.medium, light, tolerance, scene.interpolation);
+  const RayTask<Real> task =
+    makeTask<Real>(held.medium, held.mapFor(tolerance, scene.interpolation, scene.threads),
+      FieldGradientsView::of(field.grid, field.gradients), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
-  RaysKey key{ image.frame, view.width, view.height, scene.stepSize, field.lengthScale, scene.seed,
-    device, {} };
+  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, device, {} };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
@@ -462,11 +365,13 @@ Image Bench::Stages::render(
     { 0, 0 } };
   const std::int64_t mostRays =
     (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
-  Film film(view.width, view.height, mostRays);
+  std::optional<Film> film(std::in_place, view.width, view.height, mostRays);
   std::unique_ptr<ColorFilm> colorFilm;
-  PixelMeans means(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
-  const double distance = filmDistance(scene, image.frame);
+  PixelMeans means(view.width, view.height, scene.threads);
+  const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize };
 
+  RayCounts counts;
+  std::vector<TracedRays> waiting; // held passes are exposed together
   for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
   {
     Monitor ofPass = monitor;
@@ -481,35 +386,52 @@ Image Bench::Stages::render(
     {
       return aborted;
     }
+    image.momentumDrift = std::max(image.momentumDrift, traced->worstDrift);
+    waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
     if (number == 0 && field.gradients.count > 0)
     {
-      const double reference = tintReference(traced->exits.data(), traced->gathered.data(),
-        scene.fieldColors.size(), pass, view.width, view.height);
+      if (!tint)
+      {
+        tint = tintReference(
+          waiting[0], scene.fieldColors.size(), view.width, view.height, scene.threads);
+      }
       colorFilm = std::make_unique<ColorFilm>(
-        Tint{ scene.fieldColors, reference }, view.width, view.height, mostRays);
+        Tint{ scene.fieldColors, *tint }, view.width, view.height, mostRays);
     }
-    if (scene.cutoff == Cutoff::Shadowgraph)
+    if (number == 0 && scene.cutoff != Cutoff::Shadowgraph)
     {
-      shade(
-        Shadowgraph{}, distance, *traced, pass, margin, scene, image, film, colorFilm.get(), means);
-      continue;
+      if (!scene.kScale && !k)
+      {
+        k = automaticK(waiting[0], view.width, view.height, noiseFloor(held.medium, field, light),
+          scene.threads);
+      }
+      image.kScale = scene.kScale ? *scene.kScale : *k;
     }
-    if (number == 0)
+    const bool isLast = number + 1 == scene.samplesPerPixel;
+    if (traced == &scratch || isLast)
     {
-      image.kScale = scene.kScale ? *scene.kScale
-                                  : automaticK(traced->exits.data(), pass, view.width, view.height,
-                                      noiseFloor(held.medium, field, light));
+      counts.add(expose(waiting, cutoffFrom(scene, image.kScale), projection, margin, scene.threads,
+        *film, colorFilm.get()));
+      if (!isLast)
+      {
+        means.add(waiting);
+        waiting.clear();
+      }
     }
-    shade(KnifeEdge::at(scene.knifeEdgeAngle, image.kScale, scene.invertCutoff), distance, *traced,
-      pass, margin, scene, image, film, colorFilm.get(), means);
   }
-  scratch = {};
-  image.intensity = film.develop(scene.samplesPerPixel);
+  image.raysTraced = counts.crossed;
+  image.stepsTaken = counts.steps;
+  image.raysBlocked = counts.blocked;
+  image.raysLost = counts.lost;
+  image.intensity = film->develop(scene.samplesPerPixel, scene.threads);
+  film.reset(); // the means want memory, too
   if (colorFilm)
   {
-    image.color = colorFilm->develop(scene.samplesPerPixel);
+    image.color = colorFilm->develop(scene.samplesPerPixel, scene.threads);
+    colorFilm.reset();
   }
-  means.develop(image);
+  means.develop(waiting, image);
+  scratch = {};
   return image;
 }
 
@@ -526,11 +448,7 @@ const Work& Bench::work() const { return stages_->work; }
 
 Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)
 {
-  validate(field.grid);
-  validateLengthScale(field.lengthScale);
-  validate(scene);
-  validateColors(field.gradients, scene);
-  frameOf(field.grid, scene.view); // a bad view is told before the medium is built
+  validate(field, scene);
 
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/RayExit.h"
+#include "Rays/TracedRays.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -12,19 +12,23 @@ namespace schlieren
 {
 
 /// Means, pixel by pixel, of what the rays that start there carry. Each pixel is summed in the order
-/// of the passes, so that no result depends on the number of threads.
+/// of the passes, so that no result depends on the number of threads, or on which passes come at once.
 class PixelMeans
 {
 public:
-  explicit PixelMeans(std::size_t pixels)
-    : sums_(pixels)
+  PixelMeans(int width, int height, int threads)
+    : width_(width)
+    , height_(height)
+    , threads_(threads)
   {
   }
 
-  void add(std::size_t pixel, const RayExit& exit);
+  /// Adds passes that more will follow.
+  void add(const std::vector<TracedRays>& passes);
 
-  /// Writes the means into the image. Pixels from which no ray reaches the film hold 0.
-  void develop(Image& image) const;
+  /// Adds the last passes and writes the means into the image. Pixels from which no ray reaches the film
+  /// hold 0.
+  void develop(const std::vector<TracedRays>& last, Image& image);
 
 private:
   struct Sums
@@ -35,8 +39,18 @@ private:
     std::int32_t reached = 0;
     std::int32_t blocked = 0;
     std::int32_t rays = 0;
+
+    void add(const RayExit& exit);
   };
-  std::vector<Sums> sums_;
+
+  /// Calls use(pixel, its sums) with what it holds and these passes.
+  template <class Use>
+  void forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const;
+
+  std::int64_t width_;
+  std::int64_t height_;
+  int threads_;
+  std::vector<Sums> sums_; ///< of what has been added; most often nothing
 };
 
 } // namespace schlieren
