@@ -61,6 +61,8 @@ def current(name):
 # Every value reaches the filter: it changes what comes out.
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [48, 32]
+bench.PathModel = "Refracted"
+bench.SamplesPerPixel = 4  # the first is at the pixel's centre, whatever the seed
 assert output(bench).GetDimensions() == (48, 32, 1)
 before = work(bench)
 reference = picture(bench, "Intensity")
@@ -84,6 +86,7 @@ assert work(chained) == before, "Neither must they after Refractive Index"
 
 for name, value in (("ViewDirection", [1, 0, -1]), ("ViewUp", [1, 1, 0]), ("ParallelScale", 0.3),
                     ("StepSize", 0.7), ("Interpolation", "Linear"), ("SamplesPerPixel", 2),
+                    ("HomogeneityTolerance", 0.1), ("Integrator", "Euler"), ("PathModel", "Straight"),
                     ("Precision", "Double"), ("Seed", 2), ("LengthScale", 0.1),
                     ("GladstoneDaleConstant", 1e-4), ("DensityScale", 2)):
     default = current(name)
