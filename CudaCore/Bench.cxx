@@ -6,6 +6,7 @@
 #include "Device/Parallel.h"
 #include "Film/Film.h"
 #include "Film/PixelMeans.h"
+#include "Film/Shading.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Cutoffs.h"
@@ -13,6 +14,7 @@
 #include "Rays/CudaTracer.h"
 #include "Rays/Light.h"
 #include "Rays/Tracer.h"
+#include "Validation.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,80 +34,6 @@ namespace
 
 /// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
 constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
-
-constexpr double shortestStep = 0.001;
-constexpr double longestStep = 16;
-
-void validate(const Scene& scene)
-{
-  if (scene.samplesPerPixel < 1)
-  {
-    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
-      ", so no light is traced. Set it to 1 or more.");
-  }
-  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
-  {
-    throw Error("StepSize is " + std::to_string(scene.stepSize) +
-      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
-      "flow); "
-      "the default is 1.");
-  }
-  if (!std::isfinite(scene.knifeEdgeAngle))
-  {
-    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
-  }
-  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
-  {
-    throw Error("KScale is " + std::to_string(*scene.kScale) +
-      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
-      "bright "
-      "and dark use InvertCutoff.");
-  }
-  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
-  {
-    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
-      ". Set it to zero or more, in data units.");
-  }
-  if (scene.threads < 0)
-  {
-    throw Error("The number of threads is " + std::to_string(scene.threads) +
-      ". Set it to 1 or more, or to 0 for all cores.");
-  }
-}
-
-void validateColors(const FieldGradients& gradients, const Scene& scene)
-{
-  if (gradients.count == 0)
-  {
-    return;
-  }
-  if (gradients.count < 0 || gradients.values == nullptr)
-  {
-    throw Error("Field gradients need values.");
-  }
-  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
-  {
-    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
-      std::to_string(gradients.count) + " fields. Give each field one.");
-  }
-  for (const std::array<float, 3>& color : scene.fieldColors)
-  {
-    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
-    {
-      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
-                  "as shares of 1.");
-    }
-  }
-}
-
-void validateLengthScale(double lengthScale)
-{
-  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
-  {
-    throw Error("LengthScale is " + std::to_string(lengthScale) +
-      ", but it is the length of one data unit in metres. Set it to a positive number.");
-  }
-}
 
 /// What a held medium was built from.
 struct MediumKey
@@ -234,7 +162,7 @@ void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, 
 {
   const std::int64_t width = scene.view.width;
   const std::int64_t height = scene.view.height;
-  const double perDataUnit = 1 / image.frame.pixelSize;
+  const Projection projection{ distance, 1 / image.frame.pixelSize };
   std::atomic<std::int64_t> crossed{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
   constexpr std::int64_t rowsPerPiece = 16;
   parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
@@ -258,19 +186,14 @@ void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, 
           }
           if (exit.reachesFilm())
           {
-            const double* eps = exit.deflection;
-            const double perLength =
-              distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-300));
-            const double x = static_cast<double>(column) + held.offset.column +
-              (exit.displacement[0] + perLength * eps[0]) * perDataUnit;
-            const double y = static_cast<double>(row) + held.offset.row +
-              (exit.displacement[1] + perLength * eps[1]) * perDataUnit;
+            const Landing at = landingOf(exit, static_cast<double>(column) + held.offset.column,
+              static_cast<double>(row) + held.offset.row, projection);
             const double light = cutoff.transmission(exit.deflection);
-            film.splat(x, y, light);
+            film.splat(at.column, at.row, light);
             if (colorFilm != nullptr)
             {
               colorFilm->splat(
-                x, y, light, traced.gathered.data() + ray * scene.fieldColors.size());
+                at.column, at.row, light, traced.gathered.data() + ray * scene.fieldColors.size());
             }
           }
         }
@@ -501,11 +424,7 @@ const Work& Bench::work() const { return stages_->work; }
 
 Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)
 {
-  validate(field.grid);
-  validateLengthScale(field.lengthScale);
-  validate(scene);
-  validateColors(field.gradients, scene);
-  frameOf(field.grid, scene.view); // a bad view is told before the medium is built
+  validate(field, scene);
 
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Film/Film.h"
 
+#include "Film/Splat.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,30 +27,19 @@ Film::Film(int width, int height, std::int64_t mostRays)
 
 void Film::splat(double column, double row, double light)
 {
-  // Also false for NaN.
-  if (!(column > -1 && column < static_cast<double>(width_) && row > -1 &&
-        row < static_cast<double>(height_)))
+  if (!isOnFilm(column, row, width_, height_))
   {
     return;
   }
-  const double left = std::floor(column);
-  const double low = std::floor(row);
-  const double right = column - left;
-  const double high = row - low;
-  const auto whole = static_cast<std::uint64_t>(std::llround(light * one_));
-  const auto upper = static_cast<std::uint64_t>(static_cast<double>(whole) * high);
-  const auto upperRight = static_cast<std::uint64_t>(static_cast<double>(upper) * right);
-  const std::uint64_t lower = whole - upper;
-  const auto lowerRight = static_cast<std::uint64_t>(static_cast<double>(lower) * right);
-  const auto i = static_cast<std::int64_t>(left);
-  const auto j = static_cast<std::int64_t>(low);
-  add(i, j, lower - lowerRight);
-  add(i + 1, j, lowerRight);
-  add(i, j + 1, upper - upperRight);
-  add(i + 1, j + 1, upperRight);
+  const Footprint at = footprintOf(column, row);
+  const Shares shares = sharesOf(at, light, one_);
+  add(at.column, at.row, shares.lowerLeft);
+  add(at.column + 1, at.row, shares.lowerRight);
+  add(at.column, at.row + 1, shares.upperLeft);
+  add(at.column + 1, at.row + 1, shares.upperRight);
 }
 
-void Film::add(std::int64_t column, std::int64_t row, std::uint64_t light)
+void Film::add(std::int64_t column, std::int64_t row, std::int64_t light)
 {
   if (light != 0 && column >= 0 && column < width_ && row >= 0 && row < height_)
   {
@@ -62,7 +53,7 @@ std::vector<float> Film::develop(double raysPerPixel) const
   std::vector<float> picture(pixels_.size());
   const double scale = 1 / (one_ * raysPerPixel);
   std::transform(pixels_.begin(), pixels_.end(), picture.begin(),
-    [scale](const std::atomic<std::uint64_t>& light)
+    [scale](const std::atomic<std::int64_t>& light)
     { return static_cast<float>(static_cast<double>(light.load()) * scale); });
   return picture;
 }

@@ -26,12 +26,12 @@ public:
   std::vector<float> develop(double raysPerPixel) const;
 
 private:
-  void add(std::int64_t column, std::int64_t row, std::uint64_t light);
+  void add(std::int64_t column, std::int64_t row, std::int64_t light);
 
   std::int64_t width_;
   std::int64_t height_;
   double one_; ///< fixed-point value of a full ray
-  std::vector<std::atomic<std::uint64_t>> pixels_;
+  std::vector<std::atomic<std::int64_t>> pixels_;
 };
 
 } // namespace schlieren

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// How a ray's light is shared among pixels (cloud in cell, Birdsall & Fuss 1969), in fixed point: sums of
+// integers are exact, so a picture does not depend on the order in which threads add to it.
+#pragma once
+
+#include "Math/HostDevice.h"
+
+#include <cstdint>
+
+namespace schlieren
+{
+
+/// The four pixels around a point of the film, and where among them it lies. Pixel centres have whole
+/// coordinates.
+struct Footprint
+{
+  std::int64_t column, row; ///< of the lower left pixel
+  double right, high;       ///< 0...1, of the way to the pixel on the right and to that above
+};
+
+/// Whether light at a point adds to any pixel of a film. False for NaN.
+SCHLIEREN_HD inline bool isOnFilm(
+  double column, double row, std::int64_t width, std::int64_t height)
+{
+  return column > -1 && column < static_cast<double>(width) && row > -1 &&
+    row < static_cast<double>(height);
+}
+
+/// Of a point on the film.
+SCHLIEREN_HD inline Footprint footprintOf(double column, double row)
+{
+  // Coordinates are above -1, where cutting off the fraction of x + 1 is the floor, without a call.
+  const auto left = static_cast<std::int64_t>(column + 1) - 1;
+  const auto low = static_cast<std::int64_t>(row + 1) - 1;
+  return { left, low, column - static_cast<double>(left), row - static_cast<double>(low) };
+}
+
+/// Fixed-point light of the pixels of a footprint.
+struct Shares
+{
+  std::int64_t lowerLeft, lowerRight, upperLeft, upperRight;
+};
+
+/// Shares light (0...1) bilinearly, without losing any to rounding. `one`: the fixed-point value of a full
+/// ray, at most 2^52.
+SCHLIEREN_HD inline Shares sharesOf(const Footprint& footprint, double light, double one)
+{
+  const auto part = [](std::int64_t whole, double fraction)
+  { return static_cast<std::int64_t>(static_cast<double>(whole) * fraction); };
+  const auto whole = static_cast<std::int64_t>(light * one + 0.5);
+  const std::int64_t upper = part(whole, footprint.high);
+  const std::int64_t lower = whole - upper;
+  const std::int64_t upperRight = part(upper, footprint.right);
+  const std::int64_t lowerRight = part(lower, footprint.right);
+  return { lower - lowerRight, lowerRight, upper - upperRight, upperRight };
+}
+
+} // namespace schlieren

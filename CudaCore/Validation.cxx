@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Validation.h"
+
+#include "Medium/Medium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr double shortestStep = 0.001;
+constexpr double longestStep = 16;
+
+void validateScene(const Scene& scene)
+{
+  if (scene.samplesPerPixel < 1)
+  {
+    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
+      ", so no light is traced. Set it to 1 or more.");
+  }
+  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
+  {
+    throw Error("StepSize is " + std::to_string(scene.stepSize) +
+      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
+      "flow); "
+      "the default is 1.");
+  }
+  if (!std::isfinite(scene.knifeEdgeAngle))
+  {
+    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
+  }
+  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
+  {
+    throw Error("KScale is " + std::to_string(*scene.kScale) +
+      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
+      "bright "
+      "and dark use InvertCutoff.");
+  }
+  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
+  {
+    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
+      ". Set it to zero or more, in data units.");
+  }
+  if (scene.threads < 0)
+  {
+    throw Error("The number of threads is " + std::to_string(scene.threads) +
+      ". Set it to 1 or more, or to 0 for all cores.");
+  }
+}
+
+void validateColors(const FieldGradients& gradients, const Scene& scene)
+{
+  if (gradients.count == 0)
+  {
+    return;
+  }
+  if (gradients.count < 0 || gradients.values == nullptr)
+  {
+    throw Error("Field gradients need values.");
+  }
+  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
+  {
+    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
+      std::to_string(gradients.count) + " fields. Give each field one.");
+  }
+  for (const std::array<float, 3>& color : scene.fieldColors)
+  {
+    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
+    {
+      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
+                  "as shares of 1.");
+    }
+  }
+}
+
+void validateLengthScale(double lengthScale)
+{
+  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
+  {
+    throw Error("LengthScale is " + std::to_string(lengthScale) +
+      ", but it is the length of one data unit in metres. Set it to a positive number.");
+  }
+}
+
+} // namespace
+
+void validate(const Field& field, const Scene& scene)
+{
+  validate(field.grid);
+  validateLengthScale(field.lengthScale);
+  validateScene(scene);
+  validateColors(field.gradients, scene);
+  frameOf(field.grid, scene.view); // throws where the view is bad
+}
+
+} // namespace schlieren
