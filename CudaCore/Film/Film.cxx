@@ -48,6 +48,11 @@ void Film::add(std::int64_t column, std::int64_t row, std::int64_t light)
   }
 }
 
+void Film::set(const std::vector<std::int64_t>& light)
+{
+  std::copy(light.begin(), light.end(), pixels_.begin());
+}
+
 std::vector<float> Film::develop(double raysPerPixel) const
 {
   std::vector<float> picture(pixels_.size());

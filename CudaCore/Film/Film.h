@@ -22,6 +22,14 @@ public:
   /// outside the picture is dropped. May be called by several threads at once.
   void splat(double column, double row, double light);
 
+  std::int64_t width() const { return width_; }
+  std::int64_t height() const { return height_; }
+  /// The fixed-point value of a full ray.
+  double one() const { return one_; }
+
+  /// Puts fixed-point light of all pixels, row by row, in the place of that so far.
+  void set(const std::vector<std::int64_t>& light);
+
   /// Light per pixel divided by `raysPerPixel`.
   std::vector<float> develop(double raysPerPixel) const;
 

@@ -7,23 +7,6 @@
 namespace schlieren
 {
 
-void PixelMeans::add(std::size_t pixel, const RayExit& exit)
-{
-  Sums& sums = sums_[pixel];
-  ++sums.rays;
-  sums.blocked += exit.fate == RayFate::Blocked ? 1 : 0;
-  if (exit.reachesFilm())
-  {
-    ++sums.reached;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      sums.deflection[axis] += exit.deflection[axis];
-      sums.displacement[axis] += exit.displacement[axis];
-    }
-    sums.opticalPathDifference += exit.opticalPathDifference;
-  }
-}
-
 void PixelMeans::develop(Image& image) const
 {
   image.deflection.resize(2 * sums_.size());
@@ -32,7 +15,7 @@ void PixelMeans::develop(Image& image) const
   image.blockedFraction.resize(sums_.size());
   for (std::size_t pixel = 0; pixel < sums_.size(); ++pixel)
   {
-    const Sums& sums = sums_[pixel];
+    const PixelSums& sums = sums_[pixel];
     const double reached = std::max(sums.reached, 1);
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
