@@ -168,7 +168,7 @@ RayCounts CudaFilm::develop(Film& film, PixelMeans& means) const
   };
   std::vector<std::int64_t> light(memory_->pixels);
   fetch(light.data(), memory_->light.data(), light.size() * sizeof(std::int64_t));
-  film.set(light);
+  film.setLight(light);
   std::vector<PixelSums> sums(memory_->pixels);
   fetch(sums.data(), memory_->sums.data(), sums.size() * sizeof(PixelSums));
   means.set(std::move(sums));

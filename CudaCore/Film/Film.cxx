@@ -48,7 +48,9 @@ void Film::add(std::int64_t column, std::int64_t row, std::int64_t light)
   }
 }
 
-void Film::set(const std::vector<std::int64_t>& light)
+std::vector<std::int64_t> Film::light() const { return { pixels_.begin(), pixels_.end() }; }
+
+void Film::setLight(const std::vector<std::int64_t>& light)
 {
   std::copy(light.begin(), light.end(), pixels_.begin());
 }

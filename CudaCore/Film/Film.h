@@ -27,8 +27,9 @@ public:
   /// The fixed-point value of a full ray.
   double one() const { return one_; }
 
-  /// Puts fixed-point light of all pixels, row by row, in the place of that so far.
-  void set(const std::vector<std::int64_t>& light);
+  /// The light of all pixels, row by row, in fixed point.
+  std::vector<std::int64_t> light() const;
+  void setLight(const std::vector<std::int64_t>& light);
 
   /// Light per pixel divided by `raysPerPixel`.
   std::vector<float> develop(double raysPerPixel) const;
