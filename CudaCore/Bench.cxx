@@ -4,9 +4,8 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
-#include "Film/Film.h"
+#include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
-#include "Film/Shading.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Cutoffs.h"
@@ -114,99 +113,26 @@ double filmDistance(const Scene& scene, const Frame& frame)
   return scene.cutoff == Cutoff::Shadowgraph ? scene.screenDistance.value_or(depth) : -0.5 * depth;
 }
 
-/// The picture in tinted light: red, green and blue.
-struct ColorFilm
+Cutoffs cutoffFrom(const Scene& scene, double k)
 {
-  ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t mostRays)
-    : tint(tintOfRays)
-    , channels{ Film(width, height, mostRays), Film(width, height, mostRays),
-      Film(width, height, mostRays) }
+  if (scene.cutoff == Cutoff::Shadowgraph)
   {
+    return Shadowgraph{};
   }
+  return KnifeEdge::at(scene.knifeEdgeAngle, k, scene.invertCutoff);
+}
 
-  void splat(double column, double row, double light, const float* gathered)
-  {
-    const std::array<double, 3> color = tint.of(gathered);
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      channels[channel].splat(column, row, light * color[channel]);
-    }
-  }
-
-  /// Three values per pixel.
-  std::vector<float> develop(double raysPerPixel) const
-  {
-    std::vector<float> picture;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      const std::vector<float> light = channels[channel].develop(raysPerPixel);
-      picture.resize(3 * light.size());
-      for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
-      {
-        picture[3 * pixel + channel] = light[pixel];
-      }
-    }
-    return picture;
-  }
-
-  Tint tint;
-  std::array<Film, 3> channels;
-};
-
-/// Adds one pass of rays to the films and to the means. `traced` covers `held`, of which the picture and
-/// `margin` pixels around it are used. `colorFilm`: null where nothing tints.
-template <class CutoffKind>
-void shade(const CutoffKind& cutoff, double distance, const TracedPass& traced, const Pass& held,
-  std::int64_t margin, const Scene& scene, Image& image, Film& film, ColorFilm* colorFilm,
-  PixelMeans& means)
+std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
-  const std::int64_t width = scene.view.width;
-  const std::int64_t height = scene.view.height;
-  const Projection projection{ distance, 1 / image.frame.pixelSize };
-  std::atomic<std::int64_t> crossed{ 0 }, steps{ 0 }, blocked{ 0 }, lost{ 0 };
-  constexpr std::int64_t rowsPerPiece = 16;
-  parallelFor(height + 2 * margin, rowsPerPiece, scene.threads,
+  std::atomic<std::int64_t> crossed{ 0 };
+  constexpr std::int64_t raysPerPiece = 1 << 15;
+  parallelFor(static_cast<std::int64_t>(traced.exits.size()), raysPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      std::int64_t crossedHere = 0, stepsHere = 0, blockedHere = 0, lostHere = 0;
-      for (std::int64_t row = begin - margin; row < end - margin; ++row)
-      {
-        for (std::int64_t column = -margin; column < width + margin; ++column)
-        {
-          const auto ray = static_cast<std::size_t>(
-            (row - held.firstRow) * held.columns + column - held.firstColumn);
-          const RayExit& exit = traced.exits[ray];
-          crossedHere += exit.fate != RayFate::Missed ? 1 : 0;
-          blockedHere += exit.fate == RayFate::Blocked ? 1 : 0;
-          lostHere += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
-          stepsHere += exit.steps;
-          if (column >= 0 && column < width && row >= 0 && row < height)
-          {
-            means.add(static_cast<std::size_t>(row * width + column), exit);
-          }
-          if (exit.reachesFilm())
-          {
-            const Landing at = landingOf(exit, static_cast<double>(column) + held.offset.column,
-              static_cast<double>(row) + held.offset.row, projection);
-            const double light = cutoff.transmission(exit.deflection);
-            film.splat(at.column, at.row, light);
-            if (colorFilm != nullptr)
-            {
-              colorFilm->splat(
-                at.column, at.row, light, traced.gathered.data() + ray * scene.fieldColors.size());
-            }
-          }
-        }
-      }
-      crossed += crossedHere;
-      steps += stepsHere;
-      blocked += blockedHere;
-      lost += lostHere;
+      crossed += std::count_if(traced.exits.begin() + begin, traced.exits.begin() + end,
+        [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
     });
-  image.raysTraced += crossed;
-  image.stepsTaken += steps;
-  image.raysBlocked += blocked;
-  image.raysLost += lost;
+  return crossed;
 }
 
 } // namespace
@@ -222,6 +148,8 @@ struct Bench::Stages
   std::int64_t heldMargin = 0;
   std::deque<TracedPass> passes; ///< from pass 0 on
   TracedPass scratch;            ///< a pass that is not held
+  std::optional<double> k;       ///< the automatic one, once these rays have been asked for it
+  std::optional<double> tint;    ///< the reference of what they have gathered, likewise
 
   template <class Real>
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
@@ -269,7 +197,13 @@ void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
   }
   if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
   {
+    if (!passes.empty())
+    {
+      scratch = std::move(passes.front()); // its memory serves again
+    }
     passes.clear();
+    k.reset();
+    tint.reset();
     raysKey = key;
     heldMargin = margin;
   }
@@ -288,6 +222,7 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
       return &kept;
     }
     passes.resize(static_cast<std::size_t>(number)); // traced while nothing was tinted
+    tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
   const FieldGradientsView gradients = FieldGradientsView::of(field.grid, field.gradients);
@@ -313,8 +248,7 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
   {
     return nullptr;
   }
-  work.raysTraced += std::count_if(scratch.exits.begin(), scratch.exits.end(),
-    [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
+  work.raysTraced += raysThatCrossed(scratch, scene.threads);
 
   if (static_cast<std::size_t>(number) == passes.size() &&
     (passes.size() + 1) * scratch.bytes() <= mostHeldBytes)
@@ -362,9 +296,11 @@ Image Bench::Stages::render(
     (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
   Film film(view.width, view.height, mostRays);
   std::unique_ptr<ColorFilm> colorFilm;
-  PixelMeans means(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
-  const double distance = filmDistance(scene, image.frame);
+  PixelMeans means(view.width, view.height, scene.threads);
+  const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize };
 
+  RayCounts counts;
+  std::vector<TracedRays> waiting; // held passes are exposed together
   for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
   {
     Monitor ofPass = monitor;
@@ -379,35 +315,49 @@ Image Bench::Stages::render(
     {
       return aborted;
     }
+    waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
     if (number == 0 && field.gradients.count > 0)
     {
-      const double reference = tintReference(traced->exits.data(), traced->gathered.data(),
-        scene.fieldColors.size(), pass, view.width, view.height);
+      if (!tint)
+      {
+        tint = tintReference(
+          waiting[0], scene.fieldColors.size(), view.width, view.height, scene.threads);
+      }
       colorFilm = std::make_unique<ColorFilm>(
-        Tint{ scene.fieldColors, reference }, view.width, view.height, mostRays);
+        Tint{ scene.fieldColors, *tint }, view.width, view.height, mostRays);
     }
-    if (scene.cutoff == Cutoff::Shadowgraph)
+    if (number == 0 && scene.cutoff != Cutoff::Shadowgraph)
     {
-      shade(
-        Shadowgraph{}, distance, *traced, pass, margin, scene, image, film, colorFilm.get(), means);
-      continue;
+      if (!scene.kScale && !k)
+      {
+        k = automaticK(waiting[0], view.width, view.height, noiseFloor(held.medium, field, light),
+          scene.threads);
+      }
+      image.kScale = scene.kScale ? *scene.kScale : *k;
     }
-    if (number == 0)
+    const bool isLast = number + 1 == scene.samplesPerPixel;
+    if (traced == &scratch || isLast)
     {
-      image.kScale = scene.kScale ? *scene.kScale
-                                  : automaticK(traced->exits.data(), pass, view.width, view.height,
-                                      noiseFloor(held.medium, field, light));
+      counts.add(expose(waiting, cutoffFrom(scene, image.kScale), projection, margin, scene.threads,
+        film, colorFilm.get()));
+      if (!isLast)
+      {
+        means.add(waiting);
+        waiting.clear();
+      }
     }
-    shade(KnifeEdge::at(scene.knifeEdgeAngle, image.kScale, scene.invertCutoff), distance, *traced,
-      pass, margin, scene, image, film, colorFilm.get(), means);
   }
-  scratch = {};
-  image.intensity = film.develop(scene.samplesPerPixel);
+  image.raysTraced = counts.crossed;
+  image.stepsTaken = counts.steps;
+  image.raysBlocked = counts.blocked;
+  image.raysLost = counts.lost;
+  image.intensity = film.develop(scene.samplesPerPixel, scene.threads);
   if (colorFilm)
   {
-    image.color = colorFilm->develop(scene.samplesPerPixel);
+    image.color = colorFilm->develop(scene.samplesPerPixel, scene.threads);
   }
-  means.develop(image);
+  means.develop(waiting, image);
+  scratch = {};
   return image;
 }
 

@@ -6,7 +6,8 @@
 
 #include "Device/CudaBuffer.h"
 #include "Film/Splat.h"
-#include "Optics/Cutoffs.h"
+
+#include <variant>
 
 namespace schlieren
 {
@@ -46,17 +47,13 @@ __device__ void addLight(
   }
 }
 
-__device__ void splat(const Sums& sums, const Landing& landing, double light)
+__device__ void splat(const Sums& sums, const Footprint& at, double light)
 {
-  if (isOnFilm(landing.column, landing.row, sums.width, sums.height))
-  {
-    const Footprint at = footprintOf(landing.column, landing.row);
-    const Shares shares = sharesOf(at, light, sums.one);
-    addLight(sums, at.column, at.row, shares.lowerLeft);
-    addLight(sums, at.column + 1, at.row, shares.lowerRight);
-    addLight(sums, at.column, at.row + 1, shares.upperLeft);
-    addLight(sums, at.column + 1, at.row + 1, shares.upperRight);
-  }
+  const Shares shares = sharesOf(at, light, sums.one);
+  addLight(sums, at.column, at.row, shares.lowerLeft);
+  addLight(sums, at.column + 1, at.row, shares.lowerRight);
+  addLight(sums, at.column, at.row + 1, shares.upperLeft);
+  addLight(sums, at.column + 1, at.row + 1, shares.upperRight);
 }
 
 __device__ std::int64_t sumOverWarp(std::int64_t number)
@@ -71,8 +68,8 @@ __device__ std::int64_t sumOverWarp(std::int64_t number)
 
 /// One thread per ray of the picture and its margin. All threads of a block come to its end.
 template <class CutoffKind>
-__global__ void shadeKernel(const CutoffKind cutoff, const Projection projection,
-  const RayExit* exits, const Pass held, std::int64_t margin, const Sums sums)
+__global__ void exposeKernel(const CutoffKind cutoff, const Projection projection,
+  const RayExit* exits, const Pass pass, std::int64_t margin, const Sums sums)
 {
   const std::int64_t columns = sums.width + 2 * margin;
   const std::int64_t rows = sums.height + 2 * margin;
@@ -80,20 +77,22 @@ __global__ void shadeKernel(const CutoffKind cutoff, const Projection projection
   RayCounts counts;
   if (n < columns * rows)
   {
-    const std::int64_t column = n % columns - margin;
+    const std::int64_t i = n % columns;
+    const std::int64_t column = i - margin;
     const std::int64_t row = n / columns - margin;
-    const RayExit exit = exits[(row - held.firstRow) * held.columns + column - held.firstColumn];
+    const RayExit exit = exits[(row - pass.firstRow) * pass.columns + column - pass.firstColumn];
     counts.add(exit);
     if (column >= 0 && column < sums.width && row >= 0 && row < sums.height)
     {
       sums.pixels[row * sums.width + column].add(exit); // no other thread has this pixel
     }
-    if (exit.reachesFilm())
+    // Rounded as in Exposure.cxx.
+    const double startColumn = static_cast<double>(-margin) + pass.offset.column;
+    const double startRow = static_cast<double>(row) + pass.offset.row;
+    const Landing at = landingOf(exit, startColumn + static_cast<double>(i), startRow, projection);
+    if (exit.reachesFilm() && isOnFilm(at.column, at.row, sums.width, sums.height))
     {
-      splat(sums,
-        landingOf(exit, static_cast<double>(column) + held.offset.column,
-          static_cast<double>(row) + held.offset.row, projection),
-        cutoff.transmission(exit.deflection));
+      splat(sums, footprintOf(at.column, at.row), cutoff.transmission(exit.deflection));
     }
   }
   const int crossed = __syncthreads_count(counts.crossed != 0);
@@ -148,14 +147,19 @@ CudaFilm::CudaFilm(const Film& film)
 
 CudaFilm::~CudaFilm() = default;
 
-template <class CutoffKind>
-void CudaFilm::shade(const CutoffKind& cutoff, const Projection& projection, const CudaPass& traced,
-  const Pass& held, std::int64_t margin)
+void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
+  const Projection& projection, std::int64_t margin)
 {
-  const Sums& view = memory_->view;
-  const std::int64_t rays = (view.width + 2 * margin) * (view.height + 2 * margin);
+  const Sums& sums = memory_->view;
+  const std::int64_t rays = (sums.width + 2 * margin) * (sums.height + 2 * margin);
   const auto blocks = static_cast<unsigned>((rays + threadsPerBlock - 1) / threadsPerBlock);
-  shadeKernel<<<blocks, threadsPerBlock>>>(cutoff, projection, traced.exits(), held, margin, view);
+  std::visit(
+    [&](const auto& kind)
+    {
+      exposeKernel<<<blocks, threadsPerBlock>>>(
+        kind, projection, traced.exits(), pass, margin, sums);
+    },
+    cutoff);
   checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
 }
 
@@ -168,18 +172,13 @@ RayCounts CudaFilm::develop(Film& film, PixelMeans& means) const
   };
   std::vector<std::int64_t> light(memory_->pixels);
   fetch(light.data(), memory_->light.data(), light.size() * sizeof(std::int64_t));
-  film.setLight(light);
+  film.setLight(std::move(light));
   std::vector<PixelSums> sums(memory_->pixels);
   fetch(sums.data(), memory_->sums.data(), sums.size() * sizeof(PixelSums));
-  means.set(std::move(sums));
+  means.setSums(std::move(sums));
   RayCounts counts;
   fetch(&counts, memory_->counts.data(), sizeof(counts));
   return counts;
 }
-
-template void CudaFilm::shade(
-  const KnifeEdge&, const Projection&, const CudaPass&, const Pass&, std::int64_t);
-template void CudaFilm::shade(
-  const Shadowgraph&, const Projection&, const CudaPass&, const Pass&, std::int64_t);
 
 } // namespace schlieren

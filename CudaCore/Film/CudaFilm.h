@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Film/Film.h"
+#include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
-#include "Film/RayCounts.h"
-#include "Film/Shading.h"
 #include "Rays/CudaPass.h"
 
 #include <cstdint>
@@ -14,8 +12,9 @@
 namespace schlieren
 {
 
-/// A picture that is summed up on the first CUDA device from rays that are there already, ray by ray as on
-/// the CPU and without contracted multiplications, so that not a bit differs. Throws DeviceError.
+/// A picture that is summed up on the first CUDA device, from rays that lie there. Not a bit differs from
+/// that of expose() and PixelMeans: sums of light are whole numbers, and each pixel's means are added up in
+/// the order of the passes. Throws DeviceError.
 class CudaFilm
 {
 public:
@@ -23,13 +22,12 @@ public:
   explicit CudaFilm(const Film& film);
   ~CudaFilm();
 
-  /// Adds the rays of the picture and of `margin` pixels around it to picture, means and counts. `traced`
-  /// covers `held`, which has at least that margin. Defined for the cutoffs in Optics/Cutoffs.h.
-  template <class CutoffKind>
-  void shade(const CutoffKind& cutoff, const Projection& projection, const CudaPass& traced,
-    const Pass& held, std::int64_t margin);
+  /// Does what schlieren::expose does, and adds up means and counts, for rays that lie there: `traced`
+  /// covers `pass`.
+  void expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
+    const Projection& projection, std::int64_t margin);
 
-  /// Hands over what has been summed up.
+  /// Hands over all that has been added up.
   RayCounts develop(Film& film, PixelMeans& means) const;
 
 private:

@@ -3,8 +3,6 @@
 // Stands in for CudaFilm.cu in builds without CUDA.
 #include "Film/CudaFilm.h"
 
-#include "Optics/Cutoffs.h"
-
 namespace schlieren
 {
 
@@ -16,17 +14,10 @@ CudaFilm::CudaFilm(const Film&) { throw DeviceError(builtWithoutCuda); }
 
 CudaFilm::~CudaFilm() = default;
 
-template <class CutoffKind>
-void CudaFilm::shade(
-  const CutoffKind&, const Projection&, const CudaPass&, const Pass&, std::int64_t)
+void CudaFilm::expose(const CudaPass&, const Pass&, const Cutoffs&, const Projection&, std::int64_t)
 {
 }
 
 RayCounts CudaFilm::develop(Film&, PixelMeans&) const { return {}; }
-
-template void CudaFilm::shade(
-  const KnifeEdge&, const Projection&, const CudaPass&, const Pass&, std::int64_t);
-template void CudaFilm::shade(
-  const Shadowgraph&, const Projection&, const CudaPass&, const Pass&, std::int64_t);
 
 } // namespace schlieren

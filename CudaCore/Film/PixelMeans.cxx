@@ -2,30 +2,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Film/PixelMeans.h"
 
+#include "Device/Parallel.h"
+
 #include <algorithm>
+#include <cstddef>
 
 namespace schlieren
 {
 
-void PixelMeans::develop(Image& image) const
+template <class Use>
+void PixelMeans::forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const
 {
-  image.deflection.resize(2 * sums_.size());
-  image.displacement.resize(2 * sums_.size());
-  image.opticalPathDifference.resize(sums_.size());
-  image.blockedFraction.resize(sums_.size());
-  for (std::size_t pixel = 0; pixel < sums_.size(); ++pixel)
-  {
-    const PixelSums& sums = sums_[pixel];
-    const double reached = std::max(sums.reached, 1);
-    for (std::size_t axis = 0; axis < 2; ++axis)
+  constexpr std::int64_t rowsPerPiece = 16;
+  parallelFor(height_, rowsPerPiece, threads_,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      image.deflection[2 * pixel + axis] = static_cast<float>(sums.deflection[axis] / reached);
-      image.displacement[2 * pixel + axis] = static_cast<float>(sums.displacement[axis] / reached);
-    }
-    image.opticalPathDifference[pixel] = sums.opticalPathDifference / reached;
-    image.blockedFraction[pixel] =
-      static_cast<float>(static_cast<double>(sums.blocked) / std::max(sums.rays, 1));
-  }
+      for (std::int64_t row = begin; row < end; ++row)
+      {
+        for (std::int64_t column = 0; column < width_; ++column)
+        {
+          const auto pixel = static_cast<std::size_t>(row * width_ + column);
+          PixelSums sums = sums_.empty() ? PixelSums{} : sums_[pixel];
+          for (const TracedRays& rays : passes)
+          {
+            sums.add(rays.exits[rays.rayOf(column, row)]);
+          }
+          use(pixel, sums);
+        }
+      }
+    });
+}
+
+void PixelMeans::add(const std::vector<TracedRays>& passes)
+{
+  sums_.resize(static_cast<std::size_t>(width_ * height_));
+  forEachPixel(passes, [this](std::size_t pixel, const PixelSums& sums) { sums_[pixel] = sums; });
+}
+
+void PixelMeans::develop(const std::vector<TracedRays>& last, Image& image)
+{
+  const auto pixels = static_cast<std::size_t>(width_ * height_);
+  image.deflection.resize(2 * pixels);
+  image.displacement.resize(2 * pixels);
+  image.opticalPathDifference.resize(pixels);
+  image.blockedFraction.resize(pixels);
+  forEachPixel(last,
+    [&image](std::size_t pixel, const PixelSums& sums)
+    {
+      const double reached = std::max(sums.reached, 1);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        image.deflection[2 * pixel + axis] = static_cast<float>(sums.deflection[axis] / reached);
+        image.displacement[2 * pixel + axis] =
+          static_cast<float>(sums.displacement[axis] / reached);
+      }
+      image.opticalPathDifference[pixel] = sums.opticalPathDifference / reached;
+      image.blockedFraction[pixel] =
+        static_cast<float>(static_cast<double>(sums.blocked) / std::max(sums.rays, 1));
+    });
 }
 
 } // namespace schlieren

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/RayExit.h"
+#include "Rays/TracedRays.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct PixelSums
   double deflection[2]{ 0, 0 };
   double displacement[2]{ 0, 0 };
   double opticalPathDifference = 0;
-  std::int32_t reached = 0; ///< the film
+  std::int32_t reached = 0;
   std::int32_t blocked = 0;
   std::int32_t rays = 0;
 
@@ -39,26 +39,37 @@ struct PixelSums
   }
 };
 
-/// Means, pixel by pixel. Each pixel is summed in the order of the passes, so that no result depends on
-/// the number of threads, or on the device.
+/// Means, pixel by pixel, of what the rays that start there carry. Each pixel is summed in the order
+/// of the passes, so that no result depends on the number of threads, or on which passes come at once.
 class PixelMeans
 {
 public:
-  explicit PixelMeans(std::size_t pixels)
-    : sums_(pixels)
+  PixelMeans(int width, int height, int threads)
+    : width_(width)
+    , height_(height)
+    , threads_(threads)
   {
   }
 
-  void add(std::size_t pixel, const RayExit& exit) { sums_[pixel].add(exit); }
+  /// Adds passes that more will follow.
+  void add(const std::vector<TracedRays>& passes);
 
-  /// Puts the sums of all pixels in the place of those so far.
-  void set(std::vector<PixelSums> sums) { sums_ = std::move(sums); }
+  /// Takes the sums of all pixels, row by row, from a device that has added passes.
+  void setSums(std::vector<PixelSums> sums) { sums_ = std::move(sums); }
 
-  /// Writes the means into the image. Pixels from which no ray reaches the film hold 0.
-  void develop(Image& image) const;
+  /// Adds the last passes and writes the means into the image. Pixels from which no ray reaches the film
+  /// hold 0.
+  void develop(const std::vector<TracedRays>& last, Image& image);
 
 private:
-  std::vector<PixelSums> sums_;
+  /// Calls use(pixel, its sums) with what it holds and these passes.
+  template <class Use>
+  void forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const;
+
+  std::int64_t width_;
+  std::int64_t height_;
+  int threads_;
+  std::vector<PixelSums> sums_; ///< of what has been added; most often nothing
 };
 
 } // namespace schlieren

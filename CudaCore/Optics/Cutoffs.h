@@ -6,6 +6,7 @@
 #include "Math/Units.h"
 
 #include <cmath>
+#include <variant>
 
 namespace schlieren
 {
@@ -43,5 +44,8 @@ struct Shadowgraph
 {
   SCHLIEREN_HD double transmission(const double (&)[2]) const { return 1; }
 };
+
+/// Any of the above.
+using Cutoffs = std::variant<KnifeEdge, Shadowgraph>;
 
 } // namespace schlieren

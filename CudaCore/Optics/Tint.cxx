@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optics/Tint.h"
 
+#include "Optics/Spread.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -30,31 +32,15 @@ std::array<double, 3> Tint::of(const float* gathered) const
   return color;
 }
 
-double tintReference(const RayExit* exits, const float* gathered, std::size_t fields,
-  const Pass& pass, int width, int height)
+double tintReference(const TracedRays& rays, std::size_t fields, int width, int height, int threads)
 {
-  constexpr double percentile = 0.99;
-  std::vector<double> sums;
-  for (std::int64_t row = 0; row < height; ++row)
-  {
-    for (std::int64_t column = 0; column < width; ++column)
+  const Spread sums = spreadOf(rays, width, height, threads,
+    [&](std::int64_t ray)
     {
-      const std::int64_t ray = (row - pass.firstRow) * pass.columns + column - pass.firstColumn;
-      if (exits[ray].fate == RayFate::Left)
-      {
-        const float* first = gathered + static_cast<std::size_t>(ray) * fields;
-        sums.push_back(std::accumulate(first, first + fields, 0.));
-      }
-    }
-  }
-  if (sums.empty())
-  {
-    return 0;
-  }
-  const auto at =
-    sums.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(sums.size() - 1));
-  std::nth_element(sums.begin(), at, sums.end());
-  return *at > 0 ? *at : *std::max_element(at, sums.end());
+      const float* first = rays.gathered + static_cast<std::size_t>(ray) * fields;
+      return std::accumulate(first, first + fields, 0.);
+    });
+  return sums.percentile > 0 ? sums.percentile : sums.largest;
 }
 
 } // namespace schlieren

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/RayExit.h"
+#include "Rays/TracedRays.h"
 
 #include <array>
 #include <cstddef>
@@ -23,8 +23,8 @@ struct Tint
 };
 
 /// What 99 % of the rays that crossed the medium within the picture do not exceed; or, where less than
-/// a hundredth of them has gathered anything, the most. `gathered` holds `fields` values for each ray.
-double tintReference(const RayExit* exits, const float* gathered, std::size_t fields,
-  const Pass& pass, int width, int height);
+/// a hundredth of them has gathered anything, the most; 0 where none has.
+double tintReference(
+  const TracedRays& rays, std::size_t fields, int width, int height, int threads);
 
 } // namespace schlieren

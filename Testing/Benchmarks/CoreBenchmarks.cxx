@@ -166,29 +166,6 @@ void traceArguments(benchmark::internal::Benchmark* b)
 }
 BENCHMARK(trace)->Apply(traceArguments)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-/// A new knife angle: held rays meet another cutoff, nothing is traced.
-void shadeAgain(benchmark::State& state)
-{
-  Scene scene = sceneAcross(512);
-  scene.device = Device::Cpu;
-  scene.samplesPerPixel = static_cast<int>(state.range(0));
-  Bench bench;
-  bench.render(column(64).field, scene);
-  for (auto _ : state)
-  {
-    scene.knifeEdgeAngle += 1;
-    benchmark::DoNotOptimize(bench.render(column(64).field, scene));
-  }
-  state.counters["pictures/s"] =
-    benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
-}
-BENCHMARK(shadeAgain)
-  ->ArgNames({ "samples" })
-  ->Arg(1)
-  ->Arg(4)
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
-
 } // namespace
 
 BENCHMARK_MAIN();

@@ -53,18 +53,43 @@ TEST(AutomaticK, MapsThe99thPercentileToFullScale)
         RayExit{ { 0.6 * size, -0.8 * size }, { 0, 0 }, 0, RayFate::Left, 1 };
     }
   }
-  EXPECT_NEAR(automaticK(exits.data(), pass, width, height, 0), 0.5 / 989e-6, 1e-6 * 0.5 / 989e-6);
-  EXPECT_NEAR(automaticK(exits.data(), pass, width, height, 1), 0.5, 1e-15);
+  const TracedRays rays{ pass, exits.data(), nullptr };
+  EXPECT_NEAR(automaticK(rays, width, height, 0, 2), 0.5 / 989e-6, 1e-6 * 0.5 / 989e-6);
+  EXPECT_NEAR(automaticK(rays, width, height, 1, 2), 0.5, 1e-15);
   std::for_each(
     exits.begin(), exits.end(), [](RayExit& exit) { exit.deflection[0] = exit.deflection[1] = 0; });
-  EXPECT_EQ(automaticK(exits.data(), pass, width, height, 0), 1);
+  EXPECT_EQ(automaticK(rays, width, height, 0, 2), 1);
 }
+
+/// Splats rays one by one, each with its own row covered, as light lands that knows no order.
+class Splatter
+{
+public:
+  explicit Splatter(Film& film)
+    : film_(film)
+    , band_(film)
+  {
+  }
+  void operator()(double column, double row, double light)
+  {
+    if (isOnFilm(column, row, film_.width(), film_.height()))
+    {
+      const Footprint at = footprintOf(column, row);
+      band_.cover(at.row, at.row);
+      band_.splat(at, light);
+    }
+  }
+
+private:
+  Film& film_;
+  FilmBand band_;
+};
 
 TEST(Film, SharesARayAmongFourPixels)
 {
   Film film(4, 3, 1);
-  film.splat(1.25, 0.5, 1);
-  const std::vector<float> picture = film.develop(1);
+  Splatter{ film }(1.25, 0.5, 1);
+  const std::vector<float> picture = film.develop(1, 1);
   EXPECT_FLOAT_EQ(picture[1], 0.375f);
   EXPECT_FLOAT_EQ(picture[2], 0.125f);
   EXPECT_FLOAT_EQ(picture[5], 0.375f);
@@ -75,11 +100,14 @@ TEST(Film, SharesARayAmongFourPixels)
 TEST(Film, LosesNoLight)
 {
   Film film(50, 40, 20000);
-  for (int i = 0; i < 20000; ++i)
   {
-    film.splat(1 + 0.0023999 * i, 38 - 0.0017 * i, 0.37);
+    Splatter splat(film);
+    for (int i = 0; i < 20000; ++i)
+    {
+      splat(1 + 0.0023999 * i, 38 - 0.0017 * i, 0.37);
+    }
   }
-  EXPECT_NEAR(sum(film.develop(1)), 20000 * 0.37, 20000 * 0.37 * 1e-6);
+  EXPECT_NEAR(sum(film.develop(1, 1)), 20000 * 0.37, 20000 * 0.37 * 1e-6);
 }
 
 TEST(Film, DropsWhatFallsOutside)
@@ -87,25 +115,75 @@ TEST(Film, DropsWhatFallsOutside)
   Film film(3, 3, 100);
   for (const double place : { -1., 3., 1e300, -1e300, std::nan(""), HUGE_VAL })
   {
-    film.splat(place, 1, 1);
-    film.splat(1, place, 1);
+    Splatter{ film }(place, 1, 1);
+    Splatter{ film }(1, place, 1);
   }
-  EXPECT_EQ(sum(film.develop(1)), 0);
-  film.splat(-0.75, 1, 1); // a quarter of it is on the film
-  EXPECT_DOUBLE_EQ(sum(film.develop(1)), 0.25);
+  EXPECT_EQ(sum(film.develop(1, 1)), 0);
+  Splatter{ film }(-0.75, 1, 1); // a quarter of it is on the film
+  EXPECT_DOUBLE_EQ(sum(film.develop(1, 1)), 0.25);
 }
 
 TEST(Film, HoldsAllRaysOnOnePixel)
 {
   const std::int64_t rays = std::int64_t{ 1 } << 22;
   Film film(2, 2, rays);
-  for (std::int64_t i = 0; i < rays; ++i)
   {
-    film.splat(1, 1, 1);
+    Splatter splat(film);
+    for (std::int64_t i = 0; i < rays; ++i)
+    {
+      splat(1, 1, 1);
+    }
   }
-  EXPECT_EQ(film.develop(static_cast<double>(rays))[3], 1);
+  EXPECT_EQ(film.develop(static_cast<double>(rays), 1)[3], 1);
   // As many as 32768 x 32768 pixels x 1e6 samples, all in one place: the scale leaves room for them.
   EXPECT_GE(std::ldexp(1., 63), std::ldexp(1., 30) * 1e6 * 2);
+}
+
+/// Bands are a matter of speed: whichever rows each of them covers, every ray arrives where it belongs.
+TEST(Film, BandsChangeNothing)
+{
+  constexpr int width = 7, height = 301;
+  constexpr int rays = 3000;
+  const auto columnOf = [](int i) { return std::fmod(3.7 * i, width + 1.) - 1 + 1e-3; };
+  const auto rowOf = [](int i) { return std::fmod(91.3 * i, height + 1.) - 1 + 1e-3; };
+  std::vector<double> expected(width * height);
+  for (int i = 0; i < rays; ++i)
+  {
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        expected[static_cast<std::size_t>(row * width + column)] +=
+          std::max(0., 1 - std::abs(column - columnOf(i))) *
+          std::max(0., 1 - std::abs(row - rowOf(i)));
+      }
+    }
+  }
+  std::vector<std::vector<float>> pictures;
+  for (const std::int64_t covered : { -1, 0, 5, 63, 64, 500 })
+  {
+    SCOPED_TRACE(covered);
+    Film film(width, height, rays);
+    {
+      FilmBand one(film), other(film);
+      for (int i = 0; i < rays; ++i)
+      {
+        const Footprint at = footprintOf(columnOf(i), rowOf(i));
+        FilmBand& band = i % 3 == 0 ? one : other;
+        if (covered >= 0)
+        {
+          band.cover(std::max<std::int64_t>(-1, at.row - covered), at.row + covered / 2);
+        }
+        band.splat(at, 1);
+      }
+    }
+    pictures.push_back(film.develop(1, 2));
+    for (std::size_t pixel = 0; pixel < expected.size(); ++pixel)
+    {
+      ASSERT_NEAR(pictures.back()[pixel], expected[pixel], 1e-5);
+    }
+    EXPECT_EQ(pictures.back(), pictures.front());
+  }
 }
 
 TEST(Light, FirstRayOfEachPixelIsItsCentre)
