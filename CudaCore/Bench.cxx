@@ -225,8 +225,7 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
-  const FieldGradientsView gradients = FieldGradientsView::of(field.grid, field.gradients);
-  scratch.resize(pass, gradients.count);
+  scratch.resize(pass, field.gradients.count);
   bool finished = false;
   if (image.device == Device::Cuda)
   {
@@ -234,13 +233,14 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     {
       held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
-    finished = held.cuda->trace(
-      task, scene.interpolation, pass, gradients, field.gradients.version, scratch, monitor);
+    finished =
+      held.cuda->trace(task, { PathModel::Refracted, scene.integrator, scene.interpolation }, pass,
+        field.gradients.version, scratch, monitor);
   }
   else
   {
-    finished =
-      traceOnCpu(task, scene.interpolation, pass, gradients, scratch, scene.threads, monitor);
+    finished = traceOnCpu(task, { PathModel::Refracted, scene.integrator, scene.interpolation },
+      pass, scratch, scene.threads, monitor);
   }
   image.traceSeconds +=
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -280,7 +280,13 @@ Image Bench::Stages::render(
   const Light light = collimatedLight(field.grid, image.frame);
   const DisplacementBound bound = boundDisplacement(held.medium, light);
   image.displacementBound = bound.displacement;
-  const RayTask<Real> task = makeTask(held.medium, light, scene.stepSize, field.lengthScale);
+  RaySettings settings;
+  settings.kernel = { PathModel::Refracted, scene.integrator, scene.interpolation };
+  settings.stepVoxels = scene.stepSize;
+  settings.adaptiveTolerance = scene.adaptiveTolerance;
+  settings.lengthScale = field.lengthScale;
+  const RayTask<Real> task = makeTask<Real>(
+    held.medium, nullptr, FieldGradientsView::of(field.grid, field.gradients), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
   RaysKey key{ image.frame, view.width, view.height, scene.stepSize, field.lengthScale, scene.seed,

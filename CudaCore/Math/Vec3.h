@@ -2,22 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Math/HostDevice.h"
+#include "Math/Pack.h"
 
 #include <cmath>
 
 namespace schlieren
 {
 
-/// The type of the numbers in a pack; of a number, itself.
-template <class Real>
-struct NumberIn
-{
-  using type = Real;
-};
-template <class Real>
-using NumberOf = typename NumberIn<Real>::type;
-
+/// Three numbers, or three packs of numbers. Both may stand together in one expression.
 template <class Real>
 struct Vec3
 {
@@ -38,33 +30,33 @@ struct Vec3
   }
 };
 
-template <class Real>
-SCHLIEREN_HD Vec3<Real> operator+(const Vec3<Real>& a, const Vec3<Real>& b)
+template <class A, class B>
+SCHLIEREN_HD auto operator+(const Vec3<A>& a, const Vec3<B>& b) -> Vec3<decltype(a.x + b.x)>
 {
   return { a.x + b.x, a.y + b.y, a.z + b.z };
 }
 
-template <class Real>
-SCHLIEREN_HD Vec3<Real> operator-(const Vec3<Real>& a, const Vec3<Real>& b)
+template <class A, class B>
+SCHLIEREN_HD auto operator-(const Vec3<A>& a, const Vec3<B>& b) -> Vec3<decltype(a.x - b.x)>
 {
   return { a.x - b.x, a.y - b.y, a.z - b.z };
 }
 
-template <class Real>
-SCHLIEREN_HD Vec3<Real> operator*(Real s, const Vec3<Real>& a)
+template <class Scale, class Real>
+SCHLIEREN_HD auto operator*(const Scale& s, const Vec3<Real>& a) -> Vec3<decltype(s * a.x)>
 {
   return { s * a.x, s * a.y, s * a.z };
 }
 
 /// Product component by component.
-template <class Real>
-SCHLIEREN_HD Vec3<Real> scaled(const Vec3<Real>& a, const Vec3<Real>& b)
+template <class A, class B>
+SCHLIEREN_HD auto scaled(const Vec3<A>& a, const Vec3<B>& b) -> Vec3<decltype(a.x * b.x)>
 {
   return { a.x * b.x, a.y * b.y, a.z * b.z };
 }
 
-template <class Real>
-SCHLIEREN_HD Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
+template <class A, class B>
+SCHLIEREN_HD auto dot(const Vec3<A>& a, const Vec3<B>& b) -> decltype(a.x * b.x)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -18,14 +18,14 @@ __device__ std::int64_t index()
   return blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
 }
 
-template <class Interpolate, class Real>
+template <class Scheme, class Real>
 __global__ void brickKernel(
   const MediumView<Real> medium, const BrickPyramid pyramid, NuRange<Real>* ranges)
 {
   const std::int64_t n = index();
   if (n < pyramid.size(0))
   {
-    ranges[n] = rangeOfBrick<Interpolate>(medium, pyramid, n);
+    ranges[n] = rangeOfBrick<Scheme>(medium, pyramid, n);
   }
 }
 
@@ -88,14 +88,9 @@ HomogeneityMap<Real> buildHomogeneityMapOnCuda(
   const CudaBuffer<std::uint8_t, DeviceError> levels(map.levels.size());
 
   const unsigned blocks = blocksFor(pyramid.size(0));
-  if (interpolation == Interpolation::Quadratic)
-  {
-    brickKernel<QuadraticInterpolation><<<blocks, threadsPerBlock>>>(view, pyramid, ranges.data());
-  }
-  else
-  {
-    brickKernel<LinearInterpolation><<<blocks, threadsPerBlock>>>(view, pyramid, ranges.data());
-  }
+  visitScheme(interpolation,
+    [&](auto scheme)
+    { brickKernel<decltype(scheme)><<<blocks, threadsPerBlock>>>(view, pyramid, ranges.data()); });
   for (int level = 1; level < pyramid.levels; ++level)
   {
     cubeKernel<<<blocksFor(pyramid.size(level)), threadsPerBlock>>>(pyramid, level, ranges.data());

@@ -12,7 +12,7 @@ namespace
 
 constexpr std::int64_t cubesPerPiece = 256;
 
-template <class Interpolate, class Real>
+template <class Scheme, class Real>
 void boundBricks(const MediumView<Real>& medium, HomogeneityMap<Real>& map, int threads)
 {
   parallelFor(map.pyramid.size(0), cubesPerPiece, threads,
@@ -20,7 +20,7 @@ void boundBricks(const MediumView<Real>& medium, HomogeneityMap<Real>& map, int 
     {
       for (std::int64_t n = begin; n < end; ++n)
       {
-        map.ranges[static_cast<std::size_t>(n)] = rangeOfBrick<Interpolate>(medium, map.pyramid, n);
+        map.ranges[static_cast<std::size_t>(n)] = rangeOfBrick<Scheme>(medium, map.pyramid, n);
       }
     });
 }
@@ -69,9 +69,8 @@ HomogeneityMap<Real> buildHomogeneityMap(
   HomogeneityMap<Real> map{ pyramid,
     std::vector<NuRange<Real>>(static_cast<std::size_t>(pyramid.first(pyramid.levels))),
     std::vector<std::uint8_t>(static_cast<std::size_t>(pyramid.size(0))) };
-  interpolation == Interpolation::Quadratic
-    ? boundBricks<QuadraticInterpolation>(medium.view(), map, threads)
-    : boundBricks<LinearInterpolation>(medium.view(), map, threads);
+  visitScheme(interpolation,
+    [&](auto scheme) { boundBricks<decltype(scheme)>(medium.view(), map, threads); });
   for (int level = 1; level < pyramid.levels; ++level)
   {
     NuRange<Real>* ranges = map.ranges.data() + pyramid.first(level);

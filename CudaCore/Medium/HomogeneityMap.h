@@ -32,10 +32,16 @@ constexpr Real infinite = std::numeric_limits<Real>::infinity();
 /// interpolated nu is outside by more than the interpolation's rounding. Infinite where one of the grid
 /// points is solid.
 ///
-/// The derivative of a linear or quadratic B-spline by an index coordinate is a mean of differences of
-/// neighbouring samples, so `highest - lowest` bounds each |d nu / d index| inside the cube, too: the
-/// deflection that a ray misses when it is not bent there is at most that times its length in voxels,
-/// along each axis.
+/// They bound what rays feel, too. The derivative by an index coordinate is a mean, without negative
+/// weights, of differences of neighbouring samples, so that each |d nu / d index| in the cube is at most
+/// s = Scheme::steepest * (highest - lowest). Hence, along a straight segment of length L within it, in
+/// whatever unit, the integral
+///   - of d nu / d index is at most s L: that much a ray misses that is not bent there, along each axis;
+///   - of d nu / d index differs from L times the derivative at the segment's middle by at most 2 s L:
+///     what a ray misses that is bent once (less by far, of second order, where the medium is smooth);
+///   - of nu differs from L times nu at the middle by at most L * (highest - lowest).
+/// No smaller factors hold for all media. A face belongs to the cube above it, as it does for
+/// homogeneousCube and for Linear's derivative, which jumps there.
 template <class Real>
 struct NuRange
 {
@@ -165,7 +171,7 @@ HomogeneityMap<Real> buildHomogeneityMap(
 // One cube's share of the work, the same on host and device.
 
 /// Whether any of the `count` <= 32 bits from `at` on is 1.
-SCHLIEREN_HD inline bool anyBit(const std::uint32_t* bits, std::int64_t at, int count)
+SCHLIEREN_HD bool anyBit(const std::uint32_t* bits, std::int64_t at, int count)
 {
   const int shift = static_cast<int>(at & 31);
   std::uint64_t window = bits[at >> 5] >> shift;
@@ -191,7 +197,7 @@ SCHLIEREN_HD void widen(Real (&lowest)[brickEdge], Real (&highest)[brickEdge], c
 }
 
 /// The n-th brick.
-template <class Interpolate, class Real>
+template <class Scheme, class Real>
 SCHLIEREN_HD NuRange<Real> rangeOfBrick(
   const MediumView<Real>& m, const BrickPyramid& pyramid, std::int64_t n)
 {
@@ -221,12 +227,12 @@ SCHLIEREN_HD NuRange<Real> rangeOfBrick(
     }
   }
 
-  constexpr int first = 1 - Interpolate::reach;
+  constexpr int first = 1 - Scheme::reach;
   const Real* corner =
     m.samples + (low[2] + first) * m.planeStride + (low[1] + first) * m.rowStride + low[0] + first;
-  const int width = points[0] + 2 * Interpolate::reach;
-  const int height = points[1] + 2 * Interpolate::reach;
-  const int depth = points[2] + 2 * Interpolate::reach;
+  const int width = points[0] + 2 * Scheme::reach;
+  const int height = points[1] + 2 * Scheme::reach;
+  const int depth = points[2] + 2 * Scheme::reach;
   NuRange<Real> range{ infinite<Real>, -infinite<Real> };
   if (width < brickEdge)
   {
@@ -244,7 +250,7 @@ SCHLIEREN_HD NuRange<Real> rangeOfBrick(
     return range;
   }
   // For the CPU, neighbours at once: a row's first points and, overlapping them, its last ones.
-  static_assert(brickEdge + 1 + 2 * Interpolate::reach <= 2 * brickEdge);
+  static_assert(brickEdge + 1 + 2 * Scheme::reach <= 2 * brickEdge);
   Real lowest[2][brickEdge], highest[2][brickEdge];
   for (int i = 0; i < brickEdge; ++i)
   {

@@ -67,6 +67,8 @@ SCHLIEREN_HD Sample<Real> tensorProduct(const MediumView<Real>& m, const Real* c
 //              of the cell, in [0, 1]
 //   first      where the first sample lies, from there
 //   reach      grid points beyond a cell's corners whose samples have a weight in the cell
+//   steepest   largest |derivative| by an index coordinate where the samples differ by no more than 1: the
+//              largest weight that a difference of neighbours has in it
 //   weights    of the value (w) and of the derivative (d); Real is a number or a pack of numbers
 
 /// Quadratic B-spline (Unser, Aldroubi & Eden 1993): the derivative is continuous, so that no cell
@@ -77,6 +79,7 @@ struct QuadraticInterpolation
   static constexpr bool nearest = true;
   static constexpr int first = -1;
   static constexpr int reach = 1;
+  static constexpr double steepest = 1;
 
   template <class Real>
   SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
@@ -97,9 +100,10 @@ struct LinearInterpolation
 {
   static constexpr int points = 2;
   static constexpr bool nearest = false;
-  static constexpr int first =
-    0; // the cell past the grid's last point ends in ghosts with weight 0
+  // The cell past the grid's last point ends in ghosts, which weigh in its derivative alone.
+  static constexpr int first = 0;
   static constexpr int reach = 0;
+  static constexpr double steepest = 1;
 
   template <class Real>
   SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
@@ -119,6 +123,7 @@ struct CentralInterpolation
   static constexpr bool nearest = false;
   static constexpr int first = -1;
   static constexpr int reach = 1;
+  static constexpr double steepest = 0.5;
 
   template <class Real>
   SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
@@ -143,6 +148,7 @@ struct CubicInterpolation
   static constexpr bool nearest = false;
   static constexpr int first = -1;
   static constexpr int reach = 1;
+  static constexpr double steepest = 0.75;
 
   template <class Real>
   SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
@@ -181,7 +187,7 @@ auto visitScheme(Interpolation interpolation, const Visit& visit)
 
 /// Value and gradient at a position within [0, last].
 template <class Scheme, class Real>
-SCHLIEREN_HD Sample<Real> interpolate(const MediumView<Real>& m, const Vec3<Real>& position)
+SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Real>& position) -> Sample<Real>
 {
   const Real x[3] = { position.x, position.y, position.z };
   const Real last[3] = { m.last.x, m.last.y, m.last.z };

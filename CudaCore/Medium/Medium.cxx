@@ -263,8 +263,10 @@ void widenByDifferences(const Real* a, const Real* b, std::int64_t count, Real* 
 }
 
 /// Largest difference of neighbouring samples along each axis, ghosts included where they are used,
-/// and largest |sample|. The derivative of a linear or quadratic B-spline is a weighted mean of these
-/// differences, its value one of the samples, so that neither can be larger.
+/// and largest |sample|. With all schemes the value is a weighted mean of samples and a derivative one of
+/// these differences, no weight negative, so that neither can be larger: the derivative of a B-spline is a
+/// B-spline of one degree less of the differences; Central's, at f within a cell, has the weights
+/// (1 - f) / 2, 1 / 2 and f / 2; across the derivative's axis all schemes weigh as for the value.
 template <class Real>
 void findBounds(Medium<Real>& medium, int threads)
 {
@@ -311,6 +313,21 @@ void findBounds(Medium<Real>& medium, int threads)
   }
 }
 
+/// Linear's derivative on the grid's far faces is that of the last cells, Central's is of second order there
+/// as it is inside, and the B-splines go on as they do in the prefilter.
+int degreeOfGhosts(Interpolation interpolation)
+{
+  switch (interpolation)
+  {
+    case Interpolation::Linear:
+      return 1;
+    case Interpolation::Cubic:
+      return 3;
+    default:
+      return 2;
+  }
+}
+
 template <class Real, class Value>
 Medium<Real> build(
   const Field& field, const Value* values, Interpolation interpolation, int threads)
@@ -330,6 +347,7 @@ Medium<Real> build(
   const Range range = load(samples, ambient, medium.volume, threads);
   checkRange(range);
   medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
+  medium.rangeOfNu = (range.highest - range.lowest) / (1 + ambient);
   if (range.gas < field.grid.dimensions[0] * field.grid.dimensions[1] * field.grid.dimensions[2])
   {
     setSolids(samples, medium, threads);
@@ -338,7 +356,11 @@ Medium<Real> build(
   {
     prefilterQuadratic(medium.volume, threads);
   }
-  fillGhosts(medium.volume);
+  else if (interpolation == Interpolation::Cubic)
+  {
+    prefilterCubic(medium.volume, threads);
+  }
+  fillGhosts(medium.volume, degreeOfGhosts(interpolation));
   cutTails(medium.volume, std::max(range.highest - ambient, ambient - range.lowest) / (1 + ambient),
     threads);
   findBounds(medium, threads);

@@ -22,6 +22,7 @@ struct Medium
 
   double ambient = 0;            ///< N_ref
   double largestN = 0;           ///< largest |N|: what the samples' rounding is relative to
+  double rangeOfNu = 0;          ///< highest less lowest nu of the gas's samples
   double largestNu = 0;          ///< no interpolated |nu| is larger (up to the spline's overshoot)
   Vec3<double> slope{ 0, 0, 0 }; ///< no interpolated |d nu / d index| is larger, axis by axis
 

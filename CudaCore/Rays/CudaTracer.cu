@@ -14,48 +14,21 @@ namespace
 constexpr int threadsPerBlock = 128;
 constexpr std::int64_t raysPerLaunch = std::int64_t{ 1 } << 20;
 
-template <class Interpolate, class Real>
-__global__ void traceKernel(
-  const RayTask<Real> task, const Pass pass, std::int64_t first, std::int64_t count, RayExit* exits)
+/// `gathered`: the sums of each ray's fields, null where there are none.
+template <class Kernel, class Real>
+__global__ void traceKernel(const RayTask<Real> task, const Pass pass, std::int64_t first,
+  std::int64_t count, RayExit* exits, float* gathered, Real* drifts)
 {
   const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
   if (n < count)
   {
-    exits[n] = traceRay<Interpolate>(task, pass.columnOf(first + n), pass.rowOf(first + n));
-  }
-}
-
-/// The same, with `gathered` for the sums of each ray.
-template <class Interpolate, class Real>
-__global__ void traceAndGatherKernel(const RayTask<Real> task, const Pass pass, std::int64_t first,
-  std::int64_t count, RayExit* exits, const FieldGradientsView gradients, float* gathered)
-{
-  const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
-  if (n < count)
-  {
-    float* sums = gathered + n * gradients.count;
-    for (int field = 0; field < gradients.count; ++field)
+    float* sums = gathered + n * task.gradients.count;
+    for (int field = 0; field < task.gradients.count; ++field)
     {
       sums[field] = 0;
     }
-    exits[n] = traceRay<Interpolate>(
-      task, pass.columnOf(first + n), pass.rowOf(first + n), GatherFields{ gradients, sums });
-  }
-}
-
-template <class Interpolate, class Real>
-void launch(const RayTask<Real>& task, const Pass& pass, std::int64_t first, std::int64_t count,
-  RayExit* exits, const FieldGradientsView& gradients, float* gathered)
-{
-  const auto blocks = static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
-  if (gradients.count == 0)
-  {
-    traceKernel<Interpolate><<<blocks, threadsPerBlock>>>(task, pass, first, count, exits);
-  }
-  else
-  {
-    traceAndGatherKernel<Interpolate>
-      <<<blocks, threadsPerBlock>>>(task, pass, first, count, exits, gradients, gathered);
+    exits[n] =
+      traceRay<Kernel>(task, pass.columnOf(first + n), pass.rowOf(first + n), sums, drifts[n]);
   }
 }
 
@@ -83,6 +56,7 @@ struct CudaTracer<Real>::DeviceMemory
   explicit DeviceMemory(const Medium<Real>& medium)
     : samples(medium.volume.samples.data(), medium.volume.samples.size())
     , exits(static_cast<std::size_t>(raysPerLaunch))
+    , drifts(static_cast<std::size_t>(raysPerLaunch))
   {
     if (!medium.solid.empty())
     {
@@ -93,6 +67,7 @@ struct CudaTracer<Real>::DeviceMemory
 
   CudaBuffer<Real, DeviceError> samples;
   CudaBuffer<RayExit, DeviceError> exits;
+  CudaBuffer<Real, DeviceError> drifts;
   std::unique_ptr<CudaBuffer<std::uint32_t, DeviceError>> solid;
 
   /// Fields that tint, and what the rays of one launch have gathered of them.
@@ -139,40 +114,48 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, Interpolation interpolation,
-  const Pass& pass, const FieldGradientsView& gradients, std::uint64_t version, TracedPass& traced,
-  const Monitor& monitor)
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const KernelChoice& kernel,
+  const Pass& pass, std::uint64_t version, TracedPass& traced, const Monitor& monitor)
 {
   RayTask<Real> onDevice = task;
   onDevice.medium.samples = memory_->samples.data();
   onDevice.medium.solid = memory_->solid ? memory_->solid->data() : nullptr;
-  FieldGradientsView gradientsOnDevice = gradients;
-  float* sums = memory_->bring(gradientsOnDevice, version);
+  onDevice.map.levels = nullptr;
+  float* sums = memory_->bring(onDevice.gradients, version);
+  const int fields = task.gradients.count;
 
   const std::int64_t rays = pass.columns * pass.rows;
+  std::vector<Real> drifts(static_cast<std::size_t>(std::min(raysPerLaunch, rays)));
+  traced.worstDrift = 0;
   for (std::int64_t first = 0; first < rays; first += raysPerLaunch)
   {
     const std::int64_t count = std::min(raysPerLaunch, rays - first);
-    if (interpolation == Interpolation::Quadratic)
-    {
-      launch<QuadraticInterpolation>(
-        onDevice, pass, first, count, memory_->exits.data(), gradientsOnDevice, sums);
-    }
-    else
-    {
-      launch<LinearInterpolation>(
-        onDevice, pass, first, count, memory_->exits.data(), gradientsOnDevice, sums);
-    }
+    const auto blocks = static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
+    visitKernel(kernel,
+      [&](auto kind)
+      {
+        traceKernel<decltype(kind)><<<blocks, threadsPerBlock>>>(
+          onDevice, pass, first, count, memory_->exits.data(), sums, memory_->drifts.data());
+      });
     checkCuda<DeviceError>(cudaGetLastError(), "Starting the ray kernel");
     checkCuda<DeviceError>(
       cudaMemcpy(traced.exits.data() + first, memory_->exits.data(),
         static_cast<std::size_t>(count) * sizeof(RayExit), cudaMemcpyDeviceToHost),
       "Tracing rays");
-    if (gradients.count > 0)
+    checkCuda<DeviceError>(
+      cudaMemcpy(drifts.data(), memory_->drifts.data(),
+        static_cast<std::size_t>(count) * sizeof(Real), cudaMemcpyDeviceToHost),
+      "Tracing rays");
+    for (std::int64_t ray = 0; ray < count; ++ray)
     {
-      checkCuda<DeviceError>(cudaMemcpy(traced.gathered.data() + first * gradients.count, sums,
-                               static_cast<std::size_t>(count * gradients.count) * sizeof(float),
-                               cudaMemcpyDeviceToHost),
+      traced.worstDrift =
+        std::max(traced.worstDrift, static_cast<double>(drifts[static_cast<std::size_t>(ray)]));
+    }
+    if (fields > 0)
+    {
+      checkCuda<DeviceError>(
+        cudaMemcpy(traced.gathered.data() + first * fields, sums,
+          static_cast<std::size_t>(count * fields) * sizeof(float), cudaMemcpyDeviceToHost),
         "Gathering gradients");
     }
     if (monitor.progress)

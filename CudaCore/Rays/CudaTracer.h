@@ -21,9 +21,8 @@ public:
 
   /// Traces a pass into host memory, as traceOnCpu does. Returns false if aborted.
   /// The gradients are sent to the device again only when `version` is another.
-  bool trace(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
-    const FieldGradientsView& gradients, std::uint64_t version, TracedPass& traced,
-    const Monitor& monitor);
+  bool trace(const RayTask<Real>& task, const KernelChoice& kernel, const Pass& pass,
+    std::uint64_t version, TracedPass& traced, const Monitor& monitor);
 
 private:
   struct DeviceMemory;

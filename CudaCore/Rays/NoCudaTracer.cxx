@@ -46,8 +46,8 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>&, Interpolation, const Pass&,
-  const FieldGradientsView&, std::uint64_t, TracedPass&, const Monitor&)
+bool CudaTracer<Real>::trace(const RayTask<Real>&, const KernelChoice&, const Pass&, std::uint64_t,
+  TracedPass&, const Monitor&)
 {
   throw DeviceError(builtWithoutCuda);
 }

@@ -3,29 +3,42 @@
 #include "Rays/Tracer.h"
 
 #include "Device/Parallel.h"
+#include "Rays/SimdMarch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace schlieren
 {
 
 template <class Real>
-RayTask<Real> makeTask(
-  const Medium<Real>& medium, const Light& light, double stepVoxels, double lengthScale)
+RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
+  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings)
 {
   RayTask<Real> task{};
   task.medium = medium.view();
+  if (map != nullptr)
+  {
+    task.map = map->view();
+  }
+  task.gradients = gradients;
   task.light = light;
   task.straight = { static_cast<Vec3<Real>>(light.w), static_cast<Vec3<Real>>(light.perLength),
     static_cast<Vec3<Real>>(light.indexScale) };
-  const double step = stepVoxels / length(light.perLength);
+  const double step = settings.stepVoxels / length(light.perLength);
   task.step = static_cast<Real>(step);
   const double straightSteps = std::ceil(light.depth / step) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
   task.stepLimit = static_cast<std::int32_t>(std::min(trappedFactor * straightSteps, largestLimit));
-  task.metresPerUnit = (1 + medium.ambient) * lengthScale * light.unit;
+  task.metresPerUnit = (1 + medium.ambient) * settings.lengthScale * light.unit;
+  task.bends = settings.kernel.path != PathModel::Straight;
+  // By what the steepest gradient would bend a ray over the same way; in a uniform medium anything will do.
+  const double steepest = length(scaled(medium.slope, light.indexScale));
+  const double allowed = settings.adaptiveTolerance * (steepest > 0 ? steepest : 1);
+  task.allowedBend = static_cast<Real>(allowed);
+  task.allowedOffset = static_cast<Real>(allowed * light.depth);
   return task;
 }
 
@@ -49,55 +62,148 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
   return { 0.5 * bend * way * way * light.unit, bend * way / (forward - bend * way) };
 }
 
-template <class Interpolate, class Real>
-bool traceBy(const RayTask<Real>& task, const Pass& pass, const FieldGradientsView& gradients,
-  TracedPass& traced, int threads, const Monitor& monitor)
+namespace
 {
-  const auto traceRays = [&](std::int64_t begin, std::int64_t end, const auto& gatherOf)
+
+/// One ray, or a rectangle of pixels whose rays a kernel takes side by side: near each other, they look at
+/// the same part of the medium.
+template <int Lanes>
+struct Block
+{
+  static constexpr int columns = Lanes == 16 || Lanes == 8 ? 4 : Lanes == 4 ? 2 : 1;
+  static constexpr int rows = Lanes / columns;
+};
+
+/// Pixels along the sides of what a thread takes at once: its rays share what they read of the medium.
+constexpr std::int64_t tileEdge = 16;
+
+template <class Number, int Lanes>
+bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatch,
+  const Pass& pass, TracedPass& traced, int threads, const Monitor& monitor)
+{
+  const std::int64_t tilesAlong = (pass.columns + tileEdge - 1) / tileEdge;
+  const std::int64_t tilesUp = (pass.rows + tileEdge - 1) / tileEdge;
+  std::vector<double> worstDrifts(static_cast<std::size_t>(tilesAlong * tilesUp), 0);
+
+  const auto traceBlock = [&](std::int64_t column, std::int64_t row, std::size_t tile)
   {
-    for (std::int64_t ray = begin; ray < end; ++ray)
+    RayBatch<Number, Lanes> batch;
+    double from[Lanes];
+    std::int64_t rays[Lanes];
+    for (int i = 0; i < Lanes; ++i)
     {
-      traced.exits[static_cast<std::size_t>(ray)] =
-        traceRay<Interpolate>(task, pass.columnOf(ray), pass.rowOf(ray), gatherOf(ray));
+      const std::int64_t atColumn = column + i % Block<Lanes>::columns;
+      const std::int64_t atRow = row + i / Block<Lanes>::columns;
+      rays[i] = -1;
+      batch.fate[i] = RayFate::Missed;
+      if (atColumn < pass.columns && atRow < pass.rows)
+      {
+        rays[i] = atRow * pass.columns + atColumn;
+        from[i] = enterGrid(task, pass.columnOf(rays[i]), pass.rowOf(rays[i]), batch, i);
+        batch.gathered[i] = traced.gathered.data() + rays[i] * task.gradients.count;
+      }
+    }
+    marchBatch(task, batch);
+    for (int i = 0; i < Lanes; ++i)
+    {
+      if (rays[i] >= 0)
+      {
+        traced.exits[static_cast<std::size_t>(rays[i])] = leaveGrid(task, batch, i, from[i]);
+        worstDrifts[tile] = std::max(worstDrifts[tile], static_cast<double>(batch.drift[i]));
+      }
     }
   };
-  constexpr std::int64_t raysPerPiece = 128;
-  return parallelFor(
-    pass.columns * pass.rows, raysPerPiece, threads,
+
+  const bool finished = parallelFor(
+    tilesAlong * tilesUp, 1, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      if (gradients.count == 0)
+      for (std::int64_t tile = begin; tile < end; ++tile)
       {
-        traceRays(begin, end, [](std::int64_t) { return GatherNothing{}; });
-      }
-      else
-      {
-        float* sums = traced.gathered.data();
-        traceRays(begin, end,
-          [&](std::int64_t ray) {
-            return GatherFields{ gradients, sums + ray * gradients.count };
-          });
+        const std::int64_t left = tile % tilesAlong * tileEdge;
+        const std::int64_t low = tile / tilesAlong * tileEdge;
+        for (std::int64_t row = low; row < std::min(low + tileEdge, pass.rows);
+             row += Block<Lanes>::rows)
+        {
+          for (std::int64_t column = left; column < std::min(left + tileEdge, pass.columns);
+               column += Block<Lanes>::columns)
+          {
+            traceBlock(column, row, static_cast<std::size_t>(tile));
+          }
+        }
       }
     },
     monitor);
+  traced.worstDrift = *std::max_element(worstDrifts.begin(), worstDrifts.end());
+  return finished;
+}
+
+template <class Number>
+MarchFunction<Number, 1> marchOneByOne(const KernelChoice& choice)
+{
+  return visitKernel(choice,
+    [](auto kernel) -> MarchFunction<Number, 1>
+    {
+      return [](const RayTask<Number>& task, RayBatch<Number, 1>& batch)
+      { march<decltype(kernel), Number>(task, batch); };
+    });
+}
+
+} // namespace
+
+Simd bestSimd()
+{
+#ifdef SCHLIEREN_HAS_AVX
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+    __builtin_cpu_supports("fma"))
+  {
+    return Simd::Avx512;
+  }
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  {
+    return Simd::Avx2;
+  }
+#endif
+  return Simd::Four;
 }
 
 template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
-  const FieldGradientsView& gradients, TracedPass& traced, int threads, const Monitor& monitor)
+bool traceOnCpu(const RayTask<Real>& task, const KernelChoice& kernel, const Pass& pass,
+  TracedPass& traced, int threads, const Monitor& monitor, Simd simd)
 {
-  return interpolation == Interpolation::Quadratic
-    ? traceBy<QuadraticInterpolation>(task, pass, gradients, traced, threads, monitor)
-    : traceBy<LinearInterpolation>(task, pass, gradients, traced, threads, monitor);
+  const auto traceWith = [&](auto marchBatch)
+  { return traceTiles(task, marchBatch, pass, traced, threads, monitor); };
+  constexpr bool isSingle = std::is_same_v<Real, float>;
+#ifdef SCHLIEREN_HAS_AVX
+  if (simd == Simd::Avx512)
+  {
+    return traceWith(simdMarch < Real, isSingle ? 16 : 8 > (kernel));
+  }
+  if (simd == Simd::Avx2)
+  {
+    return traceWith(simdMarch < Real, isSingle ? 8 : 4 > (kernel));
+  }
+#endif
+  if constexpr (isSingle) // for doubles the instructions that all have are too narrow to gain
+  {
+    if (simd != Simd::None)
+    {
+      return traceWith(simdMarch<Real, 4>(kernel));
+    }
+  }
+  return traceWith(marchOneByOne<Real>(kernel));
 }
 
-template RayTask<float> makeTask(const Medium<float>&, const Light&, double, double);
-template RayTask<double> makeTask(const Medium<double>&, const Light&, double, double);
+template RayTask<float> makeTask(const Medium<float>&, const HomogeneityMap<float>*,
+  const FieldGradientsView&, const Light&, const RaySettings&);
+template RayTask<double> makeTask(const Medium<double>&, const HomogeneityMap<double>*,
+  const FieldGradientsView&, const Light&, const RaySettings&);
 template DisplacementBound boundDisplacement(const Medium<float>&, const Light&);
 template DisplacementBound boundDisplacement(const Medium<double>&, const Light&);
-template bool traceOnCpu(const RayTask<float>&, Interpolation, const Pass&,
-  const FieldGradientsView&, TracedPass&, int, const Monitor&);
-template bool traceOnCpu(const RayTask<double>&, Interpolation, const Pass&,
-  const FieldGradientsView&, TracedPass&, int, const Monitor&);
+template bool traceOnCpu(
+  const RayTask<float>&, const KernelChoice&, const Pass&, TracedPass&, int, const Monitor&, Simd);
+template bool traceOnCpu(
+  const RayTask<double>&, const KernelChoice&, const Pass&, TracedPass&, int, const Monitor&, Simd);
 
 } // namespace schlieren

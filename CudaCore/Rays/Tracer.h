@@ -4,8 +4,8 @@
 
 #include "Medium/FieldGradients.h"
 #include "Medium/Medium.h"
-#include "Rays/Integrators.h"
 #include "Rays/Light.h"
+#include "Rays/Marcher.h"
 #include "Rays/RayExit.h"
 
 #include <vector>
@@ -16,45 +16,13 @@ namespace schlieren
 /// A ray that has taken this many times the steps of a straight one is trapped.
 constexpr int trappedFactor = 8;
 
-/// All that one ray needs, host and device alike.
-template <class Real>
-struct RayTask
-{
-  MediumView<Real> medium;
-  Light light;
-  StraightLight<Real> straight;
-  Real step; ///< in units of the light's unit of length
-  std::int32_t stepLimit;
-  double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
-};
-
-/// What a ray does besides in each step: nothing, or gather the gradients of fields.
-struct GatherNothing
-{
-  template <class Real>
-  SCHLIEREN_HD void operator()(const Vec3<Real>&, Real) const
-  {
-  }
-};
-struct GatherFields
-{
-  FieldGradientsView view;
-  float* sums;
-
-  template <class Real>
-  SCHLIEREN_HD void operator()(const Vec3<Real>& middle, Real step) const
-  {
-    gatherGradients(view, middle, step, sums);
-  }
-};
-
 /// The piece of the line start + s * along, s >= 0, inside the box [0, last]; empty if from > to.
 struct Chord
 {
   double from, to;
 };
 
-SCHLIEREN_HD inline void clip(Chord& chord, double start, double along, double last)
+SCHLIEREN_HD void clip(Chord& chord, double start, double along, double last)
 {
   if (along == 0)
   {
@@ -70,40 +38,13 @@ SCHLIEREN_HD inline void clip(Chord& chord, double start, double along, double l
   chord.to = fmin(chord.to, fmax(a, b));
 }
 
-template <class Real>
-SCHLIEREN_HD Real clampTo(Real x, Real last)
+/// Puts the ray that starts at (column, row) of the picture, in pixels from the centre of pixel (0, 0),
+/// where it enters the grid. Returns how far that is from the entry plane.
+template <class Number, int Lanes>
+SCHLIEREN_HD double enterGrid(
+  const RayTask<Number>& task, double column, double row, RayBatch<Number, Lanes>& batch, int i)
 {
-  // Written so that NaN becomes 0.
-  return x > 0 ? (x < last ? x : last) : Real(0);
-}
-
-template <class Real>
-SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Real>& last)
-{
-  return { clampTo(x.x, last.x), clampTo(x.y, last.y), clampTo(x.z, last.z) };
-}
-
-/// Whether x + step * along leaves [0, last]; if so, the step that just reaches its side.
-template <class Real>
-SCHLIEREN_HD bool shortenToLeave(Real& step, Real x, Real along, Real last)
-{
-  const Real next = x + step * along;
-  if (next >= 0 && next <= last)
-  {
-    return false;
-  }
-  const Real toSide = ((along > 0 ? last : Real(0)) - x) / along;
-  step = toSide > 0 ? (toSide < step ? toSide : step) : Real(0);
-  return true;
-}
-
-/// Traces the ray that starts at (column, row) of the picture, in pixels from the centre of pixel
-/// (0, 0), through the medium and on to the exit plane.
-template <class Interpolate, class Real, class Gather = GatherNothing>
-SCHLIEREN_HD RayExit traceRay(
-  const RayTask<Real>& task, double column, double row, const Gather& gather = {})
-{
-  RayExit exit{ { 0, 0 }, { 0, 0 }, 0, RayFate::Missed, 0 };
+  batch.steps[i] = 0;
   const Vec3<double> start = task.light.start(column, row);
   const Vec3<double> last = static_cast<Vec3<double>>(task.medium.last);
   Chord chord{ 0, task.light.depth };
@@ -112,79 +53,66 @@ SCHLIEREN_HD RayExit traceRay(
   clip(chord, start.z, task.light.perLength.z, last.z);
   if (!(chord.from < chord.to))
   {
-    return exit;
+    batch.fate[i] = RayFate::Missed;
+    return 0;
   }
-
-  Ray<Real> ray;
-  ray.start =
-    clampTo(static_cast<Vec3<Real>>(start + chord.from * task.light.perLength), task.medium.last);
+  const Vec3<Number> at =
+    clampTo(static_cast<Vec3<Number>>(start + chord.from * task.light.perLength), task.medium.last);
+  batch.start[0][i] = at.x;
+  batch.start[1][i] = at.y;
+  batch.start[2][i] = at.z;
   // Where it enters and leaves, too: the steps' midpoints do not look at the grid's faces.
-  const auto isBlockedAt = [&task](const Vec3<Real>& at)
-  { return task.medium.solid != nullptr && isSolid(task.medium, at); };
-  if (isBlockedAt(ray.start))
+  batch.fate[i] =
+    task.medium.solid != nullptr && isSolid(task.medium, at) ? RayFate::Blocked : RayFate::Left;
+  return chord.from;
+}
+
+/// What becomes of a ray whose march is over; `from` is what enterGrid gave.
+template <class Number, int Lanes>
+SCHLIEREN_HD RayExit leaveGrid(
+  const RayTask<Number>& task, const RayBatch<Number, Lanes>& batch, int i, double from)
+{
+  RayExit exit{ { 0, 0 }, { 0, 0 }, 0, batch.fate[i], batch.steps[i] };
+  if (exit.fate != RayFate::Left)
+  {
+    return exit;
+  }
+  const Vec3<Number> gridOffset{ batch.offset[0][i], batch.offset[1][i], batch.offset[2][i] };
+  const Vec3<Number> end = Vec3<Number>{ batch.start[0][i], batch.start[1][i], batch.start[2][i] } +
+    batch.length[i] * task.straight.perLength + gridOffset;
+  if (task.medium.solid != nullptr && isSolid(task.medium, clampTo(end, task.medium.last)))
   {
     exit.fate = RayFate::Blocked;
     return exit;
   }
-  // Light enters along w, so that |p| = 1 + nu from the start.
-  ray.q = interpolate<Interpolate>(task.medium, ray.start).value * task.straight.w;
-
-  double path = 0;
-  bool leaving = false;
-  while (!leaving)
-  {
-    if (exit.steps == task.stepLimit)
-    {
-      exit.fate = RayFate::Trapped;
-      return exit;
-    }
-    const Vec3<Real> x = ray.start + ray.length * task.straight.perLength + ray.offset;
-    const Vec3<Real> along = task.straight.perLength + scaled(task.straight.indexScale, ray.q);
-    Real step = task.step;
-    leaving = shortenToLeave(step, x.x, along.x, task.medium.last.x);
-    leaving = shortenToLeave(step, x.y, along.y, task.medium.last.y) || leaving;
-    leaving = shortenToLeave(step, x.z, along.z, task.medium.last.z) || leaving;
-
-    const Vec3<Real> middle =
-      clampTo(Leapfrog::midpoint(ray, task.straight, step), task.medium.last);
-    if (isBlockedAt(middle))
-    {
-      exit.fate = RayFate::Blocked;
-      return exit;
-    }
-    path +=
-      Leapfrog::advance(ray, task.straight, step, interpolate<Interpolate>(task.medium, middle));
-    gather(middle, step);
-    ++exit.steps;
-  }
-  if (isBlockedAt(
-        clampTo(ray.start + ray.length * task.straight.perLength + ray.offset, task.medium.last)))
-  {
-    exit.fate = RayFate::Blocked;
-    return exit;
-  }
-
-  const Vec3<double> q = static_cast<Vec3<double>>(ray.q);
-  const double forward = 1 + dot(q, task.light.w);
-  if (!(forward > 0))
-  {
-    exit.fate = RayFate::Turned;
-    return exit;
-  }
+  const Vec3<double> q = { static_cast<double>(batch.q[0][i]), static_cast<double>(batch.q[1][i]),
+    static_cast<double>(batch.q[2][i]) };
   const double alongU = dot(q, task.light.u);
   const double alongV = dot(q, task.light.v);
-  const double momentum = std::sqrt(alongU * alongU + alongV * alongV + forward * forward);
-  exit.fate = RayFate::Left;
+  double forward = 1;
+  double momentum = 1;
+  if (task.bends)
+  {
+    forward += dot(q, task.light.w);
+    if (!(forward > 0))
+    {
+      exit.fate = RayFate::Turned;
+      return exit;
+    }
+    momentum = std::sqrt(alongU * alongU + alongV * alongV + forward * forward);
+  }
   exit.deflection[0] = alongU / momentum;
   exit.deflection[1] = alongV / momentum;
-  exit.opticalPathDifference = path * task.metresPerUnit;
+  exit.opticalPathDifference =
+    (static_cast<double>(batch.path[i]) - static_cast<double>(batch.pathError[i])) *
+    task.metresPerUnit;
 
   // From where it leaves the grid, straight on to the exit plane.
-  const Vec3<double> offset = { static_cast<double>(ray.offset.x) / task.light.indexScale.x,
-    static_cast<double>(ray.offset.y) / task.light.indexScale.y,
-    static_cast<double>(ray.offset.z) / task.light.indexScale.z };
-  const double remaining =
-    task.light.depth - chord.from - static_cast<double>(ray.length) - dot(offset, task.light.w);
+  const Vec3<double> offset = { static_cast<double>(gridOffset.x) / task.light.indexScale.x,
+    static_cast<double>(gridOffset.y) / task.light.indexScale.y,
+    static_cast<double>(gridOffset.z) / task.light.indexScale.z };
+  const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
+    (task.bends ? dot(offset, task.light.w) : 0);
   exit.displacement[0] =
     (dot(offset, task.light.u) + remaining * alongU / forward) * task.light.unit;
   exit.displacement[1] =
@@ -192,9 +120,32 @@ SCHLIEREN_HD RayExit traceRay(
   return exit;
 }
 
+/// Traces one ray, with the kernel that is given. `gathered` receives the sums of the fields' gradients.
+template <class Kernel, class Number>
+SCHLIEREN_HD RayExit traceRay(
+  const RayTask<Number>& task, double column, double row, float* gathered, Number& drift)
+{
+  RayBatch<Number, 1> batch;
+  const double from = enterGrid(task, column, row, batch, 0);
+  batch.gathered[0] = gathered;
+  march<Kernel, Number>(task, batch);
+  drift = batch.drift[0];
+  return leaveGrid(task, batch, 0, from);
+}
+
+/// What of a scene matters to rays.
+struct RaySettings
+{
+  KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
+  double stepVoxels = 1;
+  double adaptiveTolerance = 1e-5;
+  double lengthScale = 1; ///< metres per data unit
+};
+
+/// `map`: null where nothing is to be skipped. Both stay the caller's.
 template <class Real>
-RayTask<Real> makeTask(
-  const Medium<Real>& medium, const Light& light, double stepVoxels, double lengthScale);
+RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
+  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
 
 /// The furthest that any ray is displaced sideways on the exit plane, and its largest slope there;
 /// infinite where no bound is known. From |dq/ds| <= (1 + nu) |grad nu| with the medium's largest
@@ -213,6 +164,7 @@ struct TracedPass
 {
   std::vector<RayExit> exits;
   std::vector<float> gathered;
+  double worstDrift = 0; ///< of | |p| / n - 1 | where rays leave the grid
 
   void resize(const Pass& pass, int fields)
   {
@@ -226,9 +178,22 @@ struct TracedPass
   }
 };
 
-/// Traces a pass on the CPU into `traced`, which has its size. Returns false if aborted.
+/// Which instructions trace rays side by side.
+enum class Simd
+{
+  None, ///< one ray at a time
+  Four, ///< what every processor of the architecture has (x86-64: SSE2)
+  Avx2,
+  Avx512
+};
+
+/// The best one of this processor.
+Simd bestSimd();
+
+/// Traces a pass on the CPU into `traced`, which has its size. Returns false if aborted. `simd` must be one
+/// that the processor has.
 template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, Interpolation interpolation, const Pass& pass,
-  const FieldGradientsView& gradients, TracedPass& traced, int threads, const Monitor& monitor);
+bool traceOnCpu(const RayTask<Real>& task, const KernelChoice& kernel, const Pass& pass,
+  TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
 
 } // namespace schlieren

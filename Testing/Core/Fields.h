@@ -103,6 +103,15 @@ inline const char* name(Precision precision)
   return precision == Precision::Single ? "Single" : "Double";
 }
 
+inline constexpr Interpolation allInterpolations[] = { Interpolation::Quadratic,
+  Interpolation::Linear, Interpolation::Central, Interpolation::Cubic };
+inline const char* name(Interpolation interpolation)
+{
+  constexpr const char* names[] = { "Quadratic", "Linear", "Central", "Cubic" };
+  return names[static_cast<int>(interpolation)];
+}
+inline void PrintTo(Interpolation interpolation, std::ostream* out) { *out << name(interpolation); }
+
 /// For tests that run on both: where there is no device, the CUDA half says that it was skipped.
 class OnDevice : public testing::TestWithParam<Device>
 {

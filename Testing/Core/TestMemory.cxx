@@ -67,7 +67,7 @@ TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
       std::transform(solid.begin(), solid.end(), std::back_inserter(valid),
         [](float isSolid) { return static_cast<unsigned char>(isSolid > 0 ? 0 : 1); });
       field.field.valid = valid.data();
-      for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+      for (const Interpolation interpolation : allInterpolations)
       {
         SCOPED_TRACE(testing::PrintToString(static_cast<int>(body)));
         const double peak = peakOf(field.field, interpolation, 2);

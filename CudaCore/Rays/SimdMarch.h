@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Rays/Marcher.h"
+
+namespace schlieren
+{
+
+/// Takes `Lanes` rays through the medium side by side.
+template <class Number, int Lanes>
+using MarchFunction = void (*)(const RayTask<Number>&, RayBatch<Number, Lanes>&);
+
+/// The one for a kernel. Each width is compiled once, for the instructions that have it: 4 floats for any
+/// processor; 8 floats and 4 doubles for AVX2 with FMA; 16 floats and 8 doubles for AVX-512.
+template <class Number, int Lanes>
+MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice);
+
+} // namespace schlieren
