@@ -300,7 +300,7 @@ Image Bench::Stages::render(
     { 0, 0 } };
   const std::int64_t mostRays =
     (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
-  Film film(view.width, view.height, mostRays);
+  std::optional<Film> film(std::in_place, view.width, view.height, mostRays);
   std::unique_ptr<ColorFilm> colorFilm;
   PixelMeans means(view.width, view.height, scene.threads);
   const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize };
@@ -345,7 +345,7 @@ Image Bench::Stages::render(
     if (traced == &scratch || isLast)
     {
       counts.add(expose(waiting, cutoffFrom(scene, image.kScale), projection, margin, scene.threads,
-        film, colorFilm.get()));
+        *film, colorFilm.get()));
       if (!isLast)
       {
         means.add(waiting);
@@ -357,10 +357,12 @@ Image Bench::Stages::render(
   image.stepsTaken = counts.steps;
   image.raysBlocked = counts.blocked;
   image.raysLost = counts.lost;
-  image.intensity = film.develop(scene.samplesPerPixel, scene.threads);
+  image.intensity = film->develop(scene.samplesPerPixel, scene.threads);
+  film.reset(); // the means want memory, too
   if (colorFilm)
   {
     image.color = colorFilm->develop(scene.samplesPerPixel, scene.threads);
+    colorFilm.reset();
   }
   means.develop(waiting, image);
   scratch = {};

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "Medium/IndexModels.h"
+#include "PixelArray.h"
 
 #include <array>
 #include <cstdint>
@@ -180,12 +181,12 @@ struct Image
   int height = 0;
   Frame frame;
 
-  std::vector<float> intensity;              ///< per pixel; undisturbed: see Cutoff
-  std::vector<float> color;                  ///< 3 per pixel: tinted intensity; empty if untinted
-  std::vector<float> deflection;             ///< 2 per pixel: direction cosines along u and v
-  std::vector<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
-  std::vector<float> displacement;           ///< 2 per pixel: at the exit plane, data units
-  std::vector<float> blockedFraction;        ///< per pixel: share of rays that a solid stopped
+  PixelArray<float> intensity;              ///< per pixel; undisturbed: see Cutoff
+  PixelArray<float> color;                  ///< 3 per pixel: tinted intensity; empty if untinted
+  PixelArray<float> deflection;             ///< 2 per pixel: direction cosines along u and v
+  PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
+  PixelArray<float> displacement;           ///< 2 per pixel: at the exit plane, data units
+  PixelArray<float> blockedFraction;        ///< per pixel: share of rays that a solid stopped
 
   Device device = Device::Cpu; ///< where the rays were traced
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty

@@ -137,13 +137,12 @@ ColorFilm::ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t
 {
 }
 
-std::vector<float> ColorFilm::develop(double raysPerPixel, int threads) const
+PixelArray<float> ColorFilm::develop(double raysPerPixel, int threads) const
 {
-  std::vector<float> picture;
+  PixelArray<float> picture(channels.size() * channels[0].pixels());
   for (std::size_t channel = 0; channel < 3; ++channel)
   {
-    const std::vector<float> light = channels[channel].develop(raysPerPixel, threads);
-    picture.resize(3 * light.size());
+    const PixelArray<float> light = channels[channel].develop(raysPerPixel, threads);
     for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
     {
       picture[3 * pixel + channel] = light[pixel];

@@ -6,6 +6,7 @@
 #include "Film/Shading.h"
 #include "Optics/Cutoffs.h"
 #include "Optics/Tint.h"
+#include "PixelArray.h"
 #include "Rays/TracedRays.h"
 
 #include <array>
@@ -22,7 +23,7 @@ struct ColorFilm
   ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t mostRays);
 
   /// Three values per pixel.
-  std::vector<float> develop(double raysPerPixel, int threads) const;
+  PixelArray<float> develop(double raysPerPixel, int threads) const;
 
   Tint tint;
   std::array<Film, 3> channels;
@@ -40,8 +41,10 @@ struct RayCounts
   {
     crossed += exit.fate != RayFate::Missed ? 1 : 0;
     steps += exit.steps;
-    blocked += exit.fate == RayFate::Blocked ? 1 : 0;
-    lost += exit.fate == RayFate::Trapped || exit.fate == RayFate::Turned ? 1 : 0;
+    if (!exit.reachesFilm())
+    {
+      ++(exit.fate == RayFate::Blocked ? blocked : lost);
+    }
   }
   void add(const RayCounts& other)
   {

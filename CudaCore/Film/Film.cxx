@@ -44,15 +44,15 @@ void Film::add(std::int64_t row, std::int64_t column, const std::int64_t* light,
   std::transform(pixels, pixels + count, light, pixels, std::plus<>());
 }
 
-std::vector<float> Film::develop(double raysPerPixel, int threads) const
+PixelArray<float> Film::develop(double raysPerPixel, int threads) const
 {
-  std::vector<float> picture(pixels_.size());
+  PixelArray<float> picture(pixels_.size());
   const double scale = 1 / (one_ * raysPerPixel);
   constexpr std::int64_t pixelsPerPiece = 1 << 15;
   parallelFor(static_cast<std::int64_t>(pixels_.size()), pixelsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      std::transform(pixels_.begin() + begin, pixels_.begin() + end, picture.begin() + begin,
+      std::transform(pixels_.begin() + begin, pixels_.begin() + end, picture.data() + begin,
         [scale](std::int64_t light)
         { return static_cast<float>(static_cast<double>(light) * scale); });
     });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Film/Splat.h"
+#include "PixelArray.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,14 +23,14 @@ public:
 
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
-  double one() const { return one_; } ///< fixed-point value of a full ray
+  std::size_t pixels() const { return pixels_.size(); }
 
   /// The light of all pixels, row by row, in fixed point.
   const std::vector<std::int64_t>& light() const { return pixels_; }
   void setLight(std::vector<std::int64_t> light) { pixels_ = std::move(light); }
 
   /// Light per pixel divided by `raysPerPixel`.
-  std::vector<float> develop(double raysPerPixel, int threads) const;
+  PixelArray<float> develop(double raysPerPixel, int threads) const;
 
 private:
   friend class FilmBand;
@@ -39,7 +40,7 @@ private:
 
   std::int64_t width_;
   std::int64_t height_;
-  double one_;
+  double one_; ///< fixed-point value of a full ray
   std::vector<std::int64_t> pixels_;
   std::vector<std::mutex> locks_; ///< of some rows each
 };

@@ -42,23 +42,24 @@ void PixelMeans::add(const std::vector<TracedRays>& passes)
 void PixelMeans::develop(const std::vector<TracedRays>& last, Image& image)
 {
   const auto pixels = static_cast<std::size_t>(width_ * height_);
-  image.deflection.resize(2 * pixels);
-  image.displacement.resize(2 * pixels);
-  image.opticalPathDifference.resize(pixels);
-  image.blockedFraction.resize(pixels);
+  image.deflection = PixelArray<float>(2 * pixels);
+  image.displacement = PixelArray<float>(2 * pixels);
+  image.opticalPathDifference = PixelArray<double>(pixels);
+  image.blockedFraction = PixelArray<float>(pixels);
   forEachPixel(last,
     [&image](std::size_t pixel, const PixelSums& sums)
     {
-      const double reached = std::max(sums.reached, 1);
+      // A division takes as long as all the rest, and most pixels need none.
+      const double perRay = sums.reached > 1 ? 1. / sums.reached : 1;
       for (std::size_t axis = 0; axis < 2; ++axis)
       {
-        image.deflection[2 * pixel + axis] = static_cast<float>(sums.deflection[axis] / reached);
-        image.displacement[2 * pixel + axis] =
-          static_cast<float>(sums.displacement[axis] / reached);
+        image.deflection[2 * pixel + axis] = static_cast<float>(sums.deflection[axis] * perRay);
+        image.displacement[2 * pixel + axis] = static_cast<float>(sums.displacement[axis] * perRay);
       }
-      image.opticalPathDifference[pixel] = sums.opticalPathDifference / reached;
+      image.opticalPathDifference[pixel] =
+        sums.reached > 1 ? sums.opticalPathDifference / sums.reached : sums.opticalPathDifference;
       image.blockedFraction[pixel] =
-        static_cast<float>(static_cast<double>(sums.blocked) / std::max(sums.rays, 1));
+        sums.blocked > 0 ? static_cast<float>(sums.blocked) / static_cast<float>(sums.rays) : 0;
     });
 }
 

@@ -24,7 +24,7 @@ struct Landing
 };
 
 /// Of a ray that starts at (column, row) of the picture and reaches the film.
-SCHLIEREN_HD inline Landing landingOf(
+SCHLIEREN_HD Landing landingOf(
   const RayExit& exit, double column, double row, const Projection& projection)
 {
   const double* eps = exit.deflection;

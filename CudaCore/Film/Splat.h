@@ -20,7 +20,7 @@ struct Footprint
 };
 
 /// Whether light at a point adds to any pixel of a film. False for NaN.
-SCHLIEREN_HD inline bool isOnFilm(
+SCHLIEREN_HD bool isOnFilm(
   double column, double row, std::int64_t width, std::int64_t height)
 {
   return column > -1 && column < static_cast<double>(width) && row > -1 &&
@@ -28,7 +28,7 @@ SCHLIEREN_HD inline bool isOnFilm(
 }
 
 /// Of a point on the film.
-SCHLIEREN_HD inline Footprint footprintOf(double column, double row)
+SCHLIEREN_HD Footprint footprintOf(double column, double row)
 {
   // Coordinates are above -1, where cutting off the fraction of x + 1 is the floor, without a call.
   const auto left = static_cast<std::int64_t>(column + 1) - 1;
@@ -44,7 +44,7 @@ struct Shares
 
 /// Shares light (0...1) bilinearly, without losing any to rounding. `one`: the fixed-point value of a full
 /// ray, at most 2^52.
-SCHLIEREN_HD inline Shares sharesOf(const Footprint& footprint, double light, double one)
+SCHLIEREN_HD Shares sharesOf(const Footprint& footprint, double light, double one)
 {
   const auto part = [](std::int64_t whole, double fraction)
   { return static_cast<std::int64_t>(static_cast<double>(whole) * fraction); };

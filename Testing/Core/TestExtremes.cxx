@@ -41,7 +41,7 @@ Image renderBlob(
   return Bench().render(medium.field, scene);
 }
 
-double largest(const std::vector<float>& values)
+double largest(const PixelArray<float>& values)
 {
   double result = 0;
   for (const float value : values)
@@ -53,7 +53,7 @@ double largest(const std::vector<float>& values)
 
 /// Largest difference of `b` from `factor` times `a`, relative to the largest |b|.
 template <class Value>
-double difference(const std::vector<Value>& a, const std::vector<Value>& b, double factor)
+double difference(const PixelArray<Value>& a, const PixelArray<Value>& b, double factor)
 {
   double worst = 0, size = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -232,7 +232,7 @@ TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
     const Image image = Bench().render(medium.field, scene);
     EXPECT_GT(image.raysLost, 0);
     EXPECT_TRUE(std::isinf(image.displacementBound));
-    for (const std::vector<float>* values :
+    for (const PixelArray<float>* values :
       { &image.intensity, &image.deflection, &image.displacement })
     {
       EXPECT_TRUE(std::all_of(

@@ -16,7 +16,7 @@ namespace schlieren
 namespace
 {
 
-double sum(const std::vector<float>& picture)
+double sum(const PixelArray<float>& picture)
 {
   return std::accumulate(picture.begin(), picture.end(), 0.);
 }
@@ -89,7 +89,7 @@ TEST(Film, SharesARayAmongFourPixels)
 {
   Film film(4, 3, 1);
   Splatter{ film }(1.25, 0.5, 1);
-  const std::vector<float> picture = film.develop(1, 1);
+  const PixelArray<float> picture = film.develop(1, 1);
   EXPECT_FLOAT_EQ(picture[1], 0.375f);
   EXPECT_FLOAT_EQ(picture[2], 0.125f);
   EXPECT_FLOAT_EQ(picture[5], 0.375f);
@@ -159,7 +159,7 @@ TEST(Film, BandsChangeNothing)
       }
     }
   }
-  std::vector<std::vector<float>> pictures;
+  std::vector<PixelArray<float>> pictures;
   for (const std::int64_t covered : { -1, 0, 5, 63, 64, 500 })
   {
     SCOPED_TRACE(covered);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the medium and its homogeneity map take while they are built, in bytes, against the samples that
-// they are built from.
+// What the medium, its homogeneity map and pictures take while they are made, in bytes, against the samples
+// that they are made from.
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
 #include "PeakMemory.h"
@@ -76,6 +76,29 @@ TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
       }
     }
   }
+}
+
+/// All of it: medium, map, rays, film and the picture that is handed out.
+TEST(Memory, OfAPictureIsThatOfTheSamplesAndAThird)
+{
+  const SampledField<float> field(
+    cube(256, 1), [](double x, double y, double z) { return 1e-4 * (x * y + z); });
+  const double volume = 4 * static_cast<double>(field.samples.size());
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.threads = 2;
+  scene.samplesPerPixel = 1;
+  scene.stepSize = 16;
+  scene.homogeneityTolerance = 1e-3;
+  const PeakMemory peak;
+  Bench bench;
+  bench.render(field.field, scene);
+  scene.knifeEdgeAngle = 90;
+  bench.render(field.field, scene);
+  scene.view.viewDirection = { 1, 2, -3 };
+  bench.render(field.field, scene);
+  EXPECT_GT(static_cast<double>(peak.bytes()), volume);
+  EXPECT_LE(static_cast<double>(peak.bytes()), mostPerVolume * volume);
 }
 
 } // namespace
