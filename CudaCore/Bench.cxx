@@ -4,6 +4,7 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
+#include "Film/CudaFilm.h"
 #include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
 #include "Medium/Medium.h"
@@ -124,6 +125,10 @@ Cutoffs cutoffFrom(const Scene& scene, double k)
 
 std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
+  if (traced.onDevice)
+  {
+    return traced.crossed;
+  }
   std::atomic<std::int64_t> crossed{ 0 };
   constexpr std::int64_t raysPerPiece = 1 << 15;
   parallelFor(static_cast<std::int64_t>(traced.exits.size()), raysPerPiece, threads,
@@ -164,6 +169,9 @@ struct Bench::Stages
 
   template <class Real>
   Image render(const Field& field, const Scene& scene, Device device, const Monitor& monitor);
+
+  /// Gives the device's memory back.
+  void leaveDevice();
 };
 
 template <class Real>
@@ -225,7 +233,6 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
-  scratch.resize(pass, field.gradients.count);
   bool finished = false;
   if (image.device == Device::Cuda)
   {
@@ -233,12 +240,18 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     {
       held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
+    using Tracer = CudaTracer<Real>;
+    // All passes of a picture in one place.
+    const bool isWantedHere =
+      field.gradients.count > 0 || (!passes.empty() && !passes.front().onDevice);
     finished =
       held.cuda->trace(task, { PathModel::Refracted, scene.integrator, scene.interpolation }, pass,
-        field.gradients.version, scratch, monitor);
+        { field.gradients.version, scene.homogeneityTolerance },
+        isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
   }
   else
   {
+    scratch.resize(pass, field.gradients.count);
     finished = traceOnCpu(task, { PathModel::Refracted, scene.integrator, scene.interpolation },
       pass, scratch, scene.threads, monitor);
   }
@@ -302,6 +315,7 @@ Image Bench::Stages::render(
     (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
   std::optional<Film> film(std::in_place, view.width, view.height, mostRays);
   std::unique_ptr<ColorFilm> colorFilm;
+  std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
   PixelMeans means(view.width, view.height, scene.threads);
   const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize };
 
@@ -336,10 +350,27 @@ Image Bench::Stages::render(
     {
       if (!scene.kScale && !k)
       {
+        std::vector<RayExit> fetched;
+        if (traced->onDevice)
+        {
+          fetched = traced->onDevice->toHost();
+          waiting[0].exits = fetched.data();
+        }
         k = automaticK(waiting[0], view.width, view.height, noiseFloor(held.medium, field, light),
           scene.threads);
       }
       image.kScale = scene.kScale ? *scene.kScale : *k;
+    }
+    if (traced->onDevice)
+    {
+      waiting.clear();
+      if (!filmOnDevice)
+      {
+        filmOnDevice = std::make_unique<CudaFilm>(*film);
+      }
+      filmOnDevice->expose(
+        *traced->onDevice, pass, cutoffFrom(scene, image.kScale), projection, margin);
+      continue;
     }
     const bool isLast = number + 1 == scene.samplesPerPixel;
     if (traced == &scratch || isLast)
@@ -352,6 +383,10 @@ Image Bench::Stages::render(
         waiting.clear();
       }
     }
+  }
+  if (filmOnDevice)
+  {
+    counts = filmOnDevice->develop(*film, means);
   }
   image.raysTraced = counts.crossed;
   image.stepsTaken = counts.steps;
@@ -367,6 +402,22 @@ Image Bench::Stages::render(
   means.develop(waiting, image);
   scratch = {};
   return image;
+}
+
+void Bench::Stages::leaveDevice()
+{
+  raysKey.reset();
+  passes.clear();
+  scratch = {};
+  std::visit(
+    [](auto& held)
+    {
+      if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+      {
+        held.cuda.reset();
+      }
+    },
+    medium);
 }
 
 Bench::Bench()
@@ -407,6 +458,7 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
   }
   catch (const DeviceError& failure)
   {
+    stages_->leaveDevice();
     if (scene.device == Device::Cuda)
     {
       throw;

@@ -70,26 +70,6 @@ private:
   T* data_;
 };
 
-/// Memory of the host that the device copies to while the host goes on, freed with it.
-template <class T, class Failure>
-class PinnedBuffer
-{
-public:
-  explicit PinnedBuffer(std::size_t size)
-  {
-    checkCuda<Failure>(
-      cudaMallocHost(&data_, size * sizeof(T)), "Allocating the host's memory for copies");
-  }
-  PinnedBuffer(const PinnedBuffer&) = delete;
-  PinnedBuffer& operator=(const PinnedBuffer&) = delete;
-  ~PinnedBuffer() { cudaFreeHost(data_); }
-
-  T* data() const { return data_; }
-
-private:
-  T* data_ = nullptr;
-};
-
 /// A queue of work for the device. Queues run side by side, but the default one, where work goes that
 /// names none, waits for all of them and they for it.
 template <class Failure>

@@ -20,8 +20,7 @@ struct Footprint
 };
 
 /// Whether light at a point adds to any pixel of a film. False for NaN.
-SCHLIEREN_HD bool isOnFilm(
-  double column, double row, std::int64_t width, std::int64_t height)
+SCHLIEREN_HD bool isOnFilm(double column, double row, std::int64_t width, std::int64_t height)
 {
   return column > -1 && column < static_cast<double>(width) && row > -1 &&
     row < static_cast<double>(height);

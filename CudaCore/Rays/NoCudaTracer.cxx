@@ -46,10 +46,10 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>&, const KernelChoice&, const Pass&, std::uint64_t,
-  TracedPass&, const Monitor&)
+bool CudaTracer<Real>::trace(const RayTask<Real>&, const KernelChoice&, const Pass&,
+  const Versions&, Exits, TracedPass&, const Monitor&)
 {
-  throw DeviceError(builtWithoutCuda);
+  return false;
 }
 
 template class CudaTracer<float>;
