@@ -7,6 +7,7 @@
 #include "Film/CudaFilm.h"
 #include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
+#include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Cutoffs.h"
@@ -60,8 +61,8 @@ struct RaysKey
 {
   Frame frame;
   int width, height;
-  double stepSize;
-  double lengthScale;
+  RaySettings settings;
+  double homogeneityTolerance;
   std::uint32_t seed;
   Device device;
   std::optional<std::uint64_t> gradients; ///< version of those that were gathered
@@ -69,16 +70,83 @@ struct RaysKey
   auto tie() const
   {
     return std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry,
-      frame.exit, width, height, stepSize, lengthScale, seed, device, gradients);
+      frame.exit, width, height, settings.kernel.path, settings.kernel.integrator,
+      settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
+      seed, device, gradients);
   }
 };
 
 template <class Real>
 struct MediumOnDevices
 {
+  explicit MediumOnDevices(Medium<Real> ofField)
+    : medium(std::move(ofField))
+  {
+  }
+
   Medium<Real> medium;
   std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
+
+  std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
+  double mapTolerance = 0;                   ///< of nu
+
+  /// The map for a tolerance; null for 0.
+  const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads)
+  {
+    if (tolerance == 0)
+    {
+      return nullptr;
+    }
+    const Real limit = static_cast<Real>(tolerance);
+    if (!map)
+    {
+      map = std::make_unique<HomogeneityMap<Real>>(
+        buildHomogeneityMap(medium, interpolation, limit, threads));
+    }
+    else if (mapTolerance != tolerance)
+    {
+      map->setTolerance(limit, threads);
+    }
+    mapTolerance = tolerance;
+    return map.get();
+  }
 };
+
+/// How a scene's rays are to be traced where no ray is displaced further than `bound`. What does not matter
+/// to them has its default, so that changing it traces nothing.
+RaySettings settingsOf(
+  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame)
+{
+  RaySettings settings;
+  const bool straightWillDo = scene.pathModel == PathModel::Auto &&
+    bound.displacement <= scene.pathTolerance * frame.pixelSize;
+  settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
+    ? PathModel::Straight
+    : PathModel::Refracted;
+  settings.kernel.interpolation = scene.interpolation;
+  if (settings.kernel.path == PathModel::Refracted)
+  {
+    settings.kernel.integrator = scene.integrator;
+  }
+  if (settings.kernel.integrator == Integrator::Adaptive)
+  {
+    settings.adaptiveTolerance = scene.adaptiveTolerance;
+  }
+  settings.stepVoxels = scene.stepSize;
+  settings.lengthScale = lengthScale;
+  return settings;
+}
+
+/// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
+/// each: see NuRange, with the whole way through the grid as the way through cubes.
+template <class Real>
+double skippingBound(
+  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
+{
+  const double steepest = visitScheme(
+    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
+  return 2 * steepest * tolerance * length(light.indexScale) * light.depth * (1 + medium.largestNu);
+}
 
 /// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
 /// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
@@ -152,6 +220,7 @@ struct Bench::Stages
   std::optional<RaysKey> raysKey;
   std::int64_t heldMargin = 0;
   std::deque<TracedPass> passes; ///< from pass 0 on
+  std::deque<TracedPass> spare;  ///< whose memory serves again
   TracedPass scratch;            ///< a pass that is not held
   std::optional<double> k;       ///< the automatic one, once these rays have been asked for it
   std::optional<double> tint;    ///< the reference of what they have gathered, likewise
@@ -188,9 +257,9 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
     mediumKey.reset();
     raysKey.reset();
     passes.clear();
+    spare.clear();
     medium = std::monostate{};
-    medium = MediumOnDevices<Real>{ buildMedium<Real>(field, scene.interpolation, scene.threads),
-      nullptr };
+    medium = MediumOnDevices<Real>(buildMedium<Real>(field, scene.interpolation, scene.threads));
     mediumKey = key;
     ++work.mediumBuilds;
   }
@@ -205,10 +274,7 @@ void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
   }
   if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
   {
-    if (!passes.empty())
-    {
-      scratch = std::move(passes.front()); // its memory serves again
-    }
+    spare = std::move(passes);
     passes.clear();
     k.reset();
     tint.reset();
@@ -233,6 +299,11 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
+  if (scratch.bytes() == 0 && !spare.empty())
+  {
+    scratch = std::move(spare.back());
+    spare.pop_back();
+  }
   bool finished = false;
   if (image.device == Device::Cuda)
   {
@@ -244,16 +315,13 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     // All passes of a picture in one place.
     const bool isWantedHere =
       field.gradients.count > 0 || (!passes.empty() && !passes.front().onDevice);
-    finished =
-      held.cuda->trace(task, { PathModel::Refracted, scene.integrator, scene.interpolation }, pass,
-        { field.gradients.version, scene.homogeneityTolerance },
-        isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
+    finished = held.cuda->trace(task, pass, { field.gradients.version, held.mapTolerance },
+      isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
   }
   else
   {
     scratch.resize(pass, field.gradients.count);
-    finished = traceOnCpu(task, { PathModel::Refracted, scene.integrator, scene.interpolation },
-      pass, scratch, scene.threads, monitor);
+    finished = traceOnCpu(task, pass, scratch, scene.threads, monitor);
   }
   image.traceSeconds +=
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -286,24 +354,25 @@ Image Bench::Stages::render(
   image.height = view.height;
   image.frame = frameOf(field.grid, view);
   image.device = device;
-  image.pathModel = PathModel::Refracted;
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;
   const Light light = collimatedLight(field.grid, image.frame);
   const DisplacementBound bound = boundDisplacement(held.medium, light);
   image.displacementBound = bound.displacement;
-  RaySettings settings;
-  settings.kernel = { PathModel::Refracted, scene.integrator, scene.interpolation };
-  settings.stepVoxels = scene.stepSize;
-  settings.adaptiveTolerance = scene.adaptiveTolerance;
-  settings.lengthScale = field.lengthScale;
-  const RayTask<Real> task = makeTask<Real>(
-    held.medium, nullptr, FieldGradientsView::of(field.grid, field.gradients), light, settings);
+  const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
+  image.pathModel = settings.kernel.path;
+  // An adaptive step is as long as the medium lets it be without a map.
+  const double skips =
+    settings.kernel.integrator == Integrator::Adaptive ? 0 : scene.homogeneityTolerance;
+  const double tolerance = skips * held.medium.rangeOfNu;
+  image.skippingBound = skippingBound(held.medium, light, tolerance, scene.interpolation);
+  const RayTask<Real> task =
+    makeTask<Real>(held.medium, held.mapFor(tolerance, scene.interpolation, scene.threads),
+      FieldGradientsView::of(field.grid, field.gradients), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
-  RaysKey key{ image.frame, view.width, view.height, scene.stepSize, field.lengthScale, scene.seed,
-    device, {} };
+  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, device, {} };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
@@ -335,6 +404,7 @@ Image Bench::Stages::render(
     {
       return aborted;
     }
+    image.momentumDrift = std::max(image.momentumDrift, traced->worstDrift);
     waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
     if (number == 0 && field.gradients.count > 0)
     {
@@ -401,6 +471,7 @@ Image Bench::Stages::render(
   }
   means.develop(waiting, image);
   scratch = {};
+  spare.clear();
   return image;
 }
 
@@ -408,6 +479,7 @@ void Bench::Stages::leaveDevice()
 {
   raysKey.reset();
   passes.clear();
+  spare.clear();
   scratch = {};
   std::visit(
     [](auto& held)

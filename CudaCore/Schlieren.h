@@ -53,7 +53,7 @@ enum class Integrator
 {
   Leapfrog, ///< one gradient a step, second order, symplectic
   Rk4,      ///< four gradients a step, fourth order
-  Adaptive, ///< three gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
+  Adaptive, ///< four gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
   Euler ///< one gradient a step, first order: the paper's, kept so that it can be reproduced
 };
 

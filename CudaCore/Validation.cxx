@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 namespace schlieren
@@ -16,6 +17,29 @@ namespace
 
 constexpr double shortestStep = 0.001;
 constexpr double longestStep = 16;
+
+void validateTolerances(const Scene& scene)
+{
+  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      text << name << " is " << value << ". Set it " << remedy;
+      throw Error(text.str());
+    }
+  };
+  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "AdaptiveTolerance",
+    scene.adaptiveTolerance,
+    "between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
+    "StepSize).");
+  require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
+    "HomogeneityTolerance", scene.homogeneityTolerance,
+    "between 0 (nothing is skipped) and 1 (all of the flow is), as a share of the refractivity's "
+    "range.");
+  require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
+    scene.pathTolerance, "to zero or more, in pixels.");
+}
 
 void validateScene(const Scene& scene)
 {
@@ -31,6 +55,7 @@ void validateScene(const Scene& scene)
       "flow); "
       "the default is 1.");
   }
+  validateTolerances(scene);
   if (!std::isfinite(scene.knifeEdgeAngle))
   {
     throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");

@@ -4,23 +4,20 @@
 
 #include "FieldTints.h"
 #include "InputDescription.h"
+#include "PictureOutput.h"
 #include "Processes.h"
+#include "QualityPresets.h"
 
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkStringArray.h"
-#include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
 #include "Schlieren.h"
@@ -101,6 +98,30 @@ int threadsFrom(vtkSchlierenFilter* self)
                                                   : std::max(0, std::atoi(limit));
 }
 
+/// Whether an enumeration of the filter has the same values as one of the tracer.
+template <class Core, class Enum>
+constexpr bool sameValue(Enum value, Core ofCore)
+{
+  return static_cast<Core>(value) == ofCore;
+}
+
+using Self = vtkSchlierenFilter;
+static_assert(sameValue(Self::AUTO_PATH, schlieren::PathModel::Auto) &&
+  sameValue(Self::STRAIGHT, schlieren::PathModel::Straight) &&
+  sameValue(Self::REFRACTED, schlieren::PathModel::Refracted));
+static_assert(sameValue(Self::LEAPFROG, schlieren::Integrator::Leapfrog) &&
+  sameValue(Self::RK4, schlieren::Integrator::Rk4) &&
+  sameValue(Self::ADAPTIVE, schlieren::Integrator::Adaptive) &&
+  sameValue(Self::EULER, schlieren::Integrator::Euler));
+static_assert(sameValue(Self::QUADRATIC, schlieren::Interpolation::Quadratic) &&
+  sameValue(Self::LINEAR, schlieren::Interpolation::Linear) &&
+  sameValue(Self::CENTRAL, schlieren::Interpolation::Central) &&
+  sameValue(Self::CUBIC, schlieren::Interpolation::Cubic));
+static_assert(sameValue(Self::SINGLE, schlieren::Precision::Single) &&
+  sameValue(Self::DOUBLE, schlieren::Precision::Double));
+static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
+  sameValue(Self::CPU, schlieren::Device::Cpu) && sameValue(Self::CUDA, schlieren::Device::Cuda));
+
 schlieren::Scene sceneFrom(vtkSchlierenFilter* self)
 {
   schlieren::Scene scene;
@@ -120,25 +141,15 @@ schlieren::Scene sceneFrom(vtkSchlierenFilter* self)
   }
   scene.samplesPerPixel = self->GetSamplesPerPixel();
   scene.seed = static_cast<std::uint32_t>(self->GetSeed());
-  scene.interpolation = self->GetInterpolation() == vtkSchlierenFilter::LINEAR
-    ? schlieren::Interpolation::Linear
-    : schlieren::Interpolation::Quadratic;
-  scene.precision = self->GetPrecision() == vtkSchlierenFilter::DOUBLE
-    ? schlieren::Precision::Double
-    : schlieren::Precision::Single;
+  scene.pathModel = static_cast<schlieren::PathModel>(self->GetPathModel());
+  scene.integrator = static_cast<schlieren::Integrator>(self->GetIntegrator());
   scene.stepSize = self->GetStepSize();
-  switch (self->GetDevice())
-  {
-    case vtkSchlierenFilter::CPU:
-      scene.device = schlieren::Device::Cpu;
-      break;
-    case vtkSchlierenFilter::CUDA:
-      scene.device = schlieren::Device::Cuda;
-      break;
-    default:
-      scene.device = schlieren::Device::Auto;
-      break;
-  }
+  scene.homogeneityTolerance = self->GetHomogeneityTolerance();
+  scene.interpolation = static_cast<schlieren::Interpolation>(self->GetInterpolation());
+  scene.precision = static_cast<schlieren::Precision>(self->GetPrecision());
+  scene.adaptiveTolerance = self->GetAdaptiveTolerance();
+  scene.pathTolerance = self->GetPathTolerance();
+  scene.device = static_cast<schlieren::Device>(self->GetDevice());
   scene.threads = threadsFrom(self);
   return scene;
 }
@@ -152,31 +163,6 @@ void dropMaskOfOnes(vtkPointData* arrays)
   {
     arrays->RemoveArray("vtkValidPointMask");
   }
-}
-
-template <class Array, class Value>
-vtkSmartPointer<Array> newArray(const char* name, const std::vector<Value>& values, int components)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  if (components == 2)
-  {
-    array->SetComponentName(0, "u");
-    array->SetComponentName(1, "v");
-  }
-  return array;
-}
-
-template <class Array, class Value>
-void addFieldValue(vtkImageData* output, const char* name, const Value& value)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
 }
 
 /// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`; null where all
@@ -199,47 +185,6 @@ const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& 
   return storage.data();
 }
 
-void setOutput(vtkImageData* output, const schlieren::Image& image)
-{
-  output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
-  output->SetOrigin(image.frame.origin[0], image.frame.origin[1], 0);
-  output->SetSpacing(image.frame.pixelSize, image.frame.pixelSize, image.frame.pixelSize);
-
-  vtkPointData* arrays = output->GetPointData();
-  arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1));
-  arrays->AddArray(newArray<vtkFloatArray>("Deflection", image.deflection, 2));
-  arrays->AddArray(
-    newArray<vtkDoubleArray>("OpticalPathDifference", image.opticalPathDifference, 1));
-  arrays->AddArray(newArray<vtkFloatArray>("Displacement", image.displacement, 2));
-  arrays->AddArray(newArray<vtkFloatArray>("BlockedFraction", image.blockedFraction, 1));
-
-  addFieldValue<vtkStringArray>(
-    output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
-  addFieldValue<vtkStringArray>(output, "PathModel",
-    image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
-  addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
-  addFieldValue<vtkDoubleArray>(output, "AmbientRefractivity", image.ambient);
-  addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);
-  addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
-  addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
-  addFieldValue<vtkDoubleArray>(output, "TraceSeconds", image.traceSeconds);
-  addFieldValue<vtkDoubleArray>(output, "DisplacementBound", image.displacementBound);
-}
-
-/// Adds the colours, of which `white` is white, as the scalars of the picture.
-void addColor(vtkImageData* output, const std::vector<float>& color, float white)
-{
-  vtkNew<vtkUnsignedCharArray> array;
-  array->SetName("Color");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(color.size()) / 3);
-  std::transform(color.begin(), color.end(), array->GetPointer(0),
-    [white](float light)
-    { return static_cast<unsigned char>(std::clamp(light / white, 0.f, 1.f) * 255.f + 0.5f); });
-  output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
-  output->GetPointData()->SetActiveScalars("Color");
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -247,6 +192,7 @@ vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
   this->SetNumberOfInputPorts(2);
+  this->vtkSchlierenFilter::SetQuality(INTERACTIVE);
   this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
 }
 
@@ -284,10 +230,11 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << value;
   }
   os << "\n";
-  os << indent << "StepSize: " << this->StepSize << "\n";
-  os << indent << "Interpolation: " << this->Interpolation << "\n";
-  os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << "\n";
-  os << indent << "Precision: " << this->Precision << "\n";
+  os << indent << "Quality: " << this->GetQuality() << "\n";
+  for (const QualitySetting& setting : qualitySettings)
+  {
+    os << indent << setting.Property << ": " << setting.Get(this) << "\n";
+  }
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -331,6 +278,49 @@ void vtkSchlierenFilter::ClearFieldColors()
 {
   this->FieldColors.clear();
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetQuality(int quality)
+{
+  if (quality < INTERACTIVE || quality >= CUSTOM)
+  {
+    return;
+  }
+  for (const QualitySetting& setting : qualitySettings)
+  {
+    setting.Set(this, setting.Values[static_cast<std::size_t>(quality)]);
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::GetQuality()
+{
+  int quality = INTERACTIVE;
+  while (quality < CUSTOM &&
+    !std::all_of(qualitySettings.begin(), qualitySettings.end(),
+      [&](const QualitySetting& setting)
+      { return setting.Get(this) == setting.Values[static_cast<std::size_t>(quality)]; }))
+  {
+    ++quality;
+  }
+  return quality;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSchlierenFilter::GetQualitySetting(int number)
+{
+  const auto index = static_cast<std::size_t>(number);
+  return index < qualitySettings.size() ? qualitySettings[index].Property : nullptr;
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetQualityValue(int quality, int number)
+{
+  const auto index = static_cast<std::size_t>(number);
+  return quality >= INTERACTIVE && quality < CUSTOM && index < qualitySettings.size()
+    ? qualitySettings[index].Values[static_cast<std::size_t>(quality)]
+    : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -519,16 +509,9 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   if (this->ColorByField)
   {
     // A shadowgraph's light is 1 where nothing bends it, and more where the flow gathers it.
-    addColor(output, image.color, this->Cutoff == SHADOWGRAPH ? 2 : 1);
+    addColor(output, image, this->Cutoff == SHADOWGRAPH ? 2 : 1);
   }
-  addFieldValue<vtkStringArray>(output, "Grid", std::string(this->Medium->GetGrid()));
-  if (vtkDataArray* used = refractivity->GetFieldData()->GetArray("SamplingDimensions"))
-  {
-    vtkNew<vtkIntArray> dimensions;
-    dimensions->DeepCopy(used);
-    dimensions->SetName("MediumDimensions");
-    output->GetFieldData()->AddArray(dimensions);
-  }
+  addGrid(output, this->Medium->GetGrid(), refractivity);
   return true;
 }
 

@@ -20,8 +20,11 @@
  * - `BlockedFraction` (float): share of the light that a solid stopped.
  *
  * Field data: `Device`, `PathModel`, `KScale` (the k used), `AmbientRefractivity` (the value used),
- * `RaysTraced`, `RaysLost` (trapped in the medium or turned back by it), `StepsTaken`,
- * `TraceSeconds` (0 where nothing had to be traced), `DisplacementBound` (data units).
+ * `RaysTraced`, `RaysLost` (trapped in the medium or turned back by it), `StepsTaken` (of all rays),
+ * `TraceSeconds` (0 where nothing had to be traced), and what is known of the accuracy:
+ * `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping changes no
+ * direction cosine by more) and `MomentumDrift` (largest relative error of |p| = n where refracted rays
+ * leave; 0 for straight ones). `PathModel` is the one used: `Straight` or `Refracted`.
  *
  * The inputs and the properties that describe the medium are those of vtkRefractiveIndex; an image
  * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
@@ -62,10 +65,36 @@ public:
     SHADOWGRAPH = 1
   };
 
+  enum Qualities
+  {
+    INTERACTIVE = 0,
+    DRAFT = 1,
+    PUBLICATION = 2,
+    REFERENCE = 3,
+    CUSTOM = 4
+  };
+
+  enum PathModels
+  {
+    AUTO_PATH = 0,
+    STRAIGHT = 1,
+    REFRACTED = 2
+  };
+
+  enum Integrators
+  {
+    LEAPFROG = 0,
+    RK4 = 1,
+    ADAPTIVE = 2,
+    EULER = 3
+  };
+
   enum Interpolations
   {
     QUADRATIC = 0,
-    LINEAR = 1
+    LINEAR = 1,
+    CENTRAL = 2,
+    CUBIC = 3
   };
 
   enum Precisions
@@ -287,7 +316,46 @@ public:
 
   ///@{
   /**
-   * Length of an integration step, voxels. 0.001 to 16. Default: 1.
+   * Accuracy against speed, one of Qualities. Setting it sets the properties named by
+   * GetQualitySetting(), PathModel to PathTolerance; CUSTOM sets none. What it is follows from them: the
+   * preset whose values they have, or CUSTOM. Default: INTERACTIVE, and so is theirs.
+   */
+  virtual void SetQuality(int quality);
+  virtual int GetQuality();
+  ///@}
+
+  ///@{
+  /**
+   * The names of the properties that Quality sets, from number 0 on; null after the last. And what a
+   * preset sets them to; 0 where there is no such preset or property.
+   */
+  static const char* GetQualitySetting(int number);
+  static double GetQualityValue(int quality, int number);
+  ///@}
+
+  ///@{
+  /**
+   * How light passes the medium, one of PathModels: REFRACTED rays bend; STRAIGHT ones sum up what the
+   * undisturbed line of sight meets; AUTO_PATH takes these where they are proven to be within
+   * PathTolerance.
+   */
+  vtkSetClampMacro(PathModel, int, AUTO_PATH, REFRACTED);
+  vtkGetMacro(PathModel, int);
+  ///@}
+
+  ///@{
+  /**
+   * How refracted rays take their steps, one of Integrators: LEAPFROG is of second order and looks up
+   * one gradient a step, RK4 of fourth order with four, ADAPTIVE of third order with three and steps as
+   * long as AdaptiveTolerance allows, EULER of first order with one (Brownlee et al. 2011).
+   */
+  vtkSetClampMacro(Integrator, int, LEAPFROG, EULER);
+  vtkGetMacro(Integrator, int);
+  ///@}
+
+  ///@{
+  /**
+   * Length of an integration step, voxels; of ADAPTIVE, the longest. 0.001 to 16.
    */
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
@@ -295,16 +363,26 @@ public:
 
   ///@{
   /**
-   * What lies between the samples, one of Interpolations: QUADRATIC (the default) has a continuous
-   * gradient; LINEAR is faster and prints the grid into the picture.
+   * Rays cross a cube of cells in one step where n - 1 varies in it by no more than this share of its
+   * range in the whole medium. 0 (skip nothing) to 1. What that may change is told by SkippingBound.
    */
-  vtkSetClampMacro(Interpolation, int, QUADRATIC, LINEAR);
+  vtkSetMacro(HomogeneityTolerance, double);
+  vtkGetMacro(HomogeneityTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * What lies between the samples, one of Interpolations: QUADRATIC and CUBIC B-splines have a
+   * continuous gradient; LINEAR is faster and prints the grid into the picture; CENTRAL takes central
+   * differences for the gradient (Brownlee et al. 2011).
+   */
+  vtkSetClampMacro(Interpolation, int, QUADRATIC, CUBIC);
   vtkGetMacro(Interpolation, int);
   ///@}
 
   ///@{
   /**
-   * Rays per pixel, at least 1. Default: 4.
+   * Rays per pixel, at least 1.
    */
   vtkSetMacro(SamplesPerPixel, int);
   vtkGetMacro(SamplesPerPixel, int);
@@ -312,10 +390,27 @@ public:
 
   ///@{
   /**
-   * Floating-point numbers to trace with, one of Precisions. Default: SINGLE.
+   * Floating-point numbers to trace with, one of Precisions.
    */
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Of ADAPTIVE: the error allowed in a step, relative to what the steepest gradient of the medium bends
+   * over the same way. 1e-12 to 1.
+   */
+  vtkSetMacro(AdaptiveTolerance, double);
+  vtkGetMacro(AdaptiveTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of AUTO_PATH: how far a straight ray may be from the refracted one, pixels. Not negative.
+   */
+  vtkSetMacro(PathTolerance, double);
+  vtkGetMacro(PathTolerance, double);
   ///@}
 
   ///@{
@@ -405,10 +500,16 @@ private:
   double ScreenDistance = -1;
   bool ColorByField = false;
   std::vector<double> FieldColors;
-  double StepSize = 1;
-  int Interpolation = QUADRATIC;
-  int SamplesPerPixel = 4;
-  int Precision = SINGLE;
+  // The constructor sets them with SetQuality.
+  int PathModel = 0;
+  int Integrator = 0;
+  double StepSize = 0;
+  double HomogeneityTolerance = 0;
+  int Interpolation = 0;
+  int SamplesPerPixel = 0;
+  int Precision = 0;
+  double AdaptiveTolerance = 0;
+  double PathTolerance = 0;
   int Seed = 1;
   int Device = AUTO;
   int NumberOfThreads = 0;

@@ -12,3 +12,10 @@
 #else
 #define SCHLIEREN_HD inline
 #endif
+
+/// Marks function templates that are not to be compiled into their callers.
+#ifdef __CUDACC__
+#define SCHLIEREN_APART __noinline__ __host__ __device__
+#else
+#define SCHLIEREN_APART __attribute__((noinline))
+#endif

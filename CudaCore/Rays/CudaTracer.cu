@@ -205,9 +205,8 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, const KernelChoice& kernel,
-  const Pass& pass, const Versions& versions, Exits exits, TracedPass& traced,
-  const Monitor& monitor)
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions,
+  Exits exits, TracedPass& traced, const Monitor& monitor)
 {
   const RayTask<Real> onDevice = memory_->bring(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
@@ -237,7 +236,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const KernelChoice& kern
   {
     const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
       static_cast<unsigned>((rowsOf(number) + blockRows - 1) / blockRows));
-    visitKernel(kernel,
+    visitKernel(task.kernel,
       [&](auto kind)
       {
         const auto start = [&](auto* function)

@@ -36,8 +36,8 @@ public:
   };
 
   /// Traces a pass, as traceOnCpu does. Returns false if aborted.
-  bool trace(const RayTask<Real>& task, const KernelChoice& kernel, const Pass& pass,
-    const Versions& versions, Exits exits, TracedPass& traced, const Monitor& monitor);
+  bool trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions, Exits exits,
+    TracedPass& traced, const Monitor& monitor);
 
 private:
   struct DeviceMemory;

@@ -8,7 +8,7 @@
 //
 // An integrator has
 //   order            of its error in the step
-//   samplesBeyond    whether it looks at places that the straight step from x does not come by
+//   samplesBeyond    whether it looks at more, or at other places, than the step's middle
 //   advance          takes one step; `sample(position)` is the medium there
 // and the adaptive one its own way of choosing steps (Adaptive below).
 #pragma once

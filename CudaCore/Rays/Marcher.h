@@ -17,10 +17,19 @@
 namespace schlieren
 {
 
+/// Which kernel.
+struct KernelChoice
+{
+  PathModel path; ///< not Auto
+  Integrator integrator;
+  Interpolation interpolation;
+};
+
 /// All that one ray needs, host and device alike.
 template <class Number>
 struct RayTask
 {
+  KernelChoice kernel;
   MediumView<Number> medium;
   HomogeneityView map; ///< levels null: no cube is skipped
   FieldGradientsView gradients;
@@ -103,6 +112,14 @@ SCHLIEREN_HD void setLaneOf(Vec3<Real>& a, int i, const Vec3<NumberOf<Real>>& to
   setLane(a.x, i, to.x);
   setLane(a.y, i, to.y);
   setLane(a.z, i, to.z);
+}
+
+/// A function of its own where a step takes several samples: in line, their code would be too much.
+template <class Scheme, class Real>
+SCHLIEREN_APART Sample<Real> sampleApart(
+  const MediumView<NumberOf<Real>>& medium, const Vec3<Real>& at)
+{
+  return interpolate<Scheme>(medium, at);
 }
 
 /// What the march of some rays through the medium needs to know, and its steps.
@@ -234,7 +251,15 @@ struct March
 
   SCHLIEREN_HD Sample<Real> sample(const Vec3<Real>& at) const
   {
-    return interpolate<Scheme>(task.medium, clampTo(at, task.medium.last));
+    const Vec3<Real> within = clampTo(at, task.medium.last);
+    if constexpr (Integrator::samplesBeyond)
+    {
+      return sampleApart<Scheme>(task.medium, within);
+    }
+    else
+    {
+      return interpolate<Scheme>(task.medium, within);
+    }
   }
 
   /// The rays after a step, and (Adaptive) its error by what is allowed.
@@ -415,14 +440,6 @@ SCHLIEREN_HD void march(
 {
   March<Kernel, Real>(task, batch).run();
 }
-
-/// Which kernel.
-struct KernelChoice
-{
-  PathModel path; ///< not Auto
-  Integrator integrator;
-  Interpolation interpolation;
-};
 
 /// Calls visit with an object of the kernel's type.
 template <class Visit>

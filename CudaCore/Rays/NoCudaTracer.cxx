@@ -46,8 +46,8 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>&, const KernelChoice&, const Pass&,
-  const Versions&, Exits, TracedPass&, const Monitor&)
+bool CudaTracer<Real>::trace(
+  const RayTask<Real>&, const Pass&, const Versions&, Exits, TracedPass&, const Monitor&)
 {
   return false;
 }

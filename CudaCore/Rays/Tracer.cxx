@@ -33,7 +33,7 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
   task.stepLimit = static_cast<std::int32_t>(std::min(trappedFactor * straightSteps, largestLimit));
   task.metresPerUnit = (1 + medium.ambient) * settings.lengthScale * light.unit;
-  task.bends = settings.kernel.path != PathModel::Straight;
+  task.kernel = settings.kernel;
   // By what the steepest gradient would bend a ray over the same way; in a uniform medium anything will do.
   const double steepest = length(scaled(medium.slope, light.indexScale));
   const double allowed = settings.adaptiveTolerance * (steepest > 0 ? steepest : 1);
@@ -169,9 +169,10 @@ Simd bestSimd()
 }
 
 template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, const KernelChoice& kernel, const Pass& pass,
-  TracedPass& traced, int threads, const Monitor& monitor, Simd simd)
+bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
+  const Monitor& monitor, Simd simd)
 {
+  const KernelChoice& kernel = task.kernel;
   const auto traceWith = [&](auto marchBatch)
   { return traceTiles(task, marchBatch, pass, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
@@ -202,8 +203,8 @@ template RayTask<double> makeTask(const Medium<double>&, const HomogeneityMap<do
 template DisplacementBound boundDisplacement(const Medium<float>&, const Light&);
 template DisplacementBound boundDisplacement(const Medium<double>&, const Light&);
 template bool traceOnCpu(
-  const RayTask<float>&, const KernelChoice&, const Pass&, TracedPass&, int, const Monitor&, Simd);
+  const RayTask<float>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
 template bool traceOnCpu(
-  const RayTask<double>&, const KernelChoice&, const Pass&, TracedPass&, int, const Monitor&, Simd);
+  const RayTask<double>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
 
 } // namespace schlieren

@@ -91,9 +91,10 @@ SCHLIEREN_HD RayExit leaveGrid(
     static_cast<double>(batch.q[2][i]) };
   const double alongU = dot(q, task.light.u);
   const double alongV = dot(q, task.light.v);
+  const bool bends = task.kernel.path != PathModel::Straight;
   double forward = 1;
   double momentum = 1;
-  if (task.bends)
+  if (bends)
   {
     forward += dot(q, task.light.w);
     if (!(forward > 0))
@@ -114,7 +115,7 @@ SCHLIEREN_HD RayExit leaveGrid(
     static_cast<double>(gridOffset.y) / task.light.indexScale.y,
     static_cast<double>(gridOffset.z) / task.light.indexScale.z };
   const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
-    (task.bends ? dot(offset, task.light.w) : 0);
+    (bends ? dot(offset, task.light.w) : 0);
   exit.displacement[0] =
     (dot(offset, task.light.u) + remaining * alongU / forward) * task.light.unit;
   exit.displacement[1] =
@@ -200,7 +201,7 @@ Simd bestSimd();
 /// Traces a pass on the CPU into `traced`, which has its size. Returns false if aborted. `simd` must be one
 /// that the processor has.
 template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, const KernelChoice& kernel, const Pass& pass,
-  TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
+bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
+  const Monitor& monitor, Simd simd = bestSimd());
 
 } // namespace schlieren

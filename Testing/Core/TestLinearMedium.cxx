@@ -23,6 +23,7 @@ void compare(double n0, double slope, Device device, Precision precision, double
   Scene scene;
   scene.device = device;
   scene.precision = precision;
+  scene.pathModel = PathModel::Refracted;
   scene.samplesPerPixel = 1;
   scene.stepSize = 0.5;
   scene.view.width = 33;

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QualityPresets.h"
+
+#include "vtkSchlierenFilter.h"
+
+using Filter = vtkSchlierenFilter;
+
+#define SETTING(name, ...)                                                           \
+  QualitySetting                                                                     \
+  {                                                                                  \
+#name, [](Filter * filter) { return static_cast<double>(filter->Get##name()); }, \
+      [](Filter * filter, double value)                                              \
+    { filter->Set##name(static_cast<decltype(filter->Get##name())>(value)); },       \
+    {                                                                                \
+      __VA_ARGS__                                                                    \
+    }                                                                                \
+  }
+
+// clang-format off
+const std::array<QualitySetting, 9> qualitySettings{
+  //                            Interactive        Draft              Publication        Reference
+  SETTING(PathModel,            Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::REFRACTED),
+  SETTING(Integrator,           Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::ADAPTIVE),
+  SETTING(StepSize,             2,                 1,                 1,                 1),
+  SETTING(HomogeneityTolerance, 1e-3,              1e-4,              0,                 0),
+  SETTING(Interpolation,        Filter::QUADRATIC, Filter::QUADRATIC, Filter::QUADRATIC, Filter::CUBIC),
+  SETTING(SamplesPerPixel,      1,                 1,                 16,                64),
+  SETTING(Precision,            Filter::SINGLE,    Filter::SINGLE,    Filter::SINGLE,    Filter::DOUBLE),
+  SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
+  SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
+};
+// clang-format on

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+class vtkSchlierenFilter;
+
+/// A property of vtkSchlierenFilter that its presets of Quality set.
+struct QualitySetting
+{
+  const char* Property;
+  double (*Get)(vtkSchlierenFilter*);
+  void (*Set)(vtkSchlierenFilter*, double);
+  std::array<double, 4> Values; ///< in each preset, in the order of vtkSchlierenFilter::Qualities
+};
+
+/// All of them. What the presets are is written there alone; the XML's defaults are those of the first.
+extern const std::array<QualitySetting, 9> qualitySettings;
