@@ -13,6 +13,8 @@ namespace schlieren
 namespace
 {
 
+using HostAndDeviceFilm = WithCuda;
+
 constexpr int width = 301, height = 203; // whole blocks of threads do not fit
 constexpr std::int64_t heldMargin = 5;   // more than is used
 constexpr std::int64_t margin = 3;
@@ -81,25 +83,15 @@ void expectSamePictures(const Cutoffs& cutoff)
   EXPECT_EQ(counts.lost, countsOfDevice.lost);
 }
 
-TEST(HostAndDevice, MakeTheSamePictureOfTheSameRays)
+TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
 {
-  std::string reason;
-  if (!cudaAvailable(&reason))
-  {
-    GTEST_SKIP() << "no CUDA device: " << reason;
-  }
   expectSamePictures(KnifeEdge::at(30, 300, false));
   expectSamePictures(KnifeEdge::at(90, 20, true));
   expectSamePictures(Shadowgraph{});
 }
 
-TEST(HostAndDevice, RaysComeBackAsTheyWereSent)
+TEST_F(HostAndDeviceFilm, GetsRaysAsTheyWereSent)
 {
-  std::string reason;
-  if (!cudaAvailable(&reason))
-  {
-    GTEST_SKIP() << "no CUDA device: " << reason;
-  }
   std::vector<RayExit> exits(1000);
   for (std::size_t ray = 0; ray < exits.size(); ++ray)
   {
