@@ -62,13 +62,13 @@ struct Cost
     switch (interpolation)
     {
       case Interpolation::Linear:
-        return { 8, LINEAR };
+        return { 8, 200 };
       case Interpolation::Central:
-        return { 64, CENTRAL };
+        return { 64, 454 };
       case Interpolation::Cubic:
-        return { 64, CUBIC };
+        return { 64, 495 };
       default:
-        return { 27, QUADRATIC };
+        return { 27, 298 };
     }
   }
 };
