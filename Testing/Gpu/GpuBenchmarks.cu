@@ -27,6 +27,8 @@ namespace schlieren
 namespace
 {
 
+constexpr int samplesPerPixel = 10;
+
 /// What a device can do at most in a second.
 struct Peak
 {
@@ -155,7 +157,7 @@ Scene sceneOf(const Vector& viewDirection)
 {
   Scene scene;
   scene.view.viewDirection = viewDirection;
-  scene.samplesPerPixel = 10;
+  scene.samplesPerPixel = samplesPerPixel;
   scene.kScale = 1000; // the picture alone, not the search for its k
   scene.pathModel = PathModel::Refracted;
   scene.device = Device::Cuda;
@@ -227,8 +229,6 @@ void measure(const char* medium, Bench& bench, const Field& field, Scene scene, 
   const Cost cost = Cost::of(scene.interpolation);
   const std::array<std::int64_t, 3>& points = field.grid.dimensions;
   const double volume = bytes * static_cast<double>(points[0] * points[1] * points[2]);
-  // Each of the samples of a pixel goes through the volume on its own.
-  constexpr double passes = 10;
   const Differences deflection = differences(host.deflection, device.deflection);
   const Differences opticalPath =
     differences(host.opticalPathDifference, device.opticalPathDifference);
@@ -240,7 +240,7 @@ void measure(const char* medium, Bench& bench, const Field& field, Scene scene, 
     scene.homogeneityTolerance, static_cast<double>(image.raysTraced) / traced, steps / traced,
     1e3 * whole, 1e3 * again, 100 * steps * cost.points * bytes / traced / peak.cacheBytes,
     100 * steps * cost.instructions / traced / peak.instructions,
-    100 * passes * volume / traced / peak.memoryBytes, deflection.rms, deflection.worst,
+    100 * samplesPerPixel * volume / traced / peak.memoryBytes, deflection.rms, deflection.worst,
     opticalPath.worst);
   std::fflush(stdout);
 }
@@ -294,14 +294,14 @@ void measureKernels(
 void run(std::int64_t largest)
 {
   const Peak peak = Peak::ofDevice();
-  std::printf("At most: memory %.2f TB/s, first-level caches %.1f TB/s, %.1f T instructions/s.\n"
-              "rays/s, steps/s: of tracing. picture: all of it; again: with another knife edge.\n"
-              "L1, issue: share of the most that reading and calculating allow, for one sample a "
-              "step (RK4 takes\n"
-              "four, Adaptive three); memory: if each of a pixel's rays had to read all of the "
-              "medium from it.\n"
-              "rms, worst, OPD: how far deflections and optical paths of GPU and CPU differ, by "
-              "the largest.\n",
+  std::printf(
+    "At most: memory %.2f TB/s, first-level caches %.1f TB/s, %.1f T instructions/s.\n"
+    "rays/s, steps/s: of tracing\n"
+    "picture: all of it; again: with another knife edge\n"
+    "L1, issue: of the most that reading and calculating allow, if a step takes one sample\n"
+    "  (RK4 takes four, Adaptive three)\n"
+    "memory: if every pass, of a ray per pixel, read all of the medium from there\n"
+    "rms, worst, OPD: differences of GPU and CPU, by the largest value\n",
     1e-12 * peak.memoryBytes, 1e-12 * peak.cacheBytes, 1e-12 * peak.instructions);
   printHeader();
   {
