@@ -304,6 +304,13 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     scratch = std::move(spare.back());
     spare.pop_back();
   }
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  const std::size_t room = scratch.onDevice ? scratch.onDevice->size() : scratch.exits.capacity();
+  if (room < rays || room / 2 > rays)
+  {
+    spare.clear(); // first: two sets of rays at once might not fit
+    scratch = {};
+  }
   bool finished = false;
   if (image.device == Device::Cuda)
   {

@@ -19,19 +19,20 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
 namespace
 {
 
+/// Takes the memory of the values over.
 template <class Array, class Value>
-vtkSmartPointer<Array> newArray(const char* name, const std::vector<Value>& values, int components)
+vtkSmartPointer<Array> newArray(
+  const char* name, schlieren::PixelArray<Value>& values, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  const auto size = static_cast<vtkIdType>(values.size());
+  array->SetArray(values.release(), size, 0, Array::VTK_DATA_ARRAY_DELETE);
   if (components == 2)
   {
     array->SetComponentName(0, "u");
@@ -52,7 +53,7 @@ void addFieldValue(vtkImageData* output, const char* name, const Value& value)
 } // namespace
 
 //------------------------------------------------------------------------------
-void setOutput(vtkImageData* output, const schlieren::Image& image)
+void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
   output->SetOrigin(image.frame.origin[0], image.frame.origin[1], 0);

@@ -10,8 +10,8 @@ struct Image;
 }
 
 /// Makes `output` the picture `image`, with all arrays and field data that vtkSchlierenFilter promises
-/// but Color, Grid and MediumDimensions.
-void setOutput(vtkImageData* output, const schlieren::Image& image);
+/// but Color, Grid and MediumDimensions. Takes the memory of the image's arrays over, `color` excepted.
+void setOutput(vtkImageData* output, schlieren::Image& image);
 
 /// Adds the colours of a tinted picture, of which `white` is white, and makes them the scalars.
 void addColor(vtkImageData* output, const schlieren::Image& image, float white);

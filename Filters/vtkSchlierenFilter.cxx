@@ -44,6 +44,11 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
+  bool holdsRefractivityOf(const std::vector<double>& input, vtkRefractiveIndex* medium) const
+  {
+    return this->MediumTime == medium->GetMTime() && this->Input == input;
+  }
+
   // Of the fields that tint, on the grid of Refractivity; empty where not needed.
   std::vector<float> FieldGradients;
 
@@ -73,6 +78,20 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
     number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
     number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
     number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+}
+
+/// Everything of the inputs that the refractivity depends on.
+std::vector<double> describeInputs(
+  vtkSchlierenFilter* self, vtkDataObject* input, vtkDataObject* bodies)
+{
+  std::vector<double> description = describeInput(input, upstreamTime(self, 0));
+  if (bodies)
+  {
+    const std::vector<double> ofBodies =
+      describeInput(bodies, upstreamTime(self, vtkRefractiveIndex::BODIES));
+    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  }
+  return description;
 }
 
 schlieren::View viewFrom(vtkSchlierenFilter* self)
@@ -397,14 +416,8 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 {
   Internals& inside = *this->Inside;
   this->PassArraySelections();
-  std::vector<double> description = describeInput(input, upstreamTime(this, 0));
-  if (bodies)
-  {
-    const std::vector<double> ofBodies =
-      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
-    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
-  }
-  if (inside.MediumTime == this->Medium->GetMTime() && inside.Input == description)
+  std::vector<double> description = describeInputs(this, input, bodies);
+  if (inside.holdsRefractivityOf(description, this->Medium))
   {
     return true;
   }
@@ -481,16 +494,18 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
 
-  const schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
+  schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
   if (image.aborted)
   {
     return false;
   }
-  if (!image.deviceNote.empty())
+  const bool isTracedNow =
+    image.traceSeconds > 0; // another knife edge is no reason to say it again
+  if (isTracedNow && !image.deviceNote.empty())
   {
     vtkWarningMacro(<< image.deviceNote);
   }
-  if (image.raysTraced > 0 && image.raysBlocked == image.raysTraced)
+  if (isTracedNow && image.raysTraced > 0 && image.raysBlocked == image.raysTraced)
   {
     vtkWarningMacro(
       << "All light that meets the data is blocked, so the picture is black there: every "
@@ -498,7 +513,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
          "Look along another ViewDirection, or let light pass where no cell is with "
          "OutsideBlocksLight off.");
   }
-  if (image.raysLost > 0)
+  if (isTracedNow && image.raysLost > 0)
   {
     vtkWarningMacro(
       << image.raysLost << " of " << image.raysTraced
@@ -531,8 +546,13 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
     if (vtkDataObject* input = vtkDataObject::GetData(inputVector[0]))
     {
       this->PassArraySelections();
-      vtkNew<vtkImageData> grid;
-      this->Medium->ComputeGrid(input, grid);
+      vtkSmartPointer<vtkImageData> grid = this->Inside->Refractivity;
+      vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+      if (!this->Inside->holdsRefractivityOf(describeInputs(this, input, bodies), this->Medium))
+      {
+        grid = vtkSmartPointer<vtkImageData>::New();
+        this->Medium->ComputeGrid(input, grid);
+      }
       const schlieren::Frame frame = schlieren::frameOf(gridFrom(grid), viewFrom(this));
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);

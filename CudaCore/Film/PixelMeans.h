@@ -32,7 +32,7 @@ struct PixelSums
       for (int axis = 0; axis < 2; ++axis)
       {
         deflection[axis] += exit.deflection[axis];
-        displacement[axis] += exit.displacement[axis];
+        displacement[axis] += static_cast<double>(exit.displacement[axis]);
       }
       opticalPathDifference += exit.opticalPathDifference;
     }

@@ -30,8 +30,10 @@ SCHLIEREN_HD Landing landingOf(
   const double* eps = exit.deflection;
   const double forward = 1 - eps[0] * eps[0] - eps[1] * eps[1]; // squared cosine along w
   const double perCosine = projection.distance / sqrt(forward > 1e-300 ? forward : 1e-300);
-  return { column + (exit.displacement[0] + perCosine * eps[0]) * projection.perDataUnit,
-    row + (exit.displacement[1] + perCosine * eps[1]) * projection.perDataUnit };
+  return { column +
+      (static_cast<double>(exit.displacement[0]) + perCosine * eps[0]) * projection.perDataUnit,
+    row +
+      (static_cast<double>(exit.displacement[1]) + perCosine * eps[1]) * projection.perDataUnit };
 }
 
 } // namespace schlieren

@@ -22,7 +22,7 @@ enum class RayFate : std::int32_t
 struct RayExit
 {
   double deflection[2];         ///< direction cosines along u and v
-  double displacement[2];       ///< on the exit plane, along u and v, data units
+  float displacement[2];        ///< on the exit plane, along u and v, data units
   double opticalPathDifference; ///< metres, up to where the ray leaves the grid
   RayFate fate;
   std::int32_t steps;

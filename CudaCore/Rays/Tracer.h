@@ -116,10 +116,10 @@ SCHLIEREN_HD RayExit leaveGrid(
     static_cast<double>(gridOffset.z) / task.light.indexScale.z };
   const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
     (bends ? dot(offset, task.light.w) : 0);
-  exit.displacement[0] =
-    (dot(offset, task.light.u) + remaining * alongU / forward) * task.light.unit;
-  exit.displacement[1] =
-    (dot(offset, task.light.v) + remaining * alongV / forward) * task.light.unit;
+  exit.displacement[0] = static_cast<float>(
+    (dot(offset, task.light.u) + remaining * alongU / forward) * task.light.unit);
+  exit.displacement[1] = static_cast<float>(
+    (dot(offset, task.light.v) + remaining * alongV / forward) * task.light.unit);
   return exit;
 }
 

@@ -34,14 +34,14 @@ std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
     for (int axis = 0; axis < 2; ++axis)
     {
       exit.deflection[axis] = 0.05 * std::pow(unit(random), 5);
-      exit.displacement[axis] = 0.02 * unit(random);
+      exit.displacement[axis] = static_cast<float>(0.02 * unit(random));
     }
     exit.opticalPathDifference = unit(random);
     exits.push_back(exit);
   }
   RayExit* strange = exits.data() + (heldMargin - 1) * pass.columns + heldMargin;
-  strange[1].displacement[0] = 1e300;
-  strange[2].displacement[1] = std::nan("");
+  strange[1].displacement[0] = 1e38f;
+  strange[2].displacement[1] = std::nanf("");
   strange[3].deflection[0] = 1;
   strange[4].deflection[1] = -1.5;
   return exits;

@@ -153,6 +153,14 @@ TEST(Solids, AWallAcrossAllLightIsSaid)
   EXPECT_NE(complaints->Warnings[0].find("All light"), std::string::npos);
   EXPECT_NE(complaints->Warnings[0].find("OutsideBlocksLight"), std::string::npos);
   EXPECT_TRUE(complaints->Errors.empty());
+
+  filter->SetKnifeEdgeAngle(90); // the same light: once is enough
+  filter->Update();
+  EXPECT_EQ(complaints->Warnings.size(), 1u);
+  filter->SetViewDirection(-0.1, 0, -1);
+  filter->SetParallelScale(0.1);
+  filter->Update();
+  EXPECT_EQ(complaints->Warnings.size(), 2u);
 }
 
 TEST(Solids, LightThatDoesNotComeOutIsSaid)
@@ -166,6 +174,10 @@ TEST(Solids, LightThatDoesNotComeOutIsSaid)
   EXPECT_GT(fieldValue(filter, "RaysLost"), 0);
   ASSERT_EQ(complaints->Warnings.size(), 1u);
   EXPECT_NE(complaints->Warnings[0].find("did not come out"), std::string::npos);
+  filter->SetKScale(1);
+  filter->SetAutoKScale(false);
+  filter->Update();
+  EXPECT_EQ(complaints->Warnings.size(), 1u);
 }
 
 // Resampled: blanked cells of a curvilinear grid, and a ball that an unstructured grid leaves out.

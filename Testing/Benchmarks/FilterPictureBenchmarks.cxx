@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// How many pictures of 512 x 512 pixels a second the filter makes: with another knife edge, and with
+// another camera; the pipeline's and the output arrays' share included.
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkImageDataToPointSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRefractiveIndex.h"
+#include "vtkSchlierenFilter.h"
+#include "vtkSmartPointer.h"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace
+{
+
+/// Refractivity "N" of a ball of warm gas.
+vtkSmartPointer<vtkImageData> ball(int points)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(points, points, points);
+  const double h = 2. / (points - 1);
+  image->SetSpacing(h, h, h);
+  image->SetOrigin(-1, -1, -1);
+  vtkNew<vtkFloatArray> refractivity;
+  refractivity->SetName("N");
+  refractivity->SetNumberOfValues(image->GetNumberOfPoints());
+  vtkIdType id = 0;
+  for (int k = 0; k < points; ++k)
+  {
+    for (int j = 0; j < points; ++j)
+    {
+      for (int i = 0; i < points; ++i)
+      {
+        const double r = std::hypot(h * i - 1, h * j - 1, h * k - 1);
+        refractivity->SetValue(
+          id++, static_cast<float>(2.7e-4 - 1e-4 / (1 + std::exp(40 * (r - 0.6)))));
+      }
+    }
+  }
+  image->GetPointData()->AddArray(refractivity);
+  return image;
+}
+
+vtkSmartPointer<vtkSchlierenFilter> filterOf(vtkDataObject* input, benchmark::State& state)
+{
+  auto filter = vtkSmartPointer<vtkSchlierenFilter>::New();
+  filter->SetInputDataObject(input);
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  filter->SetDevice(vtkSchlierenFilter::CPU);
+  filter->SetSamplesPerPixel(static_cast<int>(state.range(0)));
+  filter->SetNumberOfThreads(static_cast<int>(state.range(1)));
+  filter->SetStepSize(2);
+  filter->SetViewDirection(-0.3, 0.1, -1);
+  filter->Update();
+  return filter;
+}
+
+/// Updates after each change(filter).
+template <class Change>
+void updateAgain(benchmark::State& state, vtkSchlierenFilter* filter, const Change& change)
+{
+  double tracing = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state)
+  {
+    change(filter);
+    filter->Update();
+    tracing += filter->GetOutput()->GetFieldData()->GetArray("TraceSeconds")->GetComponent(0, 0);
+  }
+  const double all =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto pictures = static_cast<double>(state.iterations());
+  state.counters["pictures/s"] = pictures / all;
+  state.counters["trace/ms"] = 1e3 * tracing / pictures;
+  state.counters["other/ms"] = 1e3 * (all - tracing) / pictures;
+}
+
+void turnKnife(vtkSchlierenFilter* filter)
+{
+  filter->SetKnifeEdgeAngle(filter->GetKnifeEdgeAngle() + 1);
+}
+
+void filterShadesAgain(benchmark::State& state)
+{
+  updateAgain(state, filterOf(ball(64), state), turnKnife);
+}
+BENCHMARK(filterShadesAgain)
+  ->ArgNames({ "samples", "threads" })
+  ->ArgsProduct({ { 1, 4 }, { 1, 2 } })
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+/// As many points, as a mesh that has been resampled.
+void filterShadesMeshAgain(benchmark::State& state)
+{
+  vtkNew<vtkImageDataToPointSet> mesh;
+  mesh->SetInputData(ball(64));
+  mesh->Update();
+  updateAgain(state, filterOf(mesh->GetOutput(), state), turnKnife);
+}
+BENCHMARK(filterShadesMeshAgain)
+  ->ArgNames({ "samples", "threads" })
+  ->Args({ 1, 2 })
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+/// The camera goes round the medium of 256 points each way, three degrees a picture.
+void filterHasNewCamera(benchmark::State& state)
+{
+  double angle = 0;
+  updateAgain(state, filterOf(ball(256), state),
+    [&angle](vtkSchlierenFilter* filter)
+    {
+      angle += 3 * std::acos(-1.) / 180;
+      filter->SetViewDirection(-std::sin(angle), -0.3, -std::cos(angle));
+    });
+}
+BENCHMARK(filterHasNewCamera)
+  ->ArgNames({ "samples", "threads" })
+  ->Args({ 1, 2 })
+  ->Iterations(5)
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+} // namespace
