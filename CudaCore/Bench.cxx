@@ -4,6 +4,7 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
+#include "Film/CudaFilm.h"
 #include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
 #include "Medium/HomogeneityMap.h"
@@ -192,6 +193,10 @@ Cutoffs cutoffFrom(const Scene& scene, double k)
 
 std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
+  if (traced.onDevice)
+  {
+    return traced.crossed;
+  }
   std::atomic<std::int64_t> crossed{ 0 };
   constexpr std::int64_t raysPerPiece = 1 << 15;
   parallelFor(static_cast<std::int64_t>(traced.exits.size()), raysPerPiece, threads,
@@ -215,6 +220,7 @@ struct Bench::Stages
   std::optional<RaysKey> raysKey;
   std::int64_t heldMargin = 0;
   std::deque<TracedPass> passes; ///< from pass 0 on
+  std::deque<TracedPass> spare;  ///< whose memory serves again
   TracedPass scratch;            ///< a pass that is not held
   std::optional<double> k;       ///< the automatic one, once these rays have been asked for it
   std::optional<double> tint;    ///< the reference of what they have gathered, likewise
@@ -232,6 +238,9 @@ struct Bench::Stages
 
   template <class Real>
   Image render(const Field& field, const Scene& scene, Device device, const Monitor& monitor);
+
+  /// Gives the device's memory back.
+  void leaveDevice();
 };
 
 template <class Real>
@@ -248,6 +257,7 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
     mediumKey.reset();
     raysKey.reset();
     passes.clear();
+    spare.clear();
     medium = std::monostate{};
     medium = MediumOnDevices<Real>(buildMedium<Real>(field, scene.interpolation, scene.threads));
     mediumKey = key;
@@ -264,10 +274,7 @@ void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
   }
   if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
   {
-    if (!passes.empty())
-    {
-      scratch = std::move(passes.front()); // its memory serves again
-    }
+    spare = std::move(passes);
     passes.clear();
     k.reset();
     tint.reset();
@@ -292,12 +299,18 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     tint.reset();
   }
   const auto start = std::chrono::steady_clock::now();
-  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-  if (scratch.exits.capacity() < rays || scratch.exits.capacity() / 2 > rays)
+  if (scratch.bytes() == 0 && !spare.empty())
   {
-    scratch = {}; // first: two sets of rays at once might not fit
+    scratch = std::move(spare.back());
+    spare.pop_back();
   }
-  scratch.resize(pass, field.gradients.count);
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  const std::size_t room = scratch.onDevice ? scratch.onDevice->size() : scratch.exits.capacity();
+  if (room < rays || room / 2 > rays)
+  {
+    spare.clear(); // first: two sets of rays at once might not fit
+    scratch = {};
+  }
   bool finished = false;
   if (image.device == Device::Cuda)
   {
@@ -305,10 +318,16 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     {
       held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
-    finished = held.cuda->trace(task, pass, field.gradients.version, scratch, monitor);
+    using Tracer = CudaTracer<Real>;
+    // All passes of a picture in one place.
+    const bool isWantedHere =
+      field.gradients.count > 0 || (!passes.empty() && !passes.front().onDevice);
+    finished = held.cuda->trace(task, pass, { field.gradients.version, held.mapTolerance },
+      isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
   }
   else
   {
+    scratch.resize(pass, field.gradients.count);
     finished = traceOnCpu(task, pass, scratch, scene.threads, monitor);
   }
   image.traceSeconds +=
@@ -372,6 +391,7 @@ Image Bench::Stages::render(
     (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
   std::optional<Film> film(std::in_place, view.width, view.height, mostRays);
   std::unique_ptr<ColorFilm> colorFilm;
+  std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
   PixelMeans means(view.width, view.height, scene.threads);
   const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize };
 
@@ -407,10 +427,27 @@ Image Bench::Stages::render(
     {
       if (!scene.kScale && !k)
       {
+        std::vector<RayExit> fetched;
+        if (traced->onDevice)
+        {
+          fetched = traced->onDevice->toHost();
+          waiting[0].exits = fetched.data();
+        }
         k = automaticK(waiting[0], view.width, view.height, noiseFloor(held.medium, field, light),
           scene.threads);
       }
       image.kScale = scene.kScale ? *scene.kScale : *k;
+    }
+    if (traced->onDevice)
+    {
+      waiting.clear();
+      if (!filmOnDevice)
+      {
+        filmOnDevice = std::make_unique<CudaFilm>(*film);
+      }
+      filmOnDevice->expose(
+        *traced->onDevice, pass, cutoffFrom(scene, image.kScale), projection, margin);
+      continue;
     }
     const bool isLast = number + 1 == scene.samplesPerPixel;
     if (traced == &scratch || isLast)
@@ -423,6 +460,10 @@ Image Bench::Stages::render(
         waiting.clear();
       }
     }
+  }
+  if (filmOnDevice)
+  {
+    counts = filmOnDevice->develop(*film, means);
   }
   image.raysTraced = counts.crossed;
   image.stepsTaken = counts.steps;
@@ -437,7 +478,25 @@ Image Bench::Stages::render(
   }
   means.develop(waiting, image);
   scratch = {};
+  spare.clear();
   return image;
+}
+
+void Bench::Stages::leaveDevice()
+{
+  raysKey.reset();
+  passes.clear();
+  spare.clear();
+  scratch = {};
+  std::visit(
+    [](auto& held)
+    {
+      if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+      {
+        held.cuda.reset();
+      }
+    },
+    medium);
 }
 
 Bench::Bench()
@@ -478,6 +537,7 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
   }
   catch (const DeviceError& failure)
   {
+    stages_->leaveDevice();
     if (scene.device == Device::Cuda)
     {
       throw;

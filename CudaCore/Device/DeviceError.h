@@ -14,4 +14,7 @@ public:
   using Error::Error;
 };
 
+/// Of the builds in which files named NoCuda... stand in for the .cu files.
+constexpr const char* builtWithoutCuda = "this build has no CUDA support";
+
 } // namespace schlieren

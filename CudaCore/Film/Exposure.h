@@ -37,7 +37,7 @@ struct RayCounts
   std::int64_t blocked = 0;
   std::int64_t lost = 0; ///< trapped or turned
 
-  void add(const RayExit& exit)
+  SCHLIEREN_HD void add(const RayExit& exit)
   {
     crossed += exit.fate != RayFate::Missed ? 1 : 0;
     steps += exit.steps;

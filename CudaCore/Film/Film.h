@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -23,6 +24,11 @@ public:
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
   std::size_t pixels() const { return pixels_.size(); }
+  double one() const { return one_; } ///< the fixed-point value of a full ray
+
+  /// The light of all pixels, row by row, in fixed point.
+  const std::vector<std::int64_t>& light() const { return pixels_; }
+  void setLight(std::vector<std::int64_t> light) { pixels_ = std::move(light); }
 
   /// Light per pixel divided by `raysPerPixel`.
   PixelArray<float> develop(double raysPerPixel, int threads) const;
@@ -35,7 +41,7 @@ private:
 
   std::int64_t width_;
   std::int64_t height_;
-  double one_; ///< fixed-point value of a full ray
+  double one_;
   std::vector<std::int64_t> pixels_;
   std::vector<std::mutex> locks_; ///< of some rows each
 };

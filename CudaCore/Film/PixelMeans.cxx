@@ -10,22 +10,6 @@
 namespace schlieren
 {
 
-void PixelMeans::Sums::add(const RayExit& exit)
-{
-  ++rays;
-  blocked += exit.fate == RayFate::Blocked ? 1 : 0;
-  if (exit.reachesFilm())
-  {
-    ++reached;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      deflection[axis] += exit.deflection[axis];
-      displacement[axis] += static_cast<double>(exit.displacement[axis]);
-    }
-    opticalPathDifference += exit.opticalPathDifference;
-  }
-}
-
 template <class Use>
 void PixelMeans::forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const
 {
@@ -38,7 +22,7 @@ void PixelMeans::forEachPixel(const std::vector<TracedRays>& passes, const Use& 
         for (std::int64_t column = 0; column < width_; ++column)
         {
           const auto pixel = static_cast<std::size_t>(row * width_ + column);
-          Sums sums = sums_.empty() ? Sums{} : sums_[pixel];
+          PixelSums sums = sums_.empty() ? PixelSums{} : sums_[pixel];
           for (const TracedRays& rays : passes)
           {
             sums.add(rays.exits[rays.rayOf(column, row)]);
@@ -52,7 +36,7 @@ void PixelMeans::forEachPixel(const std::vector<TracedRays>& passes, const Use& 
 void PixelMeans::add(const std::vector<TracedRays>& passes)
 {
   sums_.resize(static_cast<std::size_t>(width_ * height_));
-  forEachPixel(passes, [this](std::size_t pixel, const Sums& sums) { sums_[pixel] = sums; });
+  forEachPixel(passes, [this](std::size_t pixel, const PixelSums& sums) { sums_[pixel] = sums; });
 }
 
 void PixelMeans::develop(const std::vector<TracedRays>& last, Image& image)
@@ -63,7 +47,7 @@ void PixelMeans::develop(const std::vector<TracedRays>& last, Image& image)
   image.opticalPathDifference = PixelArray<double>(pixels);
   image.blockedFraction = PixelArray<float>(pixels);
   forEachPixel(last,
-    [&image](std::size_t pixel, const Sums& sums)
+    [&image](std::size_t pixel, const PixelSums& sums)
     {
       // A division takes as long as all the rest, and most pixels need none.
       const double perRay = sums.reached > 1 ? 1. / sums.reached : 1;

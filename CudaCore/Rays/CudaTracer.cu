@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Device/CudaBuffer.h"
 #include "Rays/CudaTracer.h"
 
+#include "Device/CudaBuffer.h"
+
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace schlieren
 {
@@ -11,25 +14,93 @@ namespace schlieren
 namespace
 {
 
-constexpr int threadsPerBlock = 128;
+// A warp traces the rays of 8 x 4 pixels, a block those of 16 x 8: near each other, they look at the same
+// part of the medium.
+constexpr int warpColumns = 8, warpRows = 4;
+constexpr int warpsAlong = 2, warpsUp = 2;
+constexpr int blockColumns = warpsAlong * warpColumns;
+constexpr int blockRows = warpsUp * warpRows;
+constexpr int threadsPerWarp = 32;
+constexpr int threadsPerBlock = warpsAlong * warpsUp * threadsPerWarp;
+static_assert(warpColumns * warpRows == threadsPerWarp);
+
+/// So few that progress is told and an abort is heard often enough.
 constexpr std::int64_t raysPerLaunch = std::int64_t{ 1 } << 20;
 
-/// `gathered`: the sums of each ray's fields, null where there are none.
-template <class Kernel, class Real>
-__global__ void traceKernel(const RayTask<Real> task, const Pass pass, std::int64_t first,
-  std::int64_t count, RayExit* exits, float* gathered, Real* drifts)
+/// Of all rays of a pass.
+struct Totals
 {
-  const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
-  if (n < count)
+  long long worstDrift; ///< as the bits of a double, which grow with it
+  unsigned long long crossed;
+};
+
+enum class Gather
+{
+  Nothing,
+  Fields
+};
+
+/// Launched for some rows of a pass, from `firstRow` on. `gathered`: the sums of each ray's fields. All
+/// threads of a block come to its end.
+template <class Kernel, Gather gather, class Real>
+__global__ void traceKernel(const RayTask<Real> given, const Pass pass, std::int64_t firstRow,
+  RayExit* exits, float* gathered, Totals* totals)
+{
+  const int warp = static_cast<int>(threadIdx.x) / threadsPerWarp;
+  const int lane = static_cast<int>(threadIdx.x) % threadsPerWarp;
+  const std::int64_t column = std::int64_t{ blockIdx.x } * blockColumns +
+    warp % warpsAlong * warpColumns + lane % warpColumns;
+  const std::int64_t row = firstRow + std::int64_t{ blockIdx.y } * blockRows +
+    warp / warpsAlong * warpRows + lane / warpColumns;
+
+  RayTask<Real> task = given;
+  if constexpr (gather == Gather::Nothing)
   {
-    float* sums = gathered + n * task.gradients.count;
+    task.gradients.count = 0; // the compiler leaves out what this makes unreachable
+  }
+  bool hasCrossed = false;
+  double worstDrift = 0;
+  if (column < pass.columns && row < pass.rows)
+  {
+    const std::int64_t ray = row * pass.columns + column;
+    float* sums = gathered + ray * task.gradients.count;
     for (int field = 0; field < task.gradients.count; ++field)
     {
       sums[field] = 0;
     }
-    exits[n] =
-      traceRay<Kernel>(task, pass.columnOf(first + n), pass.rowOf(first + n), sums, drifts[n]);
+    Real drift = 0;
+    const RayExit exit = traceRay<Kernel>(task, pass.columnOf(ray), pass.rowOf(ray), sums, drift);
+    exits[ray] = exit;
+    hasCrossed = exit.fate != RayFate::Missed;
+    worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN
   }
+
+  const int crossed = __syncthreads_count(hasCrossed ? 1 : 0);
+  if (threadIdx.x == 0 && crossed > 0)
+  {
+    atomicAdd(&totals->crossed, static_cast<unsigned long long>(crossed));
+  }
+  for (int lanes = threadsPerWarp / 2; lanes > 0; lanes /= 2)
+  {
+    constexpr unsigned all = 0xffffffff;
+    worstDrift = fmax(worstDrift, __shfl_down_sync(all, worstDrift, lanes));
+  }
+  if (lane == 0 && worstDrift > 0)
+  {
+    atomicMax(&totals->worstDrift, __double_as_longlong(worstDrift));
+  }
+}
+
+template <class T>
+using Buffer = CudaBuffer<T, DeviceError>;
+using Stream = CudaStream<DeviceError>;
+
+template <class T>
+void copy(T* toHost, const T* fromDevice, std::size_t count, const Stream& stream)
+{
+  checkCuda<DeviceError>(
+    cudaMemcpyAsync(toHost, fromDevice, count * sizeof(T), cudaMemcpyDeviceToHost, stream.get()),
+    "Fetching rays");
 }
 
 } // namespace
@@ -55,52 +126,72 @@ struct CudaTracer<Real>::DeviceMemory
 {
   explicit DeviceMemory(const Medium<Real>& medium)
     : samples(medium.volume.samples.data(), medium.volume.samples.size())
-    , exits(static_cast<std::size_t>(raysPerLaunch))
-    , drifts(static_cast<std::size_t>(raysPerLaunch))
+    , totals(1)
   {
     if (!medium.solid.empty())
     {
-      solid = std::make_unique<CudaBuffer<std::uint32_t, DeviceError>>(
-        medium.solid.data(), medium.solid.size());
+      solid = std::make_unique<Buffer<std::uint32_t>>(medium.solid.data(), medium.solid.size());
     }
   }
 
-  CudaBuffer<Real, DeviceError> samples;
-  CudaBuffer<RayExit, DeviceError> exits;
-  CudaBuffer<Real, DeviceError> drifts;
-  std::unique_ptr<CudaBuffer<std::uint32_t, DeviceError>> solid;
+  Buffer<Real> samples;
+  std::unique_ptr<Buffer<std::uint32_t>> solid;
 
-  /// Fields that tint, and what the rays of one launch have gathered of them.
-  struct Gathering
+  struct Map
   {
-    Gathering(const FieldGradientsView& view, std::uint64_t versionOfValues)
+    Map(const HomogeneityView& view, double toleranceOfView)
+      : tolerance(toleranceOfView)
+      , levels(
+          view.levels, static_cast<std::size_t>(view.bricks[0] * view.bricks[1] * view.bricks[2]))
+    {
+    }
+    double tolerance;
+    Buffer<std::uint8_t> levels;
+  };
+  std::unique_ptr<Map> map;
+
+  struct Gradients
+  {
+    Gradients(const FieldGradientsView& view, std::uint64_t versionOfValues)
       : version(versionOfValues)
-      , gradients(view.values,
+      , values(view.values,
           static_cast<std::size_t>(
             view.count * view.dimensions[0] * view.dimensions[1] * view.dimensions[2]))
-      , sums(static_cast<std::size_t>(view.count * raysPerLaunch))
     {
     }
     std::uint64_t version;
-    CudaBuffer<float, DeviceError> gradients;
-    CudaBuffer<float, DeviceError> sums;
+    Buffer<float> values;
   };
-  std::unique_ptr<Gathering> gathering;
+  std::unique_ptr<Gradients> gradients;
 
-  /// Makes the view one of device memory; gives back where to put the sums.
-  float* bring(FieldGradientsView& view, std::uint64_t version)
+  Buffer<Totals> totals;
+  std::array<Stream, 2> streams; ///< one launch ends while the next is under way
+
+  /// The task with what it points to on the device. Sends what is new.
+  RayTask<Real> bring(const RayTask<Real>& task, const Versions& versions)
   {
-    if (view.count == 0)
+    RayTask<Real> onDevice = task;
+    onDevice.medium.samples = samples.data();
+    onDevice.medium.solid = solid ? solid->data() : nullptr;
+    if (task.map.levels != nullptr)
     {
-      return nullptr;
+      if (!map || map->tolerance != versions.homogeneityTolerance)
+      {
+        map.reset();
+        map = std::make_unique<Map>(task.map, versions.homogeneityTolerance);
+      }
+      onDevice.map.levels = map->levels.data();
     }
-    if (!gathering || gathering->version != version)
+    if (task.gradients.count > 0)
     {
-      gathering.reset(); // first: both at once might not fit
-      gathering = std::make_unique<Gathering>(view, version);
+      if (!gradients || gradients->version != versions.gradients)
+      {
+        gradients.reset(); // first: both at once might not fit
+        gradients = std::make_unique<Gradients>(task.gradients, versions.gradients);
+      }
+      onDevice.gradients.values = gradients->values.data();
     }
-    view.values = gathering->gradients.data();
-    return gathering->sums.data();
+    return onDevice;
   }
 };
 
@@ -114,59 +205,105 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, std::uint64_t version,
-  TracedPass& traced, const Monitor& monitor)
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions,
+  Exits exits, TracedPass& traced, const Monitor& monitor)
 {
-  RayTask<Real> onDevice = task;
-  onDevice.medium.samples = memory_->samples.data();
-  onDevice.medium.solid = memory_->solid ? memory_->solid->data() : nullptr;
-  onDevice.map.levels = nullptr;
-  float* sums = memory_->bring(onDevice.gradients, version);
-  const int fields = task.gradients.count;
-
-  const std::int64_t rays = pass.columns * pass.rows;
-  std::vector<Real> drifts(static_cast<std::size_t>(std::min(raysPerLaunch, rays)));
-  traced.worstDrift = 0;
-  for (std::int64_t first = 0; first < rays; first += raysPerLaunch)
+  const RayTask<Real> onDevice = memory_->bring(task, versions);
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again
+  if (!there || there->size() != rays)
   {
-    const std::int64_t count = std::min(raysPerLaunch, rays - first);
-    const auto blocks = static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
+    there.reset();
+    there = std::make_unique<CudaPass>(rays);
+  }
+  const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
+  const std::size_t sums = rays * static_cast<std::size_t>(fields);
+  const std::unique_ptr<Buffer<float>> gathered =
+    fields > 0 ? std::make_unique<Buffer<float>>(sums) : nullptr;
+  checkCuda<DeviceError>(
+    cudaMemset(memory_->totals.data(), 0, sizeof(Totals)), "Clearing the totals");
+
+  constexpr std::int64_t mostBlocks = 65535; // along a grid's second axis
+  const std::int64_t rowsPerLaunch =
+    blockRows * std::clamp<std::int64_t>(raysPerLaunch / pass.columns / blockRows, 1, mostBlocks);
+  const std::int64_t launches = (pass.rows + rowsPerLaunch - 1) / rowsPerLaunch;
+  const auto streamOf = [this](std::int64_t number) -> const Stream&
+  { return memory_->streams[static_cast<std::size_t>(number % 2)]; };
+  const auto rowsOf = [&](std::int64_t number)
+  { return std::min(rowsPerLaunch, pass.rows - number * rowsPerLaunch); };
+
+  const auto launch = [&](std::int64_t number)
+  {
+    const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
+      static_cast<unsigned>((rowsOf(number) + blockRows - 1) / blockRows));
     visitKernel(task.kernel,
       [&](auto kind)
       {
-        traceKernel<decltype(kind)><<<blocks, threadsPerBlock>>>(
-          onDevice, pass, first, count, memory_->exits.data(), sums, memory_->drifts.data());
+        const auto start = [&](auto* function)
+        {
+          function<<<blocks, threadsPerBlock, 0, streamOf(number).get()>>>(onDevice, pass,
+            number * rowsPerLaunch, there->exits(), gathered ? gathered->data() : nullptr,
+            memory_->totals.data());
+        };
+        if (fields > 0)
+        {
+          start(traceKernel<decltype(kind), Gather::Fields, Real>);
+        }
+        else
+        {
+          start(traceKernel<decltype(kind), Gather::Nothing, Real>);
+        }
       });
     checkCuda<DeviceError>(cudaGetLastError(), "Starting the ray kernel");
-    checkCuda<DeviceError>(
-      cudaMemcpy(traced.exits.data() + first, memory_->exits.data(),
-        static_cast<std::size_t>(count) * sizeof(RayExit), cudaMemcpyDeviceToHost),
-      "Tracing rays");
-    checkCuda<DeviceError>(
-      cudaMemcpy(drifts.data(), memory_->drifts.data(),
-        static_cast<std::size_t>(count) * sizeof(Real), cudaMemcpyDeviceToHost),
-      "Tracing rays");
-    for (std::int64_t ray = 0; ray < count; ++ray)
+  };
+  /// Waits for the launch.
+  const auto fetch = [&](std::int64_t number)
+  {
+    const Stream& stream = streamOf(number);
+    if (exits == Exits::OnHost)
     {
-      traced.worstDrift =
-        std::max(traced.worstDrift, static_cast<double>(drifts[static_cast<std::size_t>(ray)]));
+      const auto first = static_cast<std::size_t>(number * rowsPerLaunch * pass.columns);
+      const auto count = static_cast<std::size_t>(rowsOf(number) * pass.columns);
+      copy(traced.exits.data() + first, there->exits() + first, count, stream);
+      if (fields > 0)
+      {
+        const auto perRay = static_cast<std::size_t>(fields);
+        copy(traced.gathered.data() + first * perRay, gathered->data() + first * perRay,
+          count * perRay, stream);
+      }
     }
-    if (fields > 0)
+    stream.wait("Tracing rays");
+  };
+
+  traced.resize(exits == Exits::OnHost ? pass : Pass{}, fields);
+  launch(0);
+  for (std::int64_t number = 0; number < launches; ++number)
+  {
+    if (number + 1 < launches)
     {
-      checkCuda<DeviceError>(
-        cudaMemcpy(traced.gathered.data() + first * fields, sums,
-          static_cast<std::size_t>(count * fields) * sizeof(float), cudaMemcpyDeviceToHost),
-        "Gathering gradients");
+      launch(number + 1); // runs while this one's rays are copied
     }
+    fetch(number);
     if (monitor.progress)
     {
-      monitor.progress(static_cast<double>(first + count) / static_cast<double>(rays));
+      monitor.progress(static_cast<double>(number + 1) / static_cast<double>(launches));
     }
     if (monitor.aborted && monitor.aborted())
     {
+      streamOf(number + 1).wait("Tracing rays"); // which would write to what comes next
       return false;
     }
   }
+  if (exits == Exits::OnDevice)
+  {
+    traced.onDevice = std::move(there);
+  }
+  Totals totals{};
+  checkCuda<DeviceError>(
+    cudaMemcpy(&totals, memory_->totals.data(), sizeof(Totals), cudaMemcpyDeviceToHost),
+    "Fetching the totals");
+  traced.crossed = static_cast<std::int64_t>(totals.crossed);
+  std::memcpy(&traced.worstDrift, &totals.worstDrift, sizeof(double));
   return true;
 }
 

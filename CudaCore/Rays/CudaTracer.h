@@ -6,12 +6,14 @@
 #include "Medium/Medium.h"
 #include "Rays/Tracer.h"
 
+#include <cstdint>
 #include <memory>
 
 namespace schlieren
 {
 
-/// Traces rays on the first CUDA device; holds the medium in its memory. Throws DeviceError.
+/// Traces rays on the first CUDA device. Holds in its memory what rays need, from pass to pass: the medium,
+/// the homogeneity map, the gradients of fields. Throws DeviceError.
 template <class Real>
 class CudaTracer
 {
@@ -19,10 +21,23 @@ public:
   explicit CudaTracer(const Medium<Real>& medium);
   ~CudaTracer();
 
-  /// Traces a pass into host memory, as traceOnCpu does. Returns false if aborted.
-  /// The gradients are sent to the device again only when `version` is another.
-  bool trace(const RayTask<Real>& task, const Pass& pass, std::uint64_t version, TracedPass& traced,
-    const Monitor& monitor);
+  /// What of a task is sent to the device again only when this changes.
+  struct Versions
+  {
+    std::uint64_t gradients;     ///< of FieldGradients
+    double homogeneityTolerance; ///< that the map was made for
+  };
+
+  /// Where rays are wanted.
+  enum class Exits
+  {
+    OnHost,
+    OnDevice ///< for CudaFilm; what they gather is lost
+  };
+
+  /// Traces a pass, as traceOnCpu does. Returns false if aborted.
+  bool trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions, Exits exits,
+    TracedPass& traced, const Monitor& monitor);
 
 private:
   struct DeviceMemory;

@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in for CudaTracer.cu in builds without CUDA.
+// Stands in for CudaPass.cu and CudaTracer.cu in builds without CUDA.
+#include "Rays/CudaPass.h"
 #include "Rays/CudaTracer.h"
 
 namespace schlieren
 {
-
-namespace
-{
-constexpr const char* builtWithoutCuda = "this build has no CUDA support";
-}
 
 bool cudaAvailable(std::string* reason)
 {
@@ -19,6 +15,21 @@ bool cudaAvailable(std::string* reason)
   }
   return false;
 }
+
+CudaPass::CudaPass(std::size_t rays)
+  : size_(rays)
+{
+  throw DeviceError(builtWithoutCuda);
+}
+
+CudaPass::CudaPass(const std::vector<RayExit>& exits)
+  : CudaPass(exits.size())
+{
+}
+
+CudaPass::~CudaPass() = default;
+
+std::vector<RayExit> CudaPass::toHost() const { return {}; }
 
 template <class Real>
 struct CudaTracer<Real>::DeviceMemory
@@ -36,9 +47,9 @@ CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
 bool CudaTracer<Real>::trace(
-  const RayTask<Real>&, const Pass&, std::uint64_t, TracedPass&, const Monitor&)
+  const RayTask<Real>&, const Pass&, const Versions&, Exits, TracedPass&, const Monitor&)
 {
-  throw DeviceError(builtWithoutCuda);
+  return false;
 }
 
 template class CudaTracer<float>;

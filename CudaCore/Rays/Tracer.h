@@ -4,10 +4,12 @@
 
 #include "Medium/FieldGradients.h"
 #include "Medium/Medium.h"
+#include "Rays/CudaPass.h"
 #include "Rays/Light.h"
 #include "Rays/Marcher.h"
 #include "Rays/RayExit.h"
 
+#include <memory>
 #include <vector>
 
 namespace schlieren
@@ -164,17 +166,22 @@ struct TracedPass
 {
   std::vector<RayExit> exits;
   std::vector<float> gathered;
-  double worstDrift = 0; ///< of | |p| / n - 1 | where rays leave the grid
+  std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
+  std::int64_t crossed = 0;           ///< of rays on the device: how many met the grid
+  double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
 
+  /// Makes room on the host.
   void resize(const Pass& pass, int fields)
   {
+    onDevice.reset();
     const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
     exits.resize(rays);
     gathered.assign(rays * static_cast<std::size_t>(fields), 0);
   }
   std::size_t bytes() const
   {
-    return exits.size() * sizeof(RayExit) + gathered.size() * sizeof(float);
+    const std::size_t rays = exits.size() + (onDevice ? onDevice->size() : 0);
+    return rays * sizeof(RayExit) + gathered.size() * sizeof(float);
   }
 };
 

@@ -126,6 +126,20 @@ protected:
   }
 };
 
+/// For tests of the device alone.
+class WithCuda : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    std::string reason;
+    if (!cudaAvailable(&reason))
+    {
+      GTEST_SKIP() << "no CUDA device: " << reason;
+    }
+  }
+};
+
 inline auto bothDevices() { return testing::Values(Device::Cpu, Device::Cuda); }
 inline std::string deviceName(const testing::TestParamInfo<Device>& info)
 {

@@ -252,32 +252,6 @@ TEST_P(Extremes, DisplacementStaysWithinItsBound)
 
 INSTANTIATE_TEST_SUITE_P(, Extremes, bothDevices(), deviceName);
 
-/// The same per-ray code runs on both; only the compilers' rounding differs.
-TEST(HostAndDevice, Agree)
-{
-  std::string reason;
-  if (!cudaAvailable(&reason))
-  {
-    GTEST_SKIP() << "no CUDA device: " << reason;
-  }
-  for (const Precision precision : { Precision::Single, Precision::Double })
-  {
-    for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
-    {
-      Scene scene = smallScene(Device::Cpu);
-      scene.precision = precision;
-      scene.interpolation = interpolation;
-      const Image host = renderBlob(3e-4, 0, scene);
-      scene.device = Device::Cuda;
-      const Image device = renderBlob(3e-4, 0, scene);
-      // The double picture's deflection is stored in float, its optical path in double.
-      EXPECT_LT(difference(host.deflection, device.deflection, 1), 1e-5);
-      EXPECT_LT(difference(host.opticalPathDifference, device.opticalPathDifference, 1),
-        precision == Precision::Single ? 1e-5 : 1e-12);
-    }
-  }
-}
-
 } // namespace
 
 } // namespace schlieren

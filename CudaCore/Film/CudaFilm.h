@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Film/Exposure.h"
+#include "Film/PixelMeans.h"
+#include "Rays/CudaPass.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace schlieren
+{
+
+/// A picture that is summed up on the first CUDA device, from rays that lie there. Not a bit differs from
+/// that of expose() and PixelMeans: sums of light are whole numbers, and each pixel's means are added up in
+/// the order of the passes. Throws DeviceError.
+class CudaFilm
+{
+public:
+  /// Of the size and the fixed-point scale of `film`.
+  explicit CudaFilm(const Film& film);
+  ~CudaFilm();
+
+  /// Does what schlieren::expose does, and adds up means and counts, for rays that lie there: `traced`
+  /// covers `pass`.
+  void expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
+    const Projection& projection, std::int64_t margin);
+
+  /// Hands over all that has been added up.
+  RayCounts develop(Film& film, PixelMeans& means) const;
+
+private:
+  struct DeviceMemory;
+  std::unique_ptr<DeviceMemory> memory_;
+};
+
+} // namespace schlieren

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Stands in for CudaFilm.cu in builds without CUDA.
+#include "Film/CudaFilm.h"
+
+namespace schlieren
+{
+
+struct CudaFilm::DeviceMemory
+{
+};
+
+CudaFilm::CudaFilm(const Film&) { throw DeviceError(builtWithoutCuda); }
+
+CudaFilm::~CudaFilm() = default;
+
+void CudaFilm::expose(const CudaPass&, const Pass&, const Cutoffs&, const Projection&, std::int64_t)
+{
+}
+
+RayCounts CudaFilm::develop(Film&, PixelMeans&) const { return {}; }
+
+} // namespace schlieren

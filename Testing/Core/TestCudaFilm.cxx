@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The same rays make the same picture on host and device.
+#include "Fields.h"
+#include "Film/CudaFilm.h"
+
+#include <algorithm>
+#include <random>
+
+namespace schlieren
+{
+
+namespace
+{
+
+using HostAndDeviceFilm = WithCuda;
+
+constexpr int width = 301, height = 203; // whole blocks of threads do not fit
+constexpr std::int64_t heldMargin = 5;   // more than is used
+constexpr std::int64_t margin = 3;
+constexpr Projection projection{ -0.7, 1 / 0.013 };
+
+/// Rays of all fates, some of them far off the film or strange (in the margin that is not used for means).
+std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::uniform_int_distribution<int> fate(0, 9);
+  std::vector<RayExit> exits;
+  for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+  {
+    RayExit exit{};
+    exit.fate = static_cast<RayFate>(std::min(fate(random), 4));
+    exit.steps = static_cast<std::int32_t>(1e9 * std::abs(unit(random)));
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      exit.deflection[axis] = 0.05 * std::pow(unit(random), 5);
+      exit.displacement[axis] = static_cast<float>(0.02 * unit(random));
+    }
+    exit.opticalPathDifference = unit(random);
+    exits.push_back(exit);
+  }
+  RayExit* strange = exits.data() + (heldMargin - 1) * pass.columns + heldMargin;
+  strange[1].displacement[0] = 1e38f;
+  strange[2].displacement[1] = std::nanf("");
+  strange[3].deflection[0] = 1;
+  strange[4].deflection[1] = -1.5;
+  return exits;
+}
+
+void expectSamePictures(const Cutoffs& cutoff)
+{
+  constexpr int passes = 3;
+  constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
+  std::mt19937 random(5);
+  std::vector<std::vector<RayExit>> exits;
+  std::vector<TracedRays> traced;
+  Film film(width, height, rays), filmOfDevice(width, height, rays);
+  CudaFilm onDevice(film);
+  for (int number = 0; number < passes; ++number)
+  {
+    const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
+      { 0.1 * number, -0.07 * number } };
+    exits.push_back(anyExits(pass, random));
+    traced.push_back({ pass, exits.back().data(), nullptr });
+    onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin);
+  }
+  const RayCounts counts = expose(traced, cutoff, projection, margin, 1, film, nullptr);
+  PixelMeans means(width, height, 1), meansOfDevice(width, height, 1);
+  const RayCounts countsOfDevice = onDevice.develop(filmOfDevice, meansOfDevice);
+
+  EXPECT_EQ(film.light(), filmOfDevice.light());
+  EXPECT_GT(*std::max_element(film.light().begin(), film.light().end()), 0);
+  Image host, device;
+  means.develop(traced, host);
+  meansOfDevice.develop({}, device);
+  EXPECT_EQ(host.deflection, device.deflection);
+  EXPECT_EQ(host.displacement, device.displacement);
+  EXPECT_EQ(host.opticalPathDifference, device.opticalPathDifference);
+  EXPECT_EQ(host.blockedFraction, device.blockedFraction);
+  EXPECT_EQ(counts.crossed, countsOfDevice.crossed);
+  EXPECT_EQ(counts.steps, countsOfDevice.steps);
+  EXPECT_EQ(counts.blocked, countsOfDevice.blocked);
+  EXPECT_EQ(counts.lost, countsOfDevice.lost);
+}
+
+TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
+{
+  expectSamePictures(KnifeEdge::at(30, 300, false));
+  expectSamePictures(KnifeEdge::at(90, 20, true));
+  expectSamePictures(Shadowgraph{});
+}
+
+TEST_F(HostAndDeviceFilm, GetsRaysAsTheyWereSent)
+{
+  std::vector<RayExit> exits(1000);
+  for (std::size_t ray = 0; ray < exits.size(); ++ray)
+  {
+    exits[ray].opticalPathDifference = static_cast<double>(ray);
+  }
+  const std::vector<RayExit> back = CudaPass(exits).toHost();
+  ASSERT_EQ(back.size(), exits.size());
+  for (std::size_t ray = 0; ray < exits.size(); ++ray)
+  {
+    EXPECT_EQ(back[ray].opticalPathDifference, exits[ray].opticalPathDifference);
+  }
+}
+
+} // namespace
+
+} // namespace schlieren

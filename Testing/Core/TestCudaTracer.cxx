@@ -1,0 +1,401 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The same per-ray code runs on both; only the compilers' rounding differs.
+#include "Fields.h"
+#include "Medium/HomogeneityMap.h"
+#include "Rays/CudaTracer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace schlieren
+{
+
+namespace
+{
+
+using HostAndDeviceRays = WithCuda;
+
+constexpr int width = 53, height = 37; // whole blocks of threads do not fit
+const Pass pass{ -4, -3, width, height, { 0.2, -0.3 } };
+
+/// A wavy blob in gas that is still near the faces of the cube.
+double blob(double x, double y, double z)
+{
+  const double r2 = x * x + 1.5 * y * y + z * z;
+  return 3e-4 * std::exp(-r2 / 0.1) * (1 + 0.2 * std::sin(7 * x + 5 * z));
+}
+
+/// A medium and rays through it, aslant.
+template <class Real>
+struct Bundle
+{
+  Bundle(const KernelChoice& kernel, double homogeneityTolerance = 0, bool hasBall = false)
+    : field(cube(30, 1), blob)
+  {
+    field.field.ambient = 0;
+    if (hasBall)
+    {
+      for (const float sample : field.samples)
+      {
+        valid.push_back(sample < 1e-4f ? 1 : 0);
+      }
+      field.field.valid = valid.data();
+    }
+    gradients.resize(2 * field.samples.size());
+    for (int n = 0; n < 2; ++n)
+    {
+      gradientMagnitudes(
+        field.field.grid, field.samples.data(), nullptr, 1, 2, n, gradients.data());
+    }
+    View view;
+    view.viewDirection = { -0.4, 0.3, -0.8 };
+    view.width = width - 8;
+    view.height = height - 6;
+    settings.kernel = kernel;
+    settings.adaptiveTolerance = 1e-3; // few steps are tried twice
+    light = collimatedLight(field.field.grid, frameOf(field.field.grid, view));
+    medium =
+      std::make_unique<Medium<Real>>(buildMedium<Real>(field.field, kernel.interpolation, 1));
+    if (homogeneityTolerance > 0)
+    {
+      map = std::make_unique<HomogeneityMap<Real>>(buildHomogeneityMap(
+        *medium, kernel.interpolation, static_cast<Real>(homogeneityTolerance), 1));
+    }
+  }
+
+  RayTask<Real> task(int fields = 0) const
+  {
+    const FieldGradients view{ fields, gradients.data(), 1 };
+    return makeTask<Real>(
+      *medium, map.get(), FieldGradientsView::of(field.field.grid, view), light, settings);
+  }
+
+  TracedPass onHost(const RayTask<Real>& task) const
+  {
+    TracedPass traced;
+    traced.resize(pass, task.gradients.count);
+    traceOnCpu(task, pass, traced, 1, {}, Simd::None); // packs look for cubes together
+    return traced;
+  }
+
+  TracedPass onDevice(const RayTask<Real>& task) const
+  {
+    TracedPass traced;
+    CudaTracer<Real> tracer(*medium);
+    tracer.trace(task, pass, { 1, 1 }, CudaTracer<Real>::Exits::OnHost, traced, {});
+    return traced;
+  }
+
+  SampledField<float> field;
+  std::vector<unsigned char> valid;
+  std::vector<float> gradients;
+  RaySettings settings;
+  Light light;
+  std::unique_ptr<Medium<Real>> medium;
+  std::unique_ptr<HomogeneityMap<Real>> map;
+};
+
+/// How far rays differ, by the largest value of all.
+struct Differences
+{
+  double worst = 0;
+  double share = 0; ///< of rays that differ by more than was allowed
+
+  template <class ValuesOf>
+  Differences(const TracedPass& host, const TracedPass& device, double allowed, const ValuesOf& of)
+  {
+    double largest = 0;
+    for (const RayExit& exit : host.exits)
+    {
+      for (const double value : of(exit))
+      {
+        largest = std::max(largest, std::abs(value));
+      }
+    }
+    for (std::size_t ray = 0; ray < host.exits.size(); ++ray)
+    {
+      const auto a = of(host.exits[ray]), b = of(device.exits[ray]);
+      double here = host.exits[ray].fate == device.exits[ray].fate ? 0 : HUGE_VAL;
+      for (std::size_t n = 0; n < a.size(); ++n)
+      {
+        here = std::max(here, std::abs(a[n] - b[n]) / largest);
+      }
+      worst = std::max(worst, here);
+      share += here > allowed ? 1. / static_cast<double>(host.exits.size()) : 0;
+    }
+    EXPECT_GT(largest, 0);
+  }
+};
+
+std::vector<double> deflectionOf(const RayExit& exit)
+{
+  return { exit.deflection[0], exit.deflection[1] };
+}
+std::vector<double> opticalPathOf(const RayExit& exit) { return { exit.opticalPathDifference }; }
+
+/// Where the derivative jumps, or a step is tried again, single rays may go another way by rounding alone.
+bool mayBranch(const KernelChoice& kernel)
+{
+  return kernel.interpolation == Interpolation::Linear || kernel.integrator == Integrator::Adaptive;
+}
+
+template <class Real>
+void expectAgreement(const KernelChoice& kernel, double allowed, double tolerance)
+{
+  SCOPED_TRACE(std::string(name(kernel.interpolation)) + ", integrator " +
+    std::to_string(static_cast<int>(kernel.integrator)) +
+    (kernel.path == PathModel::Straight ? ", straight" : "") + ", tolerance " +
+    std::to_string(tolerance));
+  const Bundle<Real> bundle(kernel, tolerance);
+  const RayTask<Real> task = bundle.task();
+  const TracedPass host = bundle.onHost(task);
+  const TracedPass device = bundle.onDevice(task);
+  ASSERT_EQ(host.exits.size(), device.exits.size());
+  const Differences deflection(host, device, allowed, deflectionOf);
+  const Differences opticalPath(host, device, allowed, opticalPathOf);
+  if (mayBranch(kernel) || tolerance > 0)
+  {
+    EXPECT_LT(deflection.share, 0.02);
+    EXPECT_LT(deflection.worst, 0.05);
+    EXPECT_LT(opticalPath.share, 0.02);
+    EXPECT_LT(opticalPath.worst, 0.005);
+  }
+  else
+  {
+    EXPECT_LT(deflection.worst, allowed);
+    EXPECT_LT(opticalPath.worst, allowed);
+  }
+  EXPECT_LT(std::abs(host.worstDrift - device.worstDrift), 0.1 * host.worstDrift + 1e-6);
+  EXPECT_EQ(device.crossed,
+    std::count_if(device.exits.begin(), device.exits.end(),
+      [](const RayExit& exit) { return exit.fate != RayFate::Missed; }));
+}
+
+template <class Visit>
+void forKernels(const Visit& visit)
+{
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    for (const Integrator integrator :
+      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    {
+      visit(KernelChoice{ PathModel::Refracted, integrator, interpolation });
+    }
+    visit(KernelChoice{ PathModel::Straight, Integrator::Leapfrog, interpolation });
+  }
+}
+
+TEST_F(HostAndDeviceRays, AgreeForEveryKernel)
+{
+  forKernels(
+    [](const KernelChoice& kernel)
+    {
+      expectAgreement<float>(kernel, 1e-5, 0);
+      expectAgreement<double>(kernel, 1e-12, 0);
+    });
+}
+
+TEST_F(HostAndDeviceRays, AgreeWhereTheySkip)
+{
+  constexpr double tolerance = 1e-6;
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    const KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, interpolation };
+    expectAgreement<float>(kernel, 1e-5, tolerance);
+    expectAgreement<double>(kernel, 1e-12, tolerance);
+    const auto stepsOf = [&](double skipping)
+    {
+      const Bundle<float> bundle(kernel, skipping);
+      const TracedPass traced = bundle.onDevice(bundle.task());
+      return std::accumulate(traced.exits.begin(), traced.exits.end(), std::int64_t{ 0 },
+        [](std::int64_t sum, const RayExit& exit) { return sum + exit.steps; });
+    };
+    EXPECT_LT(stepsOf(tolerance), 0.9 * static_cast<double>(stepsOf(0)));
+  }
+}
+
+TEST_F(HostAndDeviceRays, EndInTheSameBodies)
+{
+  const Bundle<double> bundle(
+    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic }, 0, true);
+  const TracedPass host = bundle.onHost(bundle.task());
+  const TracedPass device = bundle.onDevice(bundle.task());
+  const auto blocked = [](const TracedPass& traced)
+  {
+    return std::count_if(traced.exits.begin(), traced.exits.end(),
+      [](const RayExit& exit) { return exit.fate == RayFate::Blocked; });
+  };
+  EXPECT_GT(blocked(host), 20);
+  // A ray may graze a body by rounding alone.
+  const Differences deflection(host, device, 1e-12, deflectionOf);
+  EXPECT_LT(deflection.share, 0.005);
+}
+
+TEST_F(HostAndDeviceRays, AreTrappedAtTheSameStep)
+{
+  const Bundle<float> bundle(
+    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
+  RayTask<float> task = bundle.task();
+  task.stepLimit = 7;
+  const TracedPass host = bundle.onHost(task);
+  const TracedPass device = bundle.onDevice(task);
+  int trapped = 0;
+  for (std::size_t ray = 0; ray < host.exits.size(); ++ray)
+  {
+    EXPECT_EQ(host.exits[ray].fate, device.exits[ray].fate);
+    EXPECT_EQ(host.exits[ray].steps, device.exits[ray].steps);
+    trapped += device.exits[ray].fate == RayFate::Trapped ? 1 : 0;
+  }
+  EXPECT_GT(trapped, 100);
+}
+
+TEST_F(HostAndDeviceRays, GatherTheSame)
+{
+  const Bundle<float> bundle(
+    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
+  const RayTask<float> task = bundle.task(2);
+  const TracedPass host = bundle.onHost(task);
+  const TracedPass device = bundle.onDevice(task);
+  ASSERT_EQ(host.gathered.size(), device.gathered.size());
+  const float largest = *std::max_element(host.gathered.begin(), host.gathered.end());
+  EXPECT_GT(largest, 0);
+  for (std::size_t n = 0; n < host.gathered.size(); ++n)
+  {
+    EXPECT_NEAR(host.gathered[n], device.gathered[n], 2e-5 * largest);
+  }
+}
+
+void expectSameBits(const std::vector<RayExit>& a, const std::vector<RayExit>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(RayExit)), 0);
+}
+
+/// A pass of several launches, whose rays stay there or come back while the next launch runs.
+TEST_F(HostAndDeviceRays, AreTheSameWhetherTheyComeBackOrNot)
+{
+  const Bundle<float> bundle({ PathModel::Straight, Integrator::Leapfrog, Interpolation::Linear });
+  const RayTask<float> task = bundle.task();
+  Pass large = pass;
+  large.columns = 2051;
+  large.rows = 1201;
+  CudaTracer<float> tracer(*bundle.medium);
+  using Exits = CudaTracer<float>::Exits;
+  std::vector<double> progress;
+  TracedPass back, there;
+  EXPECT_TRUE(tracer.trace(task, large, { 1, 1 }, Exits::OnHost, back,
+    { [&](double fraction) { progress.push_back(fraction); }, {} }));
+  EXPECT_GT(progress.size(), 1u);
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  EXPECT_EQ(progress.back(), 1);
+  EXPECT_FALSE(back.onDevice);
+
+  EXPECT_FALSE(
+    tracer.trace(task, large, { 1, 1 }, Exits::OnDevice, there, { {}, [] { return true; } }));
+  EXPECT_TRUE(tracer.trace(task, large, { 1, 1 }, Exits::OnDevice, there, {}));
+  ASSERT_TRUE(there.onDevice);
+  EXPECT_TRUE(there.exits.empty());
+  EXPECT_EQ(there.crossed, back.crossed);
+  EXPECT_GT(there.crossed, 0);
+  expectSameBits(back.exits, there.onDevice->toHost());
+}
+
+TEST_F(HostAndDeviceRays, FindNewMapsAndGradientsOnTheDevice)
+{
+  const KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
+  Bundle<float> bundle(kernel, 1e-7);
+  CudaTracer<float> tracer(*bundle.medium);
+  using Exits = CudaTracer<float>::Exits;
+  TracedPass first, second;
+  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 1, 1e-7 }, Exits::OnHost, first, {}));
+  bundle.map->setTolerance(1e-5f, 1);
+  for (float& value : bundle.gradients)
+  {
+    value *= 2;
+  }
+  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 2, 1e-5 }, Exits::OnHost, second, {}));
+  const TracedPass fresh = bundle.onDevice(bundle.task(2));
+  expectSameBits(second.exits, fresh.exits);
+  EXPECT_EQ(second.gathered, fresh.gathered);
+  EXPECT_NE(second.gathered, first.gathered);
+}
+
+TEST_F(HostAndDeviceRays, TooMuchForTheDeviceIsToldWithNumbers)
+{
+  constexpr std::size_t farTooMany = std::size_t{ 1 } << 42;
+  try
+  {
+    const CudaPass impossible(farTooMany);
+    FAIL() << "no device has 192 TB";
+  }
+  catch (const DeviceError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("201326592 MB more are needed"), std::string::npos)
+      << error.what();
+  }
+  EXPECT_EQ(CudaPass(1000).size(), 1000u); // and the next one is served
+}
+
+Image render(Bench& bench, const Field& field, const Scene& scene)
+{
+  Image image = bench.render(field, scene);
+  EXPECT_EQ(image.device, Device::Cuda);
+  return image;
+}
+
+void expectSamePicture(const Image& a, const Image& b)
+{
+  EXPECT_EQ(a.intensity, b.intensity);
+  EXPECT_EQ(a.color, b.color);
+  EXPECT_EQ(a.deflection, b.deflection);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.opticalPathDifference, b.opticalPathDifference);
+  EXPECT_EQ(a.blockedFraction, b.blockedFraction);
+  EXPECT_EQ(a.kScale, b.kScale);
+  EXPECT_EQ(a.raysTraced, b.raysTraced);
+  EXPECT_EQ(a.stepsTaken, b.stepsTaken);
+}
+
+/// Held rays, whether on the device or (where something tints) on the host.
+TEST_F(HostAndDeviceRays, ServeForTheNextPicture)
+{
+  const Bundle<float> bundle(
+    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
+  Field field = bundle.field.field;
+  Scene scene;
+  scene.device = Device::Cuda;
+  scene.pathModel = PathModel::Refracted;
+  scene.view.width = 40;
+  scene.view.height = 30;
+  scene.samplesPerPixel = 3;
+  Bench bench;
+  render(bench, field, scene);
+  const std::int64_t rays = bench.work().raysTraced;
+
+  scene.knifeEdgeAngle = 90;
+  Bench fresh;
+  expectSamePicture(render(bench, field, scene), render(fresh, field, scene));
+  EXPECT_EQ(bench.work().raysTraced, rays);
+  scene.cutoff = Cutoff::Shadowgraph;
+  Bench freshShadow;
+  expectSamePicture(render(bench, field, scene), render(freshShadow, field, scene));
+  EXPECT_EQ(bench.work().raysTraced, rays);
+  EXPECT_EQ(freshShadow.work().raysTraced, rays);
+
+  field.gradients = { 2, bundle.gradients.data(), 1 };
+  scene.fieldColors = { { 1, 0, 0 }, { 0, 0, 1 } };
+  Bench freshTint;
+  expectSamePicture(render(bench, field, scene), render(freshTint, field, scene));
+
+  field.gradients = FieldGradients{};
+  scene.fieldColors.clear();
+  scene.samplesPerPixel = 4; // of which three are held, on the host
+  Bench freshMore;
+  expectSamePicture(render(bench, field, scene), render(freshMore, field, scene));
+}
+
+} // namespace
+
+} // namespace schlieren
