@@ -126,6 +126,39 @@ TEST_P(Integrators, QuadraticSplineLimitsTheOrder)
   EXPECT_LT(cubic, 0.1 * quadratic);
 }
 
+/// The local errors that are allowed, tolerance times steepest bend along all of the ray, add up to that
+/// times its length; no kick is magnified more than twice here. What is compared is a result of second
+/// order, what is used one of third: steps go by the tolerance's power 1/2, the error by 3/2 of it, at
+/// least by 1.
+TEST_P(Integrators, AdaptiveKeepsItsTolerance)
+{
+  Lens lensOnBench(GetParam());
+  const Image truth = lensOnBench.take(Integrator::Rk4, 0.25);
+  const double way = 2 * lensHalf.z;
+  std::vector<double> errors;
+  std::vector<double> steps;
+  for (const double tolerance : { 1e-2, 1e-3, 1e-4, 1e-5 })
+  {
+    SCOPED_TRACE(tolerance);
+    lensOnBench.scene.adaptiveTolerance = tolerance;
+    const Image image = lensOnBench.take(Integrator::Adaptive, 16);
+    const Worst worst = differences(image, truth);
+    EXPECT_LT(worst.deflection, 2 * tolerance * lensBend * way);
+    EXPECT_LT(worst.displacement, 2 * tolerance * lensBend * way * way);
+    EXPECT_LT(worst.opticalPathDifference, 2 * tolerance * lensBend * way * way);
+    errors.push_back(worst.displacement);
+    steps.push_back(static_cast<double>(image.stepsTaken));
+  }
+  for (std::size_t i = 1; i < errors.size(); ++i)
+  {
+    EXPECT_GT(steps[i], steps[i - 1]);
+  }
+  // Where the step is not held by its upper limit.
+  const double slope = std::log10(errors[1] / errors.back()) / 2;
+  EXPECT_GT(slope, 0.9);
+  EXPECT_LT(slope, 2);
+}
+
 /// |p| = n holds along exact rays, and nothing in the integration forces it.
 TEST_P(Integrators, MomentumDriftTellsTheError)
 {
@@ -327,7 +360,7 @@ std::vector<Way> allWays()
   for (const Device device : { Device::Cpu, Device::Cuda })
   {
     ways.push_back({ device, PathModel::Straight, Integrator::Leapfrog });
-    for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Euler })
+    for (const Integrator integrator : allIntegrators)
     {
       ways.push_back({ device, PathModel::Refracted, integrator });
     }

@@ -179,6 +179,77 @@ TEST_P(RayExtremes, RaysGrazeTheTurningPoint)
   }
 }
 
+/// Thin matter, in which n is far below 1, as in a plasma near its critical density: light goes through.
+TEST_P(RayExtremes, LightCrossesThinMatter)
+{
+  for (const double index : { 0.5, 0.2, 0.05, 0.01 })
+  {
+    SampledField<double> field(cube(17, 1), [&](double, double, double) { return index - 1; });
+    field.field.ambient = 0;
+    Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 3, 3, 0.1));
+    scene.precision = Precision::Double;
+    for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Euler })
+    {
+      SCOPED_TRACE(std::to_string(index) + " " + name(integrator));
+      scene.integrator = integrator;
+      const Image image = Bench().render(field.field, scene);
+      EXPECT_EQ(image.raysLost, 0);
+      // A last step is as good as done a thousandth of it before its end.
+      EXPECT_NEAR(image.opticalPathDifference[4] / (2 * (index - 1)), 1, 2e-4);
+    }
+  }
+}
+
+/// Where nothing bends there is no error to tell by how long a step may be.
+TEST_P(RayExtremes, AdaptiveCrossesWhatIsUniform)
+{
+  for (const double nu : { 0., 1e-3, 0.5, -0.5 })
+  {
+    for (const Precision precision : bothPrecisions)
+    {
+      for (const Interpolation interpolation : allInterpolations)
+      {
+        SCOPED_TRACE(std::to_string(nu) + " " + name(precision) + " " + name(interpolation));
+        SampledField<double> field(cube(17, 1), [&](double, double, double) { return nu; });
+        field.field.ambient = 0;
+        Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 3, 3, 0.1));
+        scene.integrator = Integrator::Adaptive;
+        scene.precision = precision;
+        scene.interpolation = interpolation;
+        const Image image = Bench().render(field.field, scene);
+        EXPECT_EQ(image.raysLost, 0);
+        EXPECT_NEAR(image.opticalPathDifference[4], 2 * nu, 1e-6);
+      }
+    }
+  }
+}
+
+/// The tolerance is relative to what the medium bends, however little that is.
+TEST_P(RayExtremes, AdaptiveTracesTheFaintest)
+{
+  for (const Precision precision : bothPrecisions)
+  {
+    std::vector<double> shares;
+    for (const double peak : { 1e-3, 1e-6, 1e-9, 1e-14, 1e-18 })
+    {
+      SCOPED_TRACE(std::string(name(precision)) + " " + std::to_string(std::log10(peak)));
+      SampledField<double> field(cube(25, 1),
+        [&](double x, double y, double z)
+        { return peak * std::exp(-4 * (x * x + y * y + z * z)); });
+      field.field.ambient = 0;
+      Scene scene = sceneOf(raysAround({ 0.3, 0.1, 0 }, 1, 1, 0.1));
+      scene.integrator = Integrator::Adaptive;
+      scene.precision = precision;
+      const Image image = Bench().render(field.field, scene);
+      EXPECT_EQ(image.raysLost, 0);
+      shares.push_back(image.deflection[0] / peak);
+      // The ball's line integral, with a tenth of the gradient's error and of what the box cuts off.
+      EXPECT_NEAR(shares.back() / (-std::sqrt(pi) * 4 * 0.3 * std::exp(-4 * 0.1)), 1, 0.02);
+      EXPECT_NEAR(shares.back() / shares.front(), 1, 2e-3);
+    }
+  }
+}
+
 /// Light that is guided in zigzags of ever steeper angle, up to going nowhere at all: what takes too long
 /// is given up and counted, after a number of steps that is bounded.
 void RayExtremes::expectTrapped(Integrator integrator) const
@@ -216,6 +287,8 @@ TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime)
     expectTrapped(integrator);
   }
 }
+
+TEST_P(RayExtremes, AdaptiveCountsTrappedRaysInBoundedTime) { expectTrapped(Integrator::Adaptive); }
 
 /// Total reflection inside glass. One voxel takes n from 1.5 to 1, in z. What runs along the step is kept,
 /// so that light is reflected exactly, or refracted by Snell's law.
