@@ -298,11 +298,11 @@ struct March
   SCHLIEREN_HD Ray<Real> attempt(const Real& step, Real& error) const
   {
     const auto trial = Adaptive::attempt<Path>(ray, task.straight, step, Sampler{ *this });
-    const Number byBend = 1 / (task.allowedBend * task.allowedBend);
-    const Number byOffset = 1 / (task.allowedOffset * task.allowedOffset);
-    error = greater(byBend * dot(trial.qError, trial.qError),
-      byOffset * dot(trial.offsetError, trial.offsetError));
-    error = step > 0 ? error / (step * step) : error;
+    // Scaled first: in a faint medium the square of what is allowed is no float.
+    const auto squared = [](const Vec3<Real>& a) { return dot(a, a); };
+    const Real perStep = step > 0 ? 1 / step : Real{};
+    error = greater(squared(perStep * ((1 / task.allowedBend) * trial.qError)),
+      squared(perStep * ((1 / task.allowedOffset) * trial.offsetError)));
     return trial.ray;
   }
 

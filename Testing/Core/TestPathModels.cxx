@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of sight and bent rays: where they agree, where they cannot, and how Auto tells.
+#include "ClosedForms.h"
+
+#include <random>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// A sum of waves with random phases, none shorter than a third of the cube (-1, 1)^3.
+std::function<double(double, double, double)> smoothNoise(unsigned seed, double peak)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  struct Wave
+  {
+    Point k;
+    double phase, height;
+  };
+  std::vector<Wave> waves(12);
+  for (Wave& wave : waves)
+  {
+    wave = { { 9 * any(random), 9 * any(random), 9 * any(random) }, 4 * any(random),
+      peak / 12 * any(random) };
+  }
+  return [waves](double x, double y, double z)
+  {
+    double sum = 0;
+    for (const Wave& wave : waves)
+    {
+      sum += wave.height * std::sin(dot(wave.k, Point{ x, y, z }) + wave.phase);
+    }
+    return sum;
+  };
+}
+
+class PathModels : public OnDevice
+{
+protected:
+  Scene sceneOf(PathModel model, const View& view) const
+  {
+    Scene scene;
+    scene.device = GetParam();
+    scene.samplesPerPixel = 1;
+    scene.pathModel = model;
+    scene.view = view;
+    return scene;
+  }
+};
+
+/// eps = L grad n / n, OPD = (N - N_ref) L; sideways by half of eps L.
+TEST_P(PathModels, UniformGradientBendsByItsLength)
+{
+  const double gradient = 1e-7, ambient = 2.7e-4;
+  SampledField<double> field(boxGrid(1. / 16, { 1, 1, 2 }),
+    [&](double x, double y, double) { return ambient + 1e-7 + gradient * (x - 0.5 * y); });
+  field.field.ambient = ambient;
+  for (const PathModel model : { PathModel::Straight, PathModel::Refracted })
+  {
+    for (const Precision precision : bothPrecisions)
+    {
+      SCOPED_TRACE(std::string(name(model)) + " " + name(precision));
+      Scene scene = sceneOf(model, raysAround({ 0.01, 0.02, 0 }, 9, 9, 0.2));
+      scene.precision = precision;
+      const Image image = Bench().render(field.field, scene);
+      EXPECT_EQ(image.pathModel, model);
+      Worst errors, size;
+      for (int row = 0; row < 9; ++row)
+      {
+        for (int i = 0; i < 9; ++i)
+        {
+          const PixelCentre at = centreOf(image, i, row);
+          const double bend = 4 * gradient / (1 + ambient);
+          const Reading exact{ { bend, -0.5 * bend }, { 2 * bend, -1 * bend },
+            4 * (1e-7 + gradient * (at.u - 0.5 * at.v)) };
+          errors.include(readingOf(image, pixelOf(image, i, row)), exact);
+          size.include(exact);
+        }
+      }
+      // In single precision a sample's rounding, 2^-24, beside its neighbours' difference of 1/32.
+      const double tolerance = precision == Precision::Single ? 1e-5 : 1e-6;
+      EXPECT_LT(errors.deflection, tolerance * size.deflection);
+      EXPECT_LT(errors.displacement, tolerance * size.displacement);
+      EXPECT_LT(errors.opticalPathDifference, tolerance * size.opticalPathDifference);
+    }
+  }
+}
+
+/// N = A (1 - r^2) within r = 1 around z, seen along y: OPD = 4/3 A (1 - b^2)^(3/2) and, its derivative,
+/// eps = -4 A b (1 - b^2)^(1/2). At r = 1 the gradient jumps by J = 2 A. The trapezoidal rule, which a
+/// spline's integral is, is wrong there by up to J h^2 / 8 over the cosine c = (1 - b^2)^(1/2) in the OPD,
+/// at two places seen from two axes, and by its derivative, J h / 2 b / c^2, in eps. A linear
+/// interpolation's chords are wrong by 2 A h^2 / 8 of the OPD and A h of eps along all of the way, 2 c.
+TEST_P(PathModels, AbelPair)
+{
+  const double peak = 1e-6;
+  for (const std::int64_t points : { 49, 97 })
+  {
+    SampledField<double> field(cube(points, 1.25),
+      [&](double x, double y, double) { return peak * std::max(0., 1 - x * x - y * y); });
+    field.field.ambient = 0;
+    const double h = field.field.grid.spacing[0];
+    for (const PathModel model : { PathModel::Straight, PathModel::Refracted })
+    {
+      for (const Interpolation interpolation : allInterpolations)
+      {
+        SCOPED_TRACE(std::string(name(model)) + " " + name(interpolation));
+        Scene scene = sceneOf(model, raysAround({ 0.003, 0, 0.01 }, 73, 1, 0.025));
+        scene.view.viewDirection = { 0, -1, 0 };
+        scene.view.viewUp = { 0, 0, 1 };
+        scene.interpolation = interpolation;
+        scene.precision = Precision::Double;
+        const Image image = Bench().render(field.field, scene);
+        double path = 0, deflection = 0; // the largest, of what is allowed
+        for (int i = 0; i < image.width; ++i)
+        {
+          const double b = centreOf(image, i, 0).u;
+          const double c = std::sqrt(1 - b * b);
+          const Reading ray = readingOf(image, static_cast<std::size_t>(i));
+          const double pathError = ray.opticalPathDifference - 4. / 3 * peak * c * c * c;
+          const double deflectionError = ray.deflection[0] + 4 * peak * b * c;
+          const bool chords = interpolation == Interpolation::Linear;
+          const bool inside = chords || interpolation == Interpolation::Central;
+          const double allowedPath =
+            peak * h * h * (4 * 2. / 8 / c + (inside ? 2. / 8 * 2 * c : 0));
+          const double allowedDeflection =
+            peak * h * (4 * std::abs(b) / (c * c) + (chords ? 2 * c : 0));
+          path = std::max(path, std::abs(pathError) / allowedPath);
+          deflection =
+            std::max(deflection, std::abs(deflectionError) / (allowedDeflection + 1e-6 * peak));
+        }
+        EXPECT_LT(path, 1);
+        EXPECT_LT(deflection, 1);
+      }
+    }
+  }
+}
+
+/// What a line of sight leaves out is of second order: by the share (bend times depth^2) / (size of what
+/// bends), here about 7 A.
+TEST_P(PathModels, StraightDiffersAtSecondOrder)
+{
+  const Point box{ 1, 1, 1 };
+  const double peaks[] = { 1e-6, 1e-4, 1e-2 };
+  for (const double peak : peaks)
+  {
+    SCOPED_TRACE(peak);
+    const auto noise = smoothNoise(3, peak);
+    SampledField<double> field(boxGrid(1. / 24, box), noise);
+    field.field.ambient = 0;
+    Bench bench;
+    Scene scene = sceneOf(PathModel::Refracted, raysAround({ 0.01, 0.02, 0 }, 15, 15, 0.12));
+    scene.precision = Precision::Double;
+    const Image bent = bench.render(field.field, scene);
+    scene.pathModel = PathModel::Straight;
+    const Image straight = bench.render(field.field, scene);
+    EXPECT_EQ(straight.raysLost, 0);
+    Worst size;
+    for (std::size_t pixel = 0; pixel < 15 * 15; ++pixel)
+    {
+      size.include(readingOf(bent, pixel));
+    }
+    const Worst difference = differences(bent, straight);
+    EXPECT_LT(difference.deflection, (20 * peak + 2e-7) * size.deflection);
+    EXPECT_LT(difference.displacement, (20 * peak + 2e-7) * size.displacement);
+    EXPECT_LT(difference.opticalPathDifference, (20 * peak + 2e-7) * size.opticalPathDifference);
+    if (peak > 1e-5)
+    {
+      EXPECT_GT(difference.deflection, 0.1 * peak * size.deflection);
+    }
+  }
+}
+
+/// In a rod a ray is bent back and forth; a line of sight knows nothing of it.
+TEST_P(PathModels, StraightIsNoModelOfLenses)
+{
+  const ClosedForm rod = oscillator(1.5, { 1.5, 1.5, 0 });
+  const Grid grid = boxGrid(1. / 32, { 0.5, 0.5, 1 });
+  SampledField<double> field = sampled(grid, rod);
+  field.field.ambient = 0;
+  Scene scene = sceneOf(PathModel::Refracted, raysAround({ 0, 0, 0 }, 9, 1, 0.09));
+  const Worst bent = errorsOf(rod, grid, Bench().render(field.field, scene));
+  scene.pathModel = PathModel::Straight;
+  const Image image = Bench().render(field.field, scene);
+  const Worst straight = errorsOf(rod, grid, image);
+  EXPECT_LT(bent.deflection, 1e-3);
+  EXPECT_GT(straight.deflection, 0.1);
+  scene.pathModel = PathModel::Auto;
+  scene.pathTolerance = 1;
+  EXPECT_EQ(Bench().render(field.field, scene).pathModel, PathModel::Refracted);
+}
+
+TEST_P(PathModels, NoRayIsDisplacedBeyondTheBound)
+{
+  for (const unsigned seed : { 1u, 2u, 3u, 4u })
+  {
+    for (const double peak : { 1e-7, 1e-4, 0.02 })
+    {
+      for (const Interpolation interpolation : allInterpolations)
+      {
+        SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(peak) + " " + name(interpolation));
+        SampledField<double> field(cube(17, 1), smoothNoise(seed, peak));
+        field.field.ambient = 0;
+        View view;
+        view.width = view.height = 40;
+        view.viewDirection = { 0.2, -0.5 * seed, -0.9 };
+        for (const PathModel model : { PathModel::Straight, PathModel::Refracted })
+        {
+          Scene scene = sceneOf(model, view);
+          scene.interpolation = interpolation;
+          const Image image = Bench().render(field.field, scene);
+          double furthest = 0;
+          for (std::size_t pixel = 0; pixel < 40 * 40; ++pixel)
+          {
+            const Reading ray = readingOf(image, pixel);
+            furthest = std::max(furthest, std::hypot(ray.displacement[0], ray.displacement[1]));
+          }
+          EXPECT_GT(furthest, 0);
+          EXPECT_LE(furthest, image.displacementBound * (1 + 1e-6));
+        }
+      }
+    }
+  }
+}
+
+/// Auto takes lines of sight exactly where no ray can be displaced by more than is allowed, and then none is
+/// further than that from the bent one.
+TEST_P(PathModels, AutoKeepsItsTolerance)
+{
+  int straightOnes = 0, bentOnes = 0;
+  const auto check = [&](const Field& field, const View& view)
+  {
+    Bench bench;
+    Scene scene = sceneOf(PathModel::Refracted, view);
+    scene.precision = Precision::Double;
+    const Image bent = bench.render(field, scene);
+    scene.pathModel = PathModel::Auto;
+    const double pixels = bent.displacementBound / bent.frame.pixelSize;
+    for (const double tolerance : { 0.01, 1., 0.999 * pixels, 1.001 * pixels })
+    {
+      SCOPED_TRACE(std::to_string(tolerance) + " pixels, bound " + std::to_string(pixels));
+      if (!std::isfinite(tolerance))
+      {
+        continue;
+      }
+      scene.pathTolerance = tolerance;
+      const Image image = bench.render(field, scene);
+      EXPECT_EQ(image.displacementBound, bent.displacementBound);
+      EXPECT_EQ(image.pathModel, pixels <= tolerance ? PathModel::Straight : PathModel::Refracted);
+      const double moved = differences(image, bent).displacement;
+      if (image.pathModel == PathModel::Straight)
+      {
+        ++straightOnes;
+        EXPECT_LE(moved, tolerance * image.frame.pixelSize);
+      }
+      else
+      {
+        ++bentOnes;
+        EXPECT_EQ(moved, 0);
+      }
+    }
+  };
+  View view;
+  view.width = view.height = 32;
+  for (const unsigned seed : { 1u, 2u, 3u })
+  {
+    view.viewDirection = { 0.3 * seed, 0.2, -1 };
+    for (const double peak : { 1e-8, 1e-5, 1e-3, 0.3 })
+    {
+      SCOPED_TRACE("noise " + std::to_string(seed) + " " + std::to_string(peak));
+      SampledField<double> field(cube(24, 1), smoothNoise(seed, peak));
+      field.field.ambient = 0;
+      check(field.field, view);
+    }
+  }
+  for (const double peak : { 1e-6, 1e-4, 1e-2 })
+  {
+    SCOPED_TRACE("step " + std::to_string(peak));
+    SampledField<double> field(
+      cube(24, 1), [&](double x, double y, double) { return x + y > 0.1 ? peak : 0; });
+    field.field.ambient = 0;
+    check(field.field, view);
+  }
+  EXPECT_GT(straightOnes, 15);
+  EXPECT_GT(bentOnes, 15);
+}
+
+INSTANTIATE_TEST_SUITE_P(, PathModels, bothDevices(), deviceName);
+
+} // namespace
+
+} // namespace schlieren

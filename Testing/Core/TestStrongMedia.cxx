@@ -1,0 +1,424 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Lenses and prisms in which every ray is known: the closed forms against an integration of their own,
+// then the tracer against the closed forms.
+#include "ClosedForms.h"
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// A medium and the box that it is looked at in.
+struct Case
+{
+  const char* name;
+  ClosedForm form;
+  Point half;  ///< of the box
+  Point reach; ///< of the rays: u, v
+  double bend; ///< largest |grad n^2| / 2 in the box
+};
+
+const double rodIndex = 1.5;
+
+std::vector<Case> strongMedia()
+{
+  return {
+    // A prism of n = 1.02 ... 1.72.
+    { "linear", linearMedium(1, { 0.8, -0.5, 0.6 }), { 0.5, 0.5, 0.5 }, { 0.45, 0.45, 0 }, 0.56 },
+    // Three pitches of a rod.
+    { "rod", oscillator(rodIndex, { rodIndex, rodIndex, 0 }), { 0.4, 0.4, 3 * pi },
+      { 0.35, 0.35, 0 }, 1.3 },
+    { "Luneburg", oscillator(std::sqrt(2), { 1, 1, 1 }), { 0.5, 0.5, 0.8 }, { 0.45, 0.45, 0 },
+      1.1 },
+    { "fish-eye", fishEye(1.5), { 0.6, 0.6, 0.5 }, { 0.5, 0.5, 0 }, 1.2 },
+  };
+}
+
+Scene raysThrough(const Case& medium, Device device)
+{
+  Scene scene;
+  scene.device = device;
+  scene.samplesPerPixel = 1;
+  scene.pathModel = PathModel::Refracted;
+  scene.view = raysAround({ 0.01, -0.02, 0 }, 9, 9, 2 * medium.reach.x / 9);
+  return scene;
+}
+
+/// Largest derivative along an axis, of the third or fourth order, of n^2 / 2 with the first of its factors
+/// n held: that is how the tracer takes it. By differences, at some places of the box.
+double largestDerivative(const Case& medium, int order)
+{
+  constexpr double d = 0.01;
+  const double places[] = { -0.98, -0.8, -0.5, 0, 0.3, 0.6, 0.98 };
+  double most = 0;
+  for (const double x : places)
+  {
+    for (const double y : places)
+    {
+      for (const double z : places)
+      {
+        for (const Point& axis : { Point{ 1, 0, 0 }, Point{ 0, 1, 0 }, Point{ 0, 0, 1 } })
+        {
+          const auto n = [&](double i) {
+            return 1 +
+              medium.form.refractivity(scaled(Point{ x, y, z }, medium.half) + (i * d) * axis);
+          };
+          const double difference = order == 3 ? n(1.5) - 3 * n(0.5) + 3 * n(-0.5) - n(-1.5)
+                                               : n(2) - 4 * n(1) + 6 * n(0) - 4 * n(-1) + n(-2);
+          most = std::max(most, n(0) * std::abs(difference));
+        }
+      }
+    }
+  }
+  return most / std::pow(d, order);
+}
+
+TEST(ClosedForms, ObeyTheRayEquation)
+{
+  for (const Case& medium : strongMedia())
+  {
+    SCOPED_TRACE(medium.name);
+    const Box box{ -1.0 * medium.half, medium.half };
+    for (const Point& direction : { Point{ 0, 0, 1 }, Point{ 0.48, -0.36, 0.8 } })
+    {
+      for (const Point& entry : { Point{ 0.31, 0.2, -1 }, Point{ -0.2, 0.3, -1 } })
+      {
+        const Point x{ entry.x, entry.y, -medium.half.z };
+        const RayState start{ x, std::sqrt(1 + medium.form.excess(x)) * direction, 0 };
+        const RayState exact = leaving(medium.form, start, box);
+        const RayState numerical = integrated(medium.form, start, box);
+        EXPECT_LT(length(exact.position - numerical.position), 1e-9);
+        EXPECT_LT(length(exact.momentum - numerical.momentum), 1e-9);
+        EXPECT_LT(std::abs(exact.path - numerical.path), 1e-9);
+        EXPECT_NEAR(
+          dot(exact.momentum, exact.momentum), 1 + medium.form.excess(exact.position), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(ClosedForms, LensesImageAsTheyShould)
+{
+  // Parallel light enters Luneburg's lens on its sphere, and meets at (0, 0, 1) in phase.
+  const ClosedForm lens = oscillator(std::sqrt(2), { 1, 1, 1 });
+  for (const double x : { 0.1, 0.5, 0.99 })
+  {
+    const double z = -std::sqrt(1 - x * x);
+    const RayState end = lens.after({ { x, 0, z }, { 0, 0, 1 }, z + 1 }, pi / 2);
+    EXPECT_LT(length(end.position - Point{ 0, 0, 1 }), 1e-15);
+    EXPECT_NEAR(end.path, 1 + pi / 2, 1e-14);
+  }
+  // The fish-eye images r on -r / |r|^2.
+  const Point r{ 0.3, -0.2, 0.5 };
+  const ClosedForm eye = fishEye(1.5);
+  const RayState image = eye.after({ r, { 0.4, 0.6, 0.7 }, 0 }, pi);
+  EXPECT_LT(length(image.position + (1 / dot(r, r)) * r), 1e-14);
+  EXPECT_NEAR(image.path, 1.5 * pi / 2, 1e-14);
+  // After a pitch, 2 pi p_z / (n0 g), the ray is back at its start.
+  const ClosedForm rod = oscillator(rodIndex, { rodIndex, rodIndex, 0 });
+  const RayState start{ { 0.3, 0.2, 0 }, { 0.1, 0, 1.2 }, 0 };
+  const RayState back = rod.after(start, 2 * pi / rodIndex);
+  EXPECT_LT(length(back.position - Point{ 0.3, 0.2, 2 * pi * 1.2 / rodIndex }), 1e-14);
+}
+
+/// The leapfrog's own error. In an oscillator dx/dtau = p, dp/dtau = -k^2 x it is exactly solvable: one
+/// step of h turns phase space by the angle arccos(1 - k^2 h^2 / 2) = k h (1 + k^2 h^2 / 24 + ...), on
+/// the ellipse p = -k x sqrt(1 - k^2 h^2 / 4)^-1... So after tau the phase is off by k^3 h^2 tau / 24 and
+/// the amplitude of p by a share of k^2 h^2 / 8.
+TEST(ClosedForms, LeapfrogErrorIsAsDerived)
+{
+  const double k = rodIndex;
+  const ClosedForm rod = oscillator(k, { k, 0, 0 });
+  const Box box{ { -1, -1, -1 }, { 1, 1, 3 } };
+  const double x0 = 0.5;
+  const RayState start{ { x0, 0, -1 }, { 0, 0, k * std::sqrt(1 - x0 * x0) }, 0 };
+  const RayState exact = leaving(rod, start, box);
+  const double tau = 4 / start.momentum.z;
+  for (const double h : { 0.05, 0.02 })
+  {
+    const RayState found = leapfrogged(rod, start, box, h);
+    const double phase = k * k * k * h * h * tau / 24;
+    EXPECT_NEAR(
+      found.position.x - exact.position.x, -x0 * std::sin(k * tau) * phase, 0.15 * x0 * phase);
+    EXPECT_NEAR(found.momentum.x - exact.momentum.x,
+      -k * x0 * (std::cos(k * tau) * phase + std::sin(k * tau) * k * k * h * h / 8),
+      0.15 * k * x0 * phase);
+  }
+}
+
+class StrongMedia : public OnDevice
+{
+};
+
+/// The fourth-order integrator on the fourth-order interpolation, in double precision.
+TEST_P(StrongMedia, Rk4OnACubicSplineIsExactToAMillionth)
+{
+  for (const Case& medium : strongMedia())
+  {
+    SCOPED_TRACE(medium.name);
+    const double spacing = 1. / 80;
+    const Grid grid = boxGrid(spacing, medium.half);
+    SampledField<double> field = sampled(grid, medium.form);
+    field.field.ambient = 0;
+    Scene scene = raysThrough(medium, GetParam());
+    scene.integrator = Integrator::Rk4;
+    scene.interpolation = Interpolation::Cubic;
+    scene.precision = Precision::Double;
+    const Image image = Bench().render(field.field, scene);
+    const Worst errors = errorsOf(medium.form, grid, image);
+    EXPECT_LT(errors.deflection, 1e-6);
+    EXPECT_LT(errors.displacement, 1e-6);
+    EXPECT_LT(errors.opticalPathDifference, 1e-6);
+    EXPECT_EQ(image.raysLost, 0);
+  }
+}
+
+/// The default integrator in single precision at one step per voxel. The error is at most the sum of
+/// - the method's own, which a leapfrog in the medium itself shows (derived above for oscillators);
+/// - where it leaves: the last step ends where its tangent meets the face, up to F s^2 / 2 off for a step
+///   s and a bend F = |grad n^2| / 2, in which n turns on by F and the path is n^2 - p.w longer;
+/// - the spline's gradient, wrong by up to h^2 / 12 times the third derivative along each axis (quadratic)
+///   or 0.008 h^3 times the fourth (cubic: the largest of the Bernoulli polynomial B3 / 6), all along the
+///   ray. A kick moves the ray by its size at most: these media are an oscillator of a rate above 1, or no
+///   deeper than 1;
+/// - rounding, one of the gradient in each step, of which 4e-6 is generous.
+TEST_P(StrongMedia, LeapfrogInSinglePrecisionIsAsExactAsDerived)
+{
+  for (const Case& medium : strongMedia())
+  {
+    const double h = 1. / 40;
+    const Grid grid = boxGrid(h, medium.half);
+    const Box box = boxOf(grid);
+    SampledField<float> field = sampled<float>(grid, medium.form);
+    field.field.ambient = 0;
+    for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
+    {
+      SCOPED_TRACE(std::string(medium.name) + " " + name(interpolation));
+      Scene scene = raysThrough(medium, GetParam());
+      scene.interpolation = interpolation;
+      const Image image = Bench().render(field.field, scene);
+
+      Worst method, errors;
+      double tau = 0, densest = 0, forward = 1;
+      forRays(medium.form, grid, image,
+        [&](std::size_t pixel, const RayState& start, const RayState& end)
+        {
+          const Reading exact = readingOf(start, end, image.frame);
+          method.include(
+            readingOf(start, leapfrogged(medium.form, start, box, h), image.frame), exact);
+          errors.include(readingOf(image, pixel), exact);
+          forward = std::min({ forward, start.momentum.z, end.momentum.z });
+          tau = std::max(tau, 2 * medium.half.z / std::min(start.momentum.z, end.momentum.z));
+          densest = std::max(densest, 1 + medium.form.excess(end.position));
+        });
+      const double ofGrid = tau *
+        (interpolation == Interpolation::Cubic
+            ? 0.008 * std::pow(h, 3) * largestDerivative(medium, 4)
+            : h * h / 12 * largestDerivative(medium, 3));
+      const double atExit = medium.bend * h * h / 2 / forward;
+      const double rounding = 4e-6;
+      const double kicks = ofGrid + rounding;
+      EXPECT_LT(errors.deflection, method.deflection + medium.bend * atExit + kicks);
+      EXPECT_LT(errors.displacement, method.displacement + kicks);
+      EXPECT_LT(
+        errors.opticalPathDifference, method.opticalPathDifference + densest * (atExit + kicks));
+    }
+  }
+}
+
+/// Luneburg's lens in vacuum, from two sides: all light meets on its far side, in phase, R (1 + pi / 2)
+/// from the plane that touches its near side. The gradient jumps by J = 1 at its surface. A line of sight
+/// that crosses this kink at an angle a to the normal, at t cells past a grid point, is wrong by
+/// J h^2 (t (1 - t) / 2 - 1/12) / cos a in its path, the trapezoidal rule's error, and by its derivative,
+/// at most J h / 2 tan a / cos a, in its deflection. It crosses it twice, seen from two of the grid's
+/// axes; with tan a <= 0.75 here the spot is smaller than h. Around it the phase is even to h^2 / 2.
+TEST_P(StrongMedia, LuneburgsLensHasAFocus)
+{
+  for (const double spacing : { 1. / 32, 1. / 64 })
+  {
+    SCOPED_TRACE(spacing);
+    const Grid grid = boxGrid(spacing, { 1.125, 1.125, 1.125 });
+    SampledField<double> field(grid,
+      [](double x, double y, double z)
+      { return std::sqrt(2 - std::min(1., x * x + y * y + z * z)) - 1; });
+    field.field.ambient = 0;
+    Scene scene;
+    scene.device = GetParam();
+    scene.samplesPerPixel = 1;
+    scene.stepSize = 0.25;
+    scene.view = raysAround({ 0, 0, 0 }, 17, 17, 0.05);
+    for (const Vector& viewDirection : { Vector{ 0, 0, -1 }, Vector{ -0.6, 0.3, -0.5 } })
+    {
+      scene.view.viewDirection = viewDirection;
+      const Image image = Bench().render(field.field, scene);
+      double spot = 0, phase = 0;
+      for (int row = 0; row < image.height; ++row)
+      {
+        for (int column = 0; column < image.width; ++column)
+        {
+          const PixelCentre at = centreOf(image, column, row);
+          if (std::hypot(at.u, at.v) > 0.6)
+          {
+            continue;
+          }
+          const Reading ray = readingOf(image, pixelOf(image, column, row));
+          const double forward = std::sqrt(
+            1 - ray.deflection[0] * ray.deflection[0] - ray.deflection[1] * ray.deflection[1]);
+          // From the exit plane back to the lens' far side, in vacuum.
+          const double back = (image.frame.exit - 1) / forward;
+          spot = std::max(spot,
+            std::hypot(at.u + ray.displacement[0] - back * ray.deflection[0],
+              at.v + ray.displacement[1] - back * ray.deflection[1]));
+          if (viewDirection[0] == 0) // light leaves through the exit plane
+          {
+            const double fromFocus = std::hypot(
+              at.u + ray.displacement[0], at.v + ray.displacement[1], image.frame.exit - 1);
+            phase = std::max(
+              phase, std::abs(ray.opticalPathDifference + image.frame.exit - pi / 2 - fromFocus));
+          }
+        }
+      }
+      EXPECT_LT(spot, spacing);
+      EXPECT_LT(phase, spacing * spacing / 2);
+    }
+  }
+}
+
+/// What comes out, sent back along the same line, arrives where it started, going the other way.
+TEST_P(StrongMedia, RaysAreReversible)
+{
+  for (const Case& medium : strongMedia())
+  {
+    SCOPED_TRACE(medium.name);
+    SampledField<double> field = sampled(boxGrid(1. / 40, medium.half), medium.form);
+    field.field.ambient = 0;
+    Bench bench;
+    Scene scene = raysThrough(medium, GetParam());
+    scene.precision = Precision::Double;
+    scene.integrator = Integrator::Rk4;
+    scene.interpolation = Interpolation::Cubic;
+    scene.stepSize = 0.5;
+    // Into the box's face and out of its opposite face.
+    const double u = 0.21, v = 0.13;
+    const double nearFace = boxOf(field.field.grid).low.z;
+    scene.view = raysAround({ u, v, 0 }, 1, 1, 1e-6);
+    const Image there = bench.render(field.field, scene);
+    const Reading out = readingOf(there, 0);
+    const Vector end{ u + out.displacement[0], v + out.displacement[1], -nearFace };
+    ASSERT_LT(std::abs(end[0]), medium.half.x);
+    ASSERT_LT(std::abs(end[1]), medium.half.y);
+
+    const auto forward = [](const Reading& ray)
+    {
+      return std::sqrt(
+        1 - ray.deflection[0] * ray.deflection[0] - ray.deflection[1] * ray.deflection[1]);
+    };
+    scene.view.viewDirection = { out.deflection[0], out.deflection[1], forward(out) };
+    scene.view.focalPoint = end;
+    const Image back = bench.render(field.field, scene);
+    const Reading in = readingOf(back, 0);
+    const Point ofU = asPoint(back.frame.u), ofV = asPoint(back.frame.v), w = asPoint(back.frame.w);
+    const Point direction = in.deflection[0] * ofU + in.deflection[1] * ofV + forward(in) * w;
+    EXPECT_LT(length(direction - Point{ 0, 0, -1 }), 2e-6);
+    const PixelCentre at = centreOf(back, 0, 0);
+    Point x =
+      (at.u + in.displacement[0]) * ofU + (at.v + in.displacement[1]) * ofV + back.frame.exit * w;
+    x = x + ((nearFace - x.z) / direction.z) * direction;
+    EXPECT_LT(length(x - Point{ u, v, nearFace }), 4e-6);
+    // The same way has the same optical length: what differs is the reference, n = 1 along w.
+    const Point way = Point{ u, v, nearFace } - asPoint(end);
+    EXPECT_NEAR(
+      out.opticalPathDifference - 2 * nearFace, in.opticalPathDifference + dot(way, w), 4e-6);
+  }
+}
+
+/// Lengths have no unit, the index no scale, and space no handedness, in strong media too.
+TEST_P(StrongMedia, SimilarMediaGiveSimilarPictures)
+{
+  const Case medium = strongMedia().back();
+  const Grid grid = boxGrid(1. / 20, medium.half);
+  Scene scene = raysThrough(medium, GetParam());
+  scene.view.viewDirection = { -0.3, 0.2, -0.9 };
+  for (const Integrator integrator : allIntegrators)
+  {
+    SCOPED_TRACE(name(integrator));
+    scene.integrator = integrator;
+    const SampledField<double> plain = sampled(grid, medium.form);
+    Field field = plain.field;
+    field.ambient = 0.25;
+    const Image image = Bench().render(field, scene);
+    Worst size;
+    for (std::size_t pixel = 0; pixel < image.opticalPathDifference.size(); ++pixel)
+    {
+      size.include(readingOf(image, pixel));
+    }
+    EXPECT_GT(size.deflection, 0.1);
+    const auto expectSimilar =
+      [&](const char* what, const Image& other, double lengths, double path, bool mirrored)
+    {
+      SCOPED_TRACE(what);
+      Worst worst;
+      for (int row = 0; row < image.height; ++row)
+      {
+        for (int column = 0; column < image.width; ++column)
+        {
+          const int there = mirrored ? image.width - 1 - column : column;
+          Reading a = readingOf(image, pixelOf(image, column, row));
+          a.deflection[0] *= mirrored ? -1 : 1;
+          a.displacement[0] *= mirrored ? -lengths : lengths;
+          a.displacement[1] *= lengths;
+          a.opticalPathDifference *= path;
+          worst.include(a, readingOf(other, pixelOf(other, there, row)));
+        }
+      }
+      EXPECT_LT(worst.deflection, 4e-6);
+      EXPECT_LT(worst.displacement, 1e-5 * lengths);
+      EXPECT_LT(worst.opticalPathDifference, 1e-5 * path);
+    };
+
+    // All lengths times 1000.
+    Scene large = scene;
+    large.view.parallelScale *= 1000;
+    Field scaledUp = field;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      (*large.view.focalPoint)[axis] *= 1000;
+      scaledUp.grid.spacing[axis] *= 1000;
+      scaledUp.grid.origin[axis] *= 1000;
+    }
+    expectSimilar("larger", Bench().render(scaledUp, large), 1000, 1000, false);
+
+    // n times 1.5, inside and out.
+    SampledField<double> denser(grid,
+      [&](double x, double y, double z) {
+        return 1.5 * (1 + medium.form.refractivity({ x, y, z })) - 1;
+      });
+    denser.field.ambient = 0.875;
+    expectSimilar("denser", Bench().render(denser.field, scene), 1, 1.5, false);
+
+    // Light and all; the medium is even in x.
+    Scene mirror = scene;
+    mirror.view.viewDirection[0] *= -1;
+    (*mirror.view.focalPoint)[0] *= -1;
+    expectSimilar("mirrored", Bench().render(field, mirror), 1, 1, true);
+
+    // By 90 degrees about y, grid and light.
+    const auto turn = [](const Vector& x) { return Vector{ x[2], x[1], -x[0] }; };
+    Field turned = field;
+    turned.grid.direction = { 0, 0, 1, 0, 1, 0, -1, 0, 0 };
+    turned.grid.origin = turn(field.grid.origin);
+    Scene beside = scene;
+    beside.view.viewDirection = turn(scene.view.viewDirection);
+    beside.view.viewUp = turn(scene.view.viewUp);
+    beside.view.focalPoint = turn(*scene.view.focalPoint);
+    expectSimilar("turned", Bench().render(turned, beside), 1, 1, false);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, StrongMedia, bothDevices(), deviceName);
+
+} // namespace
+
+} // namespace schlieren
