@@ -275,7 +275,14 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const 
     stream.wait("Tracing rays");
   };
 
-  traced.resize(exits == Exits::OnHost ? pass : Pass{}, fields);
+  if (exits == Exits::OnHost)
+  {
+    traced.resize(pass, fields);
+  }
+  else
+  {
+    traced = {};
+  }
   launch(0);
   for (std::int64_t number = 0; number < launches; ++number)
   {

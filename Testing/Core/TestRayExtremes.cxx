@@ -179,6 +179,33 @@ TEST_P(RayExtremes, RaysGrazeTheTurningPoint)
   }
 }
 
+/// Head on to where the index vanishes, n^2 = 1 - z: light slows down and gets through or is given up.
+TEST_P(RayExtremes, LightIntoAVanishingIndexComesToAnEnd)
+{
+  const ClosedForm plasma = linearMedium(0, { 0, 0, -1 });
+  for (const double rest : { 1e-2, 1e-4, 1e-6, 1e-10 })
+  {
+    Grid grid = boxGrid(1. / 32, { 0.25, 0.25, 0.5 });
+    grid.spacing[2] *= 1 - rest;
+    grid.origin[2] = 0; // n^2 = 1 ... rest
+    SampledField<double> field = sampled(grid, plasma);
+    field.field.ambient = 0;
+    for (const Integrator integrator : allIntegrators)
+    {
+      SCOPED_TRACE(std::to_string(std::log10(rest)) + " " + name(integrator));
+      Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 3, 3, 0.1));
+      scene.integrator = integrator;
+      const Image image = Bench().render(field.field, scene);
+      EXPECT_GT(image.raysTraced, 0);
+      expectFinite(image);
+      for (const float cosine : image.deflection)
+      {
+        EXPECT_NEAR(cosine, 0, 1e-3);
+      }
+    }
+  }
+}
+
 /// Thin matter, in which n is far below 1, as in a plasma near its critical density: light goes through.
 TEST_P(RayExtremes, LightCrossesThinMatter)
 {
