@@ -90,13 +90,9 @@ struct MediumOnDevices
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
   double mapTolerance = 0;                   ///< of nu
 
-  /// The map for a tolerance; null for 0.
+  /// The map for a tolerance.
   const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads)
   {
-    if (tolerance == 0)
-    {
-      return nullptr;
-    }
     const Real limit = static_cast<Real>(tolerance);
     if (!map)
     {
@@ -372,11 +368,16 @@ Image Bench::Stages::render(
   // An adaptive step is as long as the medium lets it be without a map.
   const double skips =
     settings.kernel.integrator == Integrator::Adaptive ? 0 : scene.homogeneityTolerance;
-  const double tolerance = skips * held.medium.rangeOfNu;
-  image.skippingBound = skippingBound(held.medium, light, tolerance, scene.interpolation);
-  const RayTask<Real> task =
-    makeTask<Real>(held.medium, held.mapFor(tolerance, scene.interpolation, scene.threads),
-      FieldGradientsView::of(field.grid, field.gradients), light, settings);
+  // What differs by rounding only is homogeneous.
+  constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  const double tolerance =
+    std::max(skips * held.medium.rangeOfNu, rounding * held.medium.largestNu);
+  const HomogeneityMap<Real>* map =
+    skips > 0 ? held.mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
+  image.skippingBound =
+    map == nullptr ? 0 : skippingBound(held.medium, light, tolerance, scene.interpolation);
+  const RayTask<Real> task = makeTask<Real>(
+    held.medium, map, FieldGradientsView::of(field.grid, field.gradients), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, device, {} };

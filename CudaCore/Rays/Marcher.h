@@ -245,7 +245,9 @@ struct March
     const Vec3<Real> lows = { fromArray<Real>(low[0]), fromArray<Real>(low[1]),
       fromArray<Real>(low[2]) };
     const Real far = wayOut(x, along, lows, lows + Vec3<Real>{ edges, edges, edges });
-    step = isIn ? greater(step, far) : step;
+    // Not quite there: on the side itself a method that looks there would see the next cube.
+    const Real within = Integrator::samplesBeyond ? far - Number(1e-3) * cruise : far;
+    step = isIn ? greater(step, within) : step;
     return true;
   }
 
@@ -327,7 +329,8 @@ struct March
       }
       const Real rest = wayOut(Path::position(there, task.straight),
         Path::along(there, task.straight), Vec3<Number>{ 0, 0, 0 }, task.medium.last);
-      step = leaving ? clampTo(step + rest, 2 * task.step) : step;
+      const Real longest = greater(Real{} + 2 * task.step, 2 * step);
+      step = leaving ? lesser(greater(step + rest, Real{}), longest) : step;
     }
     return step;
   }

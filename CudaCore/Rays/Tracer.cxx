@@ -40,12 +40,20 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
     static_cast<Real>(1 / (furthest * light.indexScale.z)) };
   const double straightSteps = std::ceil(light.depth / step) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
-  task.stepLimit = static_cast<std::int32_t>(std::min(trappedFactor * straightSteps, largestLimit));
+  // Where n is small, a step leads less far; and an adaptive one may have to be much shorter.
+  constexpr double smallestIndex = 1e-3;
+  const double slow = medium.largestNu < 1 ? 1 / std::max(1 - medium.largestNu, smallestIndex) : 1;
+  const double shorter = settings.kernel.integrator == Integrator::Adaptive ? adaptiveFactor : 1;
+  task.stepLimit = static_cast<std::int32_t>(
+    std::min(trappedFactor * straightSteps * slow * shorter, largestLimit));
   task.metresPerUnit = (1 + medium.ambient) * settings.lengthScale * light.unit;
   task.kernel = settings.kernel;
-  // By what the steepest gradient would bend a ray over the same way; in a uniform medium anything will do.
+  // By what the steepest gradient would bend a ray over the same way, and no less than what rounding makes.
   const double steepest = length(scaled(medium.slope, light.indexScale));
-  const double allowed = settings.adaptiveTolerance * (steepest > 0 ? steepest : 1);
+  const double rounding =
+    16 * medium.largestNu * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  const double allowed =
+    std::max(settings.adaptiveTolerance * (steepest > 0 ? steepest : 1), rounding);
   task.allowedBend = static_cast<Real>(allowed);
   task.allowedOffset = static_cast<Real>(allowed * light.depth);
   return task;

@@ -18,6 +18,9 @@ namespace schlieren
 /// A ray that has taken this many times the steps of a straight one is trapped.
 constexpr int trappedFactor = 8;
 
+/// An adaptive ray may take this many times more: where the gradient has kinks its steps are short.
+constexpr int adaptiveFactor = 64;
+
 /// The piece of the line start + s * along, s >= 0, inside the box [0, last]; empty if from > to.
 struct Chord
 {
@@ -115,10 +118,10 @@ SCHLIEREN_HD RayExit leaveGrid(
   const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
     (bends ? dot(offset, task.light.w) : 0);
   const double further = remaining / forward;
-  exit.displacement[0] = static_cast<float>(
-    (dot(offset, task.light.u) + further * alongU) * task.light.unit);
-  exit.displacement[1] = static_cast<float>(
-    (dot(offset, task.light.v) + further * alongV) * task.light.unit);
+  exit.displacement[0] =
+    static_cast<float>((dot(offset, task.light.u) + further * alongU) * task.light.unit);
+  exit.displacement[1] =
+    static_cast<float>((dot(offset, task.light.v) + further * alongV) * task.light.unit);
   return exit;
 }
 
