@@ -38,10 +38,9 @@ struct RayTask
   Number step; ///< in units of the light's unit of length
   std::int32_t stepLimit;
   double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
-  bool bends;           ///< whether the path is refracted
-  Vec3<Number>
-    stepsPerIndex;    ///< 1 by the furthest that a step leads along each axis, in index coordinates
-  Number allowedBend; ///< Adaptive: error of q allowed in a step, per unit of length
+  /// Steps that a ray needs at least, by index coordinate, towards the far and the near side on each axis.
+  Vec3<Number> stepsToLast, stepsToFirst;
+  Number allowedBend;   ///< Adaptive: error of q allowed in a step, per unit of length
   Number allowedOffset; ///< Adaptive: the same of the offset
 };
 
@@ -401,14 +400,16 @@ struct March
     }
   }
 
-  /// How many steps the rays can take before any of them can reach the grid's side, as |p| = n.
+  /// How many steps the rays can take before any of them can reach the grid's side.
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
     const Vec3<Real> x = Path::position(ray, task.straight);
     const Vec3<Number>& last = task.medium.last;
-    const Real least = lesser(lesser(x.x, last.x - x.x) * task.stepsPerIndex.x,
-      lesser(lesser(x.y, last.y - x.y) * task.stepsPerIndex.y,
-        lesser(x.z, last.z - x.z) * task.stepsPerIndex.z));
+    const Vec3<Real> toLast =
+      scaled(Vec3<Real>{ last.x - x.x, last.y - x.y, last.z - x.z }, task.stepsToLast);
+    const Vec3<Real> toFirst = scaled(x, task.stepsToFirst);
+    const Real least = lesser(lesser(lesser(toLast.x, toFirst.x), lesser(toLast.y, toFirst.y)),
+      lesser(toLast.z, toFirst.z));
     Number most[lanes];
     toArray(least, most);
     Number all = static_cast<Number>(task.stepLimit - steps);

@@ -33,11 +33,23 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   const auto ahead = [&](double along) { return std::llround(stepsAhead * step * along); };
   task.medium.ahead = ahead(light.perLength.z) * task.medium.planeStride +
     ahead(light.perLength.y) * task.medium.rowStride + ahead(light.perLength.x);
-  const double furthest =
-    1.01 * step * (1 + medium.largestNu); // |p| = n, but for the integrator's error
-  task.stepsPerIndex = { static_cast<Real>(1 / (furthest * light.indexScale.x)),
-    static_cast<Real>(1 / (furthest * light.indexScale.y)),
-    static_cast<Real>(1 / (furthest * light.indexScale.z)) };
+  // dx/ds is off W by q, which no ray has more of than this.
+  constexpr double margin = 1.01; // for the integrator's error
+  const double slope = boundDisplacement(medium, light).slope;
+  const double most = margin *
+    (std::isfinite(slope) ? medium.largestNu + slope * (1 - medium.largestNu) / (1 + slope)
+                          : 2 + medium.largestNu);
+  const auto stepsPerIndex = [&](double along, double scale)
+  {
+    const double fastest = step * (along + most * scale);
+    return static_cast<Real>(fastest > 1e-9 ? 1 / fastest : 1e9);
+  };
+  const Vec3<double>& w = light.perLength;
+  const Vec3<double>& scale = light.indexScale;
+  task.stepsToLast = { stepsPerIndex(w.x, scale.x), stepsPerIndex(w.y, scale.y),
+    stepsPerIndex(w.z, scale.z) };
+  task.stepsToFirst = { stepsPerIndex(-w.x, scale.x), stepsPerIndex(-w.y, scale.y),
+    stepsPerIndex(-w.z, scale.z) };
   const double straightSteps = std::ceil(light.depth / step) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
   // Where n is small, a step leads less far; and an adaptive one may have to be much shorter.
