@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Rays side by side do what a ray does alone.
+#include "Fields.h"
+#include "Medium/HomogeneityMap.h"
+#include "Rays/Tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+std::vector<Simd> levels()
+{
+  std::vector<Simd> all = { Simd::Four, Simd::Avx2, Simd::Avx512 };
+  all.resize(static_cast<std::size_t>(bestSimd()));
+  return all;
+}
+
+/// A blob on a grid with three different spacings and numbers of points, none of which packs divide.
+SampledField<double> blob()
+{
+  Grid grid;
+  grid.dimensions = { 23, 30, 19 };
+  grid.spacing = { 1, 0.7, 1.3 };
+  return SampledField<double>(grid,
+    [](double x, double y, double z)
+    {
+      const double a = (x - 10) / 4, b = (y - 9) / 5, c = (z - 12) / 5;
+      return 0.05 * std::exp(-a * a - b * b - c * c);
+    });
+}
+
+struct Traced
+{
+  TracedPass pass;
+  double largest = 0; ///< deflection
+};
+
+template <class Real>
+Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, double tolerance)
+{
+  const Medium<Real> medium = buildMedium<Real>(field, settings.kernel.interpolation, 1);
+  HomogeneityMap<Real> map;
+  if (tolerance > 0)
+  {
+    map = buildHomogeneityMap<Real>(
+      medium, settings.kernel.interpolation, static_cast<Real>(tolerance), 1);
+  }
+  View view;
+  view.viewDirection = { -0.5, 0.3, -0.7 };
+  view.width = 37; // no multiple of a block, nor of a tile
+  view.height = 29;
+  const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
+  const RayTask<Real> task =
+    makeTask<Real>(medium, tolerance > 0 ? &map : nullptr, FieldGradientsView{}, light, settings);
+  Traced traced;
+  const Pass pass{ -2, -3, 41, 35, { 0.25, -0.125 } };
+  traced.pass.resize(pass, 0);
+  EXPECT_TRUE(traceOnCpu(task, pass, traced.pass, 2, {}, simd));
+  for (const RayExit& exit : traced.pass.exits)
+  {
+    traced.largest = std::max(traced.largest, std::hypot(exit.deflection[0], exit.deflection[1]));
+  }
+  return traced;
+}
+
+template <class Real>
+void expectSame(const RaySettings& settings, double tolerance, double kinks)
+{
+  const SampledField<double> field = blob();
+  const Traced alone = traceWith<Real>(Simd::None, field.field, settings, tolerance);
+  ASSERT_GT(alone.largest, 0.01);
+  for (const Simd simd : levels())
+  {
+    SCOPED_TRACE("simd " + std::to_string(static_cast<int>(simd)));
+    const Traced packed = traceWith<Real>(simd, field.field, settings, tolerance);
+    const double allowed =
+      std::max(2e3 * static_cast<double>(std::numeric_limits<Real>::epsilon()), kinks) *
+      alone.largest;
+    int different = 0;
+    for (std::size_t ray = 0; ray < alone.pass.exits.size(); ++ray)
+    {
+      const RayExit& a = alone.pass.exits[ray];
+      const RayExit& b = packed.pass.exits[ray];
+      EXPECT_EQ(a.fate, b.fate);
+      EXPECT_NEAR(a.deflection[0], b.deflection[0], allowed);
+      EXPECT_NEAR(a.deflection[1], b.deflection[1], allowed);
+      EXPECT_NEAR(a.opticalPathDifference, b.opticalPathDifference, 10 * allowed);
+      different += a.steps != b.steps ? 1 : 0;
+    }
+    // Where a step ends next to the grid's side, rounding decides about one more.
+    if (tolerance == 0 && settings.kernel.integrator != Integrator::Adaptive)
+    {
+      EXPECT_LE(different, static_cast<int>(alone.pass.exits.size()) / 50);
+    }
+    EXPECT_NEAR(
+      packed.pass.worstDrift, alone.pass.worstDrift, 0.05 * alone.pass.worstDrift + allowed);
+  }
+}
+
+TEST(Simd, RaysSideBySideDoWhatOneDoes)
+{
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    for (const Integrator integrator :
+      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    {
+      for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
+      {
+        SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
+          std::to_string(static_cast<int>(integrator)));
+        RaySettings settings;
+        settings.kernel = { path, integrator, interpolation };
+        // Linear's gradient jumps between cells, where rounding decides which one a ray is in; adaptive
+        // steps differ wherever rounding decides whether one is good enough.
+        const double kinks = interpolation == Interpolation::Linear ? 3e-2
+          : integrator == Integrator::Adaptive                      ? 1e-3
+                                                                    : 0;
+        expectSame<float>(settings, 0, kinks);
+        expectSame<double>(settings, 0, kinks);
+      }
+    }
+  }
+}
+
+TEST(Simd, SkippingRaysStayWithinTheTolerance)
+{
+  RaySettings settings;
+  expectSame<float>(settings, 1e-4, 1e-2);
+}
+
+} // namespace
+
+} // namespace schlieren
