@@ -151,8 +151,9 @@ struct Scene
   Integrator integrator = Integrator::Leapfrog;
   Interpolation interpolation = Interpolation::Quadratic;
   Precision precision = Precision::Single;
-  double stepSize =
-    1; ///< voxels, 0.001 ... 16: length of one step in index space; Adaptive: the longest
+  /// Voxels, 0.001 ... 16: length of one step in index space; of Integrator::Adaptive the longest. Where
+  /// there are solids, no longer than 1.
+  double stepSize = 1;
   /// Of Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
   /// gradient would bend over the same way. 1e-12 ... 1.
   double adaptiveTolerance = 1e-5;

@@ -27,7 +27,10 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   task.light = light;
   task.straight = { static_cast<Vec3<Real>>(light.w), static_cast<Vec3<Real>>(light.perLength),
     static_cast<Vec3<Real>>(light.indexScale) };
-  const double step = settings.stepVoxels / length(light.perLength);
+  // Beside solids no longer than a voxel, or rays would step through thin ones.
+  const double voxels =
+    task.medium.solid == nullptr ? settings.stepVoxels : std::min(settings.stepVoxels, 1.);
+  const double step = voxels / length(light.perLength);
   task.step = static_cast<Real>(step);
   constexpr double stepsAhead = 4;
   const auto ahead = [&](double along) { return std::llround(stepsAhead * step * along); };
