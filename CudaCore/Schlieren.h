@@ -200,7 +200,8 @@ struct Image
   std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
   double traceSeconds = 0;      ///< spent tracing for this call; 0 when held rays were re-shaded
   double displacementBound = 0; ///< no ray of this medium is displaced further, data units
-  /// Skipping homogeneous cubes changes no deflection cosine by more than this.
+  /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
+  /// because it is elsewhere then, which is of second order.
   double skippingBound = 0;
   /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it tells
   /// the error of steps and interpolation.

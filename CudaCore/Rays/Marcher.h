@@ -466,7 +466,9 @@ struct March
     {
       Real error{};
       const Ray<Real> there = attempt(step, error);
-      leaving = leaving & takeIfGood(there, step, error);
+      const auto good = takeIfGood(there, step, error);
+      leaving = leaving & good;
+      step = good ? step : Real{};
     }
     else
     {
