@@ -52,8 +52,7 @@ void validateScene(const Scene& scene)
   {
     throw Error("StepSize is " + std::to_string(scene.stepSize) +
       " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
-      "flow); "
-      "the default is 1.");
+      "flow).");
   }
   validateTolerances(scene);
   if (!std::isfinite(scene.knifeEdgeAngle))

@@ -26,6 +26,7 @@ schlieren.ViewDirection = [0, 0, -1]
 schlieren.Cutoff = "Knife Edge"
 schlieren.KnifeEdgeAngle = 90  # bright: light is deflected upwards
 schlieren.ImageSize = [900, 480]
+schlieren.Quality = "Publication"  # 16 rays per pixel; without it 1, to look around
 schlieren.UpdatePipeline()
 
 arrays = schlieren.PointData

@@ -23,7 +23,7 @@
 namespace
 {
 
-/// Takes the memory of the values over.
+/// An array that takes over the memory of `values`.
 template <class Array, class Value>
 vtkSmartPointer<Array> newArray(
   const char* name, schlieren::PixelArray<Value>& values, int components)

@@ -88,6 +88,14 @@ inline void addCellArray(vtkDataSet* data, const char* name, const ScalarField& 
   data->GetCellData()->AddArray(array);
 }
 
+/// Steps of a voxel that skip nothing, and so many rays per pixel, whatever the presets are.
+inline void traceEveryVoxel(vtkSchlierenFilter* filter, int samplesPerPixel)
+{
+  filter->SetStepSize(1);
+  filter->SetHomogeneityTolerance(0);
+  filter->SetSamplesPerPixel(samplesPerPixel);
+}
+
 /// A filter that takes the array "N" as the refractivity, in vacuum, one ray at each pixel's centre.
 inline vtkSmartPointer<vtkSchlierenFilter> bench(vtkDataObject* input, int pixels = 64)
 {
@@ -98,7 +106,7 @@ inline vtkSmartPointer<vtkSchlierenFilter> bench(vtkDataObject* input, int pixel
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
   filter->SetAutoAmbientRefractivity(false);
   filter->SetImageSize(pixels, pixels);
-  filter->SetSamplesPerPixel(1);
+  traceEveryVoxel(filter, 1);
   return filter;
 }
 

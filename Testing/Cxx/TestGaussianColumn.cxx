@@ -97,7 +97,7 @@ TEST(GaussianColumn, DensityTimesConstantIsTheRefractivity)
   filter->SetDensityScale(0.001);
   filter->SetAutoAmbientRefractivity(false);
   filter->SetImageSize(32, 32);
-  filter->SetSamplesPerPixel(1);
+  traceEveryVoxel(filter, 1);
   filter->SetParallelScale(0.9);
   filter->Update();
   EXPECT_LT(compareWithColumn(filter, column).deflection, 4e-3);

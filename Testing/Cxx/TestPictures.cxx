@@ -73,6 +73,7 @@ vtkSmartPointer<vtkSchlierenFilter> jet()
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
   filter->SetImageSize(360, 194);
+  traceEveryVoxel(filter, 4);
   filter->SetDevice(vtkSchlierenFilter::CPU);
   return filter;
 }
@@ -126,6 +127,7 @@ vtkSmartPointer<vtkSchlierenFilter> finBench(vtkDataObject* input)
     vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
   filter->SetDensityScale(0.1);
   filter->SetLengthScale(0.01);
+  traceEveryVoxel(filter, 4);
   filter->SetDevice(vtkSchlierenFilter::CPU);
   return filter;
 }

@@ -66,6 +66,9 @@ TEST(Pipeline, OutputIsAsDocumented)
   EXPECT_GT(fieldValue(filter, "StepsTaken"), 0);
   EXPECT_GT(fieldValue(filter, "TraceSeconds"), 0);
   EXPECT_GT(fieldValue(filter, "DisplacementBound"), 0);
+  EXPECT_EQ(fieldValue(filter, "SkippingBound"), 0); // nothing is skipped
+  EXPECT_GE(fieldValue(filter, "MomentumDrift"), 0);
+  EXPECT_LT(fieldValue(filter, "MomentumDrift"), 1e-5);
   EXPECT_EQ(fieldValue(filter, "RaysLost"), 0);
   EXPECT_EQ(fieldValue(filter, "AmbientRefractivity"), 0);
   EXPECT_GE(fieldValue(filter, "RaysTraced"), 12 * 12);
@@ -278,12 +281,13 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   vtkNew<vtkSchlierenFilter> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* name :
-    { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions",
-      "OutsideBlocksLight", "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity",
-      "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "Cutoff",
-      "KnifeEdgeAngle", "InvertCutoff", "AutoKScale", "KScale", "ScreenDistance", "StepSize",
-      "Interpolation", "SamplesPerPixel", "Precision", "Seed", "Device", "NumberOfThreads" })
+  for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale",
+         "SamplingDimensions", "OutsideBlocksLight", "LengthScale", "AutoAmbientRefractivity",
+         "AmbientRefractivity", "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale",
+         "ImageSize", "Cutoff", "KnifeEdgeAngle", "InvertCutoff", "AutoKScale", "KScale",
+         "ScreenDistance", "Quality", "PathModel", "Integrator", "StepSize", "HomogeneityTolerance",
+         "Interpolation", "SamplesPerPixel", "Precision", "AdaptiveTolerance", "PathTolerance",
+         "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

@@ -22,8 +22,8 @@ jet.UpdatePipeline()
 width, height = 240, 129
 schlieren = Schlieren(Input=jet, Density=["POINTS", "rho"], GladstoneDaleConstant=K,  # noqa: F821
                       AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
-                      SamplesPerPixel=1, ImageSize=[width, height],
-                      ParallelScale=0.125e-3 * height / 2)
+                      StepSize=1, HomogeneityTolerance=0, SamplesPerPixel=1,
+                      ImageSize=[width, height], ParallelScale=0.125e-3 * height / 2)
 schlieren.UpdatePipeline()
 image = servermanager.Fetch(schlieren)
 

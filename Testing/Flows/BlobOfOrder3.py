@@ -5,7 +5,8 @@
 import os
 
 import numpy as np
-from flow_testing import (DATA, Schlieren, check_baseline, coordinates, one_dataset, picture, sums_along)
+from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
+                          picture, sums_along)
 from paraview.simple import ExtractCellsByRegion, XMLUnstructuredGridReader
 
 K = 2.26e-4
@@ -23,7 +24,7 @@ assert data.GetNumberOfCells() == 376 and data.GetCellType(0) == 72, "These are 
 
 schlieren = Schlieren(near, Density=["POINTS", "rho"], GladstoneDaleConstant=K, LengthScale=0.01,
                       AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
-                      SamplingDimensions=[60, 40, 40], SamplesPerPixel=1,
+                      SamplingDimensions=[60, 40, 40], **EVERY_VOXEL,
                       ImageSize=[240, 160], ParallelScale=2.5)
 x, y = coordinates(schlieren)
 path = picture(schlieren, "OpticalPathDifference") / 0.01

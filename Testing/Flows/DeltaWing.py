@@ -5,8 +5,8 @@
 import os
 
 import numpy as np
-from flow_testing import (DATA, Schlieren, check_baseline, coordinates, one_dataset, picture,
-                          sums_along)
+from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
+                          picture, sums_along)
 from paraview.simple import Reflect, XMLStructuredGridReader
 
 K = 2.26e-4
@@ -21,7 +21,7 @@ wing.UpdatePipeline()
 schlieren = Schlieren(wing, Density=["POINTS", "Density"], GladstoneDaleConstant=K,
                       DensityScale=DENSITY, AutoAmbientRefractivity=0,
                       AmbientRefractivity=K * DENSITY, SamplingDimensions=[61, 161, 101],
-                      SamplesPerPixel=1, ImageSize=[320, 240], ViewDirection=[-1, 0, 0],
+                      **EVERY_VOXEL, ImageSize=[320, 240], ViewDirection=[-1, 0, 0],
                       ViewUp=[0, 0, 1], FocalPoint=[0.5, 0, 0.2], ParallelScale=0.6)
 y, z = coordinates(schlieren)
 path = picture(schlieren, "OpticalPathDifference")

@@ -5,8 +5,8 @@
 import os
 
 import numpy as np
-from flow_testing import (DATA, Schlieren, check_baseline, coordinates, one_dataset, picture,
-                          sums_along)
+from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
+                          picture, sums_along)
 from paraview.simple import Calculator, Clip, ExtractSurface, XMLUnstructuredGridReader
 
 mesh = XMLUnstructuredGridReader(FileName=[os.path.join(DATA, "heating_coil_fluid.vtu")])
@@ -31,7 +31,7 @@ coil.UpdatePipeline()
 schlieren = Schlieren(Input=water, Bodies=coil, IndexModel="Refractivity",
                       IndexArray=["POINTS", "N"], LengthScale=0.1, OutsideBlocksLight=0,
                       AutoAmbientRefractivity=0, AmbientRefractivity=0.331418,
-                      SamplingDimensions=[81, 81, 91], SamplesPerPixel=1,
+                      SamplingDimensions=[81, 81, 91], **EVERY_VOXEL,
                       ImageSize=[240, 270], ViewDirection=[0, 1, 0], ViewUp=[0, 0, 1],
                       ParallelScale=1.1)
 x, z = coordinates(schlieren)

@@ -5,7 +5,7 @@
 import os
 
 import numpy as np
-from flow_testing import DATA, Schlieren, check_baseline, coordinates, output, picture
+from flow_testing import DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, output, picture
 from paraview.simple import XMLImageDataReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -17,7 +17,7 @@ flow = XMLImageDataReader(FileName=[os.path.join(DATA, "oblique_shock_extruded.v
 flow.UpdatePipeline()
 schlieren = Schlieren(flow, Density=["POINTS", "rho"], GladstoneDaleConstant=K,
                       DensityScale=DENSITY, LengthScale=0.1, AutoAmbientRefractivity=0,
-                      AmbientRefractivity=K * DENSITY * 1.4, SamplesPerPixel=1,
+                      AmbientRefractivity=K * DENSITY * 1.4, **EVERY_VOXEL,
                       ImageSize=[656, 160], FocalPoint=[2.05, 0.5, 0.5], ParallelScale=0.5)
 x, y = coordinates(schlieren)
 path = picture(schlieren, "OpticalPathDifference")

@@ -5,8 +5,8 @@
 import os
 
 import numpy as np
-from flow_testing import (DATA, RefractiveIndex, Schlieren, check_baseline, coordinates, one_dataset,
-                          output, picture)
+from flow_testing import (DATA, EVERY_VOXEL, RefractiveIndex, Schlieren, check_baseline,
+                          coordinates, one_dataset, output, picture)
 from paraview.simple import AngularPeriodicFilter, Calculator, OpenFOAMReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -29,7 +29,7 @@ jet.UpdatePipeline()
 # Pixels 0.125 mm apart as the solver's cells are, their centres on the cells' centres along x.
 schlieren = Schlieren(jet, Density=["CELLS", "rho"], GladstoneDaleConstant=K,
                       AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
-                      SamplingDimensions=[121, 81, 81], SamplesPerPixel=1,
+                      SamplingDimensions=[121, 81, 81], **EVERY_VOXEL,
                       OutsideBlocksLight=0, ImageSize=[240, 161], ParallelScale=0.125e-3 * 161 / 2)
 x, y = coordinates(schlieren)
 fringes = picture(schlieren, "OpticalPathDifference") / WAVELENGTH

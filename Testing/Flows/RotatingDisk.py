@@ -5,8 +5,8 @@
 import os
 
 import numpy as np
-from flow_testing import (DATA, Schlieren, check_baseline, coordinates, one_dataset, picture,
-                          sums_along)
+from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
+                          picture, sums_along)
 from paraview.simple import Calculator, Cylinder, ExodusIIReader, Transform
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
@@ -47,7 +47,7 @@ schlieren = Schlieren(Input=gas, Bodies=disk, IndexModel="Gladstone-Dale Mixture
                       BackgroundConstant=SPECIES["H2"][1], LengthScale=0.01,
                       OutsideBlocksLight=0, AutoAmbientRefractivity=0,
                       AmbientRefractivity=ambient, SamplingDimensions=[65, 65, 112],
-                      SamplesPerPixel=1, ImageSize=[160, 280], ViewDirection=[0, 1, 0],
+                      **EVERY_VOXEL, ImageSize=[160, 280], ViewDirection=[0, 1, 0],
                       ViewUp=[0, 0, 1])
 x, z = coordinates(schlieren)
 path = picture(schlieren, "OpticalPathDifference") / 0.01

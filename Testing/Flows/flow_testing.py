@@ -19,7 +19,8 @@ SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
 DATA = os.path.join(SOURCE, "Testing", "Data")
 sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
 
-from plugin_testing import RefractiveIndex, Schlieren, output, picture  # noqa: E402, F401
+from plugin_testing import (EVERY_VOXEL, RefractiveIndex, Schlieren, output,  # noqa: E402, F401
+                            picture)
 
 
 def coordinates(bench):

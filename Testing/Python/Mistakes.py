@@ -15,6 +15,8 @@ for name, wrong, right in (("Density", ["POINTS", "nowhere"], ["POINTS", "rho"])
                            ("ViewUp", [0, 0, 1], [0, 1, 0]),
                            ("ViewDirection", [0, 0, 0], [0, 0, -1]),
                            ("SamplesPerPixel", 0, 1), ("StepSize", -1, 1),
+                           ("AdaptiveTolerance", 0, 1), ("HomogeneityTolerance", 2, 0),
+                           ("PathTolerance", -1, 0),
                            ("LengthScale", 0, 1), ("GladstoneDaleConstant", float("nan"), 1e-4)):
     setattr(bench, name, wrong)
     assert is_empty(bench), name

@@ -20,13 +20,17 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
          "KnifeEdgeAngle": 0.0, "InvertCutoff": 0, "AutoKScale": 1, "KScale": 1000.0,
-         "ScreenDistance": -1.0, "ColorByField": 0, "FieldColors": [], "StepSize": 1.0,
-         "Interpolation": "Quadratic", "SamplesPerPixel": 4, "Precision": "Single", "Seed": 1,
+         "ScreenDistance": -1.0, "ColorByField": 0, "FieldColors": [],
+         "Quality": "Interactive", "Seed": 1,
          "Device": "Auto", "NumberOfThreads": 0}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
-         "Cutoff": {"Knife Edge", "Shadowgraph"}, "Interpolation": {"Quadratic", "Linear"},
+         "Cutoff": {"Knife Edge", "Shadowgraph"},
+         "Quality": {"Interactive", "Draft", "Publication", "Reference", "Custom"},
+         "PathModel": {"Auto", "Straight", "Refracted"},
+         "Integrator": {"Leapfrog", "RK4", "Adaptive", "Euler"},
+         "Interpolation": {"Quadratic", "Linear", "Central", "Cubic"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
 
 refractivity = RefractiveIndex(source)
@@ -57,6 +61,8 @@ def current(name):
 # Every value reaches the filter: it changes what comes out.
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [48, 32]
+bench.PathModel = "Refracted"
+bench.SamplesPerPixel = 4  # the first is at the pixel's centre, whatever the seed
 assert output(bench).GetDimensions() == (48, 32, 1)
 before = work(bench)
 reference = picture(bench, "Intensity")
@@ -80,6 +86,7 @@ assert work(chained) == before, "Neither must they after Refractive Index"
 
 for name, value in (("ViewDirection", [1, 0, -1]), ("ViewUp", [1, 1, 0]), ("ParallelScale", 0.3),
                     ("StepSize", 0.7), ("Interpolation", "Linear"), ("SamplesPerPixel", 2),
+                    ("HomogeneityTolerance", 0.1), ("Integrator", "Euler"), ("PathModel", "Straight"),
                     ("Precision", "Double"), ("Seed", 2), ("LengthScale", 0.1),
                     ("GladstoneDaleConstant", 1e-4), ("DensityScale", 2)):
     default = current(name)
@@ -125,5 +132,5 @@ assert picture(bench, "Intensity").std() > 2 * near.std()
 
 field = output(bench).GetFieldData()
 for name in ("Device", "PathModel", "KScale", "AmbientRefractivity", "RaysTraced", "RaysLost",
-             "StepsTaken", "TraceSeconds", "DisplacementBound"):
+             "StepsTaken", "TraceSeconds", "DisplacementBound", "SkippingBound", "MomentumDrift"):
     assert field.HasArray(name), name

@@ -16,20 +16,23 @@ PLUGIN = os.environ["SCHLIEREN_PLUGIN"]
 
 
 def bench():
-    """Two fields, one through a curve, with a ball in them."""
+    """Two fields, one through a curve, with a ball in them; two rays per pixel, unlike any preset."""
     wavelet = simple.Wavelet(WholeExtent=3 * [-8, 8])
     fields = simple.Calculator(Input=wavelet, Function="coordsX", ResultArrayName="x")
     fields.UpdatePipeline()
     curve = simple.CreatePiecewiseFunction(Points=[0, 1, 0.5, 0, 0.5, 0, 0.5, 0, 1, 1, 0.5, 0])
     line = simple.CreatePiecewiseFunction(Points=[0, 0, 0.5, 0, 1, 1, 0.5, 0])
     return simple.Schlieren(Input=fields, Bodies=simple.Sphere(Radius=3), IndexModel="Transfer Functions",
-                            Fields=["RTData", "x"], TransferFunctions=[curve, line], ImageSize=[32, 32])
+                            Fields=["RTData", "x"], TransferFunctions=[curve, line], ImageSize=[32, 32],
+                            Quality="Draft", SamplesPerPixel=2)
 
 
 def arrays():
-    picture = servermanager.Fetch(bench()).GetPointData()
+    image = servermanager.Fetch(bench())
     names = ("Intensity", "Deflection", "OpticalPathDifference", "BlockedFraction")
-    return {name: vtk_to_numpy(picture.GetArray(name)).copy() for name in names}
+    made = {name: vtk_to_numpy(image.GetPointData().GetArray(name)).copy() for name in names}
+    made["RaysTraced"] = vtk_to_numpy(image.GetFieldData().GetArray("RaysTraced")).copy()
+    return made
 
 
 pvserver = shutil.which("pvserver")
@@ -57,3 +60,4 @@ except BaseException:
 for name, values in here.items():
     assert np.array_equal(values, there[name]), name
 assert np.ptp(here["Intensity"]) > 0.5 and here["BlockedFraction"].max() == 1
+assert 2 * 32 * 32 <= here["RaysTraced"][0] < 4 * 32 * 32, here["RaysTraced"]

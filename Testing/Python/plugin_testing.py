@@ -17,6 +17,9 @@ AMPLITUDE = 2.7e-4
 RADIUS = 0.3
 CONSTANT = 2.26e-4
 
+# Whatever the presets are: one ray per pixel, at its centre, in steps of a voxel that skip nothing.
+EVERY_VOXEL = {"SamplesPerPixel": 1, "StepSize": 1, "HomogeneityTolerance": 0}
+
 
 def gaussian_column(points=128):
     """A reader of a column A exp(-r^2/s^2) around the y axis in the cube from -1 to 1.
@@ -55,7 +58,7 @@ def gaussian_column(points=128):
 def one_ray_per_pixel(bench, pixels=64):
     """Rays at the pixels' centres only, in vacuum, so that the closed form holds for every pixel."""
     bench.ImageSize = [pixels, pixels]
-    bench.SamplesPerPixel = 1
+    simple.SetProperties(bench, **EVERY_VOXEL)
     bench.AutoAmbientRefractivity = 0
     bench.AmbientRefractivity = 0
     bench.ParallelScale = 0.9

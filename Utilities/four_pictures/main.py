@@ -65,6 +65,8 @@ def bench_pictures(reader, array, frame, options, messages):
     schlieren.FocalPoint = list(frame.center)
     schlieren.ParallelScale = frame.scale
     schlieren.ImageSize = [frame.width, frame.height]
+    schlieren.Quality = "Publication"
+    schlieren.SamplesPerPixel = 4
     for name, value in options.settings:
         if name not in schlieren.ListProperties():
             raise DemoError(f"The Schlieren filter has no property '{name}'. "

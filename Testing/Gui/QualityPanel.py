@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Quality in the properties panel: what a preset sets is seen before it is applied; Apply, Reset and Undo."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+from plugin_testing import Schlieren, simple  # noqa: E402
+from schlieren.vtkSchlierenFilters import vtkSchlierenFilter  # noqa: E402
+from window_testing import FOLDER, PANEL, Session  # noqa: E402
+
+TRACE = os.path.join(FOLDER, "trace.py")
+SHOWN = {"StepSize": ("DoubleRangeWidget", "value"), "SamplesPerPixel": ("LineEdit0", "text2"),
+         "HomogeneityTolerance": ("DoubleRangeWidget", "value"),
+         "PathModel": ("ComboBox", "currentText"), "Integrator": ("ComboBox", "currentText"),
+         "Interpolation": ("ComboBox", "currentText"), "Precision": ("ComboBox", "currentText")}
+
+source = simple.Wavelet()
+source.UpdatePipeline()
+bench = Schlieren(source)
+PRESETS = {}
+for preset in ("Interactive", "Draft", "Publication", "Reference"):
+    bench.Quality = preset
+    PRESETS[preset] = {name: bench.GetProperty(name).GetData() for name in SHOWN}
+assert PRESETS["Interactive"]["StepSize"] != PRESETS["Draft"]["StepSize"]
+
+user = Session()
+
+
+def check(quality, preset=None, **changes):
+    """The panel shows this."""
+    user.check("Quality/ComboBox", "currentText", quality)
+    for name, value in dict(PRESETS[preset or quality], **changes).items():
+        widget, attribute = SHOWN[name]
+        user.check(f"{name}/{widget}", attribute, f"{value:g}" if isinstance(value, float) else value)
+
+
+user.event(PANEL + "/SearchBox/AdvancedButton", "set_boolean", "true")
+check("Interactive")
+user.choose("Quality/ComboBox", "Draft")
+check("Draft")
+user.apply()
+user.save_state("draft.pvsm")
+
+# Given up.
+user.choose("Quality/ComboBox", "Reference")
+check("Reference")
+user.reset()
+check("Draft")
+user.type("SamplesPerPixel/LineEdit0", "5")
+check("Custom", "Draft", SamplesPerPixel=5)
+user.reset()
+check("Draft")
+
+# Changed, changed back, and changed at last.
+user.choose("Quality/ComboBox", "Publication")
+user.type("SamplesPerPixel/LineEdit0", "5")
+check("Custom", "Publication", SamplesPerPixel=5)
+user.type("SamplesPerPixel/LineEdit0", str(PRESETS["Publication"]["SamplesPerPixel"]))
+check("Publication")
+user.type("SamplesPerPixel/LineEdit0", "3")
+user.choose("Interpolation/ComboBox", "Cubic")
+user.apply()
+check("Custom", "Publication", SamplesPerPixel=3, Interpolation="Cubic")
+user.save_state("custom.pvsm")
+user.menu("menu_Edit", "actionEditUndo")
+check("Draft")
+user.save_state("undone.pvsm")
+user.menu("menu_Edit", "actionEditRedo")
+check("Custom", "Publication", SamplesPerPixel=3, Interpolation="Cubic")
+user.save_state("redone.pvsm")
+
+# What has no effect is not there.
+for model, integrator, shown in (("Auto", "Leapfrog", ("PathTolerance", "Integrator")),
+                                 ("Refracted", "Adaptive", ("Integrator", "AdaptiveTolerance")),
+                                 ("Straight", "Adaptive", ())):
+    user.choose("PathModel/ComboBox", model)
+    user.choose("Integrator/ComboBox", integrator)
+    for name in ("PathTolerance", "Integrator", "AdaptiveTolerance"):
+        user.check(name, "visible", str(name in shown).lower())
+
+user.play(f"""
+from paraview.simple import *
+flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[16, 16])
+
+# What is traced whenever something is applied.
+from paraview import servermanager, smtrace
+smtrace.start_trace()
+def write(*_):
+    with open({TRACE!r}, "w") as file:
+        file.write(smtrace.get_current_trace_output())
+bench.SMProxy.AddObserver("UpdateEvent", write)
+""")
+
+
+def check_kept(proxy, quality, preset=None, **changes):
+    assert proxy.Quality == quality, proxy.Quality
+    values = {name: proxy.GetProperty(name).GetData() for name in SHOWN}
+    assert values == dict(PRESETS[preset or quality], **changes), values
+    assert proxy.GetClientSideObject().GetQuality() == \
+        (vtkSchlierenFilter.CUSTOM if quality == "Custom" else list(PRESETS).index(quality))
+
+
+for state, kept in (("draft", ("Draft",)), ("undone", ("Draft",)), ("custom", ("Custom", "Publication")),
+                    ("redone", ("Custom", "Publication"))):
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
+    changes = {"SamplesPerPixel": 3, "Interpolation": "Cubic"} if kept[0] == "Custom" else {}
+    check_kept(simple.FindSource("bench"), *kept, **changes)
+
+# The trace of what was applied.
+with open(TRACE, encoding="utf-8") as file:
+    script = file.read()
+simple.ResetSession()
+flow = simple.Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+simple.SetActiveSource(Schlieren(Input=flow, registrationName="bench", ImageSize=[16, 16]))
+exec(script, {})  # pylint: disable=exec-used
+check_kept(simple.FindSource("bench"), "Custom", "Publication", SamplesPerPixel=3,
+           Interpolation="Cubic")

@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The presets of Quality and the properties that they set, as scripts, state files and traces have them."""
+
+import os
+import re
+
+import numpy as np
+from paraview import simple, smstate, smtrace
+from plugin_testing import Schlieren, gaussian_column, output, picture
+from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
+
+PRESETS = ("Interactive", "Draft", "Publication", "Reference")
+SETTINGS = []
+while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
+    SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
+assert len(SETTINGS) == 9
+
+source = gaussian_column(16)
+
+
+def values(proxy):
+    """The settings as a script sees them."""
+    return {name: proxy.GetProperty(name).GetData() for name in SETTINGS}
+
+
+def check(proxy, quality, **changes):
+    """The proxy has this quality and the values of the preset, but for `changes` (and `preset`)."""
+    expected = dict(table[changes.pop("preset", quality)], **changes)
+    assert proxy.GetProperty("Quality").GetData() == quality, (proxy.Quality, quality)
+    assert values(proxy) == expected, (values(proxy), expected)
+    # The filter itself has the same.
+    made = proxy.GetClientSideObject()
+    for name in SETTINGS:
+        there, here = getattr(made, "Get" + name)(), proxy.GetProperty(name).SMProperty.GetElement(0)
+        assert there == here, (name, there, here)
+    assert (PRESETS + ("Custom",))[made.GetQuality()] == quality
+
+
+# What a preset is made of: the filter's table, the properties' defaults and the document agree.
+bench = Schlieren(source)
+table = {}
+for number, preset in enumerate(PRESETS):
+    bench.Quality = preset
+    table[preset] = values(bench)
+    for i, name in enumerate(SETTINGS):
+        assert bench.GetProperty(name).SMProperty.GetElement(0) == \
+            vtkSchlierenFilter.GetQualityValue(number, i), (preset, name)
+assert len({str(settings) for settings in table.values()}) == 4, "Two presets are the same"
+with open(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Documentation", "quality.md"),
+          encoding="utf-8") as file:
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in file if line[0] == "|"]
+assert rows[0] == ["property", *PRESETS], rows[0]
+told = {row[0]: row[1:] for row in rows[2:2 + len(SETTINGS)]}
+assert list(told) == SETTINGS, told
+for number, preset in enumerate(PRESETS):
+    for name in SETTINGS:
+        value = table[preset][name]
+        assert told[name][number] == (value if isinstance(value, str) else f"{value:.10g}"), \
+            (preset, name, told[name][number], value)
+check(Schlieren(source), "Interactive")
+
+# A preset first, then what shall differ from it.
+check(Schlieren(Input=source, Quality="Draft"), "Draft")
+check(Schlieren(Input=source, Quality="Draft", SamplesPerPixel=17), "Custom", preset="Draft",
+      SamplesPerPixel=17)
+check(Schlieren(Input=source, Quality="Draft", SamplesPerPixel=1), "Draft")
+bench = Schlieren(source, StepSize=0.5)
+check(bench, "Custom", preset="Interactive", StepSize=0.5)
+bench.Quality = "Reference"
+check(bench, "Reference")
+for name, value in (("PathModel", "Straight"), ("Integrator", "Euler"), ("StepSize", 0.3),
+                    ("HomogeneityTolerance", 0.3), ("Interpolation", "Central"),
+                    ("SamplesPerPixel", 7), ("Precision", "Single"), ("AdaptiveTolerance", 0.3),
+                    ("PathTolerance", 0.3)):
+    before = bench.GetProperty(name).GetData()
+    setattr(bench, name, value)
+    check(bench, "Custom", preset="Reference", **{name: value})
+    bench.Quality = "Custom"  # sets nothing
+    check(bench, "Custom", preset="Reference", **{name: value})
+    setattr(bench, name, before)
+    check(bench, "Reference")
+
+# They reach the tracer.
+bench = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[16, 16], Quality="Draft",
+                  SamplesPerPixel=16)
+rays = {}
+for samples in (16, 1):
+    bench.SamplesPerPixel = samples
+    rays[samples] = output(bench).GetFieldData().GetArray("RaysTraced").GetValue(0)
+assert rays[16] > 10 * rays[1] > 0, rays
+bench.Quality = "Custom"
+for name, value in (("Interpolation", "Cubic"), ("Interpolation", "Central"), ("StepSize", 0.3),
+                    ("Precision", "Double")):
+    bench.Quality = "Publication"
+    reference = picture(bench, "Deflection")
+    setattr(bench, name, value)
+    assert not np.array_equal(picture(bench, "Deflection"), reference), (name, value)
+bench.Quality = "Publication"
+used = set()
+for model in ("Straight", "Refracted"):
+    bench.PathModel = model
+    used.add(output(bench).GetFieldData().GetAbstractArray("PathModel").GetValue(0))
+assert used == {"Straight", "Refracted"}, used
+
+# A filter with each quality, brought back by a state file, a script and a trace.
+benches = {preset: Schlieren(Input=source, registrationName=preset, Quality=preset)
+           for preset in PRESETS}
+benches["Odd"] = Schlieren(Input=source, registrationName="Odd", Quality="Reference",
+                           SamplesPerPixel=3, Integrator="RK4")
+# As by default in what is not so in the preset.
+benches["Mixed"] = Schlieren(Input=source, registrationName="Mixed", Quality="Publication",
+                             StepSize=table["Interactive"]["StepSize"])
+kept = {name: (str(proxy.Quality), values(proxy)) for name, proxy in benches.items()}
+simple.SaveState("quality.pvsm")
+script = smstate.get_state()
+del benches
+smtrace.start_trace()
+for name, (quality, settings) in kept.items():
+    Schlieren(Input=source, registrationName=name, **settings)
+trace = smtrace.stop_trace()
+
+
+def check_kept(found=simple.FindSource):
+    for name, (quality, settings) in kept.items():
+        proxy = found(name)
+        assert (str(proxy.Quality), values(proxy)) == (quality, settings), (name, values(proxy))
+        made = proxy.GetClientSideObject()
+        assert str(proxy.Quality) == repr((PRESETS + ("Custom",))[made.GetQuality()])
+
+
+simple.ResetSession()
+simple.LoadState(os.path.abspath("quality.pvsm"))
+check_kept()
+simple.ResetSession()
+exec(script, {})  # pylint: disable=exec-used
+check_kept()
+simple.ResetSession()
+simple.XMLImageDataReader(FileName=[os.path.abspath("column16.vti")], registrationName=re.search(
+    r"FindSource\('(XMLImageDataReader\d*)'\)", trace).group(1)).UpdatePipeline()
+exec(trace, {})  # pylint: disable=exec-used
+check_kept()
+
+# A state file of a version whose Draft was another: its values count, not its name.
+with open("quality.pvsm", encoding="utf-8") as file:
+    state = file.read()
+draft = re.search(r'<Proxy group="filters" type="Schlieren" id="(\d+)"(?:(?!</Proxy>).)*?'
+                  r'name="Quality" id="\1.Quality" number_of_elements="1">\s*<Element index="0" '
+                  r'value="1"/>.*?</Proxy>', state, re.DOTALL)
+older = re.sub(r'(name="(?:HomogeneityTolerance|StepSize)".*?value=)"[^"]*"', r'\1"0.25"',
+               draft.group(0), flags=re.DOTALL)
+older = older.replace("SamplesPerPixel", "NoSuchProperty")  # which that version had not
+with open("older.pvsm", "w", encoding="utf-8") as file:
+    file.write(state.replace(draft.group(0), older))
+simple.ResetSession()
+simple.LoadState(os.path.abspath("older.pvsm"))
+check(simple.FindSource("Draft"), "Custom", preset="Draft", StepSize=0.25,
+      HomogeneityTolerance=0.25, SamplesPerPixel=table["Interactive"]["SamplesPerPixel"])
+check(simple.FindSource("Reference"), "Reference")
