@@ -348,6 +348,7 @@ TEST(Tint, OfAdaptiveRaysIsThatOfEvenSteps)
   scene.view.parallelScale = 0.5;
   scene.interpolation = Interpolation::Cubic;
   scene.pathModel = PathModel::Refracted;
+  scene.kScale = 1;
   scene.adaptiveTolerance = 1e-6;
   scene.stepSize = 1;
   scene.integrator = Integrator::Adaptive;
