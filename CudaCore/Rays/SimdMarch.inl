@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Included by each of the SimdMarch*.cxx, which differ in what they are compiled for.
+#if defined(__AVX__) || !defined(__SANITIZE_ADDRESS__) // with checks in it, it would take minutes to compile
 #define SCHLIEREN_INLINE_ALL
+#endif
 #include "Medium/SimdInterpolation.h"
 #include "Rays/SimdMarch.h"
 

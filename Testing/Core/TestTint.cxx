@@ -336,35 +336,6 @@ TEST(Tint, LeavesEverythingElseAsItIsWithAnyNumberOfThreads)
 }
 
 // With the light of all pixels shared out, red light is the light times red, summed over the rays.
-/// A step that was tried and not taken gathers nothing: red lies where there are many of these.
-TEST(Tint, OfAdaptiveRaysIsThatOfEvenSteps)
-{
-  const auto rough = [](double x, double, double z)
-  { return 1e-3 * std::sin(40 * x) * std::exp(-200 * (z + 0.5) * (z + 0.5)); };
-  const TintedField field(cube(65, 1), rough,
-    { [](double, double, double z) { return std::min(z, 0.); },
-      [](double, double, double z) { return std::max(z, 0.); } });
-  Scene scene = sceneOf({ red, blue });
-  scene.view.parallelScale = 0.5;
-  scene.interpolation = Interpolation::Cubic;
-  scene.pathModel = PathModel::Refracted;
-  scene.kScale = 1;
-  scene.adaptiveTolerance = 1e-6;
-  scene.stepSize = 1;
-  scene.integrator = Integrator::Adaptive;
-  const Image adaptive = Bench().render(field.field, scene);
-  scene.integrator = Integrator::Rk4;
-  scene.stepSize = 0.25;
-  const Image even = Bench().render(field.field, scene);
-  for (int column = 0; column < even.width; column += 3)
-  {
-    const auto a = tintAt(adaptive, column, 20);
-    const auto b = tintAt(even, column, 20);
-    EXPECT_NEAR(a[1], b[1], 0.03);
-    EXPECT_NEAR(a[2], b[2], 0.03);
-  }
-}
-
 TEST(Tint, OfSeveralRaysIsTheMeanOfTheirColours)
 {
   const TintedField tinted(cube(17, 1), swirl, { [](double x, double, double) { return x; } });
