@@ -137,33 +137,6 @@ struct RowLoader<float, 8>
 };
 #endif
 
-#if defined(__AVX512F__)
-template <>
-struct RowLoader<float, 16>
-{
-  template <int Group>
-  SCHLIEREN_HD static SimdPack<float, 16> load(const float* row, const std::int64_t* offsets)
-  {
-    __m512 rows = _mm512_zextps128_ps512(_mm_loadu_ps(row + offsets[Group]));
-    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row + offsets[4 + Group]), 1);
-    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row + offsets[8 + Group]), 2);
-    rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row + offsets[12 + Group]), 3);
-    return (SimdPack<float, 16>)rows;
-  }
-};
-template <>
-struct RowLoader<double, 8>
-{
-  template <int Group>
-  SCHLIEREN_HD static SimdPack<double, 8> load(const double* row, const std::int64_t* offsets)
-  {
-    const __m512d low = _mm512_zextpd256_pd512(_mm256_loadu_pd(row + offsets[Group]));
-    return (SimdPack<double, 8>)_mm512_insertf64x4(
-      low, _mm256_loadu_pd(row + offsets[4 + Group]), 1);
-  }
-};
-#endif
-
 // In the next three, packs are blocks of four numbers; what is done is done in each block.
 
 template <int Which, class Pack, std::size_t... E>

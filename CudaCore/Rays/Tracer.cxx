@@ -228,11 +228,13 @@ bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
 #ifdef SCHLIEREN_HAS_AVX
   if (simd == Simd::Avx512)
   {
-    return traceWith(simdMarch < Real, isSingle ? 16 : 8 > (kernel));
+    constexpr int lanes = isSingle ? 16 : 8;
+    return traceWith(simdMarch<Real, lanes>(kernel));
   }
   if (simd == Simd::Avx2)
   {
-    return traceWith(simdMarch < Real, isSingle ? 8 : 4 > (kernel));
+    constexpr int lanes = isSingle ? 8 : 4;
+    return traceWith(simdMarch<Real, lanes>(kernel));
   }
 #endif
   if constexpr (isSingle) // for doubles the instructions that all have are too narrow to gain
