@@ -70,12 +70,93 @@ enum class Device
   Cuda ///< an error where no device answers
 };
 
+/// What makes light and dark of where light is bent to. eps: direction cosines along u and v; e = eps .
+/// (cos angle, sin angle), along the knife edge's normal; k: Scene::kScale. Each ray's light is limited to
+/// 0 ... 1; where the medium concentrates rays on a pixel, the pixel's intensity exceeds 1.
 enum class Cutoff
 {
-  /// I = 1/2 + k (eps . (cos angle, sin angle)), clamped to [0, 1] for each ray. Where the medium
-  /// concentrates rays on a pixel, the pixel's intensity exceeds 1.
-  KnifeEdge,
-  Shadowgraph ///< I = 1 for every ray; only where the rays land makes the picture
+  KnifeEdge,          ///< I = 1/2 - offset + k e; undisturbed light: 1/2 - offset
+  Shadowgraph,        ///< I = 1 for every ray: where rays land makes the picture
+  Circular,           ///< I = 1 - k |eps|: dark where light is bent; undisturbed: 1
+  CircularComplement, ///< I = k |eps|; undisturbed: 0
+  GradedFilter,       ///< I = Scene::gradedFilter at 1/2 - offset + k e
+  ColorFilter, ///< the colour at k eps of Scene::colorFilter, or of a wheel: hue is the direction of eps,
+               ///< saturation min(1, k |eps|)
+  Interferogram, ///< I = (1 + cos(2 pi OPD / wavelength + carrier)) / 2; undisturbed: 1 without a carrier
+  Background ///< what a camera sees of a pattern behind the flow (BOS)
+};
+
+/// Red, green and blue, row by row, bottom row first; sRGB.
+struct RgbPicture
+{
+  int width = 0;
+  int height = 0;
+  std::vector<unsigned char> rgb; ///< 3 for each pixel
+};
+
+enum class SourceShape
+{
+  Point,
+  Slit, ///< a rectangle along the knife edge
+  Disc
+};
+
+/// Where light comes from. An extended source blurs what is not in focus, and the share of its image that a
+/// knife edge lets pass follows from its shape.
+struct LightSource
+{
+  /// From a point source to the middle of the data, data units. Unset: collimated light.
+  std::optional<double> distance;
+  SourceShape shape = SourceShape::Point;
+  double width =
+    0; ///< of a slit, across the knife edge; diameter of a disc. Radians, seen from the data
+  double length = 0; ///< of a slit, along the knife edge. Radians, seen from the data
+};
+
+/// Of an interferogram. The reference beam crosses the light at an angle beta where fringes are finite: their
+/// spacing is wavelength / (2 sin(beta / 2)).
+struct Fringes
+{
+  bool finite = false;
+  double spacing = 0; ///< data units on the film, positive; of finite fringes
+  double angle = 0;   ///< degrees: direction in which the carrier's phase grows, from u to v
+  bool whiteLight =
+    false; ///< all wavelengths of equal energy, seen as the CIE's standard observer does
+  /// N at a wavelength (metres) by N at Scene::wavelength; of white light. Unset: 1.
+  std::function<double(double wavelength)> dispersion;
+};
+
+enum class PatternKind
+{
+  Dots,
+  Stripes,
+  Picture
+};
+
+/// What is behind the flow for Cutoff::Background.
+struct BackgroundPattern
+{
+  PatternKind kind = PatternKind::Dots;
+  std::optional<double>
+    distance;        ///< from where the data begins, away from the viewer; unset: one depth
+  double period = 0; ///< of dots and stripes, data units; 0: an eighth of what dots can show
+  double angle = 0;  ///< of stripes, degrees: direction across them, from u to v
+  std::shared_ptr<const RgbPicture> picture; ///< stretched over what the camera sees
+};
+
+/// How rays become a picture.
+enum class FilmEstimator
+{
+  Sheet, ///< the quadrilaterals between neighbouring rays carry the light, folds added up
+  Photon ///< each ray's light is shared by the four pixels around where it lands
+};
+
+enum class NoiseFilter
+{
+  None,
+  Gaussian, ///< standard deviation: half the radius
+  Mean,     ///< over a disc
+  Cone ///< Jensen 1996: a cone that encloses as many samples as the radius does of one per pixel
 };
 
 /// A regular grid of sample points. Point (i, j, k) lies at origin + direction (i hx, j hy, k hz).
@@ -136,14 +217,29 @@ struct Scene
   View view;
 
   Cutoff cutoff = Cutoff::KnifeEdge;
-  double knifeEdgeAngle = 0;            ///< degrees; 0 measures the deflection along u, 90 along v
-  bool invertCutoff = false;            ///< I becomes 1 - I (knife edge only)
-  std::optional<double> kScale;         ///< k = f/a; unset: 99th percentile of |eps| is full scale
+  double knifeEdgeAngle = 0;    ///< degrees; 0 measures the deflection along u, 90 along v
+  double cutoffOffset = 0;      ///< how far the edge is in, as a share of the source's image
+  bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter)
+  std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale
+  /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
+  std::vector<double> gradedFilter{ 0, 1 };
+  std::shared_ptr<const RgbPicture>
+    colorFilter;                ///< from k eps = (-1, -1) to (1, 1); null: the wheel
+  double wavelength = 632.8e-9; ///< of an interferogram, metres
+  Fringes fringes;
+  BackgroundPattern background;
   std::optional<double> screenDistance; ///< exit plane to screen, data units; unset: one data depth
+  double focusOffset = 0; ///< of the plane in focus from the data's middle along w, data units
+
+  LightSource source;
 
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
 
+  FilmEstimator filmEstimator = FilmEstimator::Sheet;
+  NoiseFilter noiseFilter = NoiseFilter::None;
+  double noiseFilterRadius = 2; ///< pixels
+  int histogramSize = 0;        ///< bins along each axis of Image::histogram; 0: none
   int samplesPerPixel = 4;
   std::uint32_t seed = 1;
 
@@ -164,6 +260,8 @@ struct Scene
   double pathTolerance = 0.01;
   Device device = Device::Auto;
   int threads = 0; ///< CPU threads; 0: all cores this process may use
+  /// Bytes of rays that are held for re-shading. The picture does not depend on it.
+  std::size_t memoryBudget = std::size_t{ 1 } << 30;
 };
 
 /// Where the picture of a view lies. u, v, w as above; half-open pixels, centres at origin + i size.
@@ -175,6 +273,22 @@ struct Frame
   double entry = 0, exit = 0;           ///< the grid's extent along w: x.w of both ends, data units
 };
 
+/// Where light meets the cutoff plane: how many rays of the picture came there, by their deflection.
+struct Histogram
+{
+  int size = 0;                   ///< bins along u and along v
+  double range = 0;               ///< the bins cover -range ... range of both direction cosines
+  std::vector<std::int64_t> rays; ///< of each bin; u runs fastest
+};
+
+/// Where light went, in rays of full light for each pixel and sample: emitted = onFilm + outside.
+struct LightBalance
+{
+  double emitted = 0; ///< by rays that reach the film's plane, after the cutoff
+  double onFilm = 0;
+  double outside = 0; ///< of the picture
+};
+
 /// The picture and what is known about it. Arrays are row-major, bottom row first.
 struct Image
 {
@@ -182,8 +296,10 @@ struct Image
   int height = 0;
   Frame frame;
 
-  PixelArray<float> intensity;              ///< per pixel; undisturbed: see Cutoff
-  PixelArray<float> color;                  ///< 3 per pixel: tinted intensity; empty if untinted
+  PixelArray<float> intensity;  ///< per pixel; undisturbed: see Cutoff; luminance of a colour
+  PixelArray<float> color;      ///< 3 per pixel, linear; empty where nothing colours
+  PixelArray<float> background; ///< per pixel: the pattern without the flow
+  PixelArray<float> backgroundDisplacement; ///< 2 per pixel: of the pattern, data units
   PixelArray<float> deflection;             ///< 2 per pixel: direction cosines along u and v
   PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
   PixelArray<float> displacement;           ///< 2 per pixel: at the exit plane, data units
@@ -192,11 +308,16 @@ struct Image
   Device device = Device::Cpu; ///< where the rays were traced
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
-  double kScale = 0;                          ///< the k used; 0 for a shadowgraph
-  double ambient = 0;                         ///< the ambient refractivity used
-  std::int64_t raysTraced = 0;                ///< rays of this picture that crossed the grid
-  std::int64_t stepsTaken = 0;                ///< integration steps of these rays
-  std::int64_t raysBlocked = 0;               ///< rays that a solid stopped
+  double kScale = 0;                          ///< the k used; 0 where there is no cutoff
+  double undisturbedLevel = 1;                ///< intensity of light that nothing bends
+  double saturatedShare =
+    0; ///< of the rays that reach the film: darkest or brightest the cutoff can make
+  LightBalance light;
+  Histogram histogram;
+  double ambient = 0;           ///< the ambient refractivity used
+  std::int64_t raysTraced = 0;  ///< rays of this picture that crossed the grid
+  std::int64_t stepsTaken = 0;  ///< integration steps of these rays
+  std::int64_t raysBlocked = 0; ///< rays that a solid stopped
   std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
   double traceSeconds = 0;      ///< spent tracing for this call; 0 when held rays were re-shaded
   double displacementBound = 0; ///< no ray of this medium is displaced further, data units
