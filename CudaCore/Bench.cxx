@@ -141,7 +141,8 @@ double skippingBound(
 {
   const double steepest = visitScheme(
     interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
-  return 2 * steepest * tolerance * length(light.indexScale) * light.depth * (1 + medium.largestNu);
+  const double way = light.depth / light.smallestCosine();
+  return 2 * steepest * tolerance * length(light.indexScale) * way * (1 + medium.largestNu);
 }
 
 /// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
@@ -166,7 +167,7 @@ double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& l
   const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
   const double rounding = rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
                                   : std::numeric_limits<double>::epsilon();
-  const double voxels = std::max(1., light.depth * length(light.perLength));
+  const double voxels = std::max(1., light.depth * light.fastest());
   return margin * medium.largestN * rounding * std::sqrt(voxels);
 }
 
