@@ -89,6 +89,8 @@ Light lightAlong(const Vec3<double>& w, const Grid& grid, const Frame& frame)
     light.unit / grid.spacing[2] };
   light.unitsPerIndex = { grid.spacing[0] / light.unit, grid.spacing[1] / light.unit,
     grid.spacing[2] / light.unit };
+  light.perLength = scaled(light.indexScale, light.w);
+  light.lengthPer = { 1 / light.perLength.x, 1 / light.perLength.y, 1 / light.perLength.z };
   const double pixel = frame.pixelSize / light.unit;
   light.perColumn = pixel * scaled(light.indexScale, light.u);
   light.perRow = pixel * scaled(light.indexScale, light.v);

@@ -41,6 +41,9 @@ struct Light
   Inclination inclination;
   double toFilm; ///< entry plane to the film along w; matters to tilted light only
 
+  Vec3<double> perLength; ///< index coordinates per unit of length along w
+  Vec3<double> lengthPer; ///< its inverse, axis by axis; infinite where it is 0
+
   Vec3<double> u, v, w; ///< the picture's axes in the grid's axes; w: the way that rays are traced
   Vec3<double> indexScale;    ///< index coordinates per unit of length along each grid axis
   Vec3<double> unitsPerIndex; ///< its inverse, axis by axis
@@ -50,10 +53,19 @@ struct Light
   double magnification;       ///< 1 + z / R: of what is in the middle of the data, on the film
 
   /// Where the light of a point of the picture is on the entry plane, in index coordinates.
-  SCHLIEREN_HD Vec3<double> start(double column, double row, const double (&tilt)[2]) const
+  SCHLIEREN_HD Vec3<double> start(double column, double row) const
   {
-    const Vec3<double> shift = (-toFilm * tilt[0]) * u + (-toFilm * tilt[1]) * v;
-    return corner + column * perColumn + row * perRow + scaled(indexScale, shift);
+    return corner + column * perColumn + row * perRow;
+  }
+  /// By how much a pass's tilt moves that, so that the light meets the film where it did.
+  SCHLIEREN_HD Vec3<double> shift(const double (&tilt)[2]) const
+  {
+    return scaled(indexScale, (-toFilm * tilt[0]) * u + (-toFilm * tilt[1]) * v);
+  }
+  /// Whether there are rays that are not along w.
+  SCHLIEREN_HD bool isInclined(const double (&tilt)[2]) const
+  {
+    return inclination.perPixel != 0 || tilt[0] != 0 || tilt[1] != 0;
   }
   /// The smallest cosine between its rays and w.
   SCHLIEREN_HD double smallestCosine() const

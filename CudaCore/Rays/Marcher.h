@@ -126,8 +126,10 @@ struct March
   Batch& batch;
   StraightLight<Real> light;
   Ray<Real> ray;
-  Real cruise;   ///< the usual step; 0 for rays that are not under way
-  Real nextStep; ///< Adaptive: no longer than this
+  Vec3<Real> stepsToLast,
+    stepsToFirst; ///< at least, per index coordinate towards the far or near side
+  Real cruise;    ///< the usual step; 0 for rays that are not under way
+  Real nextStep;  ///< Adaptive: no longer than this
   std::int32_t steps = 0;
   std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
@@ -140,6 +142,8 @@ struct March
     , batch(ofBatch)
     , light{ packs(ofBatch.direction), packs(ofBatch.perLength), ofTask.indexScale }
     , ray{}
+    , stepsToLast(stepsPerIndex(light.perLength))
+    , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
     , nextStep(Real{} + ofTask.step)
   {
     Number usual[lanes];
@@ -402,24 +406,26 @@ struct March
     }
   }
 
-  /// The steps that rays need at least for `way` along an axis of the grid: dx/ds is off D by q.
-  SCHLIEREN_HD Real stepsFor(const Real& way, const Real& along, const Number& indexScale) const
+  /// The steps that a ray needs at least per index coordinate along an axis of the grid: dx/ds is off D by q.
+  SCHLIEREN_HD Real stepsPerIndex(const Real& along, const Number& indexScale) const
   {
     constexpr Number slowest = Number(1e-9);
-    return way / greater(task.step * (along + task.largestQ * indexScale), Real{} + slowest);
+    return 1 / greater(task.step * (along + task.largestQ * indexScale), Real{} + slowest);
+  }
+  SCHLIEREN_HD Vec3<Real> stepsPerIndex(const Vec3<Real>& along) const
+  {
+    return { stepsPerIndex(along.x, light.indexScale.x), stepsPerIndex(along.y, light.indexScale.y),
+      stepsPerIndex(along.z, light.indexScale.z) };
   }
 
   /// How many steps the rays can take before any of them can reach the grid's side.
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
     const Vec3<Real> x = Path::position(ray, light);
-    const Vec3<Real> back = Number(-1) * light.perLength;
     const Vec3<Number>& last = task.medium.last;
-    const Vec3<Real> toLast = { stepsFor(last.x - x.x, light.perLength.x, light.indexScale.x),
-      stepsFor(last.y - x.y, light.perLength.y, light.indexScale.y),
-      stepsFor(last.z - x.z, light.perLength.z, light.indexScale.z) };
-    const Vec3<Real> toFirst = { stepsFor(x.x, back.x, light.indexScale.x),
-      stepsFor(x.y, back.y, light.indexScale.y), stepsFor(x.z, back.z, light.indexScale.z) };
+    const Vec3<Real> toLast =
+      scaled(Vec3<Real>{ last.x - x.x, last.y - x.y, last.z - x.z }, stepsToLast);
+    const Vec3<Real> toFirst = scaled(x, stepsToFirst);
     const Real least = lesser(lesser(lesser(toLast.x, toFirst.x), lesser(toLast.y, toFirst.y)),
       lesser(toLast.z, toFirst.z));
     Number most[lanes];

@@ -27,14 +27,14 @@ struct Chord
   double from, to;
 };
 
-SCHLIEREN_HD void clip(Chord& chord, double start, double along, double last)
+/// `per` is 1 / along.
+SCHLIEREN_HD void clip(Chord& chord, double start, double along, double per, double last)
 {
   if (along == 0)
   {
     chord.to = start < 0 || start > last ? -1 : chord.to;
     return;
   }
-  const double per = 1 / along;
   const double a = (0 - start) * per;
   const double b = (last - start) * per;
   chord.from = greater(chord.from, lesser(a, b));
@@ -57,22 +57,30 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
   batch.steps[i] = 0;
   const Light& light = task.light;
   const double column = pass.columnOf(ray), row = pass.rowOf(ray);
-  const double slope[2] = { light.inclination.at(0, column, pass.tilt[0]),
-    light.inclination.at(1, row, pass.tilt[1]) };
-  const Vec3<double> start = light.start(column, row, pass.tilt);
+  Vec3<double> start = light.start(column, row);
+  double slope[2] = { 0, 0 };
+  double cosine = 1;
+  Vec3<double> steep = light.w, along = light.perLength, per = light.lengthPer;
+  if (light.isInclined(pass.tilt)) // else nothing to divide by
+  {
+    start += light.shift(pass.tilt);
+    slope[0] = light.inclination.at(0, column, pass.tilt[0]);
+    slope[1] = light.inclination.at(1, row, pass.tilt[1]);
+    cosine = 1 / std::sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    steep = light.w + slope[0] * light.u + slope[1] * light.v;
+    along = scaled(light.indexScale, steep);
+    per = { 1 / along.x, 1 / along.y, 1 / along.z };
+  }
   const Vec3<double> last = static_cast<Vec3<double>>(task.medium.last);
-  const Vec3<double> steep = light.w + slope[0] * light.u + slope[1] * light.v;
-  const Vec3<double> along = scaled(light.indexScale, steep);
   Chord chord{ 0, light.depth };
-  clip(chord, start.x, along.x, last.x);
-  clip(chord, start.y, along.y, last.y);
-  clip(chord, start.z, along.z, last.z);
+  clip(chord, start.x, along.x, per.x, last.x);
+  clip(chord, start.y, along.y, per.y, last.y);
+  clip(chord, start.z, along.z, per.z, last.z);
   if (!(chord.from < chord.to))
   {
     batch.fate[i] = RayFate::Missed;
     return {};
   }
-  const double cosine = 1 / std::sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
   const Vec3<Number> at =
     clampTo(static_cast<Vec3<Number>>(start + chord.from * along), task.medium.last);
   const auto put = [i](const Vec3<Number>& from, Number(&to)[3][Lanes])
@@ -116,10 +124,10 @@ SCHLIEREN_HD RayExit leaveGrid(
   const Vec3<double> d = { entry.slope[0] * entry.cosine, entry.slope[1] * entry.cosine,
     entry.cosine };
   const bool bends = task.kernel.path != PathModel::Straight;
-  // p = d + q, of the length `momentum`; of a straight ray to first order in q.
+  // p = d + q; of a straight ray to first order in q.
   double forward = d.z;
-  double momentum = 1;
-  double longer = dot(d, q); // |p| - 1
+  double perMomentum = 1;
+  double longer = dot(d, q); // 1 - 1 / |p|
   if (bends)
   {
     const Vec3<double> p = d + q;
@@ -129,12 +137,13 @@ SCHLIEREN_HD RayExit leaveGrid(
       exit.fate = RayFate::Turned;
       return exit;
     }
-    momentum = length(p);
-    longer = (2 * longer + dot(q, q)) / (momentum + 1);
+    const double momentum = length(p);
+    const double perBoth = 1 / (momentum * (momentum + 1));
+    perMomentum = (momentum + 1) * perBoth;
+    longer = (2 * longer + dot(q, q)) * perBoth;
   }
-  const double perMomentum = 1 / momentum;
-  exit.deflection[0] = (q.x - d.x * longer) * perMomentum;
-  exit.deflection[1] = (q.y - d.y * longer) * perMomentum;
+  exit.deflection[0] = q.x * perMomentum - d.x * longer;
+  exit.deflection[1] = q.y * perMomentum - d.y * longer;
   exit.opticalPathDifference =
     (static_cast<double>(batch.path[i]) - static_cast<double>(batch.pathError[i])) *
     task.metresPerUnit;
