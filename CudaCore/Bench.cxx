@@ -391,11 +391,11 @@ Image Bench::Stages::render(
     { 0, 0 } };
   const std::int64_t mostRays =
     (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
-  std::optional<Film> film(std::in_place, view.width, view.height, mostRays);
-  std::unique_ptr<ColorFilm> colorFilm;
+  std::optional<Films> films;
   std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
   PixelMeans means(view.width, view.height, scene.threads);
-  const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize };
+  const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize,
+    (1 + held.medium.ambient) * field.lengthScale };
 
   RayCounts counts;
   std::vector<TracedRays> waiting; // held passes are exposed together
@@ -415,16 +415,6 @@ Image Bench::Stages::render(
     }
     image.momentumDrift = std::max(image.momentumDrift, traced->worstDrift);
     waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
-    if (number == 0 && field.gradients.count > 0)
-    {
-      if (!tint)
-      {
-        tint = tintReference(
-          waiting[0], scene.fieldColors.size(), view.width, view.height, scene.threads);
-      }
-      colorFilm = std::make_unique<ColorFilm>(
-        Tint{ scene.fieldColors, *tint }, view.width, view.height, mostRays);
-    }
     if (number == 0 && scene.cutoff != Cutoff::Shadowgraph)
     {
       if (!scene.kScale && !k)
@@ -440,12 +430,27 @@ Image Bench::Stages::render(
       }
       image.kScale = scene.kScale ? *scene.kScale : *k;
     }
+    if (number == 0)
+    {
+      std::optional<Tint> tintOfRays;
+      if (field.gradients.count > 0)
+      {
+        if (!tint)
+        {
+          tint = tintReference(
+            waiting[0], scene.fieldColors.size(), view.width, view.height, scene.threads);
+        }
+        tintOfRays = Tint{ scene.fieldColors, *tint };
+      }
+      films.emplace(channelsOf(cutoffFrom(scene, image.kScale)), std::move(tintOfRays), view.width,
+        view.height, mostRays);
+    }
     if (traced->onDevice)
     {
       waiting.clear();
       if (!filmOnDevice)
       {
-        filmOnDevice = std::make_unique<CudaFilm>(*film);
+        filmOnDevice = std::make_unique<CudaFilm>(films->planes[0]);
       }
       filmOnDevice->expose(
         *traced->onDevice, pass, cutoffFrom(scene, image.kScale), projection, margin);
@@ -454,8 +459,8 @@ Image Bench::Stages::render(
     const bool isLast = number + 1 == scene.samplesPerPixel;
     if (traced == &scratch || isLast)
     {
-      counts.add(expose(waiting, cutoffFrom(scene, image.kScale), projection, margin, scene.threads,
-        *film, colorFilm.get()));
+      counts.add(expose(
+        waiting, cutoffFrom(scene, image.kScale), projection, margin, scene.threads, *films));
       if (!isLast)
       {
         means.add(waiting);
@@ -465,19 +470,18 @@ Image Bench::Stages::render(
   }
   if (filmOnDevice)
   {
-    counts = filmOnDevice->develop(*film, means);
+    counts = filmOnDevice->develop(films->planes[0], means);
   }
   image.raysTraced = counts.crossed;
   image.stepsTaken = counts.steps;
   image.raysBlocked = counts.blocked;
   image.raysLost = counts.lost;
-  image.intensity = film->develop(scene.samplesPerPixel, scene.threads);
-  film.reset(); // the means want memory, too
-  if (colorFilm)
+  image.intensity = films->developIntensity(scene.samplesPerPixel, scene.threads);
+  if (films->isColored())
   {
-    image.color = colorFilm->develop(scene.samplesPerPixel, scene.threads);
-    colorFilm.reset();
+    image.color = films->developColor(scene.samplesPerPixel, scene.threads);
   }
+  films.reset(); // the means want memory, too
   means.develop(waiting, image);
   scratch = {};
   spare.clear();

@@ -89,10 +89,14 @@ __global__ void exposeKernel(const CutoffKind cutoff, const Projection projectio
     // Rounded as in Exposure.cxx.
     const double startColumn = static_cast<double>(-margin) + pass.offset.column;
     const double startRow = static_cast<double>(row) + pass.offset.row;
-    const Landing at = landingOf(exit, startColumn + static_cast<double>(i), startRow, projection);
-    if (exit.reachesFilm() && isOnFilm(at.column, at.row, sums.width, sums.height))
+    const RayAtFilm ray =
+      rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection);
+    const double* at = ray.position;
+    if (exit.reachesFilm() && isOnFilm(at[0], at[1], sums.width, sums.height))
     {
-      splat(sums, footprintOf(at.column, at.row), cutoff.transmission(exit.deflection));
+      double light[CutoffKind::channels];
+      cutoff.shade(ray, light);
+      splat(sums, footprintOf(at[0], at[1]), light[0]);
     }
   }
   const int crossed = __syncthreads_count(counts.crossed != 0);

@@ -5,9 +5,12 @@
 #include "Device/Parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <utility>
+#include <variant>
 
 namespace schlieren
 {
@@ -15,66 +18,75 @@ namespace schlieren
 namespace
 {
 
-/// Where a ray meets the film, and how much of it arrives.
+/// Where a ray meets the film, and how much light of each channel arrives.
+template <std::size_t Channels>
 struct Spot
 {
-  Landing at;
-  double light;
+  double column, row;
+  double light[Channels];
   std::int64_t ray;
 };
 
 /// One thread's part of the films.
-struct Bands
+template <std::size_t Channels, bool isTinted>
+class Bands
 {
-  Bands(Film& film, ColorFilm* colorFilm)
-    : light(film)
+public:
+  explicit Bands(Films& films)
+    : tint_(isTinted ? &*films.tintOfRays : nullptr)
   {
-    if (colorFilm != nullptr)
+    for (std::size_t plane = 0; plane < bands_.size(); ++plane)
     {
-      tint = &colorFilm->tint;
-      for (std::size_t channel = 0; channel < channels.size(); ++channel)
-      {
-        channels[channel] = std::make_unique<FilmBand>(colorFilm->channels[channel]);
-      }
+      bands_[plane] = std::make_unique<FilmBand>(films.planes[plane]);
     }
   }
 
   void cover(std::int64_t lowest, std::int64_t highest)
   {
-    light.cover(lowest, highest);
-    if (tint != nullptr)
+    for (const auto& band : bands_)
     {
-      for (const auto& channel : channels)
-      {
-        channel->cover(lowest, highest);
-      }
+      band->cover(lowest, highest);
     }
   }
 
-  void splat(const Spot& spot, const float* gathered)
+  void splat(const Spot<Channels>& spot, const float* gathered)
   {
-    const Footprint at = footprintOf(spot.at.column, spot.at.row);
-    light.splat(at, spot.light);
-    if (tint != nullptr)
+    const Footprint at = footprintOf(spot.column, spot.row);
+    std::array<double, 3> color{ 1, 1, 1 };
+    if constexpr (isTinted)
     {
-      const std::array<double, 3> color =
-        tint->of(gathered + static_cast<std::size_t>(spot.ray) * tint->colors.size());
-      for (std::size_t channel = 0; channel < channels.size(); ++channel)
+      color = tint_->of(gathered + static_cast<std::size_t>(spot.ray) * tint_->colors.size());
+    }
+    if constexpr (Channels == 1)
+    {
+      bands_[0]->splat(at, spot.light[0]);
+      for (std::size_t plane = 1; plane < bands_.size(); ++plane)
       {
-        channels[channel]->splat(at, spot.light * color[channel]);
+        bands_[plane]->splat(at, spot.light[0] * color[plane - 1]);
+      }
+    }
+    else
+    {
+      for (std::size_t plane = 0; plane < Channels; ++plane)
+      {
+        bands_[plane]->splat(at, spot.light[plane] * color[plane]);
       }
     }
   }
 
-  FilmBand light;
-  const Tint* tint = nullptr;
-  std::array<std::unique_ptr<FilmBand>, 3> channels;
+private:
+  static constexpr std::size_t planes = Channels == 1 && isTinted ? 4 : Channels;
+
+  const Tint* tint_;
+  std::array<std::unique_ptr<FilmBand>, planes> bands_;
 };
 
-template <class CutoffKind>
+template <bool isTinted, class CutoffKind>
 RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& passes,
-  const Projection& projection, std::int64_t margin, int threads, Film& film, ColorFilm* colorFilm)
+  const Projection& projection, std::int64_t margin, int threads, Films& films)
 {
+  constexpr std::size_t channels = CutoffKind::channels;
+  const Film& film = films.planes[0];
   const std::int64_t columns = film.width() + 2 * margin;
   const std::int64_t rows = film.height() + 2 * margin;
   constexpr std::int64_t piecesPerThread = 4;
@@ -86,9 +98,9 @@ RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& pass
   parallelFor(rows, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      Bands bands(film, colorFilm);
+      Bands<channels, isTinted> bands(films);
       RayCounts countsHere;
-      std::vector<Spot> spots(static_cast<std::size_t>(columns));
+      std::vector<Spot<channels>> spots(static_cast<std::size_t>(columns));
       for (std::int64_t row = begin - margin; row < end - margin; ++row)
       {
         for (const TracedRays& rays : passes)
@@ -103,13 +115,19 @@ RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& pass
           {
             const RayExit& exit = rays.exits[first + i];
             countsHere.add(exit);
-            const Landing at =
-              landingOf(exit, startColumn + static_cast<double>(i), startRow, projection);
-            if (exit.reachesFilm() && isOnFilm(at.column, at.row, film.width(), film.height()))
+            const RayAtFilm ray =
+              rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection);
+            const double column = ray.position[0];
+            const double up = ray.position[1];
+            if (exit.reachesFilm() && isOnFilm(column, up, film.width(), film.height()))
             {
-              spots[count++] = { at, cutoff.transmission(exit.deflection), first + i };
-              lowest = std::min(lowest, at.row);
-              highest = std::max(highest, at.row);
+              Spot<channels>& spot = spots[count++];
+              spot.column = column;
+              spot.row = up;
+              spot.ray = first + i;
+              cutoff.shade(ray, spot.light);
+              lowest = std::min(lowest, up);
+              highest = std::max(highest, up);
             }
           }
           if (count > 0)
@@ -130,19 +148,39 @@ RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& pass
 
 } // namespace
 
-ColorFilm::ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t mostRays)
-  : tint(tintOfRays)
-  , channels{ Film(width, height, mostRays), Film(width, height, mostRays),
-    Film(width, height, mostRays) }
+Films::Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t mostRays)
+  : tintOfRays(std::move(tint))
 {
+  const int count = channels == 1 && tintOfRays ? 4 : channels;
+  for (int plane = 0; plane < count; ++plane)
+  {
+    planes.emplace_back(width, height, mostRays);
+  }
 }
 
-PixelArray<float> ColorFilm::develop(double raysPerPixel, int threads) const
+PixelArray<float> Films::developIntensity(double raysPerPixel, int threads) const
 {
-  PixelArray<float> picture(channels.size() * channels[0].pixels());
+  PixelArray<float> picture = planes[0].develop(raysPerPixel, threads);
+  if (planes.size() == 3)
+  {
+    const PixelArray<float> green = planes[1].develop(raysPerPixel, threads);
+    const PixelArray<float> blue = planes[2].develop(raysPerPixel, threads);
+    for (std::size_t pixel = 0; pixel < picture.size(); ++pixel)
+    {
+      // Of linear sRGB (IEC 61966-2-1).
+      picture[pixel] = 0.2126f * picture[pixel] + 0.7152f * green[pixel] + 0.0722f * blue[pixel];
+    }
+  }
+  return picture;
+}
+
+PixelArray<float> Films::developColor(double raysPerPixel, int threads) const
+{
+  PixelArray<float> picture(3 * planes[0].pixels());
   for (std::size_t channel = 0; channel < 3; ++channel)
   {
-    const PixelArray<float> light = channels[channel].develop(raysPerPixel, threads);
+    const Film& film = planes[planes.size() - 3 + channel];
+    const PixelArray<float> light = film.develop(raysPerPixel, threads);
     for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
     {
       picture[3 * pixel + channel] = light[pixel];
@@ -152,10 +190,14 @@ PixelArray<float> ColorFilm::develop(double raysPerPixel, int threads) const
 }
 
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, int threads, Film& film, ColorFilm* colorFilm)
+  const Projection& projection, std::int64_t margin, int threads, Films& films)
 {
-  return std::visit([&](const auto& kind)
-    { return exposeBy(kind, passes, projection, margin, threads, film, colorFilm); },
+  return std::visit(
+    [&](const auto& kind)
+    {
+      return films.tintOfRays ? exposeBy<true>(kind, passes, projection, margin, threads, films)
+                              : exposeBy<false>(kind, passes, projection, margin, threads, films);
+    },
     cutoff);
 }
 

@@ -9,7 +9,6 @@
 #include "PixelArray.h"
 #include "Rays/TracedRays.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,16 +16,22 @@
 namespace schlieren
 {
 
-/// A picture in tinted light: red, green and blue.
-struct ColorFilm
+/// The films of a picture: of one for light, or of three for linear red, green and blue. Where fields tint a
+/// picture of one, three more hold its colours.
+struct Films
 {
-  ColorFilm(const Tint& tintOfRays, int width, int height, std::int64_t mostRays);
+  /// `channels` of the cutoff, 1 or 3. `tint`: unset where nothing tints.
+  Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t mostRays);
 
+  bool isColored() const { return planes.size() > 1; }
+
+  /// One value per pixel; of a picture in colour, its luminance.
+  PixelArray<float> developIntensity(double raysPerPixel, int threads) const;
   /// Three values per pixel.
-  PixelArray<float> develop(double raysPerPixel, int threads) const;
+  PixelArray<float> developColor(double raysPerPixel, int threads) const;
 
-  Tint tint;
-  std::array<Film, 3> channels;
+  std::optional<Tint> tintOfRays;
+  std::vector<Film> planes;
 };
 
 /// What became of rays.
@@ -56,8 +61,8 @@ struct RayCounts
 };
 
 /// Adds to the films the light of rays that start in the picture or up to `margin` pixels around it; their
-/// passes cover that. `colorFilm`: null where nothing tints.
+/// passes cover that.
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, int threads, Film& film, ColorFilm* colorFilm);
+  const Projection& projection, std::int64_t margin, int threads, Films& films);
 
 } // namespace schlieren

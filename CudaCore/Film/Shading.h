@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Math/HostDevice.h"
+#include "Optics/RayAtFilm.h"
 #include "Rays/RayExit.h"
 
 #include <cmath>
@@ -15,25 +16,24 @@ struct Projection
 {
   double distance;    ///< of what the film shows past the exit plane, data units; < 0: before it
   double perDataUnit; ///< pixels
+  double pathPerDataUnit; ///< optical path of undisturbed light, metres
 };
 
-/// Where light meets the film, in pixels from the centre of pixel (0, 0).
-struct Landing
-{
-  double column, row;
-};
-
-/// Of a ray that starts at (column, row) of the picture and reaches the film.
-SCHLIEREN_HD Landing landingOf(
+/// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
+/// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
+SCHLIEREN_HD RayAtFilm rayAtFilm(
   const RayExit& exit, double column, double row, const Projection& projection)
 {
   const double* eps = exit.deflection;
-  const double forward = 1 - eps[0] * eps[0] - eps[1] * eps[1]; // squared cosine along w
-  const double perCosine = projection.distance / sqrt(forward > 1e-300 ? forward : 1e-300);
-  return { column +
-      (static_cast<double>(exit.displacement[0]) + perCosine * eps[0]) * projection.perDataUnit,
-    row +
-      (static_cast<double>(exit.displacement[1]) + perCosine * eps[1]) * projection.perDataUnit };
+  const double sideways = eps[0] * eps[0] + eps[1] * eps[1];
+  const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30); // cosine along w
+  const double way = projection.distance / forward;
+  // 1 / forward - 1, without losing small angles.
+  const double longer = sideways / (forward * (1 + forward));
+  return { { eps[0], eps[1] },
+    exit.opticalPathDifference + projection.distance * longer * projection.pathPerDataUnit,
+    { column + (static_cast<double>(exit.displacement[0]) + way * eps[0]) * projection.perDataUnit,
+      row + (static_cast<double>(exit.displacement[1]) + way * eps[1]) * projection.perDataUnit } };
 }
 
 } // namespace schlieren

@@ -4,6 +4,7 @@
 
 #include "Math/HostDevice.h"
 #include "Math/Units.h"
+#include "Optics/RayAtFilm.h"
 
 #include <cmath>
 #include <variant>
@@ -29,12 +30,14 @@ struct KnifeEdge
     return { k, { cosine, sine }, inverted };
   }
 
-  SCHLIEREN_HD double transmission(const double (&deflection)[2]) const
+  static constexpr int channels = 1;
+
+  SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
   {
-    const double along = deflection[0] * normal[0] + deflection[1] * normal[1];
+    const double along = ray.deflection[0] * normal[0] + ray.deflection[1] * normal[1];
     const double change = inverted ? -k * along : k * along;
-    const double light = 0.5 + change;
-    return light > 0 ? (light < 1 ? light : 1) : 0;
+    const double passed = 0.5 + change;
+    light[0] = passed > 0 ? (passed < 1 ? passed : 1) : 0;
   }
 };
 
@@ -42,10 +45,17 @@ struct KnifeEdge
 /// Undisturbed light: 1.
 struct Shadowgraph
 {
-  SCHLIEREN_HD double transmission(const double (&)[2]) const { return 1; }
+  static constexpr int channels = 1;
+
+  SCHLIEREN_HD void shade(const RayAtFilm&, double (&light)[channels]) const { light[0] = 1; }
 };
 
-/// Any of the above.
+/// Any of the above. Each gives a ray's light, 0 ... 1, of one channel or of three: linear red, green, blue.
 using Cutoffs = std::variant<KnifeEdge, Shadowgraph>;
+
+inline int channelsOf(const Cutoffs& cutoff)
+{
+  return std::visit([](const auto& kind) { return kind.channels; }, cutoff);
+}
 
 } // namespace schlieren

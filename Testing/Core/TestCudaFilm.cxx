@@ -18,7 +18,7 @@ using HostAndDeviceFilm = WithCuda;
 constexpr int width = 301, height = 203; // whole blocks of threads do not fit
 constexpr std::int64_t heldMargin = 5;   // more than is used
 constexpr std::int64_t margin = 3;
-constexpr Projection projection{ -0.7, 1 / 0.013 };
+constexpr Projection projection{ -0.7, 1 / 0.013, 1 };
 
 /// Rays of all fates, some of them far off the film or strange (in the margin that is not used for means).
 std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
@@ -54,7 +54,9 @@ void expectSamePictures(const Cutoffs& cutoff)
   std::mt19937 random(5);
   std::vector<std::vector<RayExit>> exits;
   std::vector<TracedRays> traced;
-  Film film(width, height, rays), filmOfDevice(width, height, rays);
+  Films films(1, {}, width, height, rays);
+  Film filmOfDevice(width, height, rays);
+  const Film& film = films.planes[0];
   CudaFilm onDevice(film);
   for (int number = 0; number < passes; ++number)
   {
@@ -64,7 +66,7 @@ void expectSamePictures(const Cutoffs& cutoff)
     traced.push_back({ pass, exits.back().data(), nullptr });
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin);
   }
-  const RayCounts counts = expose(traced, cutoff, projection, margin, 1, film, nullptr);
+  const RayCounts counts = expose(traced, cutoff, projection, margin, 1, films);
   PixelMeans means(width, height, 1), meansOfDevice(width, height, 1);
   const RayCounts countsOfDevice = onDevice.develop(filmOfDevice, meansOfDevice);
 

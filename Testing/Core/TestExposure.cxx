@@ -73,9 +73,9 @@ struct Exposed
 Exposed exposed(const std::vector<TracedRays>& rays, const Cutoffs& cutoff,
   const Projection& projection, int threads)
 {
-  Film film(width, height, 1000000);
-  const RayCounts counts = expose(rays, cutoff, projection, margin, threads, film, nullptr);
-  return { film.develop(1, threads), counts };
+  Films films(channelsOf(cutoff), {}, width, height, 1000000);
+  const RayCounts counts = expose(rays, cutoff, projection, margin, threads, films);
+  return { films.developIntensity(1, threads), counts };
 }
 
 } // namespace
@@ -88,7 +88,7 @@ TEST(Exposure, IsTheSumOfAllRays)
     SCOPED_TRACE(spread);
     const InventedRays invented(3, spread);
     const KnifeEdge knife = KnifeEdge::at(30, 400, false);
-    const Projection projection{ -40, 1.25 };
+    const Projection projection{ -40, 1.25, 1 };
     std::vector<double> expected(width * height);
     RayCounts counts;
     for (const TracedRays& rays : invented.rays)

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace schlieren
+{
+
+/// What optics sees of a ray that reaches the film.
+struct RayAtFilm
+{
+  double deflection[2]; ///< direction cosines along u and v
+  double path;          ///< optical path difference on the film, metres
+  double position[2];   ///< where it meets the film: pixels from the centre of pixel (0, 0)
+};
+
+} // namespace schlieren
