@@ -90,8 +90,8 @@ __global__ void exposeKernel(const CutoffKind cutoff, const Projection projectio
     const double startColumn = static_cast<double>(-margin) + pass.offset.column;
     const double startRow = static_cast<double>(row) + pass.offset.row;
     const RayAtFilm ray =
-      rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection);
-    const double* at = ray.position;
+      rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, pass.tilt, projection);
+    const double* at = ray.place;
     if (exit.reachesFilm() && isOnFilm(at[0], at[1], sums.width, sums.height))
     {
       double light[CutoffKind::channels];

@@ -115,10 +115,10 @@ RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& pass
           {
             const RayExit& exit = rays.exits[first + i];
             countsHere.add(exit);
-            const RayAtFilm ray =
-              rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection);
-            const double column = ray.position[0];
-            const double up = ray.position[1];
+            const RayAtFilm ray = rayAtFilm(
+              exit, startColumn + static_cast<double>(i), startRow, rays.pass.tilt, projection);
+            const double column = ray.place[0];
+            const double up = ray.place[1];
             if (exit.reachesFilm() && isOnFilm(column, up, film.width(), film.height()))
             {
               Spot<channels>& spot = spots[count++];

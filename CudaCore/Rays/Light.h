@@ -24,6 +24,11 @@ struct Inclination
   {
     return atOrigin[axis] + pixel * perPixel + tilt;
   }
+  /// Whether there are rays that are not along w.
+  SCHLIEREN_HD bool isInclined(const double (&tilt)[2]) const
+  {
+    return perPixel != 0 || tilt[0] != 0 || tilt[1] != 0;
+  }
 };
 
 /// For a point of the picture, the straight line in the grid's index coordinates that light follows there
@@ -61,11 +66,6 @@ struct Light
   SCHLIEREN_HD Vec3<double> shift(const double (&tilt)[2]) const
   {
     return scaled(indexScale, (-toFilm * tilt[0]) * u + (-toFilm * tilt[1]) * v);
-  }
-  /// Whether there are rays that are not along w.
-  SCHLIEREN_HD bool isInclined(const double (&tilt)[2]) const
-  {
-    return inclination.perPixel != 0 || tilt[0] != 0 || tilt[1] != 0;
   }
   /// The smallest cosine between its rays and w.
   SCHLIEREN_HD double smallestCosine() const

@@ -61,7 +61,7 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
   double slope[2] = { 0, 0 };
   double cosine = 1;
   Vec3<double> steep = light.w, along = light.perLength, per = light.lengthPer;
-  if (light.isInclined(pass.tilt)) // else nothing to divide by
+  if (light.inclination.isInclined(pass.tilt)) // else nothing to divide by
   {
     start += light.shift(pass.tilt);
     slope[0] = light.inclination.at(0, column, pass.tilt[0]);
