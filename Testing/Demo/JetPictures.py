@@ -15,7 +15,8 @@ path = os.path.abspath("ladenburg_jet_3d_schlieren.png")
 assert code == 0, f"Exit code {code}"
 assert out.splitlines()[-1].endswith(f"The picture: {path}"), "It does not say where the picture is"
 
-options = SimpleNamespace(view=VIEWS["z"], center=None, size=None, half_height=None)
+options = SimpleNamespace(view=VIEWS["z"], center=None, size=None, half_height=None,
+                          largest=(880, 640))
 frame = Frame((6.25e-5, 0.0299375, -0.008, 0.008, -0.008, 0.008), options)
 volume, vertical, horizontal, shadow = tiles(path, frame)
 check_not_blank(volume, vertical, horizontal, shadow)

@@ -86,20 +86,23 @@ def setting(text):
     return name, list(value) if isinstance(value, tuple) else value
 
 
-def parse_arguments(arguments):
-    parser = argparse.ArgumentParser(
-        prog="demo", formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="""\
+FOUR_PICTURES = """\
 Writes one PNG with four pictures of the same view of a flow field: volume rendering, schlieren with
 a vertical and with a horizontal knife edge, and shadowgraph. Without FILE: an under-expanded air
-jet that comes with the sources.""",
+jet that comes with the sources."""
+
+
+def parse_arguments(arguments, program="demo", description=FOUR_PICTURES, largest="880x640",
+                    ending="_schlieren.png"):
+    parser = argparse.ArgumentParser(
+        prog=program, formatter_class=argparse.RawDescriptionHelpFormatter, description=description,
         epilog="""\
 examples:
-  demo
-  demo flow.vtu --array rho --view y
-  demo case.foam --formula 'p/(287.05*T)' --set OutsideBlocksLight=0
-  demo bluntfinxyz.bin --density-scale 0.72 --length-scale 0.0127
-  demo plume.vti --set Interpolation=Linear --set SamplesPerPixel=1""")
+  %(prog)s
+  %(prog)s flow.vtu --array rho --view y
+  %(prog)s case.foam --formula 'p/(287.05*T)' --set OutsideBlocksLight=0
+  %(prog)s bluntfinxyz.bin --density-scale 0.72 --length-scale 0.0127
+  %(prog)s plume.vti --set Interpolation=Linear --set SamplesPerPixel=1""")
     add = parser.add_argument
     add("file", nargs="?", metavar="FILE",
         help="a 3-D data set, in any format that ParaView reads; of a PLOT3D pair, the grid file")
@@ -129,17 +132,17 @@ examples:
     add("--half-height", type=positive, metavar="H",
         help="half the picture's height, in the data's unit; default: all of the data is seen")
     add("--size", type=size, metavar="WxH",
-        help="pixels of each of the four pictures; default: at most 880x640, in the data's "
-             "proportions")
+        help=f"pixels of each picture; default: at most {largest}, in the data's proportions")
     add("--set", type=setting, action="append", default=[], metavar="PROPERTY=VALUE",
         dest="settings", help="any other property of the Schlieren filter; may be repeated")
-    add("--output", metavar="PNG", help="default: FILE_schlieren.png in the current folder")
+    add("--output", metavar="PNG", help=f"default: FILE{ending} in the current folder")
     add("--plugin", default=os.environ.get("SCHLIEREN_PLUGIN"), metavar="SO",
         help="the plugin's file; default: the environment variable SCHLIEREN_PLUGIN, which "
              "Utilities/demo sets")
     add("--check", action="store_true", help="check the arguments and stop")
     options = parser.parse_args(arguments)
 
+    options.largest = size(largest)
     options.file = options.file or JET
     if options.array and options.formula:
         raise DemoError("--array and --formula are two ways to say the same: give one of them.")
@@ -149,7 +152,7 @@ examples:
         if os.path.isdir(path) or not os.access(path, os.R_OK):
             raise DemoError(f"'{path}' is a folder or may not be read by you.")
     if options.output is None:
-        options.output = os.path.splitext(os.path.basename(options.file))[0] + "_schlieren.png"
+        options.output = os.path.splitext(os.path.basename(options.file))[0] + ending
     folder = os.path.dirname(os.path.abspath(options.output))
     if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
         raise DemoError(f"Cannot write '{options.output}': '{folder}' is no folder that you may "

@@ -31,7 +31,7 @@ class Frame:
         if options.size:
             self.width, self.height = options.size
         else:
-            pixel = max(width / 880, height / 640)
+            pixel = max(width / options.largest[0], height / options.largest[1])
             self.width, self.height = (max(160, math.ceil(side / pixel))
                                        for side in (width, height))
         self.scale = options.half_height or max(height, width * self.height / self.width) / 2

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 
-from arguments import MODELS, DemoError, parse_arguments
+from arguments import DemoError, parse_arguments
 
 try:
     OPTIONS = parse_arguments(sys.argv[1:])
@@ -25,54 +25,20 @@ if OPTIONS.check:
 # Only now: --help and mistakes in the arguments need no ParaView.
 import numpy as np  # noqa: E402
 import paraview.simple as pv  # noqa: E402
-from paraview import servermanager  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
 
+from bench import (check_light, configure, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
+                   output_of)
 from frame import Frame  # noqa: E402
 from messages import Messages, Progress, say  # noqa: E402
-from reading import choose_array, evaluate, read  # noqa: E402
 from sheet import compose  # noqa: E402
-
-
-def configure(proxy, reader, array, options):
-    """What RefractiveIndex and Schlieren have in common: what the index of refraction is."""
-    proxy.IndexModel = options.model
-    setattr(proxy, MODELS[options.model][0], list(array))
-    proxy.GladstoneDaleConstant = options.constant
-    proxy.DensityScale = options.density_scale
-    for name, value in options.settings:
-        if name in proxy.ListProperties():
-            setattr(proxy, name, value)
-
-
-def output_of(proxy, what, messages):
-    proxy.UpdatePipeline()
-    image = servermanager.Fetch(proxy)
-    if image is None or image.GetNumberOfPoints() == 0:
-        raise DemoError(f"The {what} failed. {messages.last_error()}")
-    return image
 
 
 def bench_pictures(reader, array, frame, options, messages):
     """Vertical knife edge, horizontal knife edge and shadowgraph, from one tracing of the rays."""
-    schlieren = pv.Schlieren(Input=reader)
-    configure(schlieren, reader, array, options)
-    schlieren.LengthScale = options.length_scale
-    schlieren.ViewDirection = list(frame.direction)
-    schlieren.ViewUp = list(frame.up)
-    schlieren.FocalPoint = list(frame.center)
-    schlieren.ParallelScale = frame.scale
-    schlieren.ImageSize = [frame.width, frame.height]
-    schlieren.Quality = "Publication"
-    schlieren.SamplesPerPixel = 4
-    for name, value in options.settings:
-        if name not in schlieren.ListProperties():
-            raise DemoError(f"The Schlieren filter has no property '{name}'. "
-                            f"It has: {', '.join(schlieren.ListProperties())}.")
-        setattr(schlieren, name, value)
-
+    schlieren = new_bench(reader, array, frame, options)
     progress = Progress(schlieren)
     pictures = []
     for name, cutoff, angle in (("vertical knife edge", "Knife Edge", 0),
@@ -84,28 +50,16 @@ def bench_pictures(reader, array, frame, options, messages):
         image = output_of(schlieren, name, messages)
         arrays = image.GetPointData()
         intensity = vtk_to_numpy(arrays.GetArray("Intensity"))
-        blocked = vtk_to_numpy(arrays.GetArray("BlockedFraction")).sum() * frame.pixel ** 2
-        facts = {}
-        for index in range(image.GetFieldData().GetNumberOfArrays()):
-            field = image.GetFieldData().GetAbstractArray(index)
-            facts[field.GetName()] = field.GetValue(0)
-        pictures.append((intensity.reshape(frame.height, frame.width).copy(), facts))
+        pictures.append((intensity.reshape(frame.height, frame.width).copy(), facts_of(image)))
         say(f"{name.capitalize()}: {time.monotonic() - begin:.1f} s")
-    share = blocked / frame.shadow
-    if share > 0.99:
-        raise DemoError("No light comes through: on every way there is a place that is solid or "
-                        "that no cell covers. Choose another --view, or let light pass outside of "
-                        "all cells: --set OutsideBlocksLight=0")
-    if share > 0.1:
-        say(f"{share:.0%} of the light is blocked: by solids, or by places that no cell covers "
-            "(--set OutsideBlocksLight=0 lets it pass there)")
+    check_light(vtk_to_numpy(arrays.GetArray("BlockedFraction")), frame)
     return pictures
 
 
 def refractivity(reader, array, clear, options, messages):
     """n - 1 on a regular grid, as the tracer sees it; solids get the value that will be clear."""
     proxy = pv.RefractiveIndex(Input=reader)
-    configure(proxy, reader, array, options)
+    configure(proxy, array, options)
     fetched = output_of(proxy, "computation of the refractive index", messages)
     image = vtkImageData()
     image.ShallowCopy(fetched)
@@ -180,22 +134,9 @@ def volume_rendering(medium, frame):
 
 def main(options):
     messages = Messages()
-    if not options.plugin:
-        raise DemoError("Which plugin? Give its file with --plugin, or start Utilities/demo.")
-    try:
-        pv.LoadPlugin(os.path.abspath(options.plugin), remote=False)
-    except RuntimeError:
-        pass
-    if not hasattr(pv, "Schlieren"):
-        raise DemoError(f"The plugin '{options.plugin}' does not load. {messages.last_error()}")
+    load_plugin(options, messages)
     with tempfile.TemporaryDirectory() as scratch:
-        reader = read(options, scratch, messages)
-        if options.formula:
-            reader, array = evaluate(reader, options, messages)
-        else:
-            array = choose_array(reader, options)
-        if not options.array and not options.formula:
-            say(f"Using the array '{array[1]}'")
+        reader, array = open_flow(options, scratch, messages)
         frame = Frame(reader.GetDataInformation().GetBounds(), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         pictures = bench_pictures(reader, array, frame, options, messages)

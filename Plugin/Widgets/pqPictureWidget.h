@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pqPropertyWidget.h"
+
+#include <QImage>
+#include <QString>
+
+class QLabel;
+class QPushButton;
+
+/// Shows the picture that a text property names or holds, and loads another one into it. What is loaded is
+/// read where the window runs, and the property then holds all of it as a PNG ("data:image/png;base64,..."):
+/// state files keep it, and servers need not find a file.
+///
+/// A hint in the XML tells what the picture is laid out over:
+///
+///     <SchlierenPicture plane="deflection"/>
+///
+/// is a colour filter on the cutoff plane, drawn as a square with the axes k eps_u and k eps_v from -1 to 1;
+/// the colour wheel stands there where the property is empty. Without it, the picture is shown as it is.
+class pqPictureWidget : public pqPropertyWidget
+{
+  Q_OBJECT
+  Q_PROPERTY(QString picture READ picture WRITE setPicture NOTIFY pictureChanged)
+
+public:
+  pqPictureWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+  ~pqPictureWidget() override;
+
+  /// A file name, a data URI, or nothing.
+  const QString& picture() const { return this->Picture; }
+  void setPicture(const QString& picture);
+
+Q_SIGNALS:
+  void pictureChanged();
+
+private Q_SLOTS:
+  void load();
+  void clear();
+
+private:
+  class Preview;
+
+  void showPicture();
+
+  QString Picture;
+  Preview* View;
+  QLabel* Note;
+  QPushButton* Clear;
+};

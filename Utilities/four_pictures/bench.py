@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin, the flow that the user names, and a bench that looks at it."""
+
+import os
+
+import paraview.simple as pv
+from paraview import servermanager
+
+from arguments import MODELS, DemoError
+from messages import say
+from reading import choose_array, evaluate, read
+
+
+def load_plugin(options, messages):
+    if not options.plugin:
+        raise DemoError("Which plugin? Give its file with --plugin, or start Utilities/demo.")
+    try:
+        pv.LoadPlugin(os.path.abspath(options.plugin), remote=False)
+    except RuntimeError:
+        pass
+    if not hasattr(pv, "Schlieren"):
+        raise DemoError(f"The plugin '{options.plugin}' does not load. {messages.last_error()}")
+
+
+def open_flow(options, scratch, messages):
+    """A source, and the array of it that tells the index of refraction."""
+    reader = read(options, scratch, messages)
+    if options.formula:
+        return evaluate(reader, options, messages)
+    array = choose_array(reader, options)
+    if not options.array:
+        say(f"Using the array '{array[1]}'")
+    return reader, array
+
+
+def configure(proxy, array, options):
+    """What RefractiveIndex and Schlieren have in common: what the index of refraction is."""
+    proxy.IndexModel = options.model
+    setattr(proxy, MODELS[options.model][0], list(array))
+    proxy.GladstoneDaleConstant = options.constant
+    proxy.DensityScale = options.density_scale
+    for name, value in options.settings:
+        if name in proxy.ListProperties():
+            setattr(proxy, name, value)
+
+
+def new_bench(reader, array, frame, options):
+    schlieren = pv.Schlieren(Input=reader)
+    configure(schlieren, array, options)
+    schlieren.LengthScale = options.length_scale
+    schlieren.ViewDirection = list(frame.direction)
+    schlieren.ViewUp = list(frame.up)
+    schlieren.FocalPoint = list(frame.center)
+    schlieren.ParallelScale = frame.scale
+    schlieren.ImageSize = [frame.width, frame.height]
+    schlieren.Quality = "Publication"
+    schlieren.SamplesPerPixel = 4
+    for name, value in options.settings:
+        if name not in schlieren.ListProperties():
+            raise DemoError(f"The Schlieren filter has no property '{name}'. "
+                            f"It has: {', '.join(schlieren.ListProperties())}.")
+        setattr(schlieren, name, value)
+    return schlieren
+
+
+def output_of(proxy, what, messages, port=0):
+    proxy.UpdatePipeline()
+    image = servermanager.Fetch(pv.OutputPort(proxy, port))
+    if image is None or image.GetNumberOfPoints() == 0:
+        raise DemoError(f"The {what} failed. {messages.last_error()}")
+    return image
+
+
+def facts_of(image):
+    """The first value of each array of the field data."""
+    facts = {}
+    for index in range(image.GetFieldData().GetNumberOfArrays()):
+        array = image.GetFieldData().GetAbstractArray(index)
+        facts[array.GetName()] = array.GetValue(0)
+    return facts
+
+
+def check_light(blocked, frame):
+    """Tells how much light is blocked, of each pixel; a mistake where all of it is."""
+    share = blocked.sum() * frame.pixel ** 2 / frame.shadow
+    if share > 0.99:
+        raise DemoError("No light comes through: on every way there is a place that is solid or "
+                        "that no cell covers. Choose another --view, or let light pass outside of "
+                        "all cells: --set OutsideBlocksLight=0")
+    if share > 0.1:
+        say(f"{share:.0%} of the light is blocked: by solids, or by places that no cell covers "
+            "(--set OutsideBlocksLight=0 lets it pass there)")
