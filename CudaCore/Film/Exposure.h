@@ -8,6 +8,7 @@
 #include "Optics/Tint.h"
 #include "PixelArray.h"
 #include "Rays/TracedRays.h"
+#include "Schlieren.h"
 
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,8 @@ struct Films
 
   /// One value per pixel; of a picture in colour, its luminance.
   PixelArray<float> developIntensity(double raysPerPixel, int threads) const;
+  /// Of that picture's light; `raysPerPixel` as above.
+  LightBalance balance(double raysPerPixel) const;
   /// Three values per pixel.
   PixelArray<float> developColor(double raysPerPixel, int threads) const;
 
@@ -63,6 +66,7 @@ struct RayCounts
 /// Adds to the films the light of rays that start in the picture or up to `margin` pixels around it; their
 /// passes cover that.
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, int threads, Films& films);
+  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
+  Films& films);
 
 } // namespace schlieren
