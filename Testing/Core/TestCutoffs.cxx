@@ -336,8 +336,9 @@ TEST(UndisturbedLevel, IsThatOfLightThatNothingBends)
 
 TEST(Saturation, BeginsWhereMoreDeflectionChangesNothing)
 {
-  const auto saturates = [](const auto& kind, double u, double v)
-  { return kind.saturates(bent(u, v)); };
+  const auto saturates = [](const auto& kind, double u, double v) {
+    return kind.saturates({ u, v });
+  };
   const KnifeEdge knife = KnifeEdge::at(0, 1000, false, 0.1);
   EXPECT_FALSE(saturates(knife, 5.9e-4, 1));
   EXPECT_TRUE(saturates(knife, 6.1e-4, 0));

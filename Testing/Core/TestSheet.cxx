@@ -62,7 +62,9 @@ struct Recorder
   }
 };
 
-using Ray = SheetRay<2>;
+using Ray = FilmRay<2>;
+
+constexpr FilmSize filmSize{ width, height, one };
 using Map = std::function<std::array<double, 2>(double, double)>;
 using LightOf = std::function<double(double, double)>;
 
@@ -74,7 +76,7 @@ Recorder exposed(int first, int last, const std::array<double, 2>& offset, const
   const LightOf& light = even)
 {
   Recorder film;
-  Sheet<2, Recorder> sheet(width, height, one, film);
+  Sheet<2, Recorder> sheet(filmSize, film);
   const auto ray = [&](int i, int j)
   {
     const double x = i + offset[0], y = j + offset[1];
@@ -104,7 +106,7 @@ Recorder exposed(const std::array<std::array<double, 2>, 4>& at)
 {
   Recorder film;
   const auto ray = [&at](std::size_t i) { return Ray{ at[i][0], at[i][1], { 1, 0.5 }, true }; };
-  Sheet<2, Recorder>(width, height, one, film).addCell(ray(0), ray(1), ray(3), ray(2));
+  Sheet<2, Recorder>(filmSize, film).addCell(ray(0), ray(1), ray(3), ray(2));
   EXPECT_EQ(film.sent[0], one);
   for (std::size_t plane = 0; plane < 2; ++plane)
   {
@@ -328,7 +330,7 @@ TEST(Sheet, NothingIsLeftOver)
       return Ray{ 40 * any(random) - 14, 37 * any(random) - 14, { any(random), any(random) },
         true };
     };
-    Sheet<2, Watching>(width, height, one, film).addCell(ray(), ray(), ray(), ray());
+    Sheet<2, Watching>(filmSize, film).addCell(ray(), ray(), ray(), ray());
     const bool isBesideIt = film.onFilm() == 0;
     ASSERT_TRUE(isBesideIt || std::abs(film.last) < 1000) << film.last;
   }
@@ -412,7 +414,7 @@ TEST(Sheet, CellsOfAnySizeAreSpread)
 TEST(Sheet, RaysWhoseNeighboursAreBlockedBringAQuarter)
 {
   Recorder film;
-  Sheet<2, Recorder> sheet(width, height, one, film);
+  Sheet<2, Recorder> sheet(filmSize, film);
   const Ray none{ std::nan(""), 1e300, { 1, 1 }, false };
   const Ray ray{ 3.5, 4, { 0.8, 0.4 }, true };
   sheet.addCell(none, none, none, none);
@@ -454,10 +456,10 @@ TEST(Sheet, HasNoHandedness)
     {
       for (int i = 0; i < 19; ++i)
       {
-        Sheet<2, Recorder>(width, height, one, film)
+        Sheet<2, Recorder>(filmSize, film)
           .addCell(
             ray(i, j, false), ray(i + 1, j, false), ray(i, j + 1, false), ray(i + 1, j + 1, false));
-        Sheet<2, Recorder>(width, height, one, mirrored)
+        Sheet<2, Recorder>(filmSize, mirrored)
           .addCell(
             ray(i + 1, j, true), ray(i, j, true), ray(i + 1, j + 1, true), ray(i, j + 1, true));
       }
