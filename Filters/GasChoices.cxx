@@ -4,6 +4,7 @@
 
 #include "vtkRefractiveIndex.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -97,6 +98,34 @@ double wavelengthOfGases(vtkRefractiveIndex* self)
       " nm, but a wavelength is positive. Set it to that of the light (helium-neon laser: 632.8).");
   }
   return 1e-9 * self->GetWavelength();
+}
+
+//------------------------------------------------------------------------------
+bool usesWavelength(vtkRefractiveIndex* self)
+{
+  const std::vector<std::string> names = namesUsed(self);
+  return self->GetIndexModel() == vtkRefractiveIndex::CIDDOR ||
+    !std::all_of(names.begin(), names.end(), isCustom);
+}
+
+//------------------------------------------------------------------------------
+std::function<double(double)> dispersionOfGases(vtkRefractiveIndex* self, double reference)
+{
+  if (self->GetIndexModel() == vtkRefractiveIndex::CIDDOR)
+  {
+    const auto at = [co2 = self->GetCO2()](double wavelength)
+    { return schlieren::MoistAir::at(wavelength, co2).dry; };
+    return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
+  }
+  const std::vector<std::string> names = namesUsed(self);
+  const schlieren::Gas* gas =
+    names.empty() || isCustom(names.back()) ? nullptr : schlieren::findGas(names.back());
+  if (!gas)
+  {
+    return nullptr;
+  }
+  return [gas, whole = gas->constantAt(reference)](double wavelength)
+  { return gas->constantAt(wavelength) / whole; };
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 
 #include "Schlieren.h"
 
+#include <functional>
 #include <string>
 
 class vtkRefractiveIndex;
@@ -21,6 +22,15 @@ const schlieren::Gas* gasFrom(const std::string& property, const std::string& na
 
 /// The filter's wavelength in metres. Throws std::runtime_error where it is not positive.
 double wavelengthOfGases(vtkRefractiveIndex* self);
+
+/// Whether the refractivity depends on the wavelength: for moist air and where gases were chosen by name.
+bool usesWavelength(vtkRefractiveIndex* self);
+
+/// The refractivity at a wavelength by that at `reference` (both metres) of the gas that the index model uses:
+/// of a mixture, its background; of moist air, the dry part, from which vapour differs by percents of
+/// the dispersion. Null where the gas is not known.
+std::function<double(double wavelength)> dispersionOfGases(
+  vtkRefractiveIndex* self, double reference);
 
 /// What the user should know about the gases that the index model uses: whose constants have not been
 /// measured at the filter's wavelength. Mostly empty.

@@ -7,6 +7,8 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -18,15 +20,23 @@
 #include "Schlieren.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace
 {
 
+constexpr const char* dataUnits = "data units";
+
+void setUnit(vtkDataArray* array, const char* unit)
+{
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+}
+
 /// Takes the memory of the values over.
 template <class Array, class Value>
 vtkSmartPointer<Array> newArray(
-  const char* name, schlieren::PixelArray<Value>& values, int components)
+  const char* name, schlieren::PixelArray<Value>& values, int components, const char* unit)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
@@ -38,6 +48,7 @@ vtkSmartPointer<Array> newArray(
     array->SetComponentName(0, "u");
     array->SetComponentName(1, "v");
   }
+  setUnit(array, unit);
   return array;
 }
 
@@ -50,6 +61,18 @@ void addFieldValue(vtkImageData* output, const char* name, const Value& value)
   output->GetFieldData()->AddArray(array);
 }
 
+void addFieldValue(vtkImageData* output, const char* name, double value, const char* unit)
+{
+  addFieldValue<vtkDoubleArray>(output, name, value);
+  setUnit(output->GetFieldData()->GetArray(name), unit);
+}
+
+/// The sRGB curve, IEC 61966-2-1.
+float srgbFromLinear(float light)
+{
+  return light <= 0.0031308f ? 12.92f * light : 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -60,40 +83,65 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   output->SetSpacing(image.frame.pixelSize, image.frame.pixelSize, image.frame.pixelSize);
 
   vtkPointData* arrays = output->GetPointData();
-  arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1));
-  arrays->AddArray(newArray<vtkFloatArray>("Deflection", image.deflection, 2));
+  arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1, "1"));
+  arrays->AddArray(newArray<vtkFloatArray>("Deflection", image.deflection, 2, "rad"));
   arrays->AddArray(
-    newArray<vtkDoubleArray>("OpticalPathDifference", image.opticalPathDifference, 1));
-  arrays->AddArray(newArray<vtkFloatArray>("Displacement", image.displacement, 2));
-  arrays->AddArray(newArray<vtkFloatArray>("BlockedFraction", image.blockedFraction, 1));
+    newArray<vtkDoubleArray>("OpticalPathDifference", image.opticalPathDifference, 1, "m"));
+  arrays->AddArray(newArray<vtkFloatArray>("Displacement", image.displacement, 2, dataUnits));
+  arrays->AddArray(newArray<vtkFloatArray>("BlockedFraction", image.blockedFraction, 1, "1"));
+  if (!image.background.empty())
+  {
+    arrays->AddArray(newArray<vtkFloatArray>("Background", image.background, 1, "1"));
+  }
+  if (!image.backgroundDisplacement.empty())
+  {
+    arrays->AddArray(newArray<vtkFloatArray>(
+      "BackgroundDisplacement", image.backgroundDisplacement, 2, dataUnits));
+  }
 
   addFieldValue<vtkStringArray>(
     output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
   addFieldValue<vtkStringArray>(output, "PathModel",
     image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
   addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
+  addFieldValue<vtkDoubleArray>(output, "UndisturbedLevel", image.undisturbedLevel);
+  addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedShare);
+  addFieldValue<vtkDoubleArray>(output, "LightEmitted", image.light.emitted);
+  addFieldValue<vtkDoubleArray>(output, "LightOnFilm", image.light.onFilm);
+  addFieldValue<vtkDoubleArray>(output, "LightOutside", image.light.outside);
   addFieldValue<vtkDoubleArray>(output, "AmbientRefractivity", image.ambient);
   addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);
   addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
   addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
-  addFieldValue<vtkDoubleArray>(output, "TraceSeconds", image.traceSeconds);
-  addFieldValue<vtkDoubleArray>(output, "DisplacementBound", image.displacementBound);
-  addFieldValue<vtkDoubleArray>(output, "SkippingBound", image.skippingBound);
+  addFieldValue(output, "TraceSeconds", image.traceSeconds, "s");
+  addFieldValue(output, "DisplacementBound", image.displacementBound, dataUnits);
+  addFieldValue(output, "SkippingBound", image.skippingBound, "rad");
   addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
 }
 
 //------------------------------------------------------------------------------
-void addColor(vtkImageData* output, const schlieren::Image& image, float white)
+void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale)
 {
   vtkNew<vtkUnsignedCharArray> array;
   array->SetName("Color");
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(static_cast<vtkIdType>(image.color.size()) / 3);
+  const float white = scale == ColorScale::LinearToTwice ? 2 : 1;
   std::transform(image.color.begin(), image.color.end(), array->GetPointer(0),
-    [white](float light)
-    { return static_cast<unsigned char>(std::clamp(light / white, 0.f, 1.f) * 255.f + 0.5f); });
+    [white, scale](float light)
+    {
+      const float share = std::clamp(light / white, 0.f, 1.f);
+      return static_cast<unsigned char>(
+        (scale == ColorScale::Srgb ? srgbFromLinear(share) : share) * 255.f + 0.5f);
+    });
   output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
   output->GetPointData()->SetActiveScalars("Color");
+}
+
+//------------------------------------------------------------------------------
+void addFringeSpacing(vtkImageData* output, double spacing)
+{
+  addFieldValue(output, "FringeSpacing", spacing, dataUnits);
 }
 
 //------------------------------------------------------------------------------
@@ -107,4 +155,24 @@ void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity)
     dimensions->SetName("MediumDimensions");
     output->GetFieldData()->AddArray(dimensions);
   }
+}
+
+//------------------------------------------------------------------------------
+void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
+{
+  if (histogram.rays.empty())
+  {
+    return;
+  }
+  const double width = 2 * histogram.range / histogram.size;
+  const double first = -histogram.range + width / 2;
+  output->SetDimensions(histogram.size, histogram.size, 1);
+  output->SetOrigin(first, first, 0);
+  output->SetSpacing(width, width, width);
+  vtkNew<vtkTypeInt64Array> rays;
+  rays->SetName("Rays");
+  rays->SetNumberOfValues(static_cast<vtkIdType>(histogram.rays.size()));
+  std::copy(histogram.rays.begin(), histogram.rays.end(), rays->GetPointer(0));
+  setUnit(rays, "1");
+  output->GetPointData()->SetScalars(rays);
 }

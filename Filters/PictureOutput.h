@@ -6,15 +6,31 @@ class vtkImageData;
 
 namespace schlieren
 {
+struct Histogram;
 struct Image;
-}
+} // namespace schlieren
 
 /// Makes `output` the picture `image`, with all arrays and field data that vtkSchlierenFilter promises
 /// but Color, Grid and MediumDimensions. Takes the memory of the image's arrays over, `color` excepted.
 void setOutput(vtkImageData* output, schlieren::Image& image);
 
-/// Adds the colours of a tinted picture, of which `white` is white, and makes them the scalars.
-void addColor(vtkImageData* output, const schlieren::Image& image, float white);
+/// How the light of a picture becomes the bytes of Color.
+enum class ColorScale
+{
+  Linear,        ///< a tinted picture: 1 is 255
+  LinearToTwice, ///< of a shadowgraph, whose light is 1 where nothing bends it: 2 is 255
+  Srgb           ///< colours to be seen as they are (IEC 61966-2-1): 1 is 255
+};
+
+/// Adds the colours of a picture and makes them the scalars.
+void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
+
+/// Adds the spacing of finite fringes, data units.
+void addFringeSpacing(vtkImageData* output, double spacing);
 
 /// Adds what is known of the refractivity's grid: how it was chosen, and its points if it was resampled.
 void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity);
+
+/// Makes `output` the histogram: a point at the centre of each bin, at its deflection along u and v, with the
+/// array Rays. Empty where there is none.
+void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram);

@@ -18,7 +18,7 @@ using Filter = vtkSchlierenFilter;
   }
 
 // clang-format off
-const std::array<QualitySetting, 9> qualitySettings{
+const std::array<QualitySetting, 10> qualitySettings{
   //                            Interactive        Draft              Publication        Reference
   SETTING(PathModel,            Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::REFRACTED),
   SETTING(Integrator,           Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::ADAPTIVE),
@@ -26,6 +26,7 @@ const std::array<QualitySetting, 9> qualitySettings{
   SETTING(HomogeneityTolerance, 1e-3,              1e-4,              0,                 0),
   SETTING(Interpolation,        Filter::QUADRATIC, Filter::QUADRATIC, Filter::QUADRATIC, Filter::CUBIC),
   SETTING(SamplesPerPixel,      1,                 1,                 16,                64),
+  SETTING(FilmEstimator,        Filter::SHEET,     Filter::SHEET,     Filter::SHEET,     Filter::SHEET),
   SETTING(Precision,            Filter::SINGLE,    Filter::SINGLE,    Filter::SINGLE,    Filter::DOUBLE),
   SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
   SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),

@@ -16,4 +16,4 @@ struct QualitySetting
 };
 
 /// All of them. What the presets are is written there alone; the XML's defaults are those of the first.
-extern const std::array<QualitySetting, 9> qualitySettings;
+extern const std::array<QualitySetting, 10> qualitySettings;

@@ -2,11 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SceneFromFilter.h"
 
+#include "GasChoices.h"
+#include "RealOptics.h"
+#include "RgbPictures.h"
+
+#include "vtkPiecewiseFunction.h"
 #include "vtkSchlierenFilter.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 namespace
 {
@@ -34,6 +41,84 @@ static_assert(sameValue(Self::SINGLE, schlieren::Precision::Single) &&
   sameValue(Self::DOUBLE, schlieren::Precision::Double));
 static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
   sameValue(Self::CPU, schlieren::Device::Cpu) && sameValue(Self::CUDA, schlieren::Device::Cuda));
+static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
+  sameValue(Self::SHADOWGRAPH, schlieren::Cutoff::Shadowgraph) &&
+  sameValue(Self::CIRCULAR, schlieren::Cutoff::Circular) &&
+  sameValue(Self::CIRCULAR_COMPLEMENT, schlieren::Cutoff::CircularComplement) &&
+  sameValue(Self::GRADED_FILTER, schlieren::Cutoff::GradedFilter) &&
+  sameValue(Self::COLOR_FILTER, schlieren::Cutoff::ColorFilter) &&
+  sameValue(Self::INTERFEROGRAM, schlieren::Cutoff::Interferogram) &&
+  sameValue(Self::BACKGROUND_ORIENTED, schlieren::Cutoff::Background));
+static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
+  sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
+  sameValue(Self::DISC, schlieren::SourceShape::Disc));
+static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
+  sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
+  sameValue(Self::PICTURE, schlieren::PatternKind::Picture));
+static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
+  sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
+static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
+  sameValue(Self::GAUSSIAN, schlieren::NoiseFilter::Gaussian) &&
+  sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
+  sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
+
+constexpr double metresPerNanometre = 1e-9;
+
+/// Where a graded filter is read off.
+constexpr int gradedFilterSamples = 1025;
+
+std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
+{
+  if (!function || function->GetSize() == 0)
+  {
+    return { 0, 1 };
+  }
+  std::vector<double> values(gradedFilterSamples);
+  function->GetTable(0, 1, gradedFilterSamples, values.data());
+  return values;
+}
+
+schlieren::Fringes fringesFrom(
+  vtkSchlierenFilter* self, vtkRefractiveIndex* medium, const schlieren::Frame& frame)
+{
+  schlieren::Fringes fringes;
+  fringes.finite = self->GetFringeMode() == vtkSchlierenFilter::FINITE_FRINGES;
+  if (fringes.finite)
+  {
+    fringes.spacing = fringeSpacingFrom(self, frame);
+    fringes.angle = self->GetFringeAngle();
+  }
+  fringes.whiteLight = self->GetWhiteLight();
+  if (fringes.whiteLight)
+  {
+    fringes.dispersion =
+      refractivity::dispersionOfGases(medium, metresPerNanometre * self->GetWavelength());
+  }
+  return fringes;
+}
+
+schlieren::BackgroundPattern backgroundFrom(vtkSchlierenFilter* self)
+{
+  schlieren::BackgroundPattern pattern;
+  pattern.kind = static_cast<schlieren::PatternKind>(self->GetBackgroundPattern());
+  if (!(self->GetBackgroundDistance() < 0))
+  {
+    pattern.distance = self->GetBackgroundDistance();
+  }
+  pattern.period = self->GetBackgroundPeriod();
+  pattern.angle = self->GetBackgroundAngle();
+  if (pattern.kind == schlieren::PatternKind::Picture)
+  {
+    if (!*self->GetBackgroundImage())
+    {
+      throw std::runtime_error(
+        "BackgroundImage is empty, so there is no picture behind the flow. Give "
+        "the name of one, or set BackgroundPattern to Dots or Stripes.");
+    }
+    pattern.picture = readRgbPicture("BackgroundImage", self->GetBackgroundImage());
+  }
+  return pattern;
+}
 
 } // namespace
 
@@ -63,23 +148,52 @@ int threadsFrom(vtkSchlierenFilter* self)
 }
 
 //------------------------------------------------------------------------------
-schlieren::Scene sceneFrom(vtkSchlierenFilter* self)
+schlieren::Scene sceneFrom(
+  vtkSchlierenFilter* self, vtkRefractiveIndex* medium, const schlieren::Grid& grid)
 {
   schlieren::Scene scene;
   scene.view = viewFrom(self);
-  scene.cutoff = self->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH
-    ? schlieren::Cutoff::Shadowgraph
-    : schlieren::Cutoff::KnifeEdge;
+  const schlieren::Frame frame = schlieren::frameOf(grid, scene.view);
+  scene.source = lightSourceFrom(self, frame);
+  scene.cutoff = static_cast<schlieren::Cutoff>(self->GetCutoff());
   scene.knifeEdgeAngle = self->GetKnifeEdgeAngle();
   scene.invertCutoff = self->GetInvertCutoff();
-  if (!self->GetAutoKScale())
+  // What another cutoff needs may hold anything.
+  if (usesK(self))
   {
-    scene.kScale = self->GetKScale();
+    setSensitivity(self, scene);
+  }
+  switch (scene.cutoff)
+  {
+    case schlieren::Cutoff::GradedFilter:
+      scene.gradedFilter = gradedFilterFrom(self->GetGradedFilter());
+      break;
+    case schlieren::Cutoff::ColorFilter:
+      if (*self->GetColorFilterImage())
+      {
+        scene.colorFilter = readRgbPicture("ColorFilterImage", self->GetColorFilterImage());
+      }
+      break;
+    case schlieren::Cutoff::Interferogram:
+      scene.wavelength = metresPerNanometre * self->GetWavelength();
+      scene.fringes = fringesFrom(self, medium, frame);
+      break;
+    case schlieren::Cutoff::Background:
+      scene.background = backgroundFrom(self);
+      break;
+    default:
+      break;
   }
   if (!(self->GetScreenDistance() < 0)) // NaN too, which the core then reports
   {
     scene.screenDistance = self->GetScreenDistance();
   }
+  scene.focusOffset = self->GetFocusOffset();
+  scene.filmEstimator = static_cast<schlieren::FilmEstimator>(self->GetFilmEstimator());
+  scene.noiseFilter = static_cast<schlieren::NoiseFilter>(self->GetNoiseFilter());
+  scene.noiseFilterRadius = self->GetNoiseFilterRadius();
+  scene.histogramSize = self->GetHistogramSize();
+  scene.memoryBudget = static_cast<std::size_t>(self->GetMemoryBudget()) << 20;
   scene.samplesPerPixel = self->GetSamplesPerPixel();
   scene.seed = static_cast<std::uint32_t>(self->GetSeed());
   scene.pathModel = static_cast<schlieren::PathModel>(self->GetPathModel());

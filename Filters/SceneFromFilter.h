@@ -4,11 +4,16 @@
 
 #include "Schlieren.h"
 
+class vtkRefractiveIndex;
 class vtkSchlierenFilter;
 
-/// What the filter's properties say, as the tracer wants it. Nothing is checked here: the tracer does.
+/// What the filter's properties say, as the tracer wants it. Checked is only what is converted here: the rest
+/// the tracer does. Throws std::runtime_error with a message for the user.
 schlieren::View viewFrom(vtkSchlierenFilter* self);
-schlieren::Scene sceneFrom(vtkSchlierenFilter* self); ///< but for the colours of fields
+
+/// All but the colours of fields. `medium` and `grid` are those of the picture.
+schlieren::Scene sceneFrom(
+  vtkSchlierenFilter* self, vtkRefractiveIndex* medium, const schlieren::Grid& grid);
 
 /// Threads to use: what the filter is set to, or else VTK_SMP_MAX_THREADS; 0: all cores.
 int threadsFrom(vtkSchlierenFilter* self);

@@ -3,10 +3,12 @@
 #include "vtkSchlierenFilter.h"
 
 #include "FieldTints.h"
+#include "GasChoices.h"
 #include "InputDescription.h"
 #include "PictureOutput.h"
 #include "Processes.h"
 #include "QualityPresets.h"
+#include "RealOptics.h"
 #include "SceneFromFilter.h"
 
 #include "vtkCommand.h"
@@ -16,6 +18,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
@@ -23,7 +26,9 @@
 #include "Schlieren.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -55,6 +60,8 @@ struct vtkSchlierenFilter::Internals
 
 namespace
 {
+
+constexpr double metresPerMillimetre = 1e-3;
 
 /// Share of the progress bar that belongs to finding the refractivity.
 constexpr double mediumShare = 0.2;
@@ -102,6 +109,42 @@ void dropMaskOfOnes(vtkPointData* arrays)
   }
 }
 
+/// Whether the filter's picture is coloured.
+bool hasColor(vtkSchlierenFilter* self)
+{
+  const bool isWhite =
+    self->GetCutoff() == vtkSchlierenFilter::INTERFEROGRAM && self->GetWhiteLight();
+  return self->GetColorByField() || isWhite ||
+    self->GetCutoff() == vtkSchlierenFilter::COLOR_FILTER;
+}
+
+ColorScale colorScaleFrom(vtkSchlierenFilter* self)
+{
+  switch (self->GetCutoff())
+  {
+    case vtkSchlierenFilter::COLOR_FILTER:
+      return ColorScale::Srgb;
+    case vtkSchlierenFilter::INTERFEROGRAM:
+      return self->GetWhiteLight() ? ColorScale::Srgb : ColorScale::Linear;
+    case vtkSchlierenFilter::SHADOWGRAPH:
+      return ColorScale::LinearToTwice;
+    default:
+      return ColorScale::Linear;
+  }
+}
+
+/// Tells the executive where the outputs lie.
+void tellPlaces(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkImageData* image = vtkImageData::GetData(outputs, port);
+    vtkInformation* info = outputs->GetInformationObject(port);
+    info->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
+    info->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
+  }
+}
+
 /// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`; null where all
 /// is gas.
 const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& storage)
@@ -129,6 +172,7 @@ vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
   this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
   this->vtkSchlierenFilter::SetQuality(INTERACTIVE);
   this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
 }
@@ -145,6 +189,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LengthScale: " << this->LengthScale << "\n";
   os << indent << "AutoAmbientRefractivity: " << this->AutoAmbientRefractivity << "\n";
   os << indent << "AmbientRefractivity: " << this->AmbientRefractivity << "\n";
+  os << indent << "Wavelength: " << this->Wavelength << "\n";
   os << indent << "ViewDirection: " << this->ViewDirection[0] << " " << this->ViewDirection[1]
      << " " << this->ViewDirection[2] << "\n";
   os << indent << "ViewUp: " << this->ViewUp[0] << " " << this->ViewUp[1] << " " << this->ViewUp[2]
@@ -156,10 +201,34 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImageSize: " << this->ImageSize[0] << " " << this->ImageSize[1] << "\n";
   os << indent << "Cutoff: " << this->Cutoff << "\n";
   os << indent << "KnifeEdgeAngle: " << this->KnifeEdgeAngle << "\n";
+  os << indent << "CutoffOffset: " << this->CutoffOffset << "\n";
   os << indent << "InvertCutoff: " << this->InvertCutoff << "\n";
   os << indent << "AutoKScale: " << this->AutoKScale << "\n";
   os << indent << "KScale: " << this->KScale << "\n";
+  os << indent << "KFromOptics: " << this->KFromOptics << "\n";
+  os << indent << "FocalLength: " << this->FocalLength << "\n";
+  os << indent << "SourceWidth: " << this->SourceWidth << "\n";
+  os << indent << "SourceLength: " << this->SourceLength << "\n";
+  os << indent << "CutoffPosition: " << this->CutoffPosition << "\n";
+  os << indent << "KScaleUsed: " << this->KScaleUsed << "\n";
+  os << indent << "Sensitivity: " << this->Sensitivity << "\n";
+  os << indent << "GradedFilter: " << this->GradedFilter << "\n";
+  os << indent << "ColorFilterImage: " << this->ColorFilterImage << "\n";
+  os << indent << "FringeMode: " << this->FringeMode << "\n";
+  os << indent << "FringeSpacing: " << this->FringeSpacing << "\n";
+  os << indent << "FringeAngle: " << this->FringeAngle << "\n";
+  os << indent << "BeamAngle: " << this->BeamAngle << "\n";
+  os << indent << "WhiteLight: " << this->WhiteLight << "\n";
   os << indent << "ScreenDistance: " << this->ScreenDistance << "\n";
+  os << indent << "FocusOffset: " << this->FocusOffset << "\n";
+  os << indent << "LightSource: " << this->LightSource << "\n";
+  os << indent << "SourceDistance: " << this->SourceDistance << "\n";
+  os << indent << "SourceShape: " << this->SourceShape << "\n";
+  os << indent << "BackgroundPattern: " << this->BackgroundPattern << "\n";
+  os << indent << "BackgroundDistance: " << this->BackgroundDistance << "\n";
+  os << indent << "BackgroundPeriod: " << this->BackgroundPeriod << "\n";
+  os << indent << "BackgroundAngle: " << this->BackgroundAngle << "\n";
+  os << indent << "BackgroundImage: " << this->BackgroundImage << "\n";
   os << indent << "ColorByField: " << this->ColorByField << "\n";
   os << indent << "FieldColors:";
   for (const double value : this->FieldColors)
@@ -172,6 +241,10 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << indent << setting.Property << ": " << setting.Get(this) << "\n";
   }
+  os << indent << "NoiseFilter: " << this->NoiseFilter << "\n";
+  os << indent << "NoiseFilterRadius: " << this->NoiseFilterRadius << "\n";
+  os << indent << "HistogramSize: " << this->HistogramSize << "\n";
+  os << indent << "MemoryBudget: " << this->MemoryBudget << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -215,6 +288,41 @@ void vtkSchlierenFilter::ClearFieldColors()
 {
   this->FieldColors.clear();
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetGradedFilter(vtkPiecewiseFunction* function)
+{
+  if (this->GradedFilter != function)
+  {
+    this->GradedFilter = function;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkPiecewiseFunction* vtkSchlierenFilter::GetGradedFilter() const { return this->GradedFilter; }
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetKScaleOfOptics()
+{
+  return this->FocalLength > 0 && this->SourceWidth > 0
+    ? this->FocalLength / (metresPerMillimetre * this->SourceWidth)
+    : std::numeric_limits<double>::quiet_NaN();
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetCutoffOffsetOfOptics()
+{
+  return this->SourceWidth > 0 ? this->CutoffPosition / this->SourceWidth
+                               : std::numeric_limits<double>::quiet_NaN();
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetGladstoneDaleConstantUsed()
+{
+  this->PassToMedium();
+  return this->Medium->GetGladstoneDaleConstantUsed();
 }
 
 //------------------------------------------------------------------------------
@@ -290,7 +398,8 @@ vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMes
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
 {
-  return std::max(this->Superclass::GetMTime(), this->Medium->GetMTime());
+  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Medium->GetMTime());
+  return this->GradedFilter ? std::max(time, this->GradedFilter->GetMTime()) : time;
 }
 
 //------------------------------------------------------------------------------
@@ -307,8 +416,13 @@ int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::PassArraySelections()
+void vtkSchlierenFilter::PassToMedium()
 {
+  // Otherwise another wavelength would make the same refractivity once more.
+  if (refractivity::usesWavelength(this->Medium))
+  {
+    this->Medium->SetWavelength(this->Wavelength);
+  }
   for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::HUMIDITY; ++index)
   {
     vtkInformation* selection = this->GetInputArrayInformation(index);
@@ -333,7 +447,7 @@ void vtkSchlierenFilter::OnMediumProgress()
 bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
-  this->PassArraySelections();
+  this->PassToMedium();
   std::vector<double> description = describeInputs(this, input, bodies);
   if (inside.holdsRefractivityOf(description, this->Medium))
   {
@@ -378,7 +492,7 @@ void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::Render(vtkImageData* output)
+bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
 {
   vtkImageData* refractivity = this->Inside->Refractivity;
   vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
@@ -398,7 +512,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
   field.lengthScale = this->LengthScale;
   field.version = refractivity->GetMTime();
 
-  schlieren::Scene scene = sceneFrom(this);
+  schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid);
   if (this->ColorByField)
   {
     const std::size_t fields = this->Medium->GetFields().size();
@@ -439,12 +553,18 @@ bool vtkSchlierenFilter::Render(vtkImageData* output)
          "back. Is the refractivity (array, unit, index model) right?");
   }
   setOutput(output, image);
-  if (this->ColorByField)
+  if (!image.color.empty())
   {
-    // A shadowgraph's light is 1 where nothing bends it, and more where the flow gathers it.
-    addColor(output, image, this->Cutoff == SHADOWGRAPH ? 2 : 1);
+    addColor(output, image, colorScaleFrom(this));
+  }
+  if (scene.cutoff == schlieren::Cutoff::Interferogram && scene.fringes.finite)
+  {
+    addFringeSpacing(output, scene.fringes.spacing);
   }
   addGrid(output, this->Medium->GetGrid(), refractivity);
+  setHistogram(histogram, image.histogram);
+  this->KScaleUsed = image.kScale;
+  this->Sensitivity = sensitivityInWords(this, image.kScale);
   return true;
 }
 
@@ -463,7 +583,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
     // before the input has been produced.
     if (vtkDataObject* input = vtkDataObject::GetData(inputVector[0]))
     {
-      this->PassArraySelections();
+      this->PassToMedium();
       vtkSmartPointer<vtkImageData> grid = this->Inside->Refractivity;
       vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
       if (!this->Inside->holdsRefractivityOf(describeInputs(this, input, bodies), this->Medium))
@@ -482,10 +602,20 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
+  const bool isColored = hasColor(this);
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
-    this->ColorByField ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
+    isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(
-    outInfo, this->ColorByField ? VTK_UNSIGNED_CHAR : VTK_FLOAT, this->ColorByField ? 3 : 1);
+    outInfo, isColored ? VTK_UNSIGNED_CHAR : VTK_FLOAT, isColored ? 3 : 1);
+
+  // What the histogram covers depends on the light: RequestData says it.
+  vtkInformation* histogramInfo = outputVector->GetInformationObject(HISTOGRAM_PORT);
+  const int bins[6] = { 0, this->HistogramSize - 1, 0, this->HistogramSize - 1, 0,
+    std::min(this->HistogramSize, 1) - 1 };
+  histogramInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), bins, 6);
+  vtkDataObject::SetActiveAttribute(
+    histogramInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Rays", vtkDataSetAttributes::SCALARS);
+  vtkDataObject::SetPointDataActiveScalarInfo(histogramInfo, VTK_TYPE_INT64, 1);
   return 1;
 }
 
@@ -501,9 +631,12 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  vtkImageData* output = vtkImageData::GetData(outInfo);
+  vtkImageData* output = vtkImageData::GetData(outputVector, PICTURE_PORT);
+  vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
+  histogram->Initialize();
+  this->KScaleUsed = 0;
+  this->Sensitivity.clear();
 
   const ProcessRole role = roleOfProcess();
   if (role == ProcessRole::Other)
@@ -532,10 +665,9 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
           input, vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES])))
     {
       this->UpdateFieldGradients(input);
-      if (this->Render(output))
+      if (this->Render(output, histogram))
       {
-        outInfo->Set(vtkDataObject::ORIGIN(), output->GetOrigin(), 3);
-        outInfo->Set(vtkDataObject::SPACING(), output->GetSpacing(), 3);
+        tellPlaces(outputVector);
       }
     }
     return 1;
@@ -550,6 +682,7 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
     vtkErrorMacro(<< problem.what());
   }
   output->Initialize();
+  histogram->Initialize();
   this->Inside->FailedAt = now;
   return 1;
 }

@@ -43,9 +43,13 @@
 #include "vtkNew.h"                    // for vtkNew
 #include "vtkRefractiveIndex.h"        // for the properties handed on
 #include "vtkSchlierenFiltersModule.h" // for export macro
+#include "vtkSmartPointer.h"           // for GradedFilter
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
 #include <vector> // for std::vector
+
+class vtkPiecewiseFunction;
 
 /// A property that belongs to the inner vtkRefractiveIndex.
 #define vtkSchlierenMediumMacro(name, type)                              \
@@ -62,7 +66,59 @@ public:
   enum Cutoffs
   {
     KNIFE_EDGE = 0,
-    SHADOWGRAPH = 1
+    SHADOWGRAPH = 1,
+    CIRCULAR = 2,
+    CIRCULAR_COMPLEMENT = 3,
+    GRADED_FILTER = 4,
+    COLOR_FILTER = 5,
+    INTERFEROGRAM = 6,
+    BACKGROUND_ORIENTED = 7
+  };
+
+  enum FringeModes
+  {
+    INFINITE_FRINGES = 0,
+    FINITE_FRINGES = 1
+  };
+
+  enum LightSources
+  {
+    COLLIMATED = 0,
+    DIVERGING = 1
+  };
+
+  enum SourceShapes
+  {
+    POINT = 0,
+    SLIT = 1,
+    DISC = 2
+  };
+
+  enum BackgroundPatterns
+  {
+    DOTS = 0,
+    STRIPES = 1,
+    PICTURE = 2
+  };
+
+  enum FilmEstimators
+  {
+    SHEET = 0,
+    PHOTON = 1
+  };
+
+  enum NoiseFilters
+  {
+    NO_FILTER = 0,
+    GAUSSIAN = 1,
+    MEAN = 2,
+    CONE = 3
+  };
+
+  enum OutputPorts
+  {
+    PICTURE_PORT = 0,
+    HISTOGRAM_PORT = 1
   };
 
   enum Qualities
@@ -118,10 +174,7 @@ public:
   vtkSchlierenMediumMacro(IndexModel, int);
   vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
   vtkSchlierenMediumMacro(Gas, const char*);
-  virtual double GetGladstoneDaleConstantUsed()
-  {
-    return this->Medium->GetGladstoneDaleConstantUsed();
-  }
+  virtual double GetGladstoneDaleConstantUsed();
   vtkSchlierenMediumMacro(DensityScale, double);
   virtual void AddMixtureArray(const char* name) { this->Medium->AddMixtureArray(name); }
   virtual void ClearMixtureArrays() { this->Medium->ClearMixtureArrays(); }
@@ -139,7 +192,6 @@ public:
   vtkSchlierenMediumMacro(PressureScale, double);
   vtkSchlierenMediumMacro(RelativeHumidity, double);
   vtkSchlierenMediumMacro(CO2, double);
-  vtkSchlierenMediumMacro(Wavelength, double);
   virtual void AddField(const char* name) { this->Medium->AddField(name); }
   virtual void ClearFields() { this->Medium->ClearFields(); }
   virtual void AddTransferFunction(vtkPiecewiseFunction* function)
@@ -164,6 +216,15 @@ public:
     return this->Medium->GetSamplingDimensions();
   }
   const char* GetGrid() const { return this->Medium->GetGrid(); }
+  ///@}
+
+  ///@{
+  /**
+   * Wavelength of the light in vacuum, nanometres: of the medium, as in vtkRefractiveIndex, and of an
+   * interferogram. Default: 632.8.
+   */
+  vtkSetMacro(Wavelength, double);
+  vtkGetMacro(Wavelength, double);
   ///@}
 
   ///@{
@@ -241,15 +302,24 @@ public:
 
   ///@{
   /**
-   * What turns deflections into light and dark, one of Cutoffs. Default: KNIFE_EDGE.
+   * What turns deflections into light and dark, one of Cutoffs. With the deflection eps, its part e along
+   * KnifeEdgeAngle and the sensitivity k, the intensity is, limited to 0 ... 1,
+   * - KNIFE_EDGE (the default): 1/2 - offset + k e;
+   * - SHADOWGRAPH: 1, so that only where light lands on a screen makes the picture;
+   * - CIRCULAR: 1 - k |eps|, a dark field's inverse; CIRCULAR_COMPLEMENT: k |eps|;
+   * - GRADED_FILTER: that of GradedFilter at 1/2 - offset + k e;
+   * - COLOR_FILTER: the colour at k eps of ColorFilterImage, or of a wheel;
+   * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
+   * - BACKGROUND_ORIENTED: what a camera sees of a pattern behind the flow.
    */
-  vtkSetClampMacro(Cutoff, int, KNIFE_EDGE, SHADOWGRAPH);
+  vtkSetClampMacro(Cutoff, int, KNIFE_EDGE, BACKGROUND_ORIENTED);
   vtkGetMacro(Cutoff, int);
   ///@}
 
   ///@{
   /**
-   * Which deflection the knife edge measures, degrees: 0 (the default) along u, 90 along v.
+   * Which deflection the knife edge and the graded filter measure, degrees: 0 (the default) along u, 90
+   * along v.
    */
   vtkSetMacro(KnifeEdgeAngle, double);
   vtkGetMacro(KnifeEdgeAngle, double);
@@ -257,7 +327,16 @@ public:
 
   ///@{
   /**
-   * Turns the knife edge round: intensity I becomes 1 - I. Default: off.
+   * How far the knife edge or the graded filter is in from the middle of the source's image, as a share
+   * of its width; undisturbed light loses as much. Default: 0. CutoffPosition counts with KFromOptics.
+   */
+  vtkSetMacro(CutoffOffset, double);
+  vtkGetMacro(CutoffOffset, double);
+  ///@}
+
+  ///@{
+  /**
+   * Turns the knife edge or the graded filter round: intensity I becomes 1 - I. Default: off.
    */
   vtkSetMacro(InvertCutoff, bool);
   vtkGetMacro(InvertCutoff, bool);
@@ -275,11 +354,168 @@ public:
 
   ///@{
   /**
-   * Sensitivity k of the knife edge where AutoKScale is off: focal length over source width, so that
-   * the intensity is 1/2 + k times the deflection. Not negative. Default: 1000.
+   * Sensitivity k where AutoKScale is off: focal length over source width, so that a knife edge's
+   * intensity is 1/2 + k times the deflection. Not negative. Default: 1000.
    */
   vtkSetMacro(KScale, double);
   vtkGetMacro(KScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether sensitivity and offset are those of real optics, whatever AutoKScale, KScale and CutoffOffset
+   * are: k = FocalLength / SourceWidth, offset = CutoffPosition / SourceWidth. Default: off.
+   */
+  vtkSetMacro(KFromOptics, bool);
+  vtkGetMacro(KFromOptics, bool);
+  vtkBooleanMacro(KFromOptics, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Focal length of the second mirror, metres, positive. Default: 1.
+   */
+  vtkSetMacro(FocalLength, double);
+  vtkGetMacro(FocalLength, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of the source's image at the cutoff, millimetres: its width across the knife edge, or a disc's diameter
+   * (default: 1), and, of a slit, its length along the knife edge (default: 10). Not negative; for
+   * KFromOptics, the width is positive. Seen from the data, the source is as large as the width over
+   * FocalLength.
+   */
+  vtkSetMacro(SourceWidth, double);
+  vtkGetMacro(SourceWidth, double);
+  vtkSetMacro(SourceLength, double);
+  vtkGetMacro(SourceLength, double);
+  ///@}
+
+  ///@{
+  /**
+   * With KFromOptics: how far the edge is in from the middle of the source's image, millimetres.
+   * Default: 0.
+   */
+  vtkSetMacro(CutoffPosition, double);
+  vtkGetMacro(CutoffPosition, double);
+  ///@}
+
+  ///@{
+  /**
+   * What FocalLength, SourceWidth and CutoffPosition stand for, whether KFromOptics is on or not: k and the
+   * offset as a share of the source's image. NaN where there is none. And the k of the last picture; 0
+   * before the first, after a failed one and where there is no cutoff.
+   */
+  double GetKScaleOfOptics();
+  double GetCutoffOffsetOfOptics();
+  vtkGetMacro(KScaleUsed, double);
+  ///@}
+
+  /**
+   * The last picture's sensitivity in words: k, the deflection that is full scale, and what optics have
+   * it. Empty where there is none.
+   */
+  const char* GetSensitivity() const { return this->Sensitivity.c_str(); }
+
+  ///@{
+  /**
+   * Transmission, 0 to 1, of the GRADED_FILTER over its width, 0 to 1; undisturbed light passes its middle.
+   * Null (the default) or without points: a straight line from 0 to 1. Sampled at 1025 places.
+   */
+  virtual void SetGradedFilter(vtkPiecewiseFunction* function);
+  vtkPiecewiseFunction* GetGradedFilter() const;
+  ///@}
+
+  ///@{
+  /**
+   * The picture of the COLOR_FILTER, in sRGB; it covers k times the deflection from -1 to 1 both ways. Either
+   * the name of a file that VTK can read (PNG, JPEG, ...), or the file's content itself as text:
+   * "data:image/png;base64,..." (RFC 2397; PNG or JPEG). Grey, 16-bit and transparent (shown on white)
+   * pictures will do. Empty (the default): a wheel whose hue is the direction of the deflection, from red
+   * along u, and whose saturation is its size, full at k |eps| = 1.
+   */
+  vtkSetStdStringFromCharMacro(ColorFilterImage);
+  vtkGetCharFromStdStringMacro(ColorFilterImage);
+  ///@}
+
+  ///@{
+  /**
+   * Fringes of an interferogram, one of FringeModes. INFINITE_FRINGES (the default): undisturbed light is
+   * bright everywhere. FINITE_FRINGES: the reference beam is tilted, which lays straight fringes over the
+   * picture: FringeSpacing apart (data units on the film, positive; 0, the default: a tenth of the
+   * picture's height), one after the other in the direction of FringeAngle (degrees; 0, the default, is u,
+   * 90 is v). Where the beams cross at a BeamAngle (degrees, above 0 to 180; 0, the default: not given),
+   * the spacing is wavelength / (2 sin(BeamAngle / 2)).
+   */
+  vtkSetClampMacro(FringeMode, int, INFINITE_FRINGES, FINITE_FRINGES);
+  vtkGetMacro(FringeMode, int);
+  vtkSetMacro(FringeSpacing, double);
+  vtkGetMacro(FringeSpacing, double);
+  vtkSetMacro(FringeAngle, double);
+  vtkGetMacro(FringeAngle, double);
+  vtkSetMacro(BeamAngle, double);
+  vtkGetMacro(BeamAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether an interferogram is taken in white light: `Color` then has the fringes as the eye sees them. The
+   * medium disperses as Gas, BackgroundGas or moist air does, whichever the IndexModel uses; not at all
+   * where that is none or custom. Default: off.
+   */
+  vtkSetMacro(WhiteLight, bool);
+  vtkGetMacro(WhiteLight, bool);
+  vtkBooleanMacro(WhiteLight, bool);
+  ///@}
+
+  ///@{
+  /**
+   * For all cutoffs but the shadowgraph: the plane in focus, data units along the light from the middle of
+   * the data. Default: 0.
+   */
+  vtkSetMacro(FocusOffset, double);
+  vtkGetMacro(FocusOffset, double);
+  ///@}
+
+  ///@{
+  /**
+   * The light, one of LightSources: COLLIMATED (the default), or DIVERGING from a point SourceDistance
+   * before the middle of the data (data units, before the data; 0, the default: ten data depths).
+   */
+  vtkSetClampMacro(LightSource, int, COLLIMATED, DIVERGING);
+  vtkGetMacro(LightSource, int);
+  vtkSetMacro(SourceDistance, double);
+  vtkGetMacro(SourceDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The source's shape, one of SourceShapes: a POINT (the default), or a SLIT or DISC of SourceWidth and
+   * SourceLength, which blurs what is not in focus and rounds off what a knife edge does.
+   */
+  vtkSetClampMacro(SourceShape, int, POINT, DISC);
+  vtkGetMacro(SourceShape, int);
+  ///@}
+
+  ///@{
+  /**
+   * What is seen behind the flow by BACKGROUND_ORIENTED: one of BackgroundPatterns (default: DOTS);
+   * BackgroundDistance behind where the data begin (data units; negative, the default: one data depth);
+   * dots and stripes BackgroundPeriod apart (data units; 0, the default: as fine as the picture shows
+   * well); stripes across BackgroundAngle (degrees; 0, the default: u); the PICTURE is BackgroundImage,
+   * given as ColorFilterImage is.
+   */
+  vtkSetClampMacro(BackgroundPattern, int, DOTS, PICTURE);
+  vtkGetMacro(BackgroundPattern, int);
+  vtkSetMacro(BackgroundDistance, double);
+  vtkGetMacro(BackgroundDistance, double);
+  vtkSetMacro(BackgroundPeriod, double);
+  vtkGetMacro(BackgroundPeriod, double);
+  vtkSetMacro(BackgroundAngle, double);
+  vtkGetMacro(BackgroundAngle, double);
+  vtkSetStdStringFromCharMacro(BackgroundImage);
+  vtkGetCharFromStdStringMacro(BackgroundImage);
   ///@}
 
   ///@{
@@ -390,6 +626,15 @@ public:
 
   ///@{
   /**
+   * How rays become a picture, one of FilmEstimators: SHEET draws the light between neighbouring rays, PHOTON
+   * shares each ray's light among the four pixels around it.
+   */
+  vtkSetClampMacro(FilmEstimator, int, SHEET, PHOTON);
+  vtkGetMacro(FilmEstimator, int);
+  ///@}
+
+  ///@{
+  /**
    * Floating-point numbers to trace with, one of Precisions.
    */
   virtual void SetPrecision(int precision);
@@ -411,6 +656,36 @@ public:
    */
   vtkSetMacro(PathTolerance, double);
   vtkGetMacro(PathTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * What takes the grain out of the picture, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN whose
+   * standard deviation is half of NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or
+   * a CONE that shrinks as samples come in (Jensen 1996): it encloses as many as the radius does of one
+   * per pixel.
+   */
+  vtkSetClampMacro(NoiseFilter, int, NO_FILTER, CONE);
+  vtkGetMacro(NoiseFilter, int);
+  vtkSetMacro(NoiseFilterRadius, double);
+  vtkGetMacro(NoiseFilterRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Bins along each axis of the histogram; 0: none is made. Default: 256.
+   */
+  vtkSetClampMacro(HistogramSize, int, 0, VTK_INT_MAX);
+  vtkGetMacro(HistogramSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Memory, MiB, in which rays are held so that another cutoff traces nothing. Default: 1024. The picture
+   * does not depend on it.
+   */
+  vtkSetClampMacro(MemoryBudget, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MemoryBudget, int);
   ///@}
 
   ///@{
@@ -470,15 +745,16 @@ private:
 
   struct Internals;
 
-  /// Hands the array selections on to Medium, which changes only if they have.
-  void PassArraySelections();
+  /// Hands the array selections, and the wavelength if it matters there, on to Medium, which changes
+  /// only if they have.
+  void PassToMedium();
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
   /// Finds the gradients of the fields that tint, if they do.
   void UpdateFieldGradients(vtkDataObject* input);
   /// Makes the picture from the refractivity. False if aborted.
-  bool Render(vtkImageData* output);
+  bool Render(vtkImageData* output, vtkImageData* histogram);
 
   vtkNew<vtkRefractiveIndex> Medium;
   std::unique_ptr<Internals> Inside;
@@ -486,6 +762,7 @@ private:
   double LengthScale = 1;
   bool AutoAmbientRefractivity = true;
   double AmbientRefractivity = 0;
+  double Wavelength = 632.8;
   double ViewDirection[3] = { 0, 0, -1 };
   double ViewUp[3] = { 0, 1, 0 };
   double FocalPoint[3] = { 0, 0, 0 };
@@ -494,10 +771,34 @@ private:
   int ImageSize[2] = { 512, 512 };
   int Cutoff = KNIFE_EDGE;
   double KnifeEdgeAngle = 0;
+  double CutoffOffset = 0;
   bool InvertCutoff = false;
   bool AutoKScale = true;
   double KScale = 1000;
+  bool KFromOptics = false;
+  double FocalLength = 1;
+  double SourceWidth = 1;
+  double SourceLength = 10;
+  double CutoffPosition = 0;
+  double KScaleUsed = 0;
+  std::string Sensitivity;
+  vtkSmartPointer<vtkPiecewiseFunction> GradedFilter;
+  std::string ColorFilterImage;
+  int FringeMode = INFINITE_FRINGES;
+  double FringeSpacing = 0;
+  double FringeAngle = 0;
+  double BeamAngle = 0;
+  bool WhiteLight = false;
   double ScreenDistance = -1;
+  double FocusOffset = 0;
+  int LightSource = COLLIMATED;
+  double SourceDistance = 0;
+  int SourceShape = POINT;
+  int BackgroundPattern = DOTS;
+  double BackgroundDistance = -1;
+  double BackgroundPeriod = 0;
+  double BackgroundAngle = 0;
+  std::string BackgroundImage;
   bool ColorByField = false;
   std::vector<double> FieldColors;
   // The constructor sets them with SetQuality.
@@ -507,9 +808,14 @@ private:
   double HomogeneityTolerance = 0;
   int Interpolation = 0;
   int SamplesPerPixel = 0;
+  int FilmEstimator = 0;
   int Precision = 0;
   double AdaptiveTolerance = 0;
   double PathTolerance = 0;
+  int NoiseFilter = NO_FILTER;
+  double NoiseFilterRadius = 2;
+  int HistogramSize = 256;
+  int MemoryBudget = 1024;
   int Seed = 1;
   int Device = AUTO;
   int NumberOfThreads = 0;

@@ -19,7 +19,8 @@ std::map<std::string, double> settingsOf(Filter* filter)
     { "StepSize", filter->GetStepSize() },
     { "HomogeneityTolerance", filter->GetHomogeneityTolerance() },
     { "Interpolation", filter->GetInterpolation() },
-    { "SamplesPerPixel", filter->GetSamplesPerPixel() }, { "Precision", filter->GetPrecision() },
+    { "SamplesPerPixel", filter->GetSamplesPerPixel() },
+    { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
     { "AdaptiveTolerance", filter->GetAdaptiveTolerance() },
     { "PathTolerance", filter->GetPathTolerance() } };
 }
@@ -74,6 +75,7 @@ TEST(Quality, AnotherValueOfAnySettingMakesItCustom)
     { "HomogeneityTolerance", [](Filter* f) { f->SetHomogeneityTolerance(0.3); } },
     { "Interpolation", [](Filter* f) { f->SetInterpolation(Filter::CENTRAL); } },
     { "SamplesPerPixel", [](Filter* f) { f->SetSamplesPerPixel(7); } },
+    { "FilmEstimator", [](Filter* f) { f->SetFilmEstimator(Filter::PHOTON); } },
     { "Precision", [](Filter* f) { f->SetPrecision(1 - f->GetPrecision()); } },
     { "AdaptiveTolerance", [](Filter* f) { f->SetAdaptiveTolerance(0.3); } },
     { "PathTolerance", [](Filter* f) { f->SetPathTolerance(0.3); } }

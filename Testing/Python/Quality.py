@@ -14,7 +14,7 @@ PRESETS = ("Interactive", "Draft", "Publication", "Reference")
 SETTINGS = []
 while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
     SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
-assert len(SETTINGS) == 9
+assert len(SETTINGS) == 10
 
 source = gaussian_column(16)
 
@@ -71,7 +71,7 @@ bench.Quality = "Reference"
 check(bench, "Reference")
 for name, value in (("PathModel", "Straight"), ("Integrator", "Euler"), ("StepSize", 0.3),
                     ("HomogeneityTolerance", 0.3), ("Interpolation", "Central"),
-                    ("SamplesPerPixel", 7), ("Precision", "Single"), ("AdaptiveTolerance", 0.3),
+                    ("SamplesPerPixel", 7), ("FilmEstimator", "Photon"), ("Precision", "Single"), ("AdaptiveTolerance", 0.3),
                     ("PathTolerance", 0.3)):
     before = bench.GetProperty(name).GetData()
     setattr(bench, name, value)

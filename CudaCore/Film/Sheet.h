@@ -1,0 +1,556 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The sheet estimator. Four neighbouring rays of a pass have the light of one pixel between them; where they
+// land it is spread evenly over the quadrilateral that they span, and each pixel gets what falls on it. So
+// brightness is the ratio of areas, I/I0 = 1 / |det(dx'/dx)|, and folds add up.
+#pragma once
+
+#include "Film/Coverage.h"
+#include "Film/Splat.h"
+#include "Math/HostDevice.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace schlieren
+{
+
+/// A ray where it meets the film's plane.
+template <int planes>
+struct SheetRay
+{
+  double x,
+    y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
+  double light[planes]; ///< 0 ... 1
+  bool arrives;
+};
+
+/// Spreads the light between rays over a film's pixels. `Deposit` takes it in fixed point, plane by plane:
+///   emitted(plane, light)                 of a cell, before it is spread;
+///   pixel(plane, column, row, light)      on the film;
+///   block(plane, column, row, shares)     of 2 x 2 pixels, some of which may be outside;
+///   outside(plane, light)                 that falls on no pixel.
+/// What is emitted arrives in pixels and outside, to the last bit.
+template <int planes, class Deposit>
+class Sheet
+{
+public:
+  using Ray = SheetRay<planes>;
+
+  /// `one`: the fixed-point value of full light in a whole cell.
+  SCHLIEREN_HD Sheet(std::int64_t columns, std::int64_t rows, double one, Deposit& deposit)
+    : columns_(static_cast<double>(columns))
+    , rows_(static_cast<double>(rows))
+    , one_(one)
+    , deposit_(deposit)
+  {
+  }
+
+  /// The light between four neighbouring rays. Where some of them do not arrive, the others bring a quarter
+  /// each, as photons do.
+  SCHLIEREN_HD void addCell(
+    const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
+  {
+    if (lowerLeft.arrives && lowerRight.arrives && upperLeft.arrives && upperRight.arrives)
+    {
+      if (!addRegular(lowerLeft, lowerRight, upperLeft, upperRight))
+      {
+        addBent(lowerLeft, lowerRight, upperLeft, upperRight);
+      }
+      return;
+    }
+    addAlone(lowerLeft);
+    addAlone(lowerRight);
+    addAlone(upperLeft);
+    addAlone(upperRight);
+  }
+
+private:
+  struct Point
+  {
+    double x, y;
+  };
+
+  /// Counterclockwise from the lower left.
+  struct Cell
+  {
+    Point at[4];
+    double light[planes][4];
+
+    SCHLIEREN_HD double mean(int plane) const
+    {
+      return 0.25 * ((light[plane][0] + light[plane][2]) + (light[plane][1] + light[plane][3]));
+    }
+  };
+
+  struct Box
+  {
+    double left, right, low, high;
+
+    SCHLIEREN_HD static Box around(const Point* at, int count)
+    {
+      Box box = { at[0].x, at[0].x, at[0].y, at[0].y };
+      for (int i = 1; i < count; ++i)
+      {
+        box = { smaller(box.left, at[i].x), larger(box.right, at[i].x), smaller(box.low, at[i].y),
+          larger(box.high, at[i].y) };
+      }
+      return box;
+    }
+  };
+
+  /// Light in a polygon: of each plane mean + perX (x - centre.x) + perY (y - centre.y).
+  struct Light
+  {
+    Point centre;
+    double mean[planes], perX[planes], perY[planes];
+  };
+
+  /// What is still to be given away of a cell's light, and where rounding's residue goes.
+  struct Rest
+  {
+    std::int64_t light[planes];
+    std::int64_t column, row; ///< a pixel that got light; column < 0: none
+  };
+
+  SCHLIEREN_HD std::int64_t fixed(double light) const
+  {
+    return static_cast<std::int64_t>(light * one_ + 0.5);
+  }
+
+  SCHLIEREN_HD static double smaller(double a, double b) { return a < b ? a : b; }
+  SCHLIEREN_HD static double larger(double a, double b) { return a > b ? a : b; }
+
+  /// Twice the area of a triangle, negative where its corners go round clockwise.
+  SCHLIEREN_HD static double cross(const Point& a, const Point& b, const Point& c)
+  {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+
+  /// Whether shares of an area stand out from rounding.
+  SCHLIEREN_HD static bool isWide(double area, const Point* at, int count)
+  {
+    constexpr double least = 1e-9; // of the square of the extent
+    const Box box = Box::around(at, count);
+    const double extent = larger(box.right - box.left, box.high - box.low);
+    return fabs(area) > least * extent * extent;
+  }
+
+  /// A cell of which one ray lands in each of 2 x 2 pixels, as those of undisturbed light do: their common
+  /// corner is inside of it and cuts it into four quadrilaterals. False if it is another.
+  SCHLIEREN_HD bool addRegular(
+    const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
+  {
+    // False for NaN. Also where no pixel is near.
+    if (!(lowerLeft.x >= -1 && lowerLeft.x < columns_ && lowerLeft.y >= -1 && lowerLeft.y < rows_))
+    {
+      return false;
+    }
+    // Above -1, where cutting off the fraction of x + 1 is the floor.
+    const std::int64_t column = static_cast<std::int64_t>(lowerLeft.x + 1) - 1;
+    const std::int64_t row = static_cast<std::int64_t>(lowerLeft.y + 1) - 1;
+    const double x = static_cast<double>(column + 1), y = static_cast<double>(row + 1);
+    // How far the rays are from the pixels' common corner, into their pixel.
+    const double x0 = x - lowerLeft.x, x1 = lowerRight.x - x;
+    const double x2 = upperRight.x - x, x3 = x - upperLeft.x;
+    const double y0 = y - lowerLeft.y, y1 = y - lowerRight.y;
+    const double y2 = upperRight.y - y, y3 = upperLeft.y - y;
+    const auto isWithin = [](double a) { return a >= 0 && a <= 1; };
+    if (!(isWithin(x1) & isWithin(x2) & isWithin(x3) & isWithin(y1) & isWithin(y2) &
+          isWithin(y3)) ||
+      !(x0 + x1 > 0 && x2 + x3 > 0 && y0 + y3 > 0 && y1 + y2 > 0))
+    {
+      return false;
+    }
+    // Where its sides meet the pixels' borders: as shares of the sides, and from the common corner.
+    const double s0 = x0 / (x0 + x1), s1 = x3 / (x3 + x2); // of the lower and the upper side
+    const double t0 = y0 / (y0 + y3), t1 = y1 / (y1 + y2); // of the left and the right side
+    const double down = y0 + s0 * (y1 - y0), up = y3 + s1 * (y2 - y3);
+    const double left = x0 + t0 * (x3 - x0), right = x1 + t1 * (x2 - x1);
+    // Twice the areas.
+    const double a0 = x0 * down + y0 * left, a1 = x1 * down + y1 * right;
+    const double a2 = x2 * up + y2 * right, a3 = x3 * up + y3 * left;
+    const double s = 0.5 * (s0 + s1), t = 0.5 * (t0 + t1);
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      const double l0 = lowerLeft.light[plane], l1 = lowerRight.light[plane];
+      const double l2 = upperRight.light[plane], l3 = upperLeft.light[plane];
+      // Bilinear between the rays: the mean over each part is that of its corners.
+      const double lower = l0 + s0 * (l1 - l0), upper = l3 + s1 * (l2 - l3);
+      const double sideLeft = l0 + t0 * (l3 - l0), sideRight = l1 + t1 * (l2 - l1);
+      const double lowerMiddle = l0 + s * (l1 - l0), upperMiddle = l3 + s * (l2 - l3);
+      const double middle = lowerMiddle + t * (upperMiddle - lowerMiddle);
+      const double w0 = a0 * (l0 + lower + sideLeft + middle);
+      const double w1 = a1 * (l1 + lower + sideRight + middle);
+      const double w2 = a2 * (l2 + upper + sideRight + middle);
+      const double w3 = a3 * (l3 + upper + sideLeft + middle);
+      const std::int64_t whole = fixed(0.25 * ((l0 + l2) + (l1 + l3)));
+      const double sum = (w0 + w2) + (w1 + w3);
+      const double scale = sum > 0 ? static_cast<double>(whole) / sum : 0;
+      const auto second = static_cast<std::int64_t>(w1 * scale);
+      const auto third = static_cast<std::int64_t>(w2 * scale);
+      const auto fourth = static_cast<std::int64_t>(w3 * scale);
+      deposit_.emitted(plane, whole);
+      deposit_.block(
+        plane, column, row, Shares{ whole - second - third - fourth, second, fourth, third });
+    }
+    return true;
+  }
+
+  /// A quarter of a cell.
+  SCHLIEREN_HD void addAlone(const Ray& ray)
+  {
+    if (!ray.arrives)
+    {
+      return;
+    }
+    const double column = ray.x - 0.5, row = ray.y - 0.5; // from the first pixel's centre
+    const bool isNear = column > -1 && column < columns_ && row > -1 && row < rows_;
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      const std::int64_t whole = fixed(0.25 * ray.light[plane]);
+      deposit_.emitted(plane, whole);
+      if (isNear)
+      {
+        const Footprint at = footprintOf(column, row);
+        deposit_.block(plane, at.column, at.row, sharesOf(at, 0.25 * ray.light[plane], one_));
+      }
+      else
+      {
+        deposit_.outside(plane, whole);
+      }
+    }
+  }
+
+  /// Any other cell.
+  SCHLIEREN_APART void addBent(
+    const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
+  {
+    constexpr double mostPixels = 4096; // looked at one by one, for one cell
+    constexpr double furthest = 1e9;
+    const Cell cell = cellOf(lowerLeft, lowerRight, upperLeft, upperRight);
+    Rest rest;
+    rest.column = -1;
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      rest.light[plane] = fixed(cell.mean(plane));
+      deposit_.emitted(plane, rest.light[plane]);
+    }
+    double size = 0; // not finite where a corner is not
+    for (const Point& at : cell.at)
+    {
+      size += fabs(at.x) + fabs(at.y);
+    }
+    const Box box = Box::around(cell.at, 4);
+    if (size < 1e300 && isNear(box))
+    {
+      const double columns = floor(smaller(box.right, columns_)) - floor(larger(box.left, 0)) + 1;
+      const double rows = floor(smaller(box.high, rows_)) - floor(larger(box.low, 0)) + 1;
+      if (columns * rows == 1 && isInside(box))
+      {
+        rest.column = static_cast<std::int64_t>(box.left);
+        rest.row = static_cast<std::int64_t>(box.low);
+      }
+      else if (columns * rows > mostPixels || size > furthest)
+      {
+        addPoints(cell, 1, rest);
+      }
+      else if (!addConvex(cell, rest))
+      {
+        addFolded(cell, rest);
+      }
+    }
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      if (rest.column >= 0)
+      {
+        deposit_.pixel(plane, rest.column, rest.row, rest.light[plane]);
+      }
+      else
+      {
+        deposit_.outside(plane, rest.light[plane]);
+      }
+    }
+  }
+
+  SCHLIEREN_HD static Cell cellOf(
+    const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
+  {
+    Cell cell = { { { lowerLeft.x, lowerLeft.y }, { lowerRight.x, lowerRight.y },
+                    { upperRight.x, upperRight.y }, { upperLeft.x, upperLeft.y } },
+      {} };
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      cell.light[plane][0] = lowerLeft.light[plane];
+      cell.light[plane][1] = lowerRight.light[plane];
+      cell.light[plane][2] = upperRight.light[plane];
+      cell.light[plane][3] = upperLeft.light[plane];
+    }
+    return cell;
+  }
+
+  SCHLIEREN_HD bool isNear(const Box& box) const
+  {
+    return box.right >= 0 && box.left < columns_ && box.high >= 0 && box.low < rows_;
+  }
+  SCHLIEREN_HD bool isInside(const Box& box) const
+  {
+    return box.left >= 0 && box.right < columns_ && box.low >= 0 && box.high < rows_;
+  }
+
+  /// False if the cell is not convex, has hardly any area, or if light that varies linearly in it would be
+  /// negative somewhere.
+  SCHLIEREN_HD bool addConvex(const Cell& cell, Rest& rest)
+  {
+    const Point(&at)[4] = cell.at;
+    const double firstX = at[2].x - at[0].x, firstY = at[2].y - at[0].y; // diagonals
+    const double secondX = at[3].x - at[1].x, secondY = at[3].y - at[1].y;
+    const double area = 0.5 * (firstX * secondY - firstY * secondX);
+    if (!isWide(area, at, 4))
+    {
+      return false;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      const double turn = cross(at[i], at[(i + 1) % 4], at[(i + 2) % 4]);
+      if (area > 0 ? turn < 0 : turn > 0)
+      {
+        return false;
+      }
+    }
+    // That of two triangles.
+    const double share = 0.5 * cross(at[0], at[1], at[2]) / area;
+    Light light;
+    light.centre = { (at[0].x + at[2].x + share * at[1].x + (1 - share) * at[3].x) / 3,
+      (at[0].y + at[2].y + share * at[1].y + (1 - share) * at[3].y) / 3 };
+    // From the middle of a side to that of the opposite one: s to the right, t up; s x t is the area.
+    const double sx = 0.5 * (firstX - secondX), sy = 0.5 * (firstY - secondY);
+    const double tx = 0.5 * (firstX + secondX), ty = 0.5 * (firstY + secondY);
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      const double first = cell.light[plane][2] - cell.light[plane][0];
+      const double second = cell.light[plane][3] - cell.light[plane][1];
+      const double alongS = 0.5 * (first - second), alongT = 0.5 * (first + second);
+      light.mean[plane] = cell.mean(plane);
+      light.perX[plane] = (alongS * ty - alongT * sy) / area;
+      light.perY[plane] = (alongT * sx - alongS * tx) / area;
+      for (const Point& corner : at)
+      {
+        if (light.mean[plane] + light.perX[plane] * (corner.x - light.centre.x) +
+            light.perY[plane] * (corner.y - light.centre.y) <
+          0)
+        {
+          return false;
+        }
+      }
+    }
+    addPolygon({ at, 4, area, 1 }, light, rest);
+    return true;
+  }
+
+  /// Four triangles around the middle, each with a quarter of the rays, wherever they lie over each other.
+  SCHLIEREN_HD void addFolded(const Cell& cell, Rest& rest)
+  {
+    const Point middle = { 0.25 * ((cell.at[0].x + cell.at[2].x) + (cell.at[1].x + cell.at[3].x)),
+      0.25 * ((cell.at[0].y + cell.at[2].y) + (cell.at[1].y + cell.at[3].y)) };
+    const double inAll = fabs(cross(cell.at[0], cell.at[1], middle)) +
+      fabs(cross(cell.at[1], cell.at[2], middle)) + fabs(cross(cell.at[2], cell.at[3], middle)) +
+      fabs(cross(cell.at[3], cell.at[0], middle));
+    if (!isWide(inAll, cell.at, 4))
+    {
+      addPoints(cell, 1, rest);
+      return;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      const int j = (i + 1) % 4;
+      const Point triangle[3] = { cell.at[i], cell.at[j], middle };
+      const double area = 0.5 * cross(cell.at[i], cell.at[j], middle);
+      const double ax = cell.at[i].x - middle.x, ay = cell.at[i].y - middle.y;
+      const double bx = cell.at[j].x - middle.x, by = cell.at[j].y - middle.y;
+      Light light;
+      light.centre = { middle.x + (ax + bx) / 3, middle.y + (ay + by) / 3 };
+      for (int plane = 0; plane < planes; ++plane)
+      {
+        const double mean = cell.mean(plane);
+        const double a = cell.light[plane][i] - mean, b = cell.light[plane][j] - mean;
+        light.mean[plane] = mean + (a + b) / 3;
+        light.perX[plane] = (a * by - b * ay) / (2 * area);
+        light.perY[plane] = (b * ax - a * bx) / (2 * area);
+      }
+      if (isWide(area, triangle, 3))
+      {
+        addPolygon({ triangle, 3, area, 0.25 }, light, rest);
+        continue;
+      }
+      Cell collapsed = { { cell.at[i], cell.at[j], middle, middle }, {} };
+      for (int plane = 0; plane < planes; ++plane)
+      {
+        for (double& atCorner : collapsed.light[plane])
+        {
+          atCorner = light.mean[plane];
+        }
+      }
+      addPoints(collapsed, 0.25, rest);
+    }
+  }
+
+  /// Clockwise (its area is negative then) or counterclockwise.
+  struct Polygon
+  {
+    const Point* at;
+    int count;
+    double area;
+    double share; ///< of the cell's rays that it holds
+  };
+
+  /// Spreads light evenly over a polygon.
+  SCHLIEREN_HD void addPolygon(const Polygon& polygon, const Light& light, Rest& rest)
+  {
+    const Box box = Box::around(polygon.at, polygon.count);
+    if (!isInside(box))
+    {
+      const double low = larger(box.low, 0), high = smaller(box.high, rows_);
+      addOutside(polygon, light, { box.left, box.right, box.low, smaller(box.high, 0) }, rest);
+      addOutside(polygon, light, { box.left, box.right, larger(box.low, rows_), box.high }, rest);
+      addOutside(polygon, light, { box.left, smaller(box.right, 0), low, high }, rest);
+      addOutside(polygon, light, { larger(box.left, columns_), box.right, low, high }, rest);
+    }
+    if (!isNear(box))
+    {
+      return;
+    }
+    const auto firstColumn = static_cast<std::int64_t>(larger(box.left, 0));
+    const auto firstRow = static_cast<std::int64_t>(larger(box.low, 0));
+    const auto lastColumn = static_cast<std::int64_t>(smaller(box.right, columns_ - 1));
+    const auto lastRow = static_cast<std::int64_t>(smaller(box.high, rows_ - 1));
+    constexpr int size = CoverageTile::size;
+    for (std::int64_t row = firstRow; row <= lastRow; row += size)
+    {
+      for (std::int64_t column = firstColumn; column <= lastColumn; column += size)
+      {
+        CoverageTile tile(
+          lastColumn - column < size ? static_cast<int>(lastColumn - column) + 1 : size,
+          lastRow - row < size ? static_cast<int>(lastRow - row) + 1 : size);
+        const Point origin = { static_cast<double>(column), static_cast<double>(row) };
+        for (int i = 0; i < polygon.count; ++i)
+        {
+          const Point& a = polygon.at[i];
+          const Point& b = polygon.at[i + 1 < polygon.count ? i + 1 : 0];
+          tile.addEdge(a.x - origin.x, a.y - origin.y, b.x - origin.x, b.y - origin.y);
+        }
+        addTile(tile, column, row, polygon, light, rest);
+      }
+    }
+  }
+
+  SCHLIEREN_HD void addTile(const CoverageTile& tile, std::int64_t column, std::int64_t row,
+    const Polygon& polygon, const Light& light, Rest& rest)
+  {
+    const Point origin = { static_cast<double>(column), static_cast<double>(row) };
+    for (int j = 0; j < tile.rows; ++j)
+    {
+      for (int i = 0; i < tile.columns; ++i)
+      {
+        const Moments& covered = tile.pixels[j][i];
+        if (covered.area == 0)
+        {
+          continue;
+        }
+        rest.column = column + i;
+        rest.row = row + j;
+        for (int plane = 0; plane < planes; ++plane)
+        {
+          const std::int64_t here = lightOf(covered, origin, polygon, light, plane);
+          deposit_.pixel(plane, rest.column, rest.row, here);
+          rest.light[plane] -= here;
+        }
+      }
+    }
+  }
+
+  /// The light on a part of a polygon. Where its moments are taken from: `origin`.
+  SCHLIEREN_HD std::int64_t lightOf(const Moments& covered, const Point& origin,
+    const Polygon& polygon, const Light& light, int plane) const
+  {
+    const double sum = light.mean[plane] * covered.area +
+      light.perX[plane] * (covered.x - covered.area * (light.centre.x - origin.x)) +
+      light.perY[plane] * (covered.y - covered.area * (light.centre.y - origin.y));
+    const double part = sum / polygon.area;
+    return part > 0 ? fixed(part * polygon.share) : 0;
+  }
+
+  /// What of a polygon's light falls into a box beside the film.
+  SCHLIEREN_HD void addOutside(
+    const Polygon& polygon, const Light& light, const Box& box, Rest& rest)
+  {
+    const double width = box.right - box.left, height = box.high - box.low;
+    if (!(width > 0 && height > 0))
+    {
+      return;
+    }
+    // As if the box were a pixel.
+    CoverageTile tile(1, 1);
+    for (int i = 0; i < polygon.count; ++i)
+    {
+      const Point& a = polygon.at[i];
+      const Point& b = polygon.at[i + 1 < polygon.count ? i + 1 : 0];
+      tile.addEdge((a.x - box.left) / width, (a.y - box.low) / height, (b.x - box.left) / width,
+        (b.y - box.low) / height);
+    }
+    const double size = width * height;
+    const Moments& inBox = tile.pixels[0][0];
+    const Moments covered = { inBox.area * size, inBox.x * size * width, inBox.y * size * height };
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      const std::int64_t here = lightOf(covered, { box.left, box.low }, polygon, light, plane);
+      deposit_.outside(plane, here);
+      rest.light[plane] -= here;
+    }
+  }
+
+  /// Spreads a cell that has no area, or far too much of it, over points.
+  SCHLIEREN_HD void addPoints(const Cell& cell, double share, Rest& rest)
+  {
+    constexpr int perSide = 16;
+    constexpr double each = 1. / (perSide * perSide);
+    for (int j = 0; j < perSide; ++j)
+    {
+      for (int i = 0; i < perSide; ++i)
+      {
+        const double s = (i + 0.5) / perSide, t = (j + 0.5) / perSide;
+        const auto between = [s, t](double a, double b, double c, double d)
+        { return (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * d + s * c); };
+        const double x = between(cell.at[0].x, cell.at[1].x, cell.at[2].x, cell.at[3].x);
+        const double y = between(cell.at[0].y, cell.at[1].y, cell.at[2].y, cell.at[3].y);
+        const bool isOnIt = x >= 0 && x < columns_ && y >= 0 && y < rows_;
+        if (isOnIt)
+        {
+          rest.column = static_cast<std::int64_t>(x);
+          rest.row = static_cast<std::int64_t>(y);
+        }
+        for (int plane = 0; plane < planes; ++plane)
+        {
+          const double(&light)[4] = cell.light[plane];
+          const std::int64_t here =
+            fixed(between(light[0], light[1], light[2], light[3]) * each * share);
+          if (isOnIt)
+          {
+            deposit_.pixel(plane, rest.column, rest.row, here);
+          }
+          else
+          {
+            deposit_.outside(plane, here);
+          }
+          rest.light[plane] -= here;
+        }
+      }
+    }
+  }
+
+  double columns_, rows_;
+  double one_;
+  Deposit& deposit_;
+};
+
+} // namespace schlieren

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+#include <string>
+
+class vtkSchlierenFilter;
+
+/// What of a scene follows from mirrors, sources and beams that one can buy. A user's mistake is thrown as
+/// std::runtime_error with a message for the user.
+
+/// Whether the sensitivity k counts for the filter's cutoff.
+bool usesK(vtkSchlierenFilter* self);
+
+/// Sets k and the cutoff's offset: those given, those of the optics, or none, which lets the tracer choose.
+void setSensitivity(vtkSchlierenFilter* self, schlieren::Scene& scene);
+
+/// What vtkSchlierenFilter::GetSensitivity tells of a picture made with this k; empty for k = 0.
+std::string sensitivityInWords(vtkSchlierenFilter* self, double k);
+
+schlieren::LightSource lightSourceFrom(vtkSchlierenFilter* self, const schlieren::Frame& frame);
+
+/// The spacing of finite fringes, data units: from the angle of the beams, as it is given, or that of ten
+/// fringes in the picture.
+double fringeSpacingFrom(vtkSchlierenFilter* self, const schlieren::Frame& frame);

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The filters that take the noise out of a finished picture.
+#include "Film/NoiseFilters.h"
+#include "Math/Units.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr int width = 41, height = 29;
+constexpr std::size_t pixels = width * height;
+
+constexpr NoiseFilter allFilters[] = { NoiseFilter::Gaussian, NoiseFilter::Mean,
+  NoiseFilter::Cone };
+
+PixelArray<float> evenPicture(float light, std::size_t channels = 1)
+{
+  PixelArray<float> picture(channels * pixels);
+  std::fill(picture.begin(), picture.end(), light);
+  return picture;
+}
+
+PixelArray<float> noise(std::size_t channels = 1)
+{
+  std::mt19937 random(11);
+  PixelArray<float> picture(channels * pixels);
+  std::generate(picture.begin(), picture.end(),
+    [&random] { return static_cast<float>(random() % 1000) / 1000; });
+  return picture;
+}
+
+/// What a single bright pixel far from the border becomes.
+PixelArray<float> spotThrough(NoiseFilter filter, double radius, float samplesPerPixel = 1)
+{
+  PixelArray<float> picture = evenPicture(0);
+  picture[14 * width + 20] = 1;
+  return filtered(picture, width, height, filter, radius, evenPicture(samplesPerPixel), 2);
+}
+
+float at(const PixelArray<float>& picture, int columns, int rows)
+{
+  return picture[static_cast<std::size_t>((14 + rows) * width + 20 + columns)];
+}
+
+TEST(NoiseFilters, LeaveEvenLightAsItIs)
+{
+  for (const NoiseFilter filter : allFilters)
+  {
+    for (const double radius : { 1., 1.5, 2., 7.3, 32. })
+    {
+      for (const float light : { 0.f, 0.5f, 1.f, 0.1f, 3e30f })
+      {
+        const PixelArray<float> picture = evenPicture(light, 3);
+        EXPECT_EQ(filtered(picture, width, height, filter, radius, noise(), 2), picture);
+      }
+    }
+  }
+}
+
+TEST(NoiseFilters, ChangeNothingBelowOnePixel)
+{
+  const PixelArray<float> picture = noise();
+  for (const double radius : { 0., 0.5, 0.999 })
+  {
+    for (const NoiseFilter filter : allFilters)
+    {
+      EXPECT_EQ(filtered(picture, width, height, filter, radius, evenPicture(1), 2), picture);
+    }
+  }
+  EXPECT_EQ(filtered(picture, width, height, NoiseFilter::None, 5, evenPicture(1), 2), picture);
+}
+
+TEST(NoiseFilters, DoNotDependOnThreads)
+{
+  for (const NoiseFilter filter : allFilters)
+  {
+    const PixelArray<float> once = filtered(noise(3), width, height, filter, 3.3, noise(), 1);
+    EXPECT_NE(once, noise(3));
+    for (const int threads : { 2, 3, 7 })
+    {
+      EXPECT_EQ(filtered(noise(3), width, height, filter, 3.3, noise(), threads), once);
+    }
+  }
+}
+
+TEST(NoiseFilters, GaussianHasItsWidth)
+{
+  const PixelArray<float> picture = spotThrough(NoiseFilter::Gaussian, 4);
+  EXPECT_NEAR(at(picture, 2, 0) / at(picture, 0, 0), std::exp(-0.5), 1e-6);
+  EXPECT_NEAR(at(picture, 2, -2) / at(picture, 0, 0), std::exp(-1.), 1e-6);
+  EXPECT_NEAR(at(picture, 0, 0), 1 / (2 * pi * 4), 0.02 / (2 * pi * 4));
+  EXPECT_GT(at(picture, -6, 0), 0);
+  EXPECT_EQ(at(picture, -5, 4), 0);
+}
+
+TEST(NoiseFilters, MeanIsThatOfADisc)
+{
+  const PixelArray<float> picture = spotThrough(NoiseFilter::Mean, 2);
+  for (int row = -4; row <= 4; ++row)
+  {
+    for (int column = -4; column <= 4; ++column)
+    {
+      EXPECT_FLOAT_EQ(at(picture, column, row), column * column + row * row <= 4 ? 1 / 13.f : 0.f);
+    }
+  }
+}
+
+/// Its disc holds pi R^2 samples: the more there are, the smaller it is.
+TEST(NoiseFilters, ConeShrinksAsSamplesComeIn)
+{
+  for (const float samplesPerPixel : { 1.f, 4.f, 10.f, 0.5f })
+  {
+    constexpr double radius = 6;
+    const double expected = radius / std::sqrt(static_cast<double>(samplesPerPixel));
+    const PixelArray<float> picture = spotThrough(NoiseFilter::Cone, radius, samplesPerPixel);
+    EXPECT_NEAR(at(picture, 1, 0) / at(picture, 0, 0), 1 - 1 / expected, 1e-5);
+    EXPECT_NEAR(
+      at(picture, 1, -1) / at(picture, 0, 0), std::max(0., 1 - std::sqrt(2.) / expected), 1e-5);
+    const int last = static_cast<int>(std::ceil(expected)) - 1;
+    EXPECT_GT(at(picture, last, 0), 0);
+    EXPECT_EQ(at(picture, last + 1, 0), 0);
+  }
+  // No neighbour is left in it.
+  EXPECT_EQ(at(spotThrough(NoiseFilter::Cone, 6, 36), 0, 0), 1);
+  EXPECT_EQ(at(spotThrough(NoiseFilter::Cone, 6, 1e12f), 0, 0), 1);
+}
+
+/// Where light is dense the cone is narrow: a bright line stays sharp, while what is beside it is blurred.
+TEST(NoiseFilters, ConeIsNarrowWhereLightIsDense)
+{
+  PixelArray<float> samples = evenPicture(1);
+  for (int row = 0; row < height; ++row)
+  {
+    samples[static_cast<std::size_t>(row * width + 20)] = 1000;
+  }
+  PixelArray<float> picture = samples;
+  const PixelArray<float> sharp =
+    filtered(picture, width, height, NoiseFilter::Cone, 5, samples, 2);
+  EXPECT_EQ(at(sharp, 0, 0), 1000);
+  EXPECT_EQ(at(sharp, 9, 0), 1);
+}
+
+/// Nowhere are there samples enough, or any: a disc of twice the radius is the limit.
+TEST(NoiseFilters, ConeHasALimit)
+{
+  const PixelArray<float> picture = spotThrough(NoiseFilter::Cone, 3, 0);
+  EXPECT_NEAR(at(picture, 3, 0) / at(picture, 0, 0), 0.5, 1e-6);
+  EXPECT_EQ(at(picture, 6, 0), 0);
+  PixelArray<float> single(1);
+  single[0] = 0.25f;
+  for (const NoiseFilter filter : allFilters)
+  {
+    EXPECT_EQ(filtered(single, 1, 1, filter, 32, single, 2), single);
+  }
+}
+
+/// Noise of independent pixels falls as the square root of how many are averaged.
+TEST(NoiseFilters, TakeNoiseOut)
+{
+  const auto deviation = [](const PixelArray<float>& picture)
+  {
+    double sum = 0, squares = 0;
+    for (const float light : picture)
+    {
+      sum += static_cast<double>(light);
+      squares += static_cast<double>(light) * static_cast<double>(light);
+    }
+    const double mean = sum / static_cast<double>(picture.size());
+    return std::sqrt(squares / static_cast<double>(picture.size()) - mean * mean);
+  };
+  const double before = deviation(noise());
+  const double after =
+    deviation(filtered(noise(), width, height, NoiseFilter::Mean, 2, evenPicture(1), 2));
+  EXPECT_NEAR(after / before, 1 / std::sqrt(13.), 0.05);
+}
+
+} // namespace
+
+} // namespace schlieren

@@ -1,0 +1,477 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The sheet estimator's cells, one by one and as lattices, against areas and integrals found in other ways.
+#include "Film/Sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr int width = 12, height = 9;
+constexpr double one = 1LL << 32;
+
+/// A film of two planes that only remembers.
+struct Recorder
+{
+  std::array<std::vector<std::int64_t>, 2> pixels{ std::vector<std::int64_t>(width * height),
+    std::vector<std::int64_t>(width* height) };
+  std::array<std::int64_t, 2> sent{}, lost{};
+
+  void emitted(int plane, std::int64_t light) { sent.at(static_cast<std::size_t>(plane)) += light; }
+  void outside(int plane, std::int64_t light) { lost.at(static_cast<std::size_t>(plane)) += light; }
+  void pixel(int plane, std::int64_t column, std::int64_t row, std::int64_t light)
+  {
+    ASSERT_TRUE(column >= 0 && column < width && row >= 0 && row < height);
+    pixels.at(static_cast<std::size_t>(plane)).at(static_cast<std::size_t>(row * width + column)) +=
+      light;
+  }
+  void block(int plane, std::int64_t column, std::int64_t row, const Shares& shares)
+  {
+    const auto add = [&](std::int64_t i, std::int64_t j, std::int64_t light) {
+      i >= 0 && i < width&& j >= 0 && j < height ? pixel(plane, i, j, light)
+                                                 : outside(plane, light);
+    };
+    add(column, row, shares.lowerLeft);
+    add(column + 1, row, shares.lowerRight);
+    add(column, row + 1, shares.upperLeft);
+    add(column + 1, row + 1, shares.upperRight);
+  }
+
+  double at(int column, int row, std::size_t plane = 0) const
+  {
+    return static_cast<double>(
+             pixels.at(plane).at(static_cast<std::size_t>(row * width + column))) /
+      one;
+  }
+  std::int64_t onFilm(std::size_t plane = 0) const
+  {
+    return std::accumulate(pixels.at(plane).begin(), pixels.at(plane).end(), std::int64_t{ 0 });
+  }
+};
+
+using Ray = SheetRay<2>;
+using Map = std::function<std::array<double, 2>(double, double)>;
+using LightOf = std::function<double(double, double)>;
+
+double even(double, double) { return 1; }
+
+/// A lattice of rays from `first` to `last` pixels (both ways, from the film's corner) that land where
+/// `landing` says; the second plane has three quarters of the light of the first one.
+Recorder exposed(int first, int last, const std::array<double, 2>& offset, const Map& landing,
+  const LightOf& light = even)
+{
+  Recorder film;
+  Sheet<2, Recorder> sheet(width, height, one, film);
+  const auto ray = [&](int i, int j)
+  {
+    const double x = i + offset[0], y = j + offset[1];
+    const std::array<double, 2> at = landing(x, y);
+    return Ray{ at[0], at[1], { light(x, y), 0.75 * light(x, y) }, true };
+  };
+  for (int j = first; j < last; ++j)
+  {
+    for (int i = first; i < last; ++i)
+    {
+      sheet.addCell(ray(i, j), ray(i + 1, j), ray(i, j + 1), ray(i + 1, j + 1));
+    }
+  }
+  for (std::size_t plane = 0; plane < 2; ++plane)
+  {
+    EXPECT_EQ(film.sent.at(plane), film.onFilm(plane) + film.lost.at(plane));
+  }
+  return film;
+}
+
+Map undisturbed()
+{
+  return [](double x, double y) { return std::array<double, 2>{ x, y }; };
+}
+
+Recorder exposed(const std::array<std::array<double, 2>, 4>& at)
+{
+  Recorder film;
+  const auto ray = [&at](std::size_t i) { return Ray{ at[i][0], at[i][1], { 1, 0.5 }, true }; };
+  Sheet<2, Recorder>(width, height, one, film).addCell(ray(0), ray(1), ray(3), ray(2));
+  EXPECT_EQ(film.sent[0], one);
+  for (std::size_t plane = 0; plane < 2; ++plane)
+  {
+    EXPECT_EQ(film.sent.at(plane), film.onFilm(plane) + film.lost.at(plane));
+    EXPECT_GE(*std::min_element(film.pixels.at(plane).begin(), film.pixels.at(plane).end()), -1000);
+    EXPECT_GE(film.lost.at(plane), -1000);
+  }
+  return film;
+}
+
+using Polygon = std::vector<std::array<double, 2>>;
+
+/// What of a polygon has sign * coordinate <= limit (Sutherland & Hodgman 1974).
+Polygon cut(const Polygon& polygon, std::size_t axis, double sign, double limit)
+{
+  Polygon inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const auto& a = polygon[i];
+    const auto& b = polygon[(i + 1) % polygon.size()];
+    const double da = limit - sign * a[axis], db = limit - sign * b[axis];
+    if (da >= 0)
+    {
+      inside.push_back(a);
+    }
+    if ((da > 0 && db < 0) || (da < 0 && db > 0))
+    {
+      const double t = da / (da - db);
+      inside.push_back({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]) });
+    }
+  }
+  return inside;
+}
+
+double areaOf(const Polygon& polygon)
+{
+  double area = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const auto& a = polygon[i];
+    const auto& b = polygon[(i + 1) % polygon.size()];
+    area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+  }
+  return area;
+}
+
+Polygon within(const Polygon& polygon, double left, double right, double low, double high)
+{
+  return cut(cut(cut(cut(polygon, 0, -1, -left), 0, 1, right), 1, -1, -low), 1, 1, high);
+}
+
+TEST(Sheet, UndisturbedLightIsEvenUpToTheBorder)
+{
+  for (const std::array<double, 2>& offset :
+    { std::array<double, 2>{ 0.5, 0.5 }, { 0, 0.999 }, { 0.25, 0.7 }, { 1e-9, 0.3 }, { 0.123, 1 } })
+  {
+    const Recorder film = exposed(-1, std::max(width, height) + 1, offset, undisturbed());
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        ASSERT_NEAR(film.at(column, row), 1, 16 / one);
+        ASSERT_NEAR(film.at(column, row, 1), 0.75, 16 / one);
+      }
+    }
+  }
+}
+
+/// The integral from -infinity to x of the hat function max(0, 1 - |x|).
+double hatIntegral(double x)
+{
+  x = std::clamp(x, -1., 1.);
+  return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
+}
+
+/// Where nothing is bent a pixel gets the mean over its square of light that is bilinear between the rays.
+TEST(Sheet, UndisturbedLightIsInterpolatedBilinearly)
+{
+  const auto light = [](double x, double y)
+  { return 0.5 + 0.5 * std::sin(17.3 * std::floor(x) + 5.1 * std::floor(y)); };
+  for (const std::array<double, 2>& offset :
+    { std::array<double, 2>{ 0.5, 0.5 }, { 0.1, 0.8 }, { 0.9, 0.35 } })
+  {
+    const Recorder film = exposed(-2, 14, offset, undisturbed(), light);
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        double expected = 0;
+        for (int j = row - 2; j <= row + 2; ++j)
+        {
+          for (int i = column - 2; i <= column + 2; ++i)
+          {
+            const double x = i + offset[0], y = j + offset[1];
+            expected += light(x, y) * (hatIntegral(column + 1 - x) - hatIntegral(column - x)) *
+              (hatIntegral(row + 1 - y) - hatIntegral(row - y));
+          }
+        }
+        ASSERT_NEAR(film.at(column, row), expected, 1e-8) << column << ' ' << row;
+      }
+    }
+  }
+  // Rays at the centres of pixels: the weights 1, 6, 1 eighths.
+  const Recorder film = exposed(-2, 14, { 0.5, 0.5 }, undisturbed(),
+    [](double x, double y) { return x == 5.5 && y == 4.5 ? 1 : 0; });
+  EXPECT_NEAR(film.at(5, 4), 36. / 64, 1e-8);
+  EXPECT_NEAR(film.at(4, 4), 6. / 64, 1e-8);
+  EXPECT_NEAR(film.at(6, 5), 1. / 64, 1e-8);
+}
+
+/// I = 1 / |det|, whether light is spread, concentrated, sheared, turned or mirrored.
+TEST(Sheet, LinearMapsGiveTheirDeterminant)
+{
+  const std::array<std::array<double, 4>, 10> maps = { {
+    { 1, 0, 0, 1 },
+    { 1.2, 0.1, -0.2, 0.9 },
+    { 0.3, 0, 0, 0.4 },
+    { 2.5, 0.3, 0.1, 3.1 },
+    { -1, 0, 0, 1 },
+    { 0, 1, 1, 0 },
+    { -0.7, 0.2, 0.1, -0.6 },
+    { 0.6, -0.8, 0.8, 0.6 },
+    { 14, 3, -5, 11 },
+    { 1, 0.9, 0.9, 1 },
+  } };
+  for (const auto& m : maps)
+  {
+    const double det = m[0] * m[3] - m[1] * m[2];
+    const auto landing = [&m](double x, double y)
+    {
+      return std::array<double, 2>{ 6 + m[0] * (x - 6) + m[1] * (y - 4.5),
+        4.5 + m[2] * (x - 6) + m[3] * (y - 4.5) };
+    };
+    // Linear light stays linear.
+    const auto light = [](double x, double y) { return 0.5 + 0.002 * x - 0.001 * y; };
+    const int around = 60;
+    const Recorder bright = exposed(-around, around, { 0.5, 0.3 }, landing);
+    const Recorder film = exposed(-around, around, { 0.5, 0.3 }, landing, light);
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        const double x = column + 0.5 - 6, y = row + 0.5 - 4.5;
+        const double expected =
+          light(6 + (m[3] * x - m[1] * y) / det, 4.5 + (m[0] * y - m[2] * x) / det) / std::abs(det);
+        // Next to exact: the middle of a cut cell's part is taken for that of its corners.
+        ASSERT_NEAR(film.at(column, row), expected, 1e-4 * expected)
+          << m[0] << ' ' << m[1] << ' ' << m[2] << ' ' << m[3];
+      }
+    }
+  }
+}
+
+/// Each pixel's share of a cell of any convex shape is that of the area.
+TEST(Sheet, ConvexCellsAreCutExactly)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(0, 1);
+  int tested = 0;
+  while (tested < 2000)
+  {
+    const double size = std::pow(10, 3 * any(random) - 2);
+    const std::array<double, 2> origin{ 16 * any(random) - 2, 13 * any(random) - 2 };
+    Polygon quad;
+    for (int i = 0; i < 4; ++i)
+    {
+      quad.push_back({ origin[0] + size * any(random), origin[1] + size * any(random) });
+    }
+    bool isConvex = true;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      isConvex &= areaOf({ quad[i], quad[(i + 1) % 4], quad[(i + 2) % 4] }) > 1e-3 * size * size;
+    }
+    if (!isConvex)
+    {
+      continue;
+    }
+    if (++tested % 2 == 0)
+    {
+      std::reverse(quad.begin(), quad.end());
+    }
+    const Recorder film = exposed({ quad[0], quad[1], quad[2], quad[3] });
+    const double area = areaOf(quad);
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        const double expected = areaOf(within(quad, column, column + 1, row, row + 1)) / area;
+        ASSERT_NEAR(film.at(column, row), expected, 1e-8);
+        ASSERT_NEAR(film.at(column, row, 1), 0.5 * expected, 1e-8);
+      }
+    }
+    ASSERT_NEAR(static_cast<double>(film.lost[0]) / one,
+      1 - areaOf(within(quad, 0, width, 0, height)) / area, 1e-7);
+  }
+}
+
+/// What falls beside the film is found by itself, so the residue of rounding is a few units.
+TEST(Sheet, NothingIsLeftOver)
+{
+  struct Watching : Recorder
+  {
+    std::int64_t last = 0; ///< the residue is what is added last
+    void pixel(int plane, std::int64_t column, std::int64_t row, std::int64_t light)
+    {
+      last = light;
+      Recorder::pixel(plane, column, row, light);
+    }
+    void outside(int plane, std::int64_t light)
+    {
+      last = light;
+      Recorder::outside(plane, light);
+    }
+  };
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (int n = 0; n < 2000; ++n)
+  {
+    Watching film;
+    const auto ray = [&] {
+      return Ray{ 40 * any(random) - 14, 37 * any(random) - 14, { any(random), any(random) },
+        true };
+    };
+    Sheet<2, Watching>(width, height, one, film).addCell(ray(), ray(), ray(), ray());
+    const bool isBesideIt = film.onFilm() == 0;
+    ASSERT_TRUE(isBesideIt || std::abs(film.last) < 1000) << film.last;
+  }
+}
+
+/// A sheet that is folded over: where x' = f(x) is reached from several places, light adds up.
+TEST(Sheet, FoldsAddUp)
+{
+  // f(x) = 3 + (x - 6)^2 / 8: pixel [a, b] is reached from both sides of 6.
+  const Recorder film = exposed(-6, 20, { 0.5, 0.5 },
+    [](double x, double y) {
+      return std::array<double, 2>{ 3 + 0.125 * (x - 6) * (x - 6), y };
+    });
+  for (int column = 4; column < width; ++column)
+  {
+    const double expected = 2 * std::sqrt(8.) * (std::sqrt(column + 1 - 3) - std::sqrt(column - 3));
+    EXPECT_NEAR(film.at(column, 4), expected, 0.04 * expected) << column;
+  }
+  EXPECT_EQ(film.at(2, 4), 0);
+  const double all = 2 * std::sqrt(8 * 9.);
+  double sum = 0;
+  for (int column = 0; column < width; ++column)
+  {
+    sum += film.at(column, 4);
+  }
+  EXPECT_NEAR(sum, all, 0.05);
+}
+
+/// Cells that are no areas: their light arrives, in full and where they are.
+TEST(Sheet, CollapsedCellsKeepTheirLight)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  // In a point, also on the border of pixels.
+  EXPECT_EQ(exposed({ { { 3.3, 4.4 }, { 3.3, 4.4 }, { 3.3, 4.4 }, { 3.3, 4.4 } } }).at(3, 4), 1);
+  EXPECT_EQ(exposed({ { { 3, 4 }, { 3, 4 }, { 3, 4 }, { 3, 4 } } }).at(3, 4), 1);
+  EXPECT_EQ(exposed({ { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } } }).at(0, 0), 1);
+  // Along a line.
+  const Recorder line = exposed({ { { 2, 3.5 }, { 6, 3.5 }, { 6, 3.5 }, { 2, 3.5 } } });
+  for (int column = 2; column < 6; ++column)
+  {
+    EXPECT_NEAR(line.at(column, 3), 0.25, 1e-6);
+  }
+  const Recorder back = exposed({ { { 2, 2 }, { 5, 5 }, { 2, 2 }, { 5, 5 } } });
+  EXPECT_NEAR(back.at(2, 2) + back.at(3, 3) + back.at(4, 4), 1, 1e-6);
+  // A bow tie and an arrow.
+  const Recorder tie = exposed({ { { 2, 2 }, { 4, 2 }, { 2, 4 }, { 4, 4 } } });
+  EXPECT_NEAR(tie.at(2, 2) + tie.at(3, 2) + tie.at(2, 3) + tie.at(3, 3), 1, 1e-6);
+  EXPECT_NEAR(tie.at(2, 3), tie.at(3, 2), 1e-6);
+  EXPECT_EQ(exposed({ { { 2, 2 }, { 2.9, 2.1 }, { 2.3, 2.2 }, { 2.1, 2.9 } } }).at(2, 2), 1);
+  // Nowhere.
+  for (const double far : { nan, inf, -inf, 1e300, 1e200, -1e12 })
+  {
+    for (std::size_t corner = 0; corner < 4; ++corner)
+    {
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        std::array<std::array<double, 2>, 4> at{ { { 3, 3 }, { 4, 3 }, { 4, 4 }, { 3, 4 } } };
+        at.at(corner).at(axis) = far;
+        exposed(at);
+      }
+    }
+    EXPECT_EQ(exposed({ { { far, far }, { far, far }, { far, far }, { far, far } } }).lost[0], one);
+  }
+}
+
+/// A cell as large as many films lights each pixel of it alike.
+TEST(Sheet, CellsOfAnySizeAreSpread)
+{
+  for (const double size : { 20., 300., 1e5 })
+  {
+    const Recorder film =
+      exposed({ { { -size, -size }, { size, -size }, { size, size }, { -size, size } } });
+    const double expected = 0.25 / (size * size);
+    EXPECT_NEAR(film.at(0, 0), expected, 1e-3 * expected + 50 / one);
+    EXPECT_NEAR(film.at(11, 8), expected, 1e-3 * expected + 50 / one);
+    EXPECT_NEAR(static_cast<double>(film.lost[0]) / one, 1 - width * height * expected, 1e-6);
+  }
+}
+
+TEST(Sheet, RaysWhoseNeighboursAreBlockedBringAQuarter)
+{
+  Recorder film;
+  Sheet<2, Recorder> sheet(width, height, one, film);
+  const Ray none{ std::nan(""), 1e300, { 1, 1 }, false };
+  const Ray ray{ 3.5, 4, { 0.8, 0.4 }, true };
+  sheet.addCell(none, none, none, none);
+  EXPECT_EQ(film.sent[0], 0);
+  sheet.addCell(none, ray, none, none);
+  EXPECT_NEAR(film.at(3, 3), 0.1, 1e-9);
+  EXPECT_NEAR(film.at(3, 4), 0.1, 1e-9);
+  EXPECT_NEAR(film.at(3, 4, 1), 0.05, 1e-9);
+  const Ray edge{ 0.25, 1.5, { 1, 1 }, true }, beside{ -7, 2, { 1, 1 }, true };
+  sheet.addCell(none, none, edge, beside);
+  EXPECT_NEAR(film.at(0, 1), 0.25 * 0.75, 1e-9);
+  EXPECT_EQ(film.sent[0], film.onFilm() + film.lost[0]);
+  EXPECT_NEAR(static_cast<double>(film.lost[0]) / one, 0.25 * 0.25 + 0.25, 1e-9);
+}
+
+/// Whatever the shape, a mirrored sheet makes a mirrored picture.
+TEST(Sheet, HasNoHandedness)
+{
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (const double disorder : { 0.2, 1.5, 4. })
+  {
+    std::array<std::array<std::array<double, 3>, 20>, 20> rays;
+    for (auto& row : rays)
+    {
+      for (auto& ray : row)
+      {
+        ray = { disorder * (any(random) - 0.5), disorder * (any(random) - 0.5), any(random) };
+      }
+    }
+    Recorder film, mirrored;
+    const auto ray = [&](int i, int j, bool isMirrored)
+    {
+      const auto& of = rays.at(static_cast<std::size_t>(j)).at(static_cast<std::size_t>(i));
+      const double x = i - 4 + of[0];
+      return Ray{ isMirrored ? width - x : x, j - 4 + of[1], { of[2], 1 }, true };
+    };
+    for (int j = 0; j < 19; ++j)
+    {
+      for (int i = 0; i < 19; ++i)
+      {
+        Sheet<2, Recorder>(width, height, one, film)
+          .addCell(
+            ray(i, j, false), ray(i + 1, j, false), ray(i, j + 1, false), ray(i + 1, j + 1, false));
+        Sheet<2, Recorder>(width, height, one, mirrored)
+          .addCell(
+            ray(i + 1, j, true), ray(i, j, true), ray(i + 1, j + 1, true), ray(i, j + 1, true));
+      }
+    }
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        ASSERT_NEAR(film.at(column, row), mirrored.at(width - 1 - column, row), 1e-7);
+      }
+    }
+  }
+}
+
+} // namespace
+
+} // namespace schlieren
