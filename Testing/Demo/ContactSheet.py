@@ -15,8 +15,8 @@ from sheet import grey  # noqa: E402
 
 WIDTH, HEIGHT = 240, 129
 path = os.path.abspath("sheet.png")
-groups, frame = contact_sheet.main([
-    os.path.join(DATA, "ladenburg_jet_3d.vti"), "--size", f"{WIDTH}x{HEIGHT}", "--output", path])
+groups, frame = contact_sheet.main(contact_sheet.options_of([
+    os.path.join(DATA, "ladenburg_jet_3d.vti"), "--size", f"{WIDTH}x{HEIGHT}", "--output", path]))
 tiles = {tile.name: tile for _, row in groups for tile in row}
 assert len(tiles) == sum(len(row) for _, row in groups) == 32
 assert all(len(row) == contact_sheet.COLUMNS for _, row in groups)
