@@ -97,17 +97,23 @@ __global__ void exposeKernel(const CutoffKind cutoff, const Projection projectio
       double light[CutoffKind::channels];
       cutoff.shade(ray, light);
       splat(sums, footprintOf(at[0], at[1]), light[0]);
+      counts.onFilm = 1;
+      counts.saturated = cutoff.saturates(ray) ? 1 : 0;
     }
   }
   const int crossed = __syncthreads_count(counts.crossed != 0);
   const int blocked = __syncthreads_count(counts.blocked != 0);
   const int lost = __syncthreads_count(counts.lost != 0);
+  const int onFilm = __syncthreads_count(counts.onFilm != 0);
+  const int saturated = __syncthreads_count(counts.saturated != 0);
   const std::int64_t steps = sumOverWarp(counts.steps);
   if (threadIdx.x == 0)
   {
     add(&sums.counts->crossed, crossed);
     add(&sums.counts->blocked, blocked);
     add(&sums.counts->lost, lost);
+    add(&sums.counts->onFilm, onFilm);
+    add(&sums.counts->saturated, saturated);
   }
   if (threadIdx.x % 32 == 0)
   {

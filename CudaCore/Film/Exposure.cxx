@@ -126,6 +126,8 @@ RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& pass
               spot.row = up;
               spot.ray = first + i;
               cutoff.shade(ray, spot.light);
+              ++countsHere.onFilm;
+              countsHere.saturated += cutoff.saturates(ray) ? 1 : 0;
               lowest = std::min(lowest, up);
               highest = std::max(highest, up);
             }

@@ -41,6 +41,8 @@ struct RayCounts
   std::int64_t steps = 0;
   std::int64_t blocked = 0;
   std::int64_t lost = 0; ///< trapped or turned
+  std::int64_t onFilm = 0;
+  std::int64_t saturated = 0; ///< of those on the film, by their cutoff
 
   SCHLIEREN_HD void add(const RayExit& exit)
   {
@@ -57,6 +59,13 @@ struct RayCounts
     steps += other.steps;
     blocked += other.blocked;
     lost += other.lost;
+    onFilm += other.onFilm;
+    saturated += other.saturated;
+  }
+
+  double saturatedShare() const
+  {
+    return onFilm > 0 ? static_cast<double>(saturated) / static_cast<double>(onFilm) : 0;
   }
 };
 
