@@ -254,6 +254,42 @@ Projection projectionOf(
   return projection;
 }
 
+/// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the
+/// picture, so that where the flow bends nothing either no bit differs.
+PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
+  const Projection& projection, std::int64_t margin, std::int64_t mostRays)
+{
+  Pass pass{ -margin, -margin, scene.view.width + 2 * margin, scene.view.height + 2 * margin,
+    { 0, 0 } };
+  const std::vector<RayExit> exits(static_cast<std::size_t>(pass.columns * pass.rows));
+  Films films(channelsOf(cutoff), {}, scene.view.width, scene.view.height, mostRays);
+  for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
+  {
+    pass.offset = pixelOffset(number, scene.seed);
+    expose({ { pass, exits.data(), nullptr } }, cutoff, projection, margin, scene.filmEstimator,
+      scene.threads, films);
+  }
+  return films.developIntensity(scene.samplesPerPixel, scene.threads);
+}
+
+/// How far from where they start the mean rays of pixels meet the background.
+PixelArray<float> backgroundDisplacement(const Image& image, double distance)
+{
+  PixelArray<float> moved(image.displacement.size());
+  for (std::size_t i = 0; i < moved.size(); i += 2)
+  {
+    const double eps[2] = { static_cast<double>(image.deflection[i]),
+      static_cast<double>(image.deflection[i + 1]) };
+    const double way = distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-30));
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      moved[i + axis] =
+        static_cast<float>(static_cast<double>(image.displacement[i + axis]) + way * eps[axis]);
+    }
+  }
+  return moved;
+}
+
 std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
   if (traced.onDevice)
@@ -581,6 +617,11 @@ Image Bench::Stages::render(
   }
   films.reset(); // the means want memory, too
   means.develop(waiting, image);
+  if (scene.cutoff == Cutoff::Background)
+  {
+    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays);
+    image.backgroundDisplacement = backgroundDisplacement(image, projection.distance);
+  }
   scratch = {};
   spare.clear();
   return image;

@@ -179,7 +179,18 @@ void validateLight(const Scene& scene, const Frame& frame)
     const double distance = scene.background.distance.value_or(depth);
     require(distance >= 0 && std::isfinite(distance), "The background is at a distance of ",
       distance, " from the data. Set BackgroundDistance to zero or more, in data units.");
-    return; // whose light does not matter
+    require(scene.background.period >= 0 && std::isfinite(scene.background.period),
+      "BackgroundPeriod is ", scene.background.period,
+      ". Set it to a positive number of data units, or to 0 for eight pixels.");
+    require(std::isfinite(scene.background.angle), "BackgroundAngle is ", scene.background.angle,
+      ". Set it to an angle in degrees.");
+    if (scene.background.kind == PatternKind::Picture)
+    {
+      require(scene.background.picture != nullptr,
+        "There is no picture behind the flow. Set BackgroundImage, or another BackgroundPattern.");
+      validatePicture(*scene.background.picture, "BackgroundImage");
+    }
+    return; // light comes from the pattern
   }
   const LightSource& source = scene.source;
   const double middleToFilm = scene.cutoff == Cutoff::Shadowgraph
