@@ -10,7 +10,8 @@
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
-#include "Optics/Cutoffs.h"
+#include "Optics/CutoffMaker.h"
+#include "Optics/DeflectionHistogram.h"
 #include "Optics/Tint.h"
 #include "Rays/CudaTracer.h"
 #include "Rays/Light.h"
@@ -32,9 +33,6 @@ namespace schlieren
 
 namespace
 {
-
-/// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
-constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
 
 /// What a held medium was built from.
 struct MediumKey
@@ -178,15 +176,6 @@ double filmDistance(const Scene& scene, const Frame& frame)
   return scene.cutoff == Cutoff::Shadowgraph ? scene.screenDistance.value_or(depth) : -0.5 * depth;
 }
 
-Cutoffs cutoffFrom(const Scene& scene, double k)
-{
-  if (scene.cutoff == Cutoff::Shadowgraph)
-  {
-    return Shadowgraph{};
-  }
-  return KnifeEdge::at(scene.knifeEdgeAngle, k, scene.invertCutoff);
-}
-
 std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
   if (traced.onDevice)
@@ -218,8 +207,10 @@ struct Bench::Stages
   std::deque<TracedPass> passes; ///< from pass 0 on
   std::deque<TracedPass> spare;  ///< whose memory serves again
   TracedPass scratch;            ///< a pass that is not held
-  std::optional<double> k;       ///< the automatic one, once these rays have been asked for it
-  std::optional<double> tint;    ///< the reference of what they have gathered, likewise
+  std::optional<double> strong;  ///< deflection of these rays, once automatic k has asked for it
+  std::optional<DeflectionHistogram> histogram; ///< of them, likewise
+  std::optional<double> tint; ///< the reference of what they have gathered, likewise
+  CutoffMaker cutoffs;
 
   template <class Real>
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
@@ -272,7 +263,8 @@ void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
   {
     spare = std::move(passes);
     passes.clear();
-    k.reset();
+    strong.reset();
+    histogram.reset();
     tint.reset();
     raysKey = key;
     heldMargin = margin;
@@ -335,7 +327,7 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
   work.raysTraced += raysThatCrossed(scratch, scene.threads);
 
   if (static_cast<std::size_t>(number) == passes.size() &&
-    (passes.size() + 1) * scratch.bytes() <= mostHeldBytes)
+    (passes.size() + 1) * scratch.bytes() <= scene.memoryBudget)
   {
     passes.push_back(std::move(scratch));
     scratch = {};
@@ -389,13 +381,20 @@ Image Bench::Stages::render(
   Pass pass{ -heldMargin, -heldMargin, view.width + 2 * heldMargin, view.height + 2 * heldMargin,
     { 0, 0 } };
   const std::int64_t mostRays =
-    (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
+    (view.width + 2 * margin) * (view.height + 2 * margin) * passesToHold(scene.samplesPerPixel);
   std::optional<Films> films;
   std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
   PixelMeans means(view.width, view.height, scene.threads);
   const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize,
     (1 + held.medium.ambient) * field.lengthScale };
 
+  if (scene.histogramSize > 0 &&
+    (!histogram || histogram->size() != scene.histogramSize ||
+      histogram->passes() > scene.samplesPerPixel))
+  {
+    histogram.emplace(scene.histogramSize);
+  }
+  Cutoffs cutoff;
   RayCounts counts;
   std::vector<TracedRays> waiting; // held passes are exposed together
   for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
@@ -414,20 +413,23 @@ Image Bench::Stages::render(
     }
     image.momentumDrift = std::max(image.momentumDrift, traced->worstDrift);
     waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
-    if (number == 0 && scene.cutoff != Cutoff::Shadowgraph)
+    const double fullScale = fullScaleOf(scene.cutoff);
+    const bool isKWanted = number == 0 && fullScale > 0 && !scene.kScale && !strong;
+    const bool isHistogramWanted = scene.histogramSize > 0 && histogram->passes() == number;
+    std::vector<RayExit> fetched;
+    if (traced->onDevice && (isKWanted || isHistogramWanted))
     {
-      if (!scene.kScale && !k)
-      {
-        std::vector<RayExit> fetched;
-        if (traced->onDevice)
-        {
-          fetched = traced->onDevice->toHost();
-          waiting[0].exits = fetched.data();
-        }
-        k = automaticK(waiting[0], view.width, view.height, noiseFloor(held.medium, field, light),
-          scene.threads);
-      }
-      image.kScale = scene.kScale ? *scene.kScale : *k;
+      fetched = traced->onDevice->toHost();
+      waiting.back().exits = fetched.data();
+    }
+    if (isKWanted)
+    {
+      strong = strongDeflection(
+        waiting[0], view.width, view.height, noiseFloor(held.medium, field, light), scene.threads);
+    }
+    if (isHistogramWanted)
+    {
+      histogram->add(waiting.back(), view.width, view.height, scene.threads);
     }
     if (number == 0)
     {
@@ -441,25 +443,30 @@ Image Bench::Stages::render(
         }
         tintOfRays = Tint{ scene.fieldColors, *tint };
       }
-      films.emplace(channelsOf(cutoffFrom(scene, image.kScale)), std::move(tintOfRays), view.width,
-        view.height, mostRays);
+      if (fullScale > 0)
+      {
+        image.kScale = scene.kScale ? *scene.kScale : automaticK(*strong, fullScale);
+      }
+      cutoff = cutoffs.cutoffOf(scene, image.kScale, image.frame.pixelSize);
+      image.undisturbedLevel = undisturbedLevel(cutoff);
+      films.emplace(channelsOf(cutoff), std::move(tintOfRays), view.width, view.height, mostRays);
     }
     if (traced->onDevice)
     {
       waiting.clear();
       if (!filmOnDevice)
       {
-        filmOnDevice = std::make_unique<CudaFilm>(films->planes[0]);
+        filmOnDevice = std::make_unique<CudaFilm>(*films);
       }
       filmOnDevice->expose(
-        *traced->onDevice, pass, cutoffFrom(scene, image.kScale), projection, margin);
+        *traced->onDevice, pass, cutoff, projection, margin, scene.filmEstimator);
       continue;
     }
     const bool isLast = number + 1 == scene.samplesPerPixel;
     if (traced == &scratch || isLast)
     {
-      counts.add(expose(
-        waiting, cutoffFrom(scene, image.kScale), projection, margin, scene.threads, *films));
+      counts.add(
+        expose(waiting, cutoff, projection, margin, scene.filmEstimator, scene.threads, *films));
       if (!isLast)
       {
         means.add(waiting);
@@ -469,12 +476,18 @@ Image Bench::Stages::render(
   }
   if (filmOnDevice)
   {
-    counts = filmOnDevice->develop(films->planes[0], means);
+    counts = filmOnDevice->develop(*films, means);
   }
   image.raysTraced = counts.crossed;
   image.stepsTaken = counts.steps;
   image.raysBlocked = counts.blocked;
   image.raysLost = counts.lost;
+  image.saturatedShare = counts.saturatedShare();
+  if (scene.histogramSize > 0)
+  {
+    image.histogram = histogram->histogram();
+  }
+  image.light = films->balance(scene.samplesPerPixel);
   image.intensity = films->developIntensity(scene.samplesPerPixel, scene.threads);
   if (films->isColored())
   {

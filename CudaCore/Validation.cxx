@@ -41,6 +41,84 @@ void validateTolerances(const Scene& scene)
     scene.pathTolerance, "to zero or more, in pixels.");
 }
 
+void validateSource(const LightSource& source)
+{
+  if (!(source.width >= 0 && std::isfinite(source.width)) ||
+    !(source.length >= 0 && std::isfinite(source.length)))
+  {
+    std::ostringstream text;
+    text << "The light source is " << source.width << " by " << source.length
+         << " radians. Set SourceWidth and SourceLength to zero or more.";
+    throw Error(text.str());
+  }
+}
+
+void validatePicture(const RgbPicture& picture, const char* name)
+{
+  const auto width = static_cast<std::size_t>(std::max(picture.width, 0));
+  const auto height = static_cast<std::size_t>(std::max(picture.height, 0));
+  if (width == 0 || height == 0 || picture.rgb.size() != 3 * width * height)
+  {
+    std::ostringstream text;
+    text << name << " is " << picture.width << " by " << picture.height << " pixels with "
+         << picture.rgb.size()
+         << " values. Give it at least one pixel, and red, green and blue for each.";
+    throw Error(text.str());
+  }
+}
+
+/// What the kind of cutoff looks at; the rest may be anything.
+void validateCutoff(const Scene& scene)
+{
+  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      text << name << " is " << value << remedy;
+      throw Error(text.str());
+    }
+  };
+  require(std::isfinite(scene.cutoffOffset), "CutoffOffset", scene.cutoffOffset,
+    ". Set it to a finite share of the source's image: 0 cuts half of it, 1/2 all.");
+  if (scene.cutoff == Cutoff::GradedFilter)
+  {
+    const std::vector<double>& filter = scene.gradedFilter;
+    require(filter.size() >= 2, "The number of GradedFilter's values",
+      static_cast<double>(filter.size()), ". Give it two or more, from one side to the other.");
+    const auto bad = std::find_if(
+      filter.begin(), filter.end(), [](double value) { return !(value >= 0 && value <= 1); });
+    if (bad != filter.end())
+    {
+      require(false, "A value of GradedFilter", *bad,
+        ", but a filter lets a share of light pass. "
+        "Set it between 0 and 1.");
+    }
+  }
+  if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
+  {
+    validatePicture(*scene.colorFilter, "ColorFilter");
+  }
+  if (scene.cutoff == Cutoff::Interferogram)
+  {
+    require(scene.wavelength > 0 && std::isfinite(1 / scene.wavelength) &&
+        std::isfinite(scene.wavelength),
+      "Wavelength", scene.wavelength, " metres. Set it to a positive number.");
+    if (scene.fringes.finite)
+    {
+      require(scene.fringes.spacing > 0 && std::isfinite(scene.fringes.spacing), "FringeSpacing",
+        scene.fringes.spacing,
+        ", but finite fringes are some way apart. Set it to a positive number of data units, or "
+        "FringeMode to Infinite.");
+      require(std::isfinite(scene.fringes.angle), "FringeAngle", scene.fringes.angle,
+        ". Set it to an angle in degrees.");
+    }
+  }
+  constexpr int mostBins = 2048;
+  require(scene.histogramSize >= 0 && scene.histogramSize <= mostBins, "HistogramSize",
+    scene.histogramSize, ". Set it between 0 (no histogram) and 2048.");
+}
+
 void validateScene(const Scene& scene)
 {
   if (scene.samplesPerPixel < 1)
@@ -59,6 +137,8 @@ void validateScene(const Scene& scene)
   {
     throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
   }
+  validateCutoff(scene);
+  validateSource(scene.source);
   if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
   {
     throw Error("KScale is " + std::to_string(*scene.kScale) +

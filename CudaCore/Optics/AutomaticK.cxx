@@ -10,9 +10,9 @@
 namespace schlieren
 {
 
-double automaticK(const TracedRays& rays, int width, int height, double noiseFloor, int threads)
+double strongDeflection(
+  const TracedRays& rays, int width, int height, double noiseFloor, int threads)
 {
-  constexpr double fullScale = 0.5;
   const Spread squares = spreadOf(rays, width, height, threads,
     [&rays](std::int64_t ray)
     {
@@ -25,8 +25,7 @@ double automaticK(const TracedRays& rays, int width, int height, double noiseFlo
     // Light is bent in less than a hundredth of the picture, if at all.
     typical = std::sqrt(squares.largest);
   }
-  const double signal = std::max(typical, noiseFloor);
-  return squares.rays > 0 && signal > 0 ? fullScale / signal : 1;
+  return squares.rays > 0 ? std::max(typical, noiseFloor) : 0;
 }
 
 } // namespace schlieren

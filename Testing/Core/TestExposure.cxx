@@ -74,7 +74,8 @@ Exposed exposed(const std::vector<TracedRays>& rays, const Cutoffs& cutoff,
   const Projection& projection, int threads)
 {
   Films films(channelsOf(cutoff), {}, width, height, 1000000);
-  const RayCounts counts = expose(rays, cutoff, projection, margin, threads, films);
+  const RayCounts counts =
+    expose(rays, cutoff, projection, margin, FilmEstimator::Photon, threads, films);
   return { films.developIntensity(1, threads), counts };
 }
 
@@ -246,7 +247,7 @@ TEST(Spread, OfNoRaysIsNone)
     exit.fate = RayFate::Blocked;
   }
   EXPECT_EQ(spreadOf(invented.rays[0], width, height, 2, [](std::int64_t) { return 1.; }).rays, 0);
-  EXPECT_EQ(automaticK(invented.rays[0], width, height, 0, 2), 1);
+  EXPECT_EQ(strongDeflection(invented.rays[0], width, height, 0, 2), 0);
 }
 
 } // namespace schlieren

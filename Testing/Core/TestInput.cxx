@@ -19,6 +19,37 @@ struct Mistake
   std::function<void(Field&, Scene&)> make;
 };
 
+using Change = std::function<void(Field&, Scene&)>;
+
+Change graded(const std::vector<double>& filter)
+{
+  return [filter](Field&, Scene& scene)
+  {
+    scene.cutoff = Cutoff::GradedFilter;
+    scene.gradedFilter = filter;
+  };
+}
+
+Change colored(const RgbPicture& picture)
+{
+  return [picture](Field&, Scene& scene)
+  {
+    scene.cutoff = Cutoff::ColorFilter;
+    scene.colorFilter = std::make_shared<RgbPicture>(picture);
+  };
+}
+
+/// Of an interferogram with finite fringes.
+Change fringes(const std::function<void(Scene&)>& change)
+{
+  return [change](Field&, Scene& scene)
+  {
+    scene.cutoff = Cutoff::Interferogram;
+    scene.fringes.finite = true;
+    change(scene);
+  };
+}
+
 std::vector<Mistake> mistakes()
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -47,6 +78,40 @@ std::vector<Mistake> mistakes()
     { "negative k", "KScale", [](Field&, Scene& s) { s.kScale = -1; } },
     { "NaN k", "KScale", [=](Field&, Scene& s) { s.kScale = nan; } },
     { "NaN angle", "KnifeEdgeAngle", [=](Field&, Scene& s) { s.knifeEdgeAngle = nan; } },
+    { "NaN offset", "CutoffOffset", [=](Field&, Scene& s) { s.cutoffOffset = nan; } },
+    { "short filter", "GradedFilter", graded({ 1 }) },
+    { "no filter", "GradedFilter", graded({}) },
+    { "filter that amplifies", "GradedFilter is 1.5", graded({ 0, 1.5 }) },
+    { "filter below darkness", "GradedFilter is -0.1", graded({ 0, -0.1, 1 }) },
+    { "filter of NaN", "GradedFilter", graded({ nan, 1 }) },
+    { "picture without pixels", "ColorFilter", colored({ 0, 0, {} }) },
+    { "picture cut short", "ColorFilter", colored({ 2, 1, { 1, 2, 3 } }) },
+    { "picture of negative size", "ColorFilter", colored({ -1, -1, { 1, 2, 3 } }) },
+    { "no wavelength", "Wavelength", fringes([](Scene& s) { s.wavelength = 0; }) },
+    { "negative wavelength", "Wavelength", fringes([](Scene& s) { s.wavelength = -5e-7; }) },
+    { "wavelength of NaN", "Wavelength", fringes([=](Scene& s) { s.wavelength = nan; }) },
+    { "endless wavelength", "Wavelength", fringes([](Scene& s) { s.wavelength = HUGE_VAL; }) },
+    { "fringes without spacing", "FringeSpacing", fringes([](Scene&) {}) },
+    { "fringes of NaN", "FringeSpacing", fringes([=](Scene& s) { s.fringes.spacing = nan; }) },
+    { "fringes aslant of NaN", "FringeAngle",
+      fringes(
+        [=](Scene& s)
+        {
+          s.fringes.spacing = 1;
+          s.fringes.angle = nan;
+        }) },
+    { "gas without dispersion", "dispersion",
+      fringes(
+        [=](Scene& s)
+        {
+          s.fringes.finite = false;
+          s.fringes.whiteLight = true;
+          s.fringes.dispersion = [=](double) { return nan; };
+        }) },
+    { "negative histogram", "HistogramSize", [](Field&, Scene& s) { s.histogramSize = -1; } },
+    { "huge histogram", "HistogramSize", [](Field&, Scene& s) { s.histogramSize = 1 << 30; } },
+    { "negative source", "SourceWidth", [](Field&, Scene& s) { s.source.width = -1; } },
+    { "endless source", "SourceLength", [](Field&, Scene& s) { s.source.length = HUGE_VAL; } },
     { "screen in the flow", "ScreenDistance", [](Field&, Scene& s) { s.screenDistance = -2; } },
     { "no samples", "SamplesPerPixel", [](Field&, Scene& s) { s.samplesPerPixel = 0; } },
     { "no error allowed", "AdaptiveTolerance", [](Field&, Scene& s) { s.adaptiveTolerance = 0; } },

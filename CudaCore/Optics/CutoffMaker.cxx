@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Optics/CutoffMaker.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Linear light of n sRGB values evenly spaced from 0 to 1.
+template <std::size_t n>
+std::array<float, n> linearValues()
+{
+  std::array<float, n> values;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    values[i] = static_cast<float>(linearFromSrgb(static_cast<double>(i) / (n - 1)));
+  }
+  return values;
+}
+
+Cutoffs interferogramOf(const Scene& scene, double pixelSize)
+{
+  const Fringes& fringes = scene.fringes;
+  const Carrier carrier = fringes.finite
+    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle, scene.view.width, scene.view.height)
+    : Carrier{};
+  if (fringes.whiteLight)
+  {
+    return WhiteLight::of(scene.wavelength, fringes.dispersion, carrier);
+  }
+  return Interferogram{ 1 / scene.wavelength, carrier };
+}
+
+} // namespace
+
+double fullScaleOf(Cutoff cutoff)
+{
+  switch (cutoff)
+  {
+    case Cutoff::KnifeEdge:
+    case Cutoff::GradedFilter:
+      return 0.5;
+    case Cutoff::Circular:
+    case Cutoff::CircularComplement:
+    case Cutoff::ColorFilter:
+      return 1;
+    case Cutoff::Shadowgraph:
+    case Cutoff::Interferogram:
+    case Cutoff::Background:
+      break;
+  }
+  return 0;
+}
+
+Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
+{
+  if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
+  {
+    const RgbPicture& picture = *scene.colorFilter;
+    return ColorPicture{ k, picture.width, picture.height, linearPicture(scene.colorFilter) };
+  }
+  picture_.reset();
+  const CutoffAxis axis = CutoffAxis::at(scene.knifeEdgeAngle, k, scene.cutoffOffset);
+  switch (scene.cutoff)
+  {
+    case Cutoff::KnifeEdge:
+      return KnifeEdge{ axis, scene.source.shape == SourceShape::Disc, scene.invertCutoff };
+    case Cutoff::Circular:
+      return Circular{ k };
+    case Cutoff::CircularComplement:
+      return CircularComplement{ k };
+    case Cutoff::GradedFilter:
+      table_.clear();
+      std::transform(scene.gradedFilter.begin(), scene.gradedFilter.end(),
+        std::back_inserter(table_), [](double value) { return static_cast<float>(value); });
+      return GradedFilter{ axis, scene.invertCutoff, { table_.data(), table_.size() } };
+    case Cutoff::ColorFilter:
+    {
+      // Linear in between, off by no more than 4e-7.
+      static const std::array<float, 1025> linear = linearValues<1025>();
+      return ColorWheel{ k, { linear.data(), linear.size() } };
+    }
+    case Cutoff::Interferogram:
+      return interferogramOf(scene, pixelSize);
+    case Cutoff::Shadowgraph:
+    case Cutoff::Background:
+      break;
+  }
+  return Shadowgraph{};
+}
+
+Table CutoffMaker::linearPicture(const std::shared_ptr<const RgbPicture>& picture)
+{
+  if (picture_ != picture)
+  {
+    static const std::array<float, 256> linear = linearValues<256>();
+    table_.resize(picture->rgb.size());
+    std::transform(picture->rgb.begin(), picture->rgb.end(), table_.begin(),
+      [](unsigned char value) { return linear[value]; });
+    picture_ = picture;
+  }
+  return { table_.data(), table_.size() };
+}
+
+} // namespace schlieren

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Optics/Cutoffs.h"
+#include "Schlieren.h"
+
+#include <memory>
+#include <vector>
+
+namespace schlieren
+{
+
+/// The k |eps| that automatic k makes of the strong deflections of a picture: 1/2 where light can change
+/// both ways from the middle, else 1; 0 where there is no k.
+double fullScaleOf(Cutoff cutoff);
+
+/// Makes cutoffs, and owns the tables that they look up.
+class CutoffMaker
+{
+public:
+  CutoffMaker() = default;
+  CutoffMaker(const CutoffMaker&) = delete;
+  CutoffMaker& operator=(const CutoffMaker&) = delete;
+
+  /// The cutoff of a scene that has been validated, for pixels of pixelSize data units. Its table is valid
+  /// until the next call. Of a background pattern, which has no cutoff, a shadowgraph's.
+  Cutoffs cutoffOf(const Scene& scene, double k, double pixelSize);
+
+private:
+  Table linearPicture(const std::shared_ptr<const RgbPicture>& picture);
+
+  std::vector<float> table_;
+  std::shared_ptr<const RgbPicture> picture_; ///< that table_ was made of, or null
+};
+
+} // namespace schlieren

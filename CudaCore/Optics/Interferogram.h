@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Two beams of equal light, one through the medium and one beside it (Merzkirch 1987, ch. 3). A camera sees
+// the mean square of their sum, I = (1 + cos phi) / 2, phi = 2 pi OPD / wavelength + carrier. The sine of
+// Brownlee et al. 2011, eq. 16, is the sum itself, a quarter of a fringe on; it is negative half of the
+// time, and has half as many fringes as |sin|.
+#pragma once
+
+#include "Math/HostDevice.h"
+#include "Math/Trigonometry.h"
+#include "Math/Units.h"
+#include "Optics/Color.h"
+#include "Optics/RayAtFilm.h"
+
+#include <cmath>
+
+namespace schlieren
+{
+
+/// The phase, in turns, that a tilted reference beam adds: it grows across the film from 0 in its middle.
+struct Carrier
+{
+  double perColumn = 0, perRow = 0; ///< of a pixel
+  double atOrigin = 0;              ///< at the centre of pixel (0, 0)
+
+  /// Fringes `spacing` pixels apart, and more of them in the direction of `degrees` from u to v.
+  static Carrier of(double spacing, double degrees, int width, int height)
+  {
+    const double turn = std::remainder(degrees, 360.0);
+    const double column = std::abs(turn) == 90 ? 0 : std::cos(turn * radiansPerDegree) / spacing;
+    const double row = std::abs(turn) == 180 ? 0 : std::sin(turn * radiansPerDegree) / spacing;
+    return { column, row, -0.5 * (column * (width - 1) + row * (height - 1)) };
+  }
+
+  SCHLIEREN_HD double turnsAt(const double (&position)[2]) const
+  {
+    return perColumn * position[0] + perRow * position[1] + atOrigin;
+  }
+};
+
+/// In light of one wavelength.
+struct Interferogram
+{
+  static constexpr int channels = 1;
+
+  double perWavelength; ///< 1 / metres
+  Carrier carrier;      ///< none where fringes are infinite
+
+  SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
+  {
+    // Apart: 1e7 wavelengths leave a double 1e-9 of a fringe.
+    const double ofPath = fromNearestWhole(ray.path * perWavelength);
+    const double turns = fromNearestWhole(ofPath + carrier.turnsAt(ray.position));
+    const double sine = sinPi(turns);
+    light[0] = limited(1 - sine * sine); // (1 + cos(2 pi turns)) / 2
+  }
+  SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
+};
+
+} // namespace schlieren

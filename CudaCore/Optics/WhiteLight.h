@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Math/HostDevice.h"
+#include "Math/Trigonometry.h"
+#include "Math/Units.h"
+#include "Optics/Color.h"
+#include "Optics/Interferogram.h"
+#include "Optics/RayAtFilm.h"
+
+#include <functional>
+
+namespace schlieren
+{
+
+/// An interferogram in white light: the sum over bands of wavenumbers s = 1 / wavelength, 380 ... 780 nm, of
+/// equal energy per wavelength. A band's light falls linearly to nothing at the middle of its neighbours;
+/// over it the phase is linear, so that its fringes fade by sinc^2(w), where w is by how many turns the
+/// phase grows from a band to the next one.
+struct WhiteLight
+{
+  static constexpr int channels = 3;
+  static constexpr int perGroup = 4; ///< bands that fade alike
+  static constexpr int groups = 10;
+  static constexpr int bands = groups * perGroup;
+
+  double turnsPerPath[bands];    ///< dispersion / wavelength, 1 / metres
+  double turnsPerCarrier[bands]; ///< by wavelength, of turns at Scene::wavelength
+  float fadePerPath[groups];     ///< w of a metre
+  float fadePerCarrier;          ///< w of a turn at Scene::wavelength
+  float share[channels]
+             [bands]; ///< of all light, linear sRGB; they add up to 1 / 2, and some are negative
+  Carrier carrier;    ///< at Scene::wavelength
+
+  /// `dispersion`: see Fringes; may be empty. Throws Error where it gives no number.
+  static WhiteLight of(
+    double wavelength, const std::function<double(double)>& dispersion, const Carrier& carrier);
+
+  SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
+  {
+    // Loops that compilers turn into ones over packs of four, and the same order of sums everywhere.
+    const double shift = carrier.turnsAt(ray.position);
+    const float path = static_cast<float>(ray.path);
+    const float tilt = static_cast<float>(shift);
+    float contrasts[groups];
+    for (int group = 0; group < groups; ++group)
+    {
+      contrasts[group] = squaredSinc(fadePerPath[group] * path + fadePerCarrier * tilt);
+    }
+    float turns[bands];
+    for (int band = 0; band < bands; ++band)
+    {
+      const double phase = ray.path * turnsPerPath[band] + shift * turnsPerCarrier[band];
+      turns[band] = static_cast<float>(phase - ((phase + wholes) - wholes));
+    }
+    float fringes[bands];
+    for (int group = 0; group < groups; ++group)
+    {
+      for (int band = group * perGroup; band < (group + 1) * perGroup; ++band)
+      {
+        const float sine = turns[band] * sinPiByX(turns[band]);
+        fringes[band] = contrasts[group] * (1 - 2 * sine * sine); // ... cos(2 pi turns)
+      }
+    }
+    for (int channel = 0; channel < channels; ++channel)
+    {
+      float sums[perGroup] = {};
+      for (int group = 0; group < groups; ++group)
+      {
+        for (int n = 0; n < perGroup; ++n)
+        {
+          const int band = group * perGroup + n;
+          sums[n] += share[channel][band] * fringes[band];
+        }
+      }
+      light[channel] =
+        limited(0.5 + static_cast<double>((sums[0] + sums[1]) + (sums[2] + sums[3])));
+    }
+  }
+  SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
+
+private:
+  /// (sin(pi x) / (pi x))^2.
+  SCHLIEREN_HD static float squaredSinc(float x)
+  {
+    constexpr float perPi = static_cast<float>(1 / pi);
+    constexpr float most = 1e6f; // where nothing is left; still has a fraction
+    const float within = x > -most && x < most ? x : most;
+    const float fraction = within - ((within + wholesOfFloat) - wholesOfFloat);
+    const float sinc = sinPiByX(fraction) * perPi * (fraction == within ? 1 : fraction / within);
+    return sinc * sinc;
+  }
+};
+
+} // namespace schlieren
