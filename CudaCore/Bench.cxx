@@ -34,9 +34,6 @@ namespace schlieren
 namespace
 {
 
-/// Rays are held for re-shading up to this much memory; passes beyond it are traced again.
-constexpr std::size_t mostHeldBytes = std::size_t{ 1 } << 30;
-
 /// What a held medium was built from.
 struct MediumKey
 {
@@ -330,7 +327,7 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
   work.raysTraced += raysThatCrossed(scratch, scene.threads);
 
   if (static_cast<std::size_t>(number) == passes.size() &&
-    (passes.size() + 1) * scratch.bytes() <= mostHeldBytes)
+    (passes.size() + 1) * scratch.bytes() <= scene.memoryBudget)
   {
     passes.push_back(std::move(scratch));
     scratch = {};
@@ -384,7 +381,7 @@ Image Bench::Stages::render(
   Pass pass{ -heldMargin, -heldMargin, view.width + 2 * heldMargin, view.height + 2 * heldMargin,
     { 0, 0 } };
   const std::int64_t mostRays =
-    (view.width + 2 * margin) * (view.height + 2 * margin) * scene.samplesPerPixel;
+    (view.width + 2 * margin) * (view.height + 2 * margin) * passesToHold(scene.samplesPerPixel);
   std::optional<Films> films;
   std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
   PixelMeans means(view.width, view.height, scene.threads);
@@ -459,15 +456,17 @@ Image Bench::Stages::render(
       waiting.clear();
       if (!filmOnDevice)
       {
-        filmOnDevice = std::make_unique<CudaFilm>(films->planes[0]);
+        filmOnDevice = std::make_unique<CudaFilm>(*films);
       }
-      filmOnDevice->expose(*traced->onDevice, pass, cutoff, projection, margin);
+      filmOnDevice->expose(
+        *traced->onDevice, pass, cutoff, projection, margin, scene.filmEstimator);
       continue;
     }
     const bool isLast = number + 1 == scene.samplesPerPixel;
     if (traced == &scratch || isLast)
     {
-      counts.add(expose(waiting, cutoff, projection, margin, scene.threads, *films));
+      counts.add(
+        expose(waiting, cutoff, projection, margin, scene.filmEstimator, scene.threads, *films));
       if (!isLast)
       {
         means.add(waiting);
@@ -477,7 +476,7 @@ Image Bench::Stages::render(
   }
   if (filmOnDevice)
   {
-    counts = filmOnDevice->develop(films->planes[0], means);
+    counts = filmOnDevice->develop(*films, means);
   }
   image.raysTraced = counts.crossed;
   image.stepsTaken = counts.steps;
@@ -488,6 +487,7 @@ Image Bench::Stages::render(
   {
     image.histogram = histogram->histogram();
   }
+  image.light = films->balance(scene.samplesPerPixel);
   image.intensity = films->developIntensity(scene.samplesPerPixel, scene.threads);
   if (films->isColored())
   {

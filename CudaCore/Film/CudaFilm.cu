@@ -5,8 +5,10 @@
 #include "Film/CudaFilm.h"
 
 #include "Device/CudaBuffer.h"
-#include "Film/Splat.h"
+#include "Film/Sheet.h"
 
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace schlieren
@@ -22,11 +24,11 @@ using Counter = unsigned long long;
 
 struct Sums
 {
-  std::int64_t width, height;
-  double one;
-  Counter* light;
+  FilmSize film;
+  Counter* light; ///< plane by plane
   PixelSums* pixels;
   RayCounts* counts;
+  LightSums* planes;
 };
 
 __device__ void add(std::int64_t* to, std::int64_t number)
@@ -38,23 +40,44 @@ __device__ void add(std::int64_t* to, std::int64_t number)
   }
 }
 
-__device__ void addLight(
-  const Sums& sums, std::int64_t column, std::int64_t row, std::int64_t light)
+/// What one thread adds. As Sheet and addPhoton want it.
+template <int planes>
+struct DeviceDeposit
 {
-  if (light != 0 && column >= 0 && column < sums.width && row >= 0 && row < sums.height)
-  {
-    atomicAdd(sums.light + row * sums.width + column, static_cast<Counter>(light));
-  }
-}
+  const Sums& sums;
+  LightSums all[planes]{};
 
-__device__ void splat(const Sums& sums, const Footprint& at, double light)
-{
-  const Shares shares = sharesOf(at, light, sums.one);
-  addLight(sums, at.column, at.row, shares.lowerLeft);
-  addLight(sums, at.column + 1, at.row, shares.lowerRight);
-  addLight(sums, at.column, at.row + 1, shares.upperLeft);
-  addLight(sums, at.column + 1, at.row + 1, shares.upperRight);
-}
+  __device__ void emitted(int plane, std::int64_t light) { all[plane].emitted += light; }
+  __device__ void outside(int plane, std::int64_t light) { all[plane].outside += light; }
+  __device__ void pixel(int plane, std::int64_t column, std::int64_t row, std::int64_t light)
+  {
+    if (light != 0)
+    {
+      atomicAdd(sums.light + (plane * sums.film.rows + row) * sums.film.columns + column,
+        static_cast<Counter>(light));
+    }
+  }
+  __device__ void block(int plane, std::int64_t column, std::int64_t row, const Shares& shares)
+  {
+    anywhere(plane, column, row, shares.lowerLeft);
+    anywhere(plane, column + 1, row, shares.lowerRight);
+    anywhere(plane, column, row + 1, shares.upperLeft);
+    anywhere(plane, column + 1, row + 1, shares.upperRight);
+  }
+
+private:
+  __device__ void anywhere(int plane, std::int64_t column, std::int64_t row, std::int64_t light)
+  {
+    if (column >= 0 && column < sums.film.columns && row >= 0 && row < sums.film.rows)
+    {
+      pixel(plane, column, row, light);
+    }
+    else
+    {
+      outside(plane, light);
+    }
+  }
+};
 
 __device__ std::int64_t sumOverWarp(std::int64_t number)
 {
@@ -66,45 +89,80 @@ __device__ std::int64_t sumOverWarp(std::int64_t number)
   return number;
 }
 
-/// One thread per ray of the picture and its margin. All threads of a block come to its end.
-template <class CutoffKind>
-__global__ void exposeKernel(const CutoffKind cutoff, const Projection projection,
-  const RayExit* exits, const Pass pass, std::int64_t margin, const Sums sums)
+/// A pass with the rays of the picture and its margin.
+struct RaysOnDevice
 {
-  const std::int64_t columns = sums.width + 2 * margin;
-  const std::int64_t rows = sums.height + 2 * margin;
+  const RayExit* exits;
+  Pass pass;
+  std::int64_t margin;
+  std::int64_t columns, rows; ///< the margin among them
+
+  __device__ const RayExit& exit(std::int64_t column, std::int64_t row) const
+  {
+    return exits[(row - margin - pass.firstRow) * pass.columns + column - margin -
+      pass.firstColumn];
+  }
+
+  /// Rounded as in Exposure.cxx.
+  template <class CutoffKind>
+  __device__ FilmRay<CutoffKind::channels> at(const CutoffKind& cutoff,
+    const Projection& projection, std::int64_t column, std::int64_t row) const
+  {
+    const RayExit& here = exit(column, row);
+    FilmRay<CutoffKind::channels> ray{};
+    ray.arrives = here.reachesFilm();
+    if (ray.arrives)
+    {
+      const double startColumn = static_cast<double>(-margin) + pass.offset.column;
+      const double startRow = static_cast<double>(row - margin) + pass.offset.row;
+      const RayAtFilm atFilm =
+        rayAtFilm(here, startColumn + static_cast<double>(column), startRow, projection);
+      ray.x = atFilm.position[0] + 0.5;
+      ray.y = atFilm.position[1] + 0.5;
+      cutoff.shade(atFilm, ray.light);
+    }
+    return ray;
+  }
+};
+
+/// One thread per ray of the picture and its margin, and per cell that it is the lower left one of. All
+/// threads of a block come to its end.
+template <FilmEstimator estimator, class CutoffKind>
+__global__ void exposeKernel(
+  const CutoffKind cutoff, const Projection projection, const RaysOnDevice rays, const Sums sums)
+{
+  constexpr int planes = CutoffKind::channels;
   const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
   RayCounts counts;
-  if (n < columns * rows)
+  DeviceDeposit<planes> deposit{ sums };
+  if (n < rays.columns * rays.rows)
   {
-    const std::int64_t i = n % columns;
-    const std::int64_t column = i - margin;
-    const std::int64_t row = n / columns - margin;
-    const RayExit exit = exits[(row - pass.firstRow) * pass.columns + column - pass.firstColumn];
+    const std::int64_t i = n % rays.columns;
+    const std::int64_t j = n / rays.columns;
+    const RayExit& exit = rays.exit(i, j);
     counts.add(exit);
-    if (column >= 0 && column < sums.width && row >= 0 && row < sums.height)
+    const std::int64_t column = i - rays.margin, row = j - rays.margin;
+    if (column >= 0 && column < sums.film.columns && row >= 0 && row < sums.film.rows)
     {
-      sums.pixels[row * sums.width + column].add(exit); // no other thread has this pixel
+      sums.pixels[row * sums.film.columns + column].add(exit); // no other thread has this pixel
+      counts.addShaded(exit, cutoff);
     }
-    // Rounded as in Exposure.cxx.
-    const double startColumn = static_cast<double>(-margin) + pass.offset.column;
-    const double startRow = static_cast<double>(row) + pass.offset.row;
-    const RayAtFilm ray =
-      rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection);
-    const double* at = ray.position;
-    if (exit.reachesFilm() && isOnFilm(at[0], at[1], sums.width, sums.height))
+    const auto ray = [&](std::int64_t right, std::int64_t up)
+    { return rays.at(cutoff, projection, i + right, j + up); };
+    if constexpr (estimator == FilmEstimator::Photon)
     {
-      double light[CutoffKind::channels];
-      cutoff.shade(ray, light);
-      splat(sums, footprintOf(at[0], at[1]), light[0]);
-      counts.onFilm = 1;
-      counts.saturated = cutoff.saturates(ray) ? 1 : 0;
+      addPhoton(ray(0, 0), sums.film, deposit);
+    }
+    else if (i + 1 < rays.columns && j + 1 < rays.rows)
+    {
+      Sheet<planes, DeviceDeposit<planes>>(sums.film, deposit)
+        .addCell(ray(0, 0), ray(1, 0), ray(0, 1), ray(1, 1));
     }
   }
   const int crossed = __syncthreads_count(counts.crossed != 0);
   const int blocked = __syncthreads_count(counts.blocked != 0);
   const int lost = __syncthreads_count(counts.lost != 0);
-  const int onFilm = __syncthreads_count(counts.onFilm != 0);
+  const int shaded = __syncthreads_count(counts.shaded != 0);
   const int saturated = __syncthreads_count(counts.saturated != 0);
   const std::int64_t steps = sumOverWarp(counts.steps);
   if (threadIdx.x == 0)
@@ -112,12 +170,22 @@ __global__ void exposeKernel(const CutoffKind cutoff, const Projection projectio
     add(&sums.counts->crossed, crossed);
     add(&sums.counts->blocked, blocked);
     add(&sums.counts->lost, lost);
-    add(&sums.counts->onFilm, onFilm);
+    add(&sums.counts->shaded, shaded);
     add(&sums.counts->saturated, saturated);
   }
   if (threadIdx.x % 32 == 0)
   {
     add(&sums.counts->steps, steps);
+  }
+  for (int plane = 0; plane < planes; ++plane)
+  {
+    const std::int64_t emitted = sumOverWarp(deposit.all[plane].emitted);
+    const std::int64_t outside = sumOverWarp(deposit.all[plane].outside);
+    if (threadIdx.x % 32 == 0)
+    {
+      add(&sums.planes[plane].emitted, emitted);
+      add(&sums.planes[plane].outside, outside);
+    }
   }
 }
 
@@ -125,17 +193,31 @@ __global__ void exposeKernel(const CutoffKind cutoff, const Projection projectio
 
 struct CudaFilm::DeviceMemory
 {
-  explicit DeviceMemory(const Film& film)
-    : pixels(static_cast<std::size_t>(film.width() * film.height()))
-    , light(pixels)
+  explicit DeviceMemory(const Films& films)
+    : pixels(films.planes[0].pixels())
+    , light(pixels * films.planes.size())
     , sums(pixels)
     , counts(1)
-    , view{ film.width(), film.height(), film.one(), light.data(), sums.data(), counts.data() }
+    , planes(films.planes.size())
+    , view{ { films.planes[0].width(), films.planes[0].height(), films.planes[0].one() },
+      light.data(), sums.data(), counts.data(), planes.data() }
   {
     // All zero bits are zeros, of all that is summed up here.
-    clear(light.data(), pixels * sizeof(Counter));
+    clear(light.data(), pixels * films.planes.size() * sizeof(Counter));
     clear(sums.data(), pixels * sizeof(PixelSums));
     clear(counts.data(), sizeof(RayCounts));
+    clear(planes.data(), films.planes.size() * sizeof(LightSums));
+  }
+
+  /// A table's copy on the device, as long as none is asked for that lies elsewhere.
+  Table copyOf(const Table& table)
+  {
+    if (!copied || onHost != table.values)
+    {
+      copied = std::make_unique<CudaBuffer<float, DeviceError>>(table.values, table.size);
+      onHost = table.values;
+    }
+    return { copied->data(), table.size };
   }
 
   static void clear(void* bytes, std::size_t size)
@@ -147,42 +229,60 @@ struct CudaFilm::DeviceMemory
   CudaBuffer<Counter, DeviceError> light;
   CudaBuffer<PixelSums, DeviceError> sums;
   CudaBuffer<RayCounts, DeviceError> counts;
+  CudaBuffer<LightSums, DeviceError> planes;
   Sums view;
+  std::unique_ptr<CudaBuffer<float, DeviceError>> copied;
+  const float* onHost = nullptr; ///< what has been copied
 };
 
-CudaFilm::CudaFilm(const Film& film)
-  : memory_(std::make_unique<DeviceMemory>(film))
+CudaFilm::CudaFilm(const Films& films)
+  : memory_(std::make_unique<DeviceMemory>(films))
 {
 }
 
 CudaFilm::~CudaFilm() = default;
 
 void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin)
+  const Projection& projection, std::int64_t margin, FilmEstimator estimator)
 {
   const Sums& sums = memory_->view;
-  const std::int64_t rays = (sums.width + 2 * margin) * (sums.height + 2 * margin);
-  const auto blocks = static_cast<unsigned>((rays + threadsPerBlock - 1) / threadsPerBlock);
+  const RaysOnDevice rays{ traced.exits(), pass, margin, sums.film.columns + 2 * margin,
+    sums.film.rows + 2 * margin };
+  const auto blocks =
+    static_cast<unsigned>((rays.columns * rays.rows + threadsPerBlock - 1) / threadsPerBlock);
   std::visit(
-    [&](const auto& kind)
+    [&](auto kind)
     {
-      exposeKernel<<<blocks, threadsPerBlock>>>(
-        kind, projection, traced.exits(), pass, margin, sums);
+      using Kind = decltype(kind);
+      if (Table* table = tableOf(kind))
+      {
+        *table = memory_->copyOf(*table);
+      }
+      const auto kernel = estimator == FilmEstimator::Sheet
+        ? exposeKernel<FilmEstimator::Sheet, Kind>
+        : exposeKernel<FilmEstimator::Photon, Kind>;
+      kernel<<<blocks, threadsPerBlock>>>(kind, projection, rays, sums);
     },
     cutoff);
   checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
 }
 
-RayCounts CudaFilm::develop(Film& film, PixelMeans& means) const
+RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
 {
   const auto fetch = [](void* to, const void* from, std::size_t bytes)
   {
     checkCuda<DeviceError>(
       cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the picture");
   };
-  std::vector<std::int64_t> light(memory_->pixels);
-  fetch(light.data(), memory_->light.data(), light.size() * sizeof(std::int64_t));
-  film.setLight(std::move(light));
+  for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
+  {
+    std::vector<std::int64_t> light(memory_->pixels);
+    LightSums all;
+    fetch(light.data(), memory_->light.data() + plane * memory_->pixels,
+      light.size() * sizeof(std::int64_t));
+    fetch(&all, memory_->planes.data() + plane, sizeof(all));
+    films.planes[plane].set(std::move(light), all);
+  }
   std::vector<PixelSums> sums(memory_->pixels);
   fetch(sums.data(), memory_->sums.data(), sums.size() * sizeof(PixelSums));
   means.setSums(std::move(sums));

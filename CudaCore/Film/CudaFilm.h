@@ -18,17 +18,17 @@ namespace schlieren
 class CudaFilm
 {
 public:
-  /// Of the size and the fixed-point scale of `film`.
-  explicit CudaFilm(const Film& film);
+  /// Of as many planes as `films` has, of their size and fixed-point scale. Nothing may tint them.
+  explicit CudaFilm(const Films& films);
   ~CudaFilm();
 
   /// Does what schlieren::expose does, and adds up means and counts, for rays that lie there: `traced`
   /// covers `pass`.
   void expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
-    const Projection& projection, std::int64_t margin);
+    const Projection& projection, std::int64_t margin, FilmEstimator estimator);
 
   /// Hands over all that has been added up.
-  RayCounts develop(Film& film, PixelMeans& means) const;
+  RayCounts develop(Films& films, PixelMeans& means) const;
 
 private:
   struct DeviceMemory;

@@ -3,12 +3,16 @@
 #include "Film/Exposure.h"
 
 #include "Device/Parallel.h"
+#include "Film/Sheet.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -18,136 +22,238 @@ namespace schlieren
 namespace
 {
 
-/// Where a ray meets the film, and how much light of each channel arrives.
-template <std::size_t Channels>
-struct Spot
+/// Of linear sRGB (IEC 61966-2-1).
+constexpr double luminance[3] = { 0.2126, 0.7152, 0.0722 };
+
+/// Where on the film rays land; nowhere at first.
+struct RowRange
 {
-  double column, row;
-  double light[Channels];
-  std::int64_t ray;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+
+  void add(double y)
+  {
+    lowest = std::min(lowest, y);
+    highest = std::max(highest, y);
+  }
 };
 
 /// One thread's part of the films.
-template <std::size_t Channels, bool isTinted>
+template <int planes>
 class Bands
 {
 public:
   explicit Bands(Films& films)
-    : tint_(isTinted ? &*films.tintOfRays : nullptr)
   {
-    for (std::size_t plane = 0; plane < bands_.size(); ++plane)
+    for (std::size_t plane = 0; plane < planes; ++plane)
     {
       bands_[plane] = std::make_unique<FilmBand>(films.planes[plane]);
     }
   }
 
-  void cover(std::int64_t lowest, std::int64_t highest)
+  /// Makes quick what is added `higher` than where rays land.
+  void cover(const RowRange& lands, double higher)
   {
+    if (lands.lowest > lands.highest)
+    {
+      return;
+    }
+    const auto lowest = static_cast<std::int64_t>(std::floor(lands.lowest + higher));
+    const auto highest = static_cast<std::int64_t>(std::floor(lands.highest + higher));
     for (const auto& band : bands_)
     {
       band->cover(lowest, highest);
     }
   }
 
-  void splat(const Spot<Channels>& spot, const float* gathered)
+  // As Sheet wants it.
+  void emitted(int plane, std::int64_t light) { of(plane).addEmitted(light); }
+  void outside(int plane, std::int64_t light) { of(plane).addOutside(light); }
+  void pixel(int plane, std::int64_t column, std::int64_t row, std::int64_t light)
   {
-    const Footprint at = footprintOf(spot.column, spot.row);
-    std::array<double, 3> color{ 1, 1, 1 };
-    if constexpr (isTinted)
+    of(plane).add(column, row, light);
+  }
+  void block(int plane, std::int64_t column, std::int64_t row, const Shares& shares)
+  {
+    of(plane).add(column, row, shares);
+  }
+
+private:
+  FilmBand& of(int plane) { return *bands_[static_cast<std::size_t>(plane)]; }
+
+  std::array<std::unique_ptr<FilmBand>, planes> bands_;
+};
+
+/// A picture's rays as they meet the film, row by row of where they start.
+template <bool isTinted, class CutoffKind>
+class RaysAtFilm
+{
+public:
+  static constexpr int channels = CutoffKind::channels;
+  static constexpr int planes = channels == 1 && isTinted ? 4 : channels;
+  using Ray = FilmRay<planes>;
+
+  RaysAtFilm(
+    const CutoffKind& cutoff, const Projection& projection, const Films& films, std::int64_t margin)
+    : columns(films.planes[0].width() + 2 * margin)
+    , rows(films.planes[0].height() + 2 * margin)
+    , cutoff_(cutoff)
+    , projection_(projection)
+    , tint_(isTinted ? &*films.tintOfRays : nullptr)
+    , margin_(margin)
+    , width_(static_cast<double>(films.planes[0].width()))
+    , height_(static_cast<double>(films.planes[0].height()))
+  {
+  }
+
+  const std::int64_t columns, rows;
+
+  /// The rays of a pass that start in a row (from 0 on). Returns the rows of the film (from the first to the
+  /// last pixel) that some of them land in.
+  RowRange load(
+    const TracedRays& pass, std::int64_t row, std::vector<Ray>& rays, RayCounts& counts) const
+  {
+    const std::int64_t first = pass.rayOf(-margin_, row - margin_);
+    const double startColumn = static_cast<double>(-margin_) + pass.pass.offset.column;
+    const double startRow = static_cast<double>(row - margin_) + pass.pass.offset.row;
+    const bool isRowOfPicture = row >= margin_ && row < rows - margin_;
+    RowRange lands;
+    for (std::int64_t i = 0; i < columns; ++i)
     {
-      color = tint_->of(gathered + static_cast<std::size_t>(spot.ray) * tint_->colors.size());
-    }
-    if constexpr (Channels == 1)
-    {
-      bands_[0]->splat(at, spot.light[0]);
-      for (std::size_t plane = 1; plane < bands_.size(); ++plane)
+      const RayExit& exit = pass.exits[first + i];
+      counts.add(exit);
+      if (isRowOfPicture && i >= margin_ && i < columns - margin_)
       {
-        bands_[plane]->splat(at, spot.light[0] * color[plane - 1]);
+        counts.addShaded(exit, cutoff_);
       }
+      Ray& ray = rays[static_cast<std::size_t>(i)];
+      ray.arrives = exit.reachesFilm();
+      if (ray.arrives)
+      {
+        const RayAtFilm atFilm =
+          rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection_);
+        const double x = atFilm.position[0] + 0.5;
+        const double y = atFilm.position[1] + 0.5;
+        ray.x = x;
+        ray.y = y;
+        shade(atFilm, pass.gathered, first + i, ray);
+        if (x > -1 && x < width_ + 1 && y > -1 && y < height_ + 1)
+        {
+          lands.add(y);
+        }
+      }
+    }
+    return lands;
+  }
+
+private:
+  void shade(const RayAtFilm& atFilm, const float* gathered, std::int64_t number, Ray& ray) const
+  {
+    double light[channels];
+    cutoff_.shade(atFilm, light);
+    if constexpr (!isTinted)
+    {
+      std::copy_n(light, channels, ray.light);
     }
     else
     {
-      for (std::size_t plane = 0; plane < Channels; ++plane)
+      const std::array<double, 3> color =
+        tint_->of(gathered + static_cast<std::size_t>(number) * tint_->colors.size());
+      ray.light[0] = light[0];
+      for (std::size_t plane = 0; plane < 3; ++plane)
       {
-        bands_[plane]->splat(at, spot.light[plane] * color[plane]);
+        ray.light[planes - 3 + plane] = light[channels == 1 ? 0 : plane] * color[plane];
       }
     }
   }
 
-private:
-  static constexpr std::size_t planes = Channels == 1 && isTinted ? 4 : Channels;
-
+  const CutoffKind& cutoff_;
+  const Projection& projection_;
   const Tint* tint_;
-  std::array<std::unique_ptr<FilmBand>, planes> bands_;
+  std::int64_t margin_;
+  double width_, height_;
 };
+
+/// Rays that start in rows `begin` ... `end` - 1, one by one.
+template <class Rays, class Deposit>
+void addPhotons(const Rays& source, const std::vector<TracedRays>& passes, std::int64_t begin,
+  std::int64_t end, const FilmSize& film, Deposit& bands, RayCounts& counts)
+{
+  std::vector<typename Rays::Ray> rays(static_cast<std::size_t>(source.columns));
+  for (std::int64_t row = begin; row < end; ++row)
+  {
+    for (const TracedRays& pass : passes)
+    {
+      // From half a pixel below where they land.
+      bands.cover(source.load(pass, row, rays, counts), -0.5);
+      for (const auto& ray : rays)
+      {
+        addPhoton(ray, film, bands);
+      }
+    }
+  }
+}
+
+/// Cells whose lower rays start in rows `begin` ... `end` - 1.
+template <class Rays, class Deposit>
+void addSheet(const Rays& source, const std::vector<TracedRays>& passes, std::int64_t begin,
+  std::int64_t end, const FilmSize& film, Deposit& bands, RayCounts& counts)
+{
+  Sheet<Rays::planes, Deposit> sheet(film, bands);
+  std::vector<typename Rays::Ray> lower(static_cast<std::size_t>(source.columns));
+  std::vector<typename Rays::Ray> upper(lower.size());
+  for (const TracedRays& pass : passes)
+  {
+    RowRange lands = source.load(pass, begin, lower, counts);
+    for (std::int64_t row = begin + 1; row < std::min(end + 1, source.rows); ++row)
+    {
+      RayCounts ofNextPiece;
+      const RowRange landsAbove = source.load(pass, row, upper, row < end ? counts : ofNextPiece);
+      bands.cover(
+        { std::min(lands.lowest, landsAbove.lowest), std::max(lands.highest, landsAbove.highest) },
+        0);
+      for (std::size_t i = 1; i < lower.size(); ++i)
+      {
+        sheet.addCell(lower[i - 1], lower[i], upper[i - 1], upper[i]);
+      }
+      std::swap(lower, upper);
+      lands = landsAbove;
+    }
+  }
+}
 
 template <bool isTinted, class CutoffKind>
 RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& passes,
-  const Projection& projection, std::int64_t margin, int threads, Films& films)
+  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
+  Films& films)
 {
-  constexpr std::size_t channels = CutoffKind::channels;
-  const Film& film = films.planes[0];
-  const std::int64_t columns = film.width() + 2 * margin;
-  const std::int64_t rows = film.height() + 2 * margin;
+  using Rays = RaysAtFilm<isTinted, CutoffKind>;
+  const Rays rays(cutoff, projection, films, margin);
+  const FilmSize film{ films.planes[0].width(), films.planes[0].height(), films.planes[0].one() };
   constexpr std::int64_t piecesPerThread = 4;
   constexpr std::int64_t fewestRows = 16;
   const std::int64_t rowsPerPiece =
-    std::max(fewestRows, rows / (piecesPerThread * threadCount(threads)));
+    std::max(fewestRows, rays.rows / (piecesPerThread * threadCount(threads)));
   RayCounts counts;
   std::mutex countsLock;
-  parallelFor(rows, rowsPerPiece, threads,
+  parallelFor(rays.rows, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      Bands<channels, isTinted> bands(films);
       RayCounts countsHere;
-      std::vector<Spot<channels>> spots(static_cast<std::size_t>(columns));
-      for (std::int64_t row = begin - margin; row < end - margin; ++row)
+      Bands<Rays::planes> bands(films);
+      if (estimator == FilmEstimator::Sheet)
       {
-        for (const TracedRays& rays : passes)
-        {
-          const std::int64_t first = rays.rayOf(-margin, row);
-          const double startColumn = static_cast<double>(-margin) + rays.pass.offset.column;
-          const double startRow = static_cast<double>(row) + rays.pass.offset.row;
-          double lowest = static_cast<double>(film.height());
-          double highest = -1;
-          std::size_t count = 0;
-          for (std::int64_t i = 0; i < columns; ++i)
-          {
-            const RayExit& exit = rays.exits[first + i];
-            countsHere.add(exit);
-            const RayAtFilm ray =
-              rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection);
-            const double column = ray.position[0];
-            const double up = ray.position[1];
-            if (exit.reachesFilm() && isOnFilm(column, up, film.width(), film.height()))
-            {
-              Spot<channels>& spot = spots[count++];
-              spot.column = column;
-              spot.row = up;
-              spot.ray = first + i;
-              cutoff.shade(ray, spot.light);
-              ++countsHere.onFilm;
-              countsHere.saturated += cutoff.saturates(ray) ? 1 : 0;
-              lowest = std::min(lowest, up);
-              highest = std::max(highest, up);
-            }
-          }
-          if (count > 0)
-          {
-            bands.cover(footprintOf(0, lowest).row, footprintOf(0, highest).row);
-          }
-          for (std::size_t i = 0; i < count; ++i)
-          {
-            bands.splat(spots[i], rays.gathered);
-          }
-        }
+        addSheet(rays, passes, begin, end, film, bands, countsHere);
+      }
+      else
+      {
+        addPhotons(rays, passes, begin, end, film, bands, countsHere);
       }
       const std::lock_guard<std::mutex> guard(countsLock);
       counts.add(countsHere);
     });
   return counts;
 }
-
 } // namespace
 
 Films::Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t mostRays)
@@ -160,6 +266,23 @@ Films::Films(int channels, std::optional<Tint> tint, int width, int height, std:
   }
 }
 
+LightBalance Films::balance(double raysPerPixel) const
+{
+  LightBalance all;
+  for (std::size_t plane = 0; plane < (planes.size() == 3 ? 3 : 1); ++plane)
+  {
+    const Film& film = planes[plane];
+    const double weight = (planes.size() == 3 ? luminance[plane] : 1) /
+      (film.one() * raysPerPixel * static_cast<double>(film.pixels()));
+    all.emitted += weight * static_cast<double>(film.sums().emitted);
+    all.outside += weight * static_cast<double>(film.sums().outside);
+    all.onFilm += weight *
+      static_cast<double>(
+        std::accumulate(film.light().begin(), film.light().end(), std::int64_t{ 0 }));
+  }
+  return all;
+}
+
 PixelArray<float> Films::developIntensity(double raysPerPixel, int threads) const
 {
   PixelArray<float> picture = planes[0].develop(raysPerPixel, threads);
@@ -169,8 +292,9 @@ PixelArray<float> Films::developIntensity(double raysPerPixel, int threads) cons
     const PixelArray<float> blue = planes[2].develop(raysPerPixel, threads);
     for (std::size_t pixel = 0; pixel < picture.size(); ++pixel)
     {
-      // Of linear sRGB (IEC 61966-2-1).
-      picture[pixel] = 0.2126f * picture[pixel] + 0.7152f * green[pixel] + 0.0722f * blue[pixel];
+      picture[pixel] = static_cast<float>(luminance[0] * static_cast<double>(picture[pixel]) +
+        luminance[1] * static_cast<double>(green[pixel]) +
+        luminance[2] * static_cast<double>(blue[pixel]));
     }
   }
   return picture;
@@ -192,13 +316,15 @@ PixelArray<float> Films::developColor(double raysPerPixel, int threads) const
 }
 
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, int threads, Films& films)
+  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
+  Films& films)
 {
   return std::visit(
     [&](const auto& kind)
     {
-      return films.tintOfRays ? exposeBy<true>(kind, passes, projection, margin, threads, films)
-                              : exposeBy<false>(kind, passes, projection, margin, threads, films);
+      return films.tintOfRays
+        ? exposeBy<true>(kind, passes, projection, margin, estimator, threads, films)
+        : exposeBy<false>(kind, passes, projection, margin, estimator, threads, films);
     },
     cutoff);
 }

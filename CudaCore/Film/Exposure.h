@@ -8,6 +8,7 @@
 #include "Optics/Tint.h"
 #include "PixelArray.h"
 #include "Rays/TracedRays.h"
+#include "Schlieren.h"
 
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,8 @@ struct Films
 
   /// One value per pixel; of a picture in colour, its luminance.
   PixelArray<float> developIntensity(double raysPerPixel, int threads) const;
+  /// Of that picture's light; `raysPerPixel` as above.
+  LightBalance balance(double raysPerPixel) const;
   /// Three values per pixel.
   PixelArray<float> developColor(double raysPerPixel, int threads) const;
 
@@ -40,9 +43,9 @@ struct RayCounts
   std::int64_t crossed = 0; ///< met the grid
   std::int64_t steps = 0;
   std::int64_t blocked = 0;
-  std::int64_t lost = 0; ///< trapped or turned
-  std::int64_t onFilm = 0;
-  std::int64_t saturated = 0; ///< of those on the film, by their cutoff
+  std::int64_t lost = 0;      ///< trapped or turned
+  std::int64_t shaded = 0;    ///< started in the picture and reach the film
+  std::int64_t saturated = 0; ///< of these, by their cutoff
 
   SCHLIEREN_HD void add(const RayExit& exit)
   {
@@ -53,25 +56,36 @@ struct RayCounts
       ++(exit.fate == RayFate::Blocked ? blocked : lost);
     }
   }
+  /// Of a ray that starts in the picture.
+  template <class CutoffKind>
+  SCHLIEREN_HD void addShaded(const RayExit& exit, const CutoffKind& cutoff)
+  {
+    if (exit.reachesFilm())
+    {
+      ++shaded;
+      saturated += cutoff.saturates(exit.deflection) ? 1 : 0;
+    }
+  }
   void add(const RayCounts& other)
   {
     crossed += other.crossed;
     steps += other.steps;
     blocked += other.blocked;
     lost += other.lost;
-    onFilm += other.onFilm;
+    shaded += other.shaded;
     saturated += other.saturated;
   }
 
   double saturatedShare() const
   {
-    return onFilm > 0 ? static_cast<double>(saturated) / static_cast<double>(onFilm) : 0;
+    return shaded > 0 ? static_cast<double>(saturated) / static_cast<double>(shaded) : 0;
   }
 };
 
 /// Adds to the films the light of rays that start in the picture or up to `margin` pixels around it; their
 /// passes cover that.
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, int threads, Films& films);
+  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
+  Films& films);
 
 } // namespace schlieren

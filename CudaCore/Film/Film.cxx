@@ -5,8 +5,9 @@
 #include "Device/Parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace schlieren
 {
@@ -61,10 +62,17 @@ PixelArray<float> Film::develop(double raysPerPixel, int threads) const
 
 FilmBand::FilmBand(Film& film)
   : film_(film)
-  , one_(film.one_)
   , columns_(film.width_ + 2)
   , light_(static_cast<std::size_t>(bandRows * columns_))
 {
+}
+
+FilmBand::~FilmBand()
+{
+  merge();
+  const std::lock_guard<std::mutex> guard(film_.locks_[0]);
+  film_.sums_.emitted += sums_.emitted;
+  film_.sums_.outside += sums_.outside;
 }
 
 void FilmBand::cover(std::int64_t lowest, std::int64_t highest)
@@ -91,25 +99,36 @@ void FilmBand::merge()
     if (row >= 0 && row < film_.height_)
     {
       film_.add(row, 0, light + 1, film_.width_);
+      sums_.outside += light[0] + light[columns_ - 1];
+    }
+    else
+    {
+      sums_.outside += std::accumulate(light, light + columns_, std::int64_t{ 0 });
     }
     std::fill_n(light, columns_, 0);
   }
   begin_ = end_ = first_;
 }
 
-void FilmBand::addAlone(const Footprint& at, const Shares& shares)
+void FilmBand::addAlone(std::int64_t column, std::int64_t row, const Shares& shares)
 {
-  const std::array<std::int64_t, 2> lower = { shares.lowerLeft, shares.lowerRight };
-  const std::array<std::int64_t, 2> upper = { shares.upperLeft, shares.upperRight };
-  const std::int64_t first = std::max<std::int64_t>(at.column, 0);
-  const std::int64_t count = std::min(at.column + 2, film_.width_) - first;
-  if (at.row >= 0)
+  const std::int64_t lights[2][2] = { { shares.lowerLeft, shares.lowerRight },
+    { shares.upperLeft, shares.upperRight } };
+  for (std::int64_t j = 0; j < 2; ++j)
   {
-    film_.add(at.row, first, lower.data() + (first - at.column), count);
-  }
-  if (at.row + 1 < film_.height_)
-  {
-    film_.add(at.row + 1, first, upper.data() + (first - at.column), count);
+    for (std::int64_t i = 0; i < 2; ++i)
+    {
+      const bool isOnIt =
+        column + i >= 0 && column + i < film_.width_ && row + j >= 0 && row + j < film_.height_;
+      if (isOnIt)
+      {
+        add(column + i, row + j, lights[j][i]);
+      }
+      else
+      {
+        addOutside(lights[j][i]);
+      }
+    }
   }
 }
 

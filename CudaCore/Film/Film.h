@@ -14,11 +14,19 @@
 namespace schlieren
 {
 
+/// Fixed-point light of all rays that reach the film's plane, and of what of it falls beside the film.
+struct LightSums
+{
+  std::int64_t emitted = 0;
+  std::int64_t outside = 0;
+};
+
 /// The picture being summed up, by several threads at once: each adds to a FilmBand of its own.
 class Film
 {
 public:
-  /// `mostRays`: no more rays than this will be splatted; they cannot overflow a pixel.
+  /// `mostRays`: no more light than that of as many rays will be added. It cannot overflow a pixel, nor a sum
+  /// of pixels.
   Film(int width, int height, std::int64_t mostRays);
 
   std::int64_t width() const { return width_; }
@@ -28,7 +36,12 @@ public:
 
   /// The light of all pixels, row by row, in fixed point.
   const std::vector<std::int64_t>& light() const { return pixels_; }
-  void setLight(std::vector<std::int64_t> light) { pixels_ = std::move(light); }
+  const LightSums& sums() const { return sums_; }
+  void set(std::vector<std::int64_t> light, const LightSums& sums)
+  {
+    pixels_ = std::move(light);
+    sums_ = sums;
+  }
 
   /// Light per pixel divided by `raysPerPixel`.
   PixelArray<float> develop(double raysPerPixel, int threads) const;
@@ -43,8 +56,21 @@ private:
   std::int64_t height_;
   double one_;
   std::vector<std::int64_t> pixels_;
+  LightSums sums_;
   std::vector<std::mutex> locks_; ///< of some rows each
 };
+
+/// For how many rays of each pass a film is to have room where `samples` passes are asked for: the scale, and
+/// thus the last bit of a sum, is the same for all common numbers.
+inline std::int64_t passesToHold(int samples)
+{
+  std::int64_t passes = 4096;
+  while (passes < samples)
+  {
+    passes *= 2;
+  }
+  return passes;
+}
 
 /// Some rows of a film, which one thread adds light to without regard to others, at a fraction of the
 /// cost of atomic sums. Merged into the film as it moves on, and at its end.
@@ -52,20 +78,24 @@ class FilmBand
 {
 public:
   explicit FilmBand(Film& film);
-  ~FilmBand() { merge(); }
+  ~FilmBand();
   FilmBand(const FilmBand&) = delete;
   FilmBand& operator=(const FilmBand&) = delete;
 
-  /// Makes footprints of rows `lowest` ... `highest` quick to add to; others remain possible.
+  /// Makes 2 x 2 pixels whose lower ones are of rows `lowest` ... `highest` quick to add to; others remain
+  /// possible.
   void cover(std::int64_t lowest, std::int64_t highest);
 
-  /// Adds light (0...1) to the pixels of a footprint on the film.
-  void splat(const Footprint& at, double light)
+  /// Of light that is then added.
+  void addEmitted(std::int64_t light) { sums_.emitted += light; }
+  void addOutside(std::int64_t light) { sums_.outside += light; }
+
+  /// Adds to 2 x 2 pixels at (column, row), at least one of which is on the film.
+  void add(std::int64_t column, std::int64_t row, const Shares& shares)
   {
-    const Shares shares = sharesOf(at, light, one_);
-    if (at.row >= begin_ && at.row + 1 < end_)
+    if (row >= begin_ && row + 1 < end_)
     {
-      std::int64_t* lower = rowOf(at.row) + at.column + 1;
+      std::int64_t* lower = rowOf(row) + column + 1;
       std::int64_t* upper = lower + columns_;
       lower[0] += shares.lowerLeft;
       lower[1] += shares.lowerRight;
@@ -73,7 +103,18 @@ public:
       upper[1] += shares.upperRight;
       return;
     }
-    addAlone(at, shares);
+    addAlone(column, row, shares);
+  }
+
+  /// Adds to a pixel of the film.
+  void add(std::int64_t column, std::int64_t row, std::int64_t light)
+  {
+    if (row >= begin_ && row < end_)
+    {
+      rowOf(row)[column + 1] += light;
+      return;
+    }
+    film_.add(row, column, &light, 1);
   }
 
 private:
@@ -81,11 +122,11 @@ private:
   {
     return light_.data() + static_cast<std::size_t>((row - first_) * columns_);
   }
-  void addAlone(const Footprint& at, const Shares& shares);
+  void addAlone(std::int64_t column, std::int64_t row, const Shares& shares);
   void merge();
 
   Film& film_;
-  double one_;
+  LightSums sums_;
   std::int64_t columns_;             ///< the film's, and one more on either side
   std::int64_t first_ = 0;           ///< row of the film that light_ begins with
   std::int64_t begin_ = 0, end_ = 0; ///< rows in use

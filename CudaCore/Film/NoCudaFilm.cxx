@@ -10,14 +10,15 @@ struct CudaFilm::DeviceMemory
 {
 };
 
-CudaFilm::CudaFilm(const Film&) { throw DeviceError(builtWithoutCuda); }
+CudaFilm::CudaFilm(const Films&) { throw DeviceError(builtWithoutCuda); }
 
 CudaFilm::~CudaFilm() = default;
 
-void CudaFilm::expose(const CudaPass&, const Pass&, const Cutoffs&, const Projection&, std::int64_t)
+void CudaFilm::expose(
+  const CudaPass&, const Pass&, const Cutoffs&, const Projection&, std::int64_t, FilmEstimator)
 {
 }
 
-RayCounts CudaFilm::develop(Film&, PixelMeans&) const { return {}; }
+RayCounts CudaFilm::develop(Films&, PixelMeans&) const { return {}; }
 
 } // namespace schlieren

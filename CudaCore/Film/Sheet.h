@@ -6,7 +6,7 @@
 #pragma once
 
 #include "Film/Coverage.h"
-#include "Film/Splat.h"
+#include "Film/Photon.h"
 #include "Math/HostDevice.h"
 
 #include <cmath>
@@ -15,39 +15,24 @@
 namespace schlieren
 {
 
-/// A ray where it meets the film's plane.
-template <int planes>
-struct SheetRay
-{
-  double x,
-    y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
-  double light[planes]; ///< 0 ... 1
-  bool arrives;
-};
-
-/// Spreads the light between rays over a film's pixels. `Deposit` takes it in fixed point, plane by plane:
-///   emitted(plane, light)                 of a cell, before it is spread;
-///   pixel(plane, column, row, light)      on the film;
-///   block(plane, column, row, shares)     of 2 x 2 pixels, some of which may be outside;
-///   outside(plane, light)                 that falls on no pixel.
-/// What is emitted arrives in pixels and outside, to the last bit.
+/// Spreads the light between rays over a film's pixels. Deposit: see addPhoton.
 template <int planes, class Deposit>
 class Sheet
 {
 public:
-  using Ray = SheetRay<planes>;
+  using Ray = FilmRay<planes>;
 
-  /// `one`: the fixed-point value of full light in a whole cell.
-  SCHLIEREN_HD Sheet(std::int64_t columns, std::int64_t rows, double one, Deposit& deposit)
-    : columns_(static_cast<double>(columns))
-    , rows_(static_cast<double>(rows))
-    , one_(one)
+  SCHLIEREN_HD Sheet(const FilmSize& film, Deposit& deposit)
+    : film_(film)
+    , columns_(static_cast<double>(film.columns))
+    , rows_(static_cast<double>(film.rows))
     , deposit_(deposit)
   {
   }
 
   /// The light between four neighbouring rays. Where some of them do not arrive, the others bring a quarter
-  /// each, as photons do.
+  /// each, spread over the quarter of a cell on their side as if nothing were bent there: so undisturbed light
+  /// is even up to where a shadow begins.
   SCHLIEREN_HD void addCell(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
@@ -59,10 +44,10 @@ public:
       }
       return;
     }
-    addAlone(lowerLeft);
-    addAlone(lowerRight);
-    addAlone(upperLeft);
-    addAlone(upperRight);
+    addQuarter(lowerLeft, 0, 0);
+    addQuarter(lowerRight, -0.5, 0);
+    addQuarter(upperLeft, 0, -0.5);
+    addQuarter(upperRight, -0.5, -0.5);
   }
 
 private:
@@ -112,11 +97,6 @@ private:
     std::int64_t light[planes];
     std::int64_t column, row; ///< a pixel that got light; column < 0: none
   };
-
-  SCHLIEREN_HD std::int64_t fixed(double light) const
-  {
-    return static_cast<std::int64_t>(light * one_ + 0.5);
-  }
 
   SCHLIEREN_HD static double smaller(double a, double b) { return a < b ? a : b; }
   SCHLIEREN_HD static double larger(double a, double b) { return a > b ? a : b; }
@@ -184,7 +164,7 @@ private:
       const double w1 = a1 * (l1 + lower + sideRight + middle);
       const double w2 = a2 * (l2 + upper + sideRight + middle);
       const double w3 = a3 * (l3 + upper + sideLeft + middle);
-      const std::int64_t whole = fixed(0.25 * ((l0 + l2) + (l1 + l3)));
+      const std::int64_t whole = film_.fixed(0.25 * ((l0 + l2) + (l1 + l3)));
       const double sum = (w0 + w2) + (w1 + w3);
       const double scale = sum > 0 ? static_cast<double>(whole) / sum : 0;
       const auto second = static_cast<std::int64_t>(w1 * scale);
@@ -197,23 +177,26 @@ private:
     return true;
   }
 
-  /// A quarter of a cell.
-  SCHLIEREN_HD void addAlone(const Ray& ray)
+  /// A square of half a pixel, whose lower left corner is at (right, up) from where the ray lands.
+  SCHLIEREN_HD void addQuarter(const Ray& ray, double right, double up)
   {
     if (!ray.arrives)
     {
       return;
     }
-    const double column = ray.x - 0.5, row = ray.y - 0.5; // from the first pixel's centre
-    const bool isNear = column > -1 && column < columns_ && row > -1 && row < rows_;
+    const double x = ray.x + right, y = ray.y + up;
+    const bool isNear = isOnFilm(x, y, film_.columns, film_.rows);
+    const Footprint lower = isNear ? footprintOf(x, y) : Footprint{ 0, 0, 0, 0 };
+    // What of it is beyond the first pixel.
+    const Footprint at = { lower.column, lower.row, larger(2 * lower.right - 1, 0),
+      larger(2 * lower.high - 1, 0) };
     for (int plane = 0; plane < planes; ++plane)
     {
-      const std::int64_t whole = fixed(0.25 * ray.light[plane]);
+      const std::int64_t whole = film_.fixed(0.25 * ray.light[plane]);
       deposit_.emitted(plane, whole);
       if (isNear)
       {
-        const Footprint at = footprintOf(column, row);
-        deposit_.block(plane, at.column, at.row, sharesOf(at, 0.25 * ray.light[plane], one_));
+        deposit_.block(plane, at.column, at.row, sharesOf(at, whole));
       }
       else
       {
@@ -233,7 +216,7 @@ private:
     rest.column = -1;
     for (int plane = 0; plane < planes; ++plane)
     {
-      rest.light[plane] = fixed(cell.mean(plane));
+      rest.light[plane] = film_.fixed(cell.mean(plane));
       deposit_.emitted(plane, rest.light[plane]);
     }
     double size = 0; // not finite where a corner is not
@@ -477,7 +460,7 @@ private:
       light.perX[plane] * (covered.x - covered.area * (light.centre.x - origin.x)) +
       light.perY[plane] * (covered.y - covered.area * (light.centre.y - origin.y));
     const double part = sum / polygon.area;
-    return part > 0 ? fixed(part * polygon.share) : 0;
+    return part > 0 ? film_.fixed(part * polygon.share) : 0;
   }
 
   /// What of a polygon's light falls into a box beside the film.
@@ -533,7 +516,7 @@ private:
         {
           const double(&light)[4] = cell.light[plane];
           const std::int64_t here =
-            fixed(between(light[0], light[1], light[2], light[3]) * each * share);
+            film_.fixed(between(light[0], light[1], light[2], light[3]) * each * share);
           if (isOnIt)
           {
             deposit_.pixel(plane, rest.column, rest.row, here);
@@ -548,8 +531,8 @@ private:
     }
   }
 
-  double columns_, rows_;
-  double one_;
+  const FilmSize film_;
+  const double columns_, rows_;
   Deposit& deposit_;
 };
 

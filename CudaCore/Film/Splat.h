@@ -41,13 +41,11 @@ struct Shares
   std::int64_t lowerLeft, lowerRight, upperLeft, upperRight;
 };
 
-/// Shares light (0...1) bilinearly, without losing any to rounding. `one`: the fixed-point value of a full
-/// ray, at most 2^52.
-SCHLIEREN_HD Shares sharesOf(const Footprint& footprint, double light, double one)
+/// Shares light (at most 2^52) bilinearly, without losing any to rounding.
+SCHLIEREN_HD Shares sharesOf(const Footprint& footprint, std::int64_t whole)
 {
-  const auto part = [](std::int64_t whole, double fraction)
-  { return static_cast<std::int64_t>(static_cast<double>(whole) * fraction); };
-  const auto whole = static_cast<std::int64_t>(light * one + 0.5);
+  const auto part = [](std::int64_t light, double fraction)
+  { return static_cast<std::int64_t>(static_cast<double>(light) * fraction); };
   const std::int64_t upper = part(whole, footprint.high);
   const std::int64_t lower = whole - upper;
   const std::int64_t upperRight = part(upper, footprint.right);

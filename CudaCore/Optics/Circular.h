@@ -29,10 +29,7 @@ struct Circular
   {
     light[0] = limited(1 - distanceFromAxis(k, ray.deflection));
   }
-  SCHLIEREN_HD bool saturates(const RayAtFilm& ray) const
-  {
-    return distanceFromAxis(k, ray.deflection) > 1;
-  }
+  SCHLIEREN_HD bool saturates(const double (&eps)[2]) const { return distanceFromAxis(k, eps) > 1; }
 };
 
 /// Its complement, dark field: I = k |eps|.
@@ -46,10 +43,7 @@ struct CircularComplement
   {
     light[0] = limited(distanceFromAxis(k, ray.deflection));
   }
-  SCHLIEREN_HD bool saturates(const RayAtFilm& ray) const
-  {
-    return distanceFromAxis(k, ray.deflection) > 1;
-  }
+  SCHLIEREN_HD bool saturates(const double (&eps)[2]) const { return distanceFromAxis(k, eps) > 1; }
 };
 
 } // namespace schlieren

@@ -35,10 +35,7 @@ struct ColorWheel
     light[1] = interpolate(linear, 1 - saturation * (1 - green));
     light[2] = interpolate(linear, 1 - saturation * (1 - blue));
   }
-  SCHLIEREN_HD bool saturates(const RayAtFilm& ray) const
-  {
-    return distanceFromAxis(k, ray.deflection) > 1;
-  }
+  SCHLIEREN_HD bool saturates(const double (&eps)[2]) const { return distanceFromAxis(k, eps) > 1; }
 };
 
 /// A picture in the cutoff plane, whose edges are where a component of k eps is -1 or 1. Linear between the
@@ -69,9 +66,9 @@ struct ColorPicture
       light[channel] = low + row.way * (along(upper) - low);
     }
   }
-  SCHLIEREN_HD bool saturates(const RayAtFilm& ray) const
+  SCHLIEREN_HD bool saturates(const double (&eps)[2]) const
   {
-    return fabs(k * ray.deflection[0]) > 1 || fabs(k * ray.deflection[1]) > 1;
+    return fabs(k * eps[0]) > 1 || fabs(k * eps[1]) > 1;
   }
 
 private:

@@ -22,7 +22,7 @@ struct Shadowgraph
   static constexpr int channels = 1;
 
   SCHLIEREN_HD void shade(const RayAtFilm&, double (&light)[channels]) const { light[0] = 1; }
-  SCHLIEREN_HD bool saturates(const RayAtFilm&) const { return false; }
+  SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 };
 
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,

@@ -55,7 +55,7 @@ struct Interferogram
     const double sine = sinPi(turns);
     light[0] = limited(1 - sine * sine); // (1 + cos(2 pi turns)) / 2
   }
-  SCHLIEREN_HD bool saturates(const RayAtFilm&) const { return false; }
+  SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 };
 
 } // namespace schlieren

@@ -70,9 +70,9 @@ struct KnifeEdge
   }
 
   /// Whether bending this ray a little more would change nothing.
-  SCHLIEREN_HD bool saturates(const RayAtFilm& ray) const
+  SCHLIEREN_HD bool saturates(const double (&eps)[2]) const
   {
-    const double place = axis.placeOf(ray.deflection);
+    const double place = axis.placeOf(eps);
     return place < 0 || place > 1;
   }
 };
@@ -92,9 +92,9 @@ struct GradedFilter
     light[0] = inverted ? 1 - share : share;
   }
 
-  SCHLIEREN_HD bool saturates(const RayAtFilm& ray) const
+  SCHLIEREN_HD bool saturates(const double (&eps)[2]) const
   {
-    const double place = axis.placeOf(ray.deflection);
+    const double place = axis.placeOf(eps);
     return place < 0 || place > 1;
   }
 };

@@ -78,7 +78,7 @@ struct WhiteLight
         limited(0.5 + static_cast<double>((sums[0] + sums[1]) + (sums[2] + sums[3])));
     }
   }
-  SCHLIEREN_HD bool saturates(const RayAtFilm&) const { return false; }
+  SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 
 private:
   /// (sin(pi x) / (pi x))^2.

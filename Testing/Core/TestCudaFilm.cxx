@@ -3,6 +3,7 @@
 // The same rays make the same picture on host and device.
 #include "Fields.h"
 #include "Film/CudaFilm.h"
+#include "Optics/CutoffMaker.h"
 
 #include <algorithm>
 #include <random>
@@ -47,31 +48,36 @@ std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
   return exits;
 }
 
-void expectSamePictures(const Cutoffs& cutoff)
+void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator)
 {
   constexpr int passes = 3;
   constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
   std::mt19937 random(5);
   std::vector<std::vector<RayExit>> exits;
   std::vector<TracedRays> traced;
-  Films films(1, {}, width, height, rays);
-  Film filmOfDevice(width, height, rays);
-  const Film& film = films.planes[0];
-  CudaFilm onDevice(film);
+  Films films(channelsOf(cutoff), {}, width, height, rays);
+  Films filmsOfDevice = Films(channelsOf(cutoff), {}, width, height, rays);
+  CudaFilm onDevice(films);
   for (int number = 0; number < passes; ++number)
   {
     const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
       { 0.1 * number, -0.07 * number } };
     exits.push_back(anyExits(pass, random));
     traced.push_back({ pass, exits.back().data(), nullptr });
-    onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin);
+    onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin, estimator);
   }
-  const RayCounts counts = expose(traced, cutoff, projection, margin, 1, films);
+  const RayCounts counts = expose(traced, cutoff, projection, margin, estimator, 1, films);
   PixelMeans means(width, height, 1), meansOfDevice(width, height, 1);
-  const RayCounts countsOfDevice = onDevice.develop(filmOfDevice, meansOfDevice);
+  const RayCounts countsOfDevice = onDevice.develop(filmsOfDevice, meansOfDevice);
 
-  EXPECT_EQ(film.light(), filmOfDevice.light());
-  EXPECT_GT(*std::max_element(film.light().begin(), film.light().end()), 0);
+  for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
+  {
+    const Film& film = films.planes[plane];
+    EXPECT_EQ(film.light(), filmsOfDevice.planes[plane].light());
+    EXPECT_EQ(film.sums().emitted, filmsOfDevice.planes[plane].sums().emitted);
+    EXPECT_EQ(film.sums().outside, filmsOfDevice.planes[plane].sums().outside);
+    EXPECT_GT(*std::max_element(film.light().begin(), film.light().end()), 0);
+  }
   Image host, device;
   means.develop(traced, host);
   meansOfDevice.develop({}, device);
@@ -83,13 +89,46 @@ void expectSamePictures(const Cutoffs& cutoff)
   EXPECT_EQ(counts.steps, countsOfDevice.steps);
   EXPECT_EQ(counts.blocked, countsOfDevice.blocked);
   EXPECT_EQ(counts.lost, countsOfDevice.lost);
+  EXPECT_EQ(counts.shaded, countsOfDevice.shaded);
+  EXPECT_EQ(counts.saturated, countsOfDevice.saturated);
 }
 
 TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
 {
-  expectSamePictures(KnifeEdge::at(30, 300, false));
-  expectSamePictures(KnifeEdge::at(90, 20, true));
-  expectSamePictures(Shadowgraph{});
+  for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
+  {
+    expectSamePictures(KnifeEdge::at(30, 300, false), estimator);
+    expectSamePictures(KnifeEdge::at(90, 20, true), estimator);
+    expectSamePictures(Shadowgraph{}, estimator);
+  }
+}
+
+TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
+{
+  Scene scene;
+  scene.view.width = width;
+  scene.view.height = height;
+  scene.fringes.spacing = 0.1;
+  CutoffMaker maker;
+  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Circular, Cutoff::CircularComplement,
+         Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram })
+  {
+    scene.cutoff = cutoff;
+    for (const bool other : { false, true })
+    {
+      SCOPED_TRACE(static_cast<int>(cutoff));
+      SCOPED_TRACE(other);
+      scene.source.shape = other ? SourceShape::Disc : SourceShape::Slit;
+      scene.fringes.finite = scene.fringes.whiteLight = other;
+      scene.colorFilter = nullptr;
+      if (other)
+      {
+        scene.colorFilter = std::make_shared<RgbPicture>(
+          RgbPicture{ 2, 2, { 1, 2, 3, 40, 50, 60, 70, 80, 90, 255, 0, 200 } });
+      }
+      expectSamePictures(maker.cutoffOf(scene, 300, 0.013), FilmEstimator::Sheet);
+    }
+  }
 }
 
 TEST_F(HostAndDeviceFilm, GetsRaysAsTheyWereSent)

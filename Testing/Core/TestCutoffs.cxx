@@ -4,10 +4,10 @@
 #include "Fields.h"
 #include "Optics/CutoffMaker.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace schlieren
 {
@@ -336,8 +336,9 @@ TEST(UndisturbedLevel, IsThatOfLightThatNothingBends)
 
 TEST(Saturation, BeginsWhereMoreDeflectionChangesNothing)
 {
-  const auto saturates = [](const auto& kind, double u, double v)
-  { return kind.saturates(bent(u, v)); };
+  const auto saturates = [](const auto& kind, double u, double v) {
+    return kind.saturates({ u, v });
+  };
   const KnifeEdge knife = KnifeEdge::at(0, 1000, false, 0.1);
   EXPECT_FALSE(saturates(knife, 5.9e-4, 1));
   EXPECT_TRUE(saturates(knife, 6.1e-4, 0));
@@ -385,6 +386,122 @@ TEST(Cutoffs, AnyDeflectionGivesLight)
           }
         }
       }
+    }
+  }
+}
+
+/// A flow so weak that every ray lands in the middle of its pixel.
+struct WeakBlob : testing::Test
+{
+  WeakBlob()
+    : blob(cube(32, 1),
+        [](double x, double y, double z)
+        { return 1e-8 * std::exp(-(x * x + y * y + z * z) / 0.1); })
+  {
+    blob.field.lengthScale = 100;
+    scene.device = Device::Cpu;
+    scene.view.width = 50;
+    scene.view.height = 40;
+    scene.samplesPerPixel = 1;
+    scene.filmEstimator = FilmEstimator::Photon;
+  }
+
+  /// Renders, and compares with a formula of the place on the film (from its middle, pixels), k eps and OPD.
+  Image expectPicture(
+    const std::function<double(double, double, const double (&)[2], double)>& intensity)
+  {
+    Image image = bench.render(blob.field, scene);
+    for (int row = 0; row < image.height; ++row)
+    {
+      for (int column = 0; column < image.width; ++column)
+      {
+        const auto pixel = static_cast<std::size_t>(row * image.width + column);
+        const double bent[2] = { image.kScale * static_cast<double>(image.deflection[2 * pixel]),
+          image.kScale * static_cast<double>(image.deflection[2 * pixel + 1]) };
+        const double expected = intensity(column - 0.5 * (image.width - 1),
+          row - 0.5 * (image.height - 1), bent, image.opticalPathDifference[pixel]);
+        EXPECT_NEAR(image.intensity[pixel], expected, 1e-4) << column << ' ' << row;
+      }
+    }
+    return image;
+  }
+
+  SampledField<double> blob;
+  Scene scene;
+  Bench bench;
+};
+
+TEST_F(WeakBlob, IsSeenThroughEveryCutoffAndTracedOnce)
+{
+  const auto clamped = [](double light) { return std::clamp(light, 0., 1.); };
+  const Image knife = expectPicture(
+    [&](double, double, const double(&bent)[2], double) { return clamped(0.5 + bent[0]); });
+  EXPECT_EQ(knife.undisturbedLevel, 0.5);
+
+  scene.cutoff = Cutoff::Circular;
+  const Image circular = expectPicture([&](double, double, const double(&bent)[2], double)
+    { return clamped(1 - std::hypot(bent[0], bent[1])); });
+  EXPECT_EQ(circular.undisturbedLevel, 1);
+  EXPECT_DOUBLE_EQ(circular.kScale, 2 * knife.kScale); // the same light at full scale
+
+  scene.cutoff = Cutoff::CircularComplement;
+  const Image complement = expectPicture([&](double, double, const double(&bent)[2], double)
+    { return clamped(std::hypot(bent[0], bent[1])); });
+  EXPECT_EQ(complement.undisturbedLevel, 0);
+
+  scene.cutoff = Cutoff::GradedFilter;
+  scene.gradedFilter = { 1, 0, 1 };
+  expectPicture(
+    [&](double, double, const double(&bent)[2], double) { return clamped(2 * std::abs(bent[0])); });
+
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.screenDistance = 0;
+  EXPECT_EQ(expectPicture([](double, double, const double(&)[2], double) { return 1; }).kScale, 0);
+
+  scene.cutoff = Cutoff::Interferogram;
+  const auto fringe = [](double path) { return (1 + std::cos(2 * pi * path / 632.8e-9)) / 2; };
+  const Image infinite =
+    expectPicture([&](double, double, const double(&)[2], double path) { return fringe(path); });
+  EXPECT_EQ(infinite.kScale, 0);
+  EXPECT_LT(*std::min_element(infinite.intensity.begin(), infinite.intensity.end()), 0.1f);
+  scene.fringes.finite = true;
+  scene.fringes.spacing = 8 * infinite.frame.pixelSize;
+  scene.fringes.angle = 90;
+  expectPicture([&](double, double up, const double(&)[2], double path)
+    { return fringe(path + 632.8e-9 * up / 8); });
+
+  scene.cutoff = Cutoff::ColorFilter;
+  const Image wheel = bench.render(blob.field, scene);
+  EXPECT_DOUBLE_EQ(wheel.kScale, 2 * knife.kScale);
+  ASSERT_EQ(wheel.color.size(), 3 * wheel.intensity.size());
+  EXPECT_EQ(wheel.undisturbedLevel, 1);
+  EXPECT_EQ(bench.work().raysTraced, Bench().render(blob.field, scene).raysTraced);
+}
+
+TEST_F(WeakBlob, TellsTheShareOfSaturatedRays)
+{
+  scene.kScale = 1e8;
+  for (const Cutoff cutoff :
+    { Cutoff::KnifeEdge, Cutoff::CircularComplement, Cutoff::ColorFilter, Cutoff::Interferogram })
+  {
+    scene.cutoff = cutoff;
+    for (const FilmEstimator estimator : { FilmEstimator::Photon, FilmEstimator::Sheet })
+    {
+      scene.filmEstimator = estimator;
+      const Image image = bench.render(blob.field, scene);
+      int saturated = 0;
+      for (std::size_t pixel = 0; pixel < image.intensity.size(); ++pixel)
+      {
+        const double u = image.kScale * static_cast<double>(image.deflection[2 * pixel]);
+        const double v = image.kScale * static_cast<double>(image.deflection[2 * pixel + 1]);
+        const bool isSaturated = cutoff == Cutoff::Interferogram ? false
+          : cutoff == Cutoff::KnifeEdge                          ? std::abs(u) > 0.5
+                                                                 : std::hypot(u, v) > 1;
+        saturated += isSaturated ? 1 : 0;
+      }
+      const double pixels = static_cast<double>(image.intensity.size());
+      EXPECT_NEAR(image.saturatedShare, saturated / pixels, 1e-9);
+      EXPECT_EQ(image.saturatedShare > 0.02, cutoff != Cutoff::Interferogram);
     }
   }
 }

@@ -74,7 +74,8 @@ Exposed exposed(const std::vector<TracedRays>& rays, const Cutoffs& cutoff,
   const Projection& projection, int threads)
 {
   Films films(channelsOf(cutoff), {}, width, height, 1000000);
-  const RayCounts counts = expose(rays, cutoff, projection, margin, threads, films);
+  const RayCounts counts =
+    expose(rays, cutoff, projection, margin, FilmEstimator::Photon, threads, films);
   return { films.developIntensity(1, threads), counts };
 }
 

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Film/Splat.h"
+#include "Math/HostDevice.h"
+
+#include <cstdint>
+
+namespace schlieren
+{
+
+/// A ray where it meets the film's plane.
+template <int planes>
+struct FilmRay
+{
+  double x,
+    y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
+  double light[planes]; ///< 0 ... 1
+  bool arrives;
+};
+
+/// What light is brought to, in fixed point. `one`: the value of a full ray.
+struct FilmSize
+{
+  std::int64_t columns, rows;
+  double one;
+
+  SCHLIEREN_HD std::int64_t fixed(double light) const
+  {
+    return static_cast<std::int64_t>(light * one + 0.5);
+  }
+};
+
+/// The photon estimator: shares the light of a ray among the four pixels around. A `Deposit` takes it plane by
+/// plane:
+///   emitted(plane, light)                 before it is shared;
+///   pixel(plane, column, row, light)      on the film;
+///   block(plane, column, row, shares)     of 2 x 2 pixels, some of which may be outside;
+///   outside(plane, light)                 that falls on no pixel.
+/// What is emitted arrives in pixels and outside, to the last bit.
+template <int planes, class Deposit>
+SCHLIEREN_HD void addPhoton(const FilmRay<planes>& ray, const FilmSize& film, Deposit& deposit)
+{
+  if (!ray.arrives)
+  {
+    return;
+  }
+  const double column = ray.x - 0.5, row = ray.y - 0.5; // from the first pixel's centre
+  const bool isNear = isOnFilm(column, row, film.columns, film.rows);
+  for (int plane = 0; plane < planes; ++plane)
+  {
+    const std::int64_t whole = film.fixed(ray.light[plane]);
+    deposit.emitted(plane, whole);
+    if (isNear)
+    {
+      const Footprint at = footprintOf(column, row);
+      deposit.block(plane, at.column, at.row, sharesOf(at, whole));
+    }
+    else
+    {
+      deposit.outside(plane, whole);
+    }
+  }
+}
+
+} // namespace schlieren
