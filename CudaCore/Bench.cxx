@@ -6,6 +6,7 @@
 #include "Device/Parallel.h"
 #include "Film/CudaFilm.h"
 #include "Film/Exposure.h"
+#include "Film/NoiseFilters.h"
 #include "Film/PixelMeans.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
@@ -254,6 +255,25 @@ Projection projectionOf(
   return projection;
 }
 
+Films filmsOf(
+  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t mostRays)
+{
+  const View& view = scene.view;
+  Films films(channelsOf(cutoff), std::move(tint), view.width, view.height, mostRays);
+  if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
+  {
+    films.samples = std::make_unique<Films>(
+      Shadowgraph::channels, std::nullopt, view.width, view.height, mostRays);
+  }
+  return films;
+}
+
+/// What the noise filter wants to know; empty if nothing.
+PixelArray<float> samplesOn(const Films& films, const Scene& scene)
+{
+  return films.samples ? films.samples->developIntensity(1, scene.threads) : PixelArray<float>();
+}
+
 /// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the
 /// picture, so that where the flow bends nothing either no bit differs.
 PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
@@ -262,14 +282,16 @@ PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
   Pass pass{ -margin, -margin, scene.view.width + 2 * margin, scene.view.height + 2 * margin,
     { 0, 0 } };
   const std::vector<RayExit> exits(static_cast<std::size_t>(pass.columns * pass.rows));
-  Films films(channelsOf(cutoff), {}, scene.view.width, scene.view.height, mostRays);
+  Films films = filmsOf(scene, cutoff, {}, mostRays);
   for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
   {
     pass.offset = pixelOffset(number, scene.seed);
     expose({ { pass, exits.data(), nullptr } }, cutoff, projection, margin, scene.filmEstimator,
       scene.threads, films);
   }
-  return films.developIntensity(scene.samplesPerPixel, scene.threads);
+  return filtered(films.developIntensity(scene.samplesPerPixel, scene.threads), scene.view.width,
+    scene.view.height, scene.noiseFilter, scene.noiseFilterRadius, samplesOn(films, scene),
+    scene.threads);
 }
 
 /// How far from where they start the mean rays of pixels meet the background.
@@ -571,7 +593,7 @@ Image Bench::Stages::render(
       }
       cutoff = cutoffs.cutoffOf(scene, image.kScale, image.frame.pixelSize);
       image.undisturbedLevel = undisturbedLevel(cutoff);
-      films.emplace(channelsOf(cutoff), std::move(tintOfRays), view.width, view.height, mostRays);
+      films = filmsOf(scene, cutoff, std::move(tintOfRays), mostRays);
     }
     if (traced->onDevice)
     {
@@ -615,7 +637,13 @@ Image Bench::Stages::render(
   {
     image.color = films->developColor(scene.samplesPerPixel, scene.threads);
   }
+  const PixelArray<float> samples = samplesOn(*films, scene);
   films.reset(); // the means want memory, too
+  for (PixelArray<float>* picture : { &image.intensity, &image.color })
+  {
+    *picture = filtered(std::move(*picture), view.width, view.height, scene.noiseFilter,
+      scene.noiseFilterRadius, samples, scene.threads);
+  }
   means.develop(waiting, image);
   if (scene.cutoff == Cutoff::Background)
   {
