@@ -17,13 +17,31 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "Utilities", "four_pictures"))
 
+from arguments import DemoError, parse_arguments  # noqa: E402
+
+DESCRIPTION = """\
+Writes one PNG with all pictures that the bench can make of a flow field. Without FILE: an
+under-expanded air jet that comes with the sources."""
+
+
+def options_of(arguments):
+    return parse_arguments(arguments, "contact_sheet.py", DESCRIPTION, "400x300", "_sheet.png")
+
+
+if __name__ == "__main__":  # --help and mistakes in the arguments need no ParaView
+    try:
+        OPTIONS = options_of(sys.argv[1:])
+    except DemoError as problem:
+        sys.exit(f"error: {problem}")
+    if OPTIONS.check:
+        sys.exit(0)
+
 import numpy as np  # noqa: E402
 import paraview.simple as pv  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
-from arguments import DemoError, parse_arguments  # noqa: E402
 from bench import (check_light, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
                    output_of)
 from frame import Frame  # noqa: E402
@@ -31,9 +49,6 @@ from messages import Messages, say  # noqa: E402
 from sheet import Sheet, format_length, grey  # noqa: E402
 
 COLUMNS = 4
-DESCRIPTION = """\
-Writes one PNG with all pictures that the bench can make of a flow field. Without FILE: an
-under-expanded air jet that comes with the sources."""
 
 
 class Shot:
@@ -326,11 +341,8 @@ def compose(groups, frame, array, options, facts):
     return sheet
 
 
-def main(arguments):
+def main(options):
     """Writes the sheet; (groups of tiles, frame)."""
-    options = parse_arguments(arguments, "contact_sheet.py", DESCRIPTION, "400x300", "_sheet.png")
-    if options.check:
-        return None
     if not options.plugin:
         with open(os.path.join(ROOT, "build", "release", "plugin-file.txt")) as file:
             options.plugin = file.read().strip()
@@ -351,7 +363,7 @@ def main(arguments):
 
 if __name__ == "__main__":
     try:
-        main(sys.argv[1:])
+        main(OPTIONS)
     except DemoError as problem:
         print(f"error: {' '.join(str(problem).split())}", file=sys.stderr)
         sys.exit(1)

@@ -430,8 +430,8 @@ public:
   ///@{
   /**
    * The picture of the COLOR_FILTER, in sRGB; it covers k times the deflection from -1 to 1 both ways. Either
-   * the name of a file that VTK can read (PNG, JPEG, ...), or the file's content itself as text:
-   * "data:image/png;base64,..." (RFC 2397; PNG or JPEG). Grey, 16-bit and transparent (shown on white)
+   * the name of a PNG file, or the file's content itself as text: "data:image/png;base64,..." (RFC 2397).
+   * Grey, 16-bit and transparent (shown on white)
    * pictures will do. Empty (the default): a wheel whose hue is the direction of the deflection, from red
    * along u, and whose saturation is its size, full at k |eps| = 1.
    */

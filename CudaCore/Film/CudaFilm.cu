@@ -151,7 +151,7 @@ __global__ void exposeKernel(
     { return rays.at(cutoff, projection, i + right, j + up); };
     if constexpr (estimator == FilmEstimator::Photon)
     {
-      addPhoton(ray(0, 0), 1, sums.film, deposit);
+      addPhoton(ray(0, 0), sums.film, deposit);
     }
     else if (i + 1 < rays.columns && j + 1 < rays.rows)
     {

@@ -188,7 +188,7 @@ void addPhotons(const Rays& source, const std::vector<TracedRays>& passes, std::
       bands.cover(source.load(pass, row, rays, counts), -0.5);
       for (const auto& ray : rays)
       {
-        addPhoton(ray, 1, film, bands);
+        addPhoton(ray, film, bands);
       }
     }
   }

@@ -32,16 +32,15 @@ struct FilmSize
   }
 };
 
-/// The photon estimator: shares the light of a ray, or a part of it, among the four pixels around. A `Deposit`
-/// takes light plane by plane:
+/// The photon estimator: shares the light of a ray among the four pixels around. A `Deposit` takes it plane by
+/// plane:
 ///   emitted(plane, light)                 before it is shared;
 ///   pixel(plane, column, row, light)      on the film;
 ///   block(plane, column, row, shares)     of 2 x 2 pixels, some of which may be outside;
 ///   outside(plane, light)                 that falls on no pixel.
 /// What is emitted arrives in pixels and outside, to the last bit.
 template <int planes, class Deposit>
-SCHLIEREN_HD void addPhoton(
-  const FilmRay<planes>& ray, double part, const FilmSize& film, Deposit& deposit)
+SCHLIEREN_HD void addPhoton(const FilmRay<planes>& ray, const FilmSize& film, Deposit& deposit)
 {
   if (!ray.arrives)
   {
@@ -51,8 +50,7 @@ SCHLIEREN_HD void addPhoton(
   const bool isNear = isOnFilm(column, row, film.columns, film.rows);
   for (int plane = 0; plane < planes; ++plane)
   {
-    const double light = part * ray.light[plane];
-    const std::int64_t whole = film.fixed(light);
+    const std::int64_t whole = film.fixed(ray.light[plane]);
     deposit.emitted(plane, whole);
     if (isNear)
     {

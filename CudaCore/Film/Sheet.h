@@ -31,7 +31,8 @@ public:
   }
 
   /// The light between four neighbouring rays. Where some of them do not arrive, the others bring a quarter
-  /// each, as photons do.
+  /// each, spread over the quarter of a cell on their side as if nothing were bent there: so undisturbed light
+  /// is even up to where a shadow begins.
   SCHLIEREN_HD void addCell(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
@@ -43,10 +44,10 @@ public:
       }
       return;
     }
-    addPhoton(lowerLeft, 0.25, film_, deposit_);
-    addPhoton(lowerRight, 0.25, film_, deposit_);
-    addPhoton(upperLeft, 0.25, film_, deposit_);
-    addPhoton(upperRight, 0.25, film_, deposit_);
+    addQuarter(lowerLeft, 0, 0);
+    addQuarter(lowerRight, -0.5, 0);
+    addQuarter(upperLeft, 0, -0.5);
+    addQuarter(upperRight, -0.5, -0.5);
   }
 
 private:
@@ -174,6 +175,34 @@ private:
         plane, column, row, Shares{ whole - second - third - fourth, second, fourth, third });
     }
     return true;
+  }
+
+  /// A square of half a pixel, whose lower left corner is at (right, up) from where the ray lands.
+  SCHLIEREN_HD void addQuarter(const Ray& ray, double right, double up)
+  {
+    if (!ray.arrives)
+    {
+      return;
+    }
+    const double x = ray.x + right, y = ray.y + up;
+    const bool isNear = isOnFilm(x, y, film_.columns, film_.rows);
+    const Footprint lower = isNear ? footprintOf(x, y) : Footprint{ 0, 0, 0, 0 };
+    // What of it is beyond the first pixel.
+    const Footprint at = { lower.column, lower.row, larger(2 * lower.right - 1, 0),
+      larger(2 * lower.high - 1, 0) };
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      const std::int64_t whole = film_.fixed(0.25 * ray.light[plane]);
+      deposit_.emitted(plane, whole);
+      if (isNear)
+      {
+        deposit_.block(plane, at.column, at.row, sharesOf(at, whole));
+      }
+      else
+      {
+        deposit_.outside(plane, whole);
+      }
+    }
   }
 
   /// Any other cell.

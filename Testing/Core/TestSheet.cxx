@@ -411,23 +411,40 @@ TEST(Sheet, CellsOfAnySizeAreSpread)
   }
 }
 
-TEST(Sheet, RaysWhoseNeighboursAreBlockedBringAQuarter)
+/// A quarter of a cell for each ray that arrives: light is even up to half a cell past the last of them.
+TEST(Sheet, LightIsEvenUpToAShadow)
 {
-  Recorder film;
-  Sheet<2, Recorder> sheet(filmSize, film);
-  const Ray none{ std::nan(""), 1e300, { 1, 1 }, false };
-  const Ray ray{ 3.5, 4, { 0.8, 0.4 }, true };
-  sheet.addCell(none, none, none, none);
-  EXPECT_EQ(film.sent[0], 0);
-  sheet.addCell(none, ray, none, none);
-  EXPECT_NEAR(film.at(3, 3), 0.1, 1e-9);
-  EXPECT_NEAR(film.at(3, 4), 0.1, 1e-9);
-  EXPECT_NEAR(film.at(3, 4, 1), 0.05, 1e-9);
-  const Ray edge{ 0.25, 1.5, { 1, 1 }, true }, beside{ -7, 2, { 1, 1 }, true };
-  sheet.addCell(none, none, edge, beside);
-  EXPECT_NEAR(film.at(0, 1), 0.25 * 0.75, 1e-9);
-  EXPECT_EQ(film.sent[0], film.onFilm() + film.lost[0]);
-  EXPECT_NEAR(static_cast<double>(film.lost[0]) / one, 0.25 * 0.25 + 0.25, 1e-9);
+  for (const std::array<double, 2>& offset :
+    { std::array<double, 2>{ 0.5, 0.5 }, { 0.1, 0.8 }, { 0.95, 0.35 }, { 0, 1 } })
+  {
+    Recorder film;
+    Sheet<2, Recorder> sheet(filmSize, film);
+    const auto ray = [&](int i, int j)
+    {
+      const bool arrives = i < 6 && j >= 3;
+      return arrives ? Ray{ i + offset[0], j + offset[1], { 1, 0.75 }, true }
+                     : Ray{ std::nan(""), 1e300, { 1, 1 }, false };
+    };
+    for (int j = -2; j < 14; ++j)
+    {
+      for (int i = -2; i < 14; ++i)
+      {
+        sheet.addCell(ray(i, j), ray(i + 1, j), ray(i, j + 1), ray(i + 1, j + 1));
+      }
+    }
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        const double expected = std::clamp(5.5 + offset[0] - column, 0., 1.) *
+          std::clamp(row + 1 - 2.5 - offset[1], 0., 1.);
+        ASSERT_NEAR(film.at(column, row), expected, 1e-8);
+        ASSERT_NEAR(film.at(column, row, 1), 0.75 * expected, 1e-8);
+      }
+    }
+    EXPECT_EQ(film.sent[0], film.onFilm() + film.lost[0]);
+    EXPECT_GT(film.lost[0], 0);
+  }
 }
 
 /// Whatever the shape, a mirrored sheet makes a mirrored picture.

@@ -138,10 +138,17 @@ inline double fieldValue(vtkAlgorithm* filter, const char* name)
   return array ? array->GetComponent(0, 0) : std::nan("");
 }
 
+/// Whether all outputs are.
 inline bool isEmpty(vtkAlgorithm* filter)
 {
-  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-  return image->GetNumberOfPoints() == 0 && image->GetPointData()->GetNumberOfArrays() == 0;
+  bool allAre = true;
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(port));
+    allAre =
+      allAre && image->GetNumberOfPoints() == 0 && image->GetPointData()->GetNumberOfArrays() == 0;
+  }
+  return allAre;
 }
 
 inline double largest(const std::vector<double>& values)

@@ -216,6 +216,38 @@ std::vector<Mistake> mistakes()
       { "PathTolerance is inf" }, [](Filter* f) { f->SetPathTolerance(1e9); } },
     { "NanScreen", [](Filter* f) { f->SetScreenDistance(nan); }, { "ScreenDistance" },
       [](Filter* f) { f->SetScreenDistance(-1); } },
+    { "NoFocalLength",
+      [](Filter* f)
+      {
+        f->SetKFromOptics(true);
+        f->SetFocalLength(0);
+      },
+      { "FocalLength is 0 m", "positive" }, [](Filter* f) { f->SetFocalLength(1); } },
+    { "NoSuchPicture",
+      [](Filter* f)
+      {
+        f->SetCutoff(Filter::COLOR_FILTER);
+        f->SetColorFilterImage("/no/such.png");
+      },
+      { "ColorFilterImage", "'/no/such.png'", "data:image/png" },
+      [](Filter* f) { f->SetColorFilterImage(""); } },
+    { "HalfAPicture",
+      [](Filter* f)
+      {
+        f->SetCutoff(Filter::BACKGROUND_ORIENTED);
+        f->SetBackgroundPattern(Filter::PICTURE);
+        f->SetBackgroundImage("data:image/png;base64,iVBORw0KGgoAAAANSUhEUg==");
+      },
+      { "BackgroundImage", "no whole PNG" },
+      [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
+    { "BeamsThatDoNotMeet",
+      [](Filter* f)
+      {
+        f->SetCutoff(Filter::INTERFEROGRAM);
+        f->SetFringeMode(Filter::FINITE_FRINGES);
+        f->SetBeamAngle(-3);
+      },
+      { "BeamAngle is -3 degrees", "FringeSpacing" }, [](Filter* f) { f->SetBeamAngle(3); } },
     { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
       [](Filter* f) { f->SetAmbientRefractivity(0); } },
     { "NoLength", [](Filter* f) { f->SetLengthScale(0); }, { "LengthScale" },

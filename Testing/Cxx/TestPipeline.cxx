@@ -3,6 +3,7 @@
 #include "Fixtures.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkGasTable.h"
 #include "vtkInformation.h"
 #include "vtkPassThrough.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -154,6 +155,31 @@ TEST(Pipeline, NothingIsDoneTwice)
   EXPECT_TRUE(workOfUpdate(filter) == none);
 }
 
+// The refractivity of a gas whose constant is given does not depend on it; that of helium does.
+TEST(Pipeline, AnotherWavelengthConvertsOnlyWhatDependsOnIt)
+{
+  auto filter = bench(columnImage(24), 16);
+  filter->Update();
+  filter->SetWavelength(500);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  filter->SetGladstoneDaleConstant(1);
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  filter->SetWavelength(600);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetGas("helium");
+  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant("helium", 600));
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  const double red = largest(valuesOf(filter, "OpticalPathDifference"));
+  filter->SetWavelength(400);
+  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant("helium", 400));
+  EXPECT_EQ(workOfUpdate(filter).builds, 1);
+  EXPECT_NEAR(largest(valuesOf(filter, "OpticalPathDifference")) / red,
+    vtkGasTable::GetConstant("helium", 400) / vtkGasTable::GetConstant("helium", 600), 1e-5);
+}
+
 TEST(Pipeline, APropertyOfTheMediumIsPassedOn)
 {
   auto image = columnImage(24);
@@ -284,10 +310,15 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale",
          "SamplingDimensions", "OutsideBlocksLight", "LengthScale", "AutoAmbientRefractivity",
          "AmbientRefractivity", "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale",
-         "ImageSize", "Cutoff", "KnifeEdgeAngle", "InvertCutoff", "AutoKScale", "KScale",
-         "ScreenDistance", "Quality", "PathModel", "Integrator", "StepSize", "HomogeneityTolerance",
-         "Interpolation", "SamplesPerPixel", "Precision", "AdaptiveTolerance", "PathTolerance",
-         "Seed", "Device", "NumberOfThreads" })
+         "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff",
+         "AutoKScale", "KScale", "KFromOptics", "FocalLength", "SourceWidth", "SourceLength",
+         "CutoffPosition", "GradedFilter", "ColorFilterImage", "FringeMode", "FringeSpacing",
+         "FringeAngle", "BeamAngle", "WhiteLight", "ScreenDistance", "FocusOffset", "LightSource",
+         "SourceDistance", "SourceShape", "BackgroundPattern", "BackgroundDistance",
+         "BackgroundPeriod", "BackgroundAngle", "BackgroundImage", "FilmEstimator", "NoiseFilter",
+         "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel", "Integrator",
+         "StepSize", "HomogeneityTolerance", "Interpolation", "SamplesPerPixel", "Precision",
+         "AdaptiveTolerance", "PathTolerance", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

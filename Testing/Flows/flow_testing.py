@@ -30,35 +30,44 @@ def coordinates(bench):
             for i in (0, 1)]
 
 
-def grey_levels(bench, white):
-    """The intensities as the levels 0 to 255 of a grey picture, in which `white` is 255."""
-    return np.clip(np.rint(picture(bench, "Intensity") * (255 / white)), 0, 255).astype(np.uint8)
+def levels(bench, white, array):
+    """An array as the levels 0 to 255 of a picture: its own bytes, or grey, in which `white` is 255."""
+    values = picture(bench, array)
+    if values.dtype == np.uint8:
+        return values
+    return np.clip(np.rint(values * (255 / white)), 0, 255).astype(np.uint8)
 
 
-def check_baseline(bench, name, white=1):
-    """Compares the picture with Testing/Baseline/<name>.png, level by level, and leaves its own."""
-    made = grey_levels(bench, white)
+def write_picture(name, pixels):
+    """A PNG of rows x columns (x 3) bytes, lowest row first; its full name."""
     image = vtkImageData()
-    image.SetDimensions(made.shape[1], made.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(made.ravel(), deep=True))
+    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+    image.GetPointData().SetScalars(
+        numpy_to_vtk(pixels.reshape(pixels.shape[0] * pixels.shape[1], -1), deep=True))
     writer = vtkPNGWriter()
-    writer.SetFileName(os.path.abspath(name + ".png"))
+    writer.SetFileName(os.path.abspath(name))
     writer.SetInputData(image)
     writer.Write()
+    return writer.GetFileName()
 
+
+def check_baseline(bench, name, white=1, array="Intensity"):
+    """Compares the picture with Testing/Baseline/<name>.png, level by level, and leaves its own."""
+    made = levels(bench, white, array)
+    file = write_picture(name + ".png", made)
     path = os.path.join(SOURCE, "Testing", "Baseline", name + ".png")
-    assert os.path.exists(path), f"There is no baseline {path} for {writer.GetFileName()}"
+    assert os.path.exists(path), f"There is no baseline {path} for {file}"
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()
     columns, rows, _ = reader.GetOutput().GetDimensions()
-    assert (rows, columns) == made.shape, (rows, columns, made.shape)
-    kept = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(rows, columns)
+    assert (rows, columns) == made.shape[:2], (rows, columns, made.shape)
+    kept = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(made.shape)
     difference = np.abs(kept.astype(int) - made)
     print(f"{name}: differs from its baseline by {difference.mean():.4f} levels on average, "
           f"{difference.max()} at most")
     # Another compiler may round a level up where this one rounds it down.
-    assert difference.mean() < 0.05 and difference.max() <= 8, writer.GetFileName()
+    assert difference.mean() < 0.05 and difference.max() <= 8, file
 
 
 def one_dataset(proxy):

@@ -37,7 +37,11 @@ class Session:
     def type(self, widget, text):
         """Types into a line and presses Return."""
         self.choose(widget, text)
-        self.event(f"{PROPERTIES}/{widget}", "key", "16777220")
+        self.key(widget, "Return")
+
+    def key(self, widget, name):
+        """Presses a key where the widget has the focus."""
+        self.event(f"{PROPERTIES}/{widget}", "key", {"Space": "32", "Return": "16777220"}[name])
 
     def apply(self):
         self.event(PANEL + "/Accept", "activate")

@@ -89,7 +89,8 @@ def setting(text):
 FOUR_PICTURES = """\
 Writes one PNG with four pictures of the same view of a flow field: volume rendering, schlieren with
 a vertical and with a horizontal knife edge, and shadowgraph. Without FILE: an under-expanded air
-jet that comes with the sources."""
+jet that comes with the sources. With --all as the first word: all pictures that the bench can make,
+on a contact sheet."""
 
 
 def parse_arguments(arguments, program="demo", description=FOUR_PICTURES, largest="880x640",

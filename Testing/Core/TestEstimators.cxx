@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Both ways in which rays become a picture: where light goes, how exact it is, and what must not change it.
+#include "Fields.h"
+#include "Film/Exposure.h"
+#include "Rays/Light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr FilmEstimator both[] = { FilmEstimator::Sheet, FilmEstimator::Photon };
+
+double mean(const PixelArray<float>& picture)
+{
+  return std::accumulate(picture.begin(), picture.end(), 0.) / static_cast<double>(picture.size());
+}
+
+/// A blob of gas beside a solid ball; how far away the screen is decides what becomes of the light.
+struct Bodies
+{
+  explicit Bodies(double peak, bool hasBall)
+    : gas(cube(24, 1),
+        [=](double x, double y, double z)
+        {
+          return hasBall && std::hypot(x - 0.5, y, z) < 0.2
+            ? std::nan("")
+            : peak * std::exp(-(x * x + 2 * y * y + z * z) / 0.1);
+        })
+  {
+    gas.field.ambient = 0;
+    scene.device = Device::Cpu;
+    scene.cutoff = Cutoff::Shadowgraph;
+    scene.view.viewDirection = { -0.2, 0.1, -1 };
+    scene.view.width = 48;
+    scene.view.height = 36;
+    scene.samplesPerPixel = 3;
+  }
+
+  SampledField<float> gas;
+  Scene scene;
+};
+
+TEST(Estimators, EmittedLightIsOnTheFilmOrOutside)
+{
+  for (const FilmEstimator estimator : both)
+  {
+    for (const double peak : { 1e-6, 1e-3, -1e-3, 0.2 })
+    {
+      for (const bool hasBall : { false, true })
+      {
+        Bodies bodies(peak, hasBall);
+        Scene& scene = bodies.scene;
+        scene.filmEstimator = estimator;
+        Bench bench;
+        for (const double distance : { 0., 3., 100., 3000., 1e9 })
+        {
+          scene.screenDistance = distance;
+          for (const Cutoff cutoff : { Cutoff::Shadowgraph, Cutoff::KnifeEdge })
+          {
+            scene.cutoff = cutoff;
+            const Image image = bench.render(bodies.gas.field, scene);
+            const LightBalance& light = image.light;
+            EXPECT_NEAR(light.onFilm + light.outside, light.emitted, 1e-14 * light.emitted);
+            EXPECT_NEAR(light.onFilm, mean(image.intensity), 1e-6 * light.onFilm);
+            EXPECT_GT(light.emitted, 0.4);
+            EXPECT_GE(light.outside, 0);
+            EXPECT_GT(light.onFilm, 0);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Where a film holds all that is bent, none of it is lost.
+TEST(Estimators, BentLightAddsUpToTheUndisturbed)
+{
+  const SampledField<float> lens(cube(32, 1),
+    [](double x, double y, double z) { return 2e-2 * std::exp(-(x * x + y * y + z * z) / 0.02); });
+  for (const FilmEstimator estimator : both)
+  {
+    Scene scene;
+    scene.device = Device::Cpu;
+    scene.filmEstimator = estimator;
+    scene.cutoff = Cutoff::Shadowgraph;
+    scene.view.width = scene.view.height = 64;
+    scene.view.parallelScale = 3;
+    scene.samplesPerPixel = 2;
+    for (const double distance : { 0., 3., 6., 20. }) // before, about and past the focus
+    {
+      scene.screenDistance = distance;
+      const Image image = Bench().render(lens.field, scene);
+      EXPECT_NEAR(mean(image.intensity), 1, 1e-6);
+      EXPECT_NEAR(image.light.onFilm, 1, 1e-9);
+      const auto [least, most] =
+        std::minmax_element(image.intensity.begin(), image.intensity.end());
+      EXPECT_GE(*least, 0);
+      EXPECT_GT(*most, distance > 0 ? 2 : 1);
+    }
+  }
+}
+
+TEST(Estimators, PicturesDoNotDependOnThreads)
+{
+  Bodies bodies(1e-3, true);
+  Scene& scene = bodies.scene;
+  scene.view.height = 150;
+  for (const FilmEstimator estimator : both)
+  {
+    scene.filmEstimator = estimator;
+    for (const double distance : { 0., 300., 1e6 })
+    {
+      scene.screenDistance = distance;
+      scene.threads = 1;
+      const Image one = Bench().render(bodies.gas.field, scene);
+      for (const int threads : { 2, 3, 7 })
+      {
+        scene.threads = threads;
+        const Image image = Bench().render(bodies.gas.field, scene);
+        EXPECT_EQ(image.intensity, one.intensity);
+        EXPECT_EQ(image.light.emitted, one.light.emitted);
+        EXPECT_EQ(image.light.onFilm, one.light.onFilm);
+        EXPECT_EQ(image.light.outside, one.light.outside);
+      }
+    }
+  }
+}
+
+/// Rays that are not held are traced again, for the same picture.
+TEST(Estimators, PicturesDoNotDependOnTheMemoryBudget)
+{
+  Bodies bodies(1e-3, true);
+  Scene& scene = bodies.scene;
+  scene.noiseFilter = NoiseFilter::Cone;
+  for (const FilmEstimator estimator : both)
+  {
+    scene.filmEstimator = estimator;
+    scene.samplesPerPixel = 5;
+    const Image held = Bench().render(bodies.gas.field, scene);
+    for (const std::size_t budget :
+      { std::size_t{ 0 }, std::size_t{ 200000 }, std::size_t{ 400000 }, std::size_t{ 1 } << 40 })
+    {
+      scene.memoryBudget = budget;
+      Bench bench;
+      const Image image = bench.render(bodies.gas.field, scene);
+      EXPECT_EQ(image.intensity, held.intensity);
+      EXPECT_EQ(image.deflection, held.deflection);
+      EXPECT_EQ(image.opticalPathDifference, held.opticalPathDifference);
+      EXPECT_EQ(image.raysTraced, held.raysTraced);
+      // A second picture.
+      const std::int64_t traced = bench.work().raysTraced;
+      EXPECT_EQ(bench.render(bodies.gas.field, scene).intensity, held.intensity);
+      if (budget == 0)
+      {
+        EXPECT_EQ(bench.work().raysTraced, 2 * traced);
+      }
+      else if (budget > 1000000)
+      {
+        EXPECT_EQ(bench.work().raysTraced, traced);
+      }
+      else
+      {
+        EXPECT_GT(bench.work().raysTraced, traced);
+        EXPECT_LT(bench.work().raysTraced, 2 * traced);
+      }
+    }
+  }
+}
+
+TEST(Estimators, MoreSamplesAddPassesToThoseHeld)
+{
+  Bodies bodies(1e-3, true);
+  Scene& scene = bodies.scene;
+  for (const FilmEstimator estimator : both)
+  {
+    scene.filmEstimator = estimator;
+    Bench bench;
+    std::int64_t ofOne = 0;
+    for (const int samples : { 1, 2, 5, 9 })
+    {
+      scene.samplesPerPixel = samples;
+      const Image raised = bench.render(bodies.gas.field, scene);
+      Bench fresh;
+      const Image atOnce = fresh.render(bodies.gas.field, scene);
+      EXPECT_EQ(raised.intensity, atOnce.intensity);
+      EXPECT_EQ(raised.deflection, atOnce.deflection);
+      EXPECT_EQ(raised.opticalPathDifference, atOnce.opticalPathDifference);
+      EXPECT_EQ(raised.light.outside, atOnce.light.outside);
+      EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced);
+      if (samples == 1)
+      {
+        ofOne = bench.work().raysTraced;
+      }
+      EXPECT_NEAR(static_cast<double>(bench.work().raysTraced),
+        static_cast<double>(samples * ofOne), 0.1 * static_cast<double>(samples * ofOne));
+    }
+  }
+}
+
+/// Rays that Gaussians have bent on their way from z = 0, by the weak column's and ball's closed forms.
+struct GaussianLens
+{
+  enum class Shape
+  {
+    Column, ///< along v
+    Ball
+  };
+
+  static constexpr int size = 96;
+  static constexpr double radius = 12; ///< pixels
+  static constexpr std::int64_t margin = 12;
+  Shape shape;
+  double strength; ///< distance to the screen by that to the focus; < 0: the light is spread
+
+  /// Where a ray lands that starts at (x, y) from the middle.
+  std::array<double, 2> operator()(double x, double y) const
+  {
+    // D d eps/dx = -strength in the middle.
+    const double squared = x * x + (shape == Shape::Ball ? y * y : 0);
+    const double bent = 1 - strength * std::exp(-squared / (radius * radius));
+    return { bent * x, shape == Shape::Ball ? bent * y : y };
+  }
+
+  /// Of passes of rays.
+  PixelArray<float> picture(FilmEstimator estimator, int passes) const
+  {
+    std::vector<std::vector<RayExit>> exits;
+    std::vector<TracedRays> rays;
+    for (int number = 0; number < passes; ++number)
+    {
+      const Pass pass{ -margin, -margin, size + 2 * margin, size + 2 * margin,
+        pixelOffset(number, 1) };
+      std::vector<RayExit>& ofPass = exits.emplace_back();
+      for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+      {
+        const double x = pass.columnOf(ray) - middle, y = pass.rowOf(ray) - middle;
+        const std::array<double, 2> lands = (*this)(x, y);
+        ofPass.push_back(
+          { { 0, 0 }, { static_cast<float>(lands[0] - x), static_cast<float>(lands[1] - y) }, 0,
+            RayFate::Left, 0 });
+      }
+    }
+    for (int number = 0; number < passes; ++number)
+    {
+      rays.push_back(
+        { { -margin, -margin, size + 2 * margin, size + 2 * margin, pixelOffset(number, 1) },
+          exits[static_cast<std::size_t>(number)].data(), nullptr });
+    }
+    Films films(1, {}, size, size, 10000000);
+    expose(rays, Shadowgraph{}, { 0, 1, 1 }, margin, estimator, 2, films);
+    return films.developIntensity(passes, 2);
+  }
+
+  /// I / I0 = sum of 1 / |det(1 + D d eps/dx)| over folds, as each pixel's mean: how much of the undisturbed
+  /// light lands there. So many points of each pixel, along each axis, are looked at.
+  std::vector<double> truth(int points) const
+  {
+    std::vector<double> light(size * size);
+    const int across = (size + 2 * margin) * points;
+    const int down = shape == Shape::Ball ? across : 1;
+    for (int j = 0; j < down; ++j)
+    {
+      for (int i = 0; i < across; ++i)
+      {
+        const std::array<double, 2> lands = (*this)(
+          (i + 0.5) / points - 0.5 - margin - middle, (j + 0.5) / points - 0.5 - margin - middle);
+        const auto column = static_cast<int>(std::floor(lands[0] + middle + 0.5));
+        const auto row =
+          shape == Shape::Ball ? static_cast<int>(std::floor(lands[1] + middle + 0.5)) : 0;
+        if (column >= 0 && column < size && row >= 0 && row < size)
+        {
+          light[static_cast<std::size_t>(row * size + column)] +=
+            1. / (shape == Shape::Ball ? points * points : points);
+        }
+      }
+    }
+    for (std::size_t pixel = size; shape == Shape::Column && pixel < light.size(); ++pixel)
+    {
+      light[pixel] = light[pixel - size];
+    }
+    return light;
+  }
+
+  static constexpr double middle = 47.3; ///< no symmetry with the pixels
+};
+
+/// Root of the mean square of the pixels' differences from undisturbed light's intensity as 1.
+double rmsError(const PixelArray<float>& picture, const std::vector<double>& truth)
+{
+  double sum = 0;
+  for (std::size_t pixel = 0; pixel < truth.size(); ++pixel)
+  {
+    const double error = static_cast<double>(picture[pixel]) - truth[pixel];
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+/// Below, at and beyond the caustic one ray per pixel is worth more than 32 photons.
+TEST(Estimators, SheetsOfOneRayAreAsExactAs32Photons)
+{
+  for (const GaussianLens::Shape shape : { GaussianLens::Shape::Column, GaussianLens::Shape::Ball })
+  {
+    const bool isColumn = shape == GaussianLens::Shape::Column;
+    for (const double strength : { -2., 0.5, 0.9, 1., 1.5, 3., 5. })
+    {
+      const GaussianLens lens{ shape, strength };
+      const std::vector<double> truth = lens.truth(isColumn ? 20000 : 40);
+      const double sheet = rmsError(lens.picture(FilmEstimator::Sheet, 1), truth);
+      const double photons = rmsError(lens.picture(FilmEstimator::Photon, 1), truth);
+      const double manyPhotons = rmsError(lens.picture(FilmEstimator::Photon, 32), truth);
+      std::printf("%s, screen at %4.1f focal lengths: sheet %.4f, photons %.4f, of 32 rays %.4f\n",
+        isColumn ? "column" : "ball", strength, sheet, photons, manyPhotons);
+      EXPECT_LE(sheet, manyPhotons);
+      EXPECT_LT(manyPhotons, photons);
+    }
+  }
+}
+
+/// The closed form at points, where it varies little in a pixel: before the focus, and in the three folds.
+TEST(Estimators, BrightnessIsTheSumOverFolds)
+{
+  const GaussianLens lens{ GaussianLens::Shape::Column, 3 };
+  const PixelArray<float> picture = lens.picture(FilmEstimator::Sheet, 4);
+  for (const int column : { 45, 47, 49, 80, 10 })
+  {
+    const double there = column - GaussianLens::middle;
+    double expected = 0;
+    constexpr double step = 1e-3;
+    for (double x = -58; x < 58; x += step)
+    {
+      const double a = lens(x, 0)[0] - there, b = lens(x + step, 0)[0] - there;
+      if ((a < 0) != (b < 0))
+      {
+        expected += step / std::abs(b - a);
+      }
+    }
+    EXPECT_NEAR(picture[static_cast<std::size_t>(40 * GaussianLens::size + column)], expected,
+      0.01 * expected);
+  }
+}
+
+/// What fields tint gets as much light as what they do not, in all planes.
+TEST(Estimators, ColouredPlanesAreSpreadAlike)
+{
+  Bodies bodies(1e-3, false);
+  std::vector<float> gradients(bodies.gas.samples.size(), 1);
+  bodies.gas.field.gradients = { 1, gradients.data(), 1 };
+  Scene& scene = bodies.scene;
+  scene.fieldColors = { { 1, 1, 1 } };
+  scene.screenDistance = 200;
+  for (const FilmEstimator estimator : both)
+  {
+    scene.filmEstimator = estimator;
+    const Image image = Bench().render(bodies.gas.field, scene);
+    for (std::size_t pixel = 0; pixel < image.intensity.size(); ++pixel)
+    {
+      for (std::size_t channel = 0; channel < 3; ++channel)
+      {
+        ASSERT_NEAR(image.color[3 * pixel + channel], image.intensity[pixel],
+          1e-6 * std::max(1.f, image.intensity[pixel]));
+      }
+    }
+  }
+}
+
+/// The fixed-point scale has room for any number of samples, wherever their light lands.
+TEST(Estimators, SumsHaveRoom)
+{
+  for (const int samples : { 1, 4096, 4097, 1000000, 2147483647 })
+  {
+    EXPECT_GE(passesToHold(samples), samples);
+    const std::int64_t rays = 12288LL * 12288LL; // 8192 x 8192 pixels and the widest margin
+    const Film film(1, 1, rays * passesToHold(samples));
+    EXPECT_GE(film.one(), samples <= 1000000 ? 1 << 15 : 1 << 4);
+    EXPECT_LT(film.one() * static_cast<double>(rays) * samples, std::ldexp(1., 63));
+  }
+  EXPECT_EQ(passesToHold(1), passesToHold(4096));
+}
+
+TEST(Estimators, AMillionSamplesOnOnePixel)
+{
+  const SampledField<float> gas(cube(2, 1), [](double, double, double) { return 2.7e-4; });
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.view.width = scene.view.height = 1;
+  scene.stepSize = 16;
+  scene.samplesPerPixel = 1000000;
+  scene.memoryBudget = 0;
+  scene.pathModel = PathModel::Straight;
+  for (const FilmEstimator estimator : both)
+  {
+    scene.filmEstimator = estimator;
+    const Image image = Bench().render(gas.field, scene);
+    EXPECT_FLOAT_EQ(image.intensity[0], 0.5f);
+    EXPECT_NEAR(image.light.onFilm, 0.5, 1e-7);
+  }
+}
+
+} // namespace
+
+} // namespace schlieren

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the filter's properties ask of the tracer.
+#include "Fixtures.h"
+#include "RealOptics.h"
+#include "SceneFromFilter.h"
+
+#include "vtkPiecewiseFunction.h"
+
+#include <limits>
+
+namespace
+{
+
+using Filter = vtkSchlierenFilter;
+
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+
+/// A bench for a box of 4 x 4 x 2 data units, seen along its depth of 2, in 80 x 40 pixels.
+class Scene : public testing::Test
+{
+protected:
+  Scene()
+  {
+    this->grid.dimensions = { 41, 41, 21 };
+    this->grid.origin = { -2, -2, -1 };
+    this->grid.spacing = { 0.1, 0.1, 0.1 };
+    this->filter->SetImageSize(80, 40);
+    this->filter->SetParallelScale(3);
+  }
+
+  schlieren::Scene scene() { return sceneFrom(this->filter, this->medium, this->grid); }
+
+  std::string error()
+  {
+    try
+    {
+      this->scene();
+    }
+    catch (const std::runtime_error& problem)
+    {
+      return problem.what();
+    }
+    return "none";
+  }
+
+  vtkNew<Filter> filter;
+  vtkNew<vtkRefractiveIndex> medium;
+  schlieren::Grid grid;
+};
+
+} // namespace
+
+TEST_F(Scene, IsByDefaultThatOfTheTracer)
+{
+  const schlieren::Scene made = this->scene();
+  const schlieren::Scene none;
+  EXPECT_EQ(made.cutoff, none.cutoff);
+  EXPECT_EQ(made.cutoffOffset, none.cutoffOffset);
+  EXPECT_EQ(made.kScale, none.kScale);
+  EXPECT_EQ(made.screenDistance, none.screenDistance);
+  EXPECT_EQ(made.focusOffset, none.focusOffset);
+  EXPECT_EQ(made.source.distance, none.source.distance);
+  EXPECT_EQ(made.source.shape, none.source.shape);
+  EXPECT_EQ(made.source.width, none.source.width);
+  EXPECT_EQ(made.filmEstimator, none.filmEstimator);
+  EXPECT_EQ(made.noiseFilter, none.noiseFilter);
+  EXPECT_EQ(made.noiseFilterRadius, none.noiseFilterRadius);
+  EXPECT_EQ(made.memoryBudget, none.memoryBudget);
+  EXPECT_EQ(made.histogramSize, 256);
+}
+
+TEST_F(Scene, HasWhatIsSet)
+{
+  this->filter->SetCutoffOffset(0.25);
+  this->filter->SetFocusOffset(-0.5);
+  this->filter->SetFilmEstimator(Filter::PHOTON);
+  this->filter->SetNoiseFilter(Filter::CONE);
+  this->filter->SetNoiseFilterRadius(3.5);
+  this->filter->SetMemoryBudget(3);
+  this->filter->SetHistogramSize(17);
+  const schlieren::Scene made = this->scene();
+  EXPECT_EQ(made.cutoffOffset, 0.25);
+  EXPECT_EQ(made.focusOffset, -0.5);
+  EXPECT_EQ(made.filmEstimator, schlieren::FilmEstimator::Photon);
+  EXPECT_EQ(made.noiseFilter, schlieren::NoiseFilter::Cone);
+  EXPECT_EQ(made.noiseFilterRadius, 3.5);
+  EXPECT_EQ(made.memoryBudget, 3u * 1024 * 1024);
+  EXPECT_EQ(made.histogramSize, 17);
+}
+
+// k = f / a and the offset is a share of a, whatever AutoKScale and KScale say.
+TEST_F(Scene, SensitivityFollowsFromOptics)
+{
+  this->filter->SetKFromOptics(true);
+  this->filter->SetFocalLength(1.5);
+  this->filter->SetSourceWidth(0.5);
+  this->filter->SetCutoffPosition(0.125);
+  this->filter->SetCutoffOffset(7);
+  for (const bool isAuto : { true, false })
+  {
+    this->filter->SetAutoKScale(isAuto);
+    const schlieren::Scene made = this->scene();
+    EXPECT_DOUBLE_EQ(made.kScale.value_or(0), 3000);
+    EXPECT_DOUBLE_EQ(made.cutoffOffset, 0.25);
+  }
+  EXPECT_DOUBLE_EQ(this->filter->GetKScaleOfOptics(), 3000);
+  EXPECT_DOUBLE_EQ(this->filter->GetCutoffOffsetOfOptics(), 0.25);
+  this->filter->SetKFromOptics(false);
+  EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 1000);
+  EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
+  EXPECT_DOUBLE_EQ(this->filter->GetKScaleOfOptics(), 3000); // told all the same
+}
+
+TEST_F(Scene, SensitivityIsToldInWords)
+{
+  this->filter->SetFocalLength(2);
+  EXPECT_EQ(sensitivityInWords(this->filter, 4000),
+    "k = 4000: full scale is 0.125 mrad; optics: 2 m focal length, source 0.5 mm wide");
+  this->filter->SetCutoff(Filter::CIRCULAR);
+  EXPECT_EQ(
+    sensitivityInWords(this->filter, 4000).substr(0, 33), "k = 4000: full scale is 0.25 mrad");
+  this->filter->SetCutoff(Filter::KNIFE_EDGE);
+  this->filter->SetKFromOptics(true);
+  this->filter->SetCutoffPosition(-0.1);
+  EXPECT_NE(sensitivityInWords(this->filter, 4000).find("the edge -0.1 mm in (offset -0.1)"),
+    std::string::npos);
+  EXPECT_EQ(sensitivityInWords(this->filter, 0), "");
+  this->filter->SetCutoff(Filter::SHADOWGRAPH);
+  EXPECT_EQ(sensitivityInWords(this->filter, 4000), "");
+}
+
+TEST_F(Scene, OpticsThatCannotBeAreRefused)
+{
+  this->filter->SetKFromOptics(true);
+  for (const double wrong : { 0., -1., notANumber, HUGE_VAL })
+  {
+    this->filter->SetFocalLength(wrong);
+    EXPECT_NE(this->error().find("FocalLength is "), std::string::npos) << wrong;
+    this->filter->SetFocalLength(1);
+    this->filter->SetSourceWidth(wrong);
+    EXPECT_NE(this->error().find("SourceWidth is "), std::string::npos) << wrong;
+    this->filter->SetSourceWidth(1);
+  }
+  this->filter->SetCutoffPosition(notANumber);
+  EXPECT_NE(this->error().find("CutoffPosition is nan mm"), std::string::npos);
+  // Where they do not count, they may be anything.
+  this->filter->SetFocalLength(0);
+  this->filter->SetCutoff(Filter::INTERFEROGRAM);
+  EXPECT_EQ(this->error(), "none");
+}
+
+TEST_F(Scene, GradedFilterIsReadOffFromItsFunction)
+{
+  this->filter->SetCutoff(Filter::GRADED_FILTER);
+  EXPECT_EQ(this->scene().gradedFilter, (std::vector<double>{ 0, 1 }));
+  vtkNew<vtkPiecewiseFunction> function;
+  this->filter->SetGradedFilter(function);
+  EXPECT_EQ(this->scene().gradedFilter, (std::vector<double>{ 0, 1 }));
+  const vtkMTimeType before = this->filter->GetMTime();
+  function->AddPoint(-1, 0); // beyond the filter's edge
+  function->AddPoint(0.5, 0.75);
+  function->AddPoint(1, 0.25);
+  EXPECT_GT(this->filter->GetMTime(), before);
+  const std::vector<double> values = this->scene().gradedFilter;
+  ASSERT_EQ(values.size(), 1025u);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const double x = static_cast<double>(i) / 1024;
+    EXPECT_NEAR(values[i], x < 0.5 ? 0.5 * (x + 1) : 0.75 - (x - 0.5), 1e-12) << x;
+  }
+}
+
+TEST_F(Scene, LightIsAsLargeAsItIsSeenFromTheData)
+{
+  this->filter->SetFocalLength(2);
+  this->filter->SetSourceWidth(4);
+  this->filter->SetSourceLength(6);
+  this->filter->SetSourceShape(Filter::SLIT);
+  schlieren::LightSource source = this->scene().source;
+  EXPECT_EQ(source.shape, schlieren::SourceShape::Slit);
+  EXPECT_FALSE(source.distance.has_value());
+  EXPECT_DOUBLE_EQ(source.width, 2e-3);
+  EXPECT_DOUBLE_EQ(source.length, 3e-3);
+  this->filter->SetSourceShape(Filter::DISC);
+  source = this->scene().source;
+  EXPECT_EQ(source.shape, schlieren::SourceShape::Disc);
+  EXPECT_DOUBLE_EQ(source.width, 2e-3);
+  this->filter->SetFocalLength(0);
+  EXPECT_NE(this->error().find("FocalLength is 0 m"), std::string::npos);
+  this->filter->SetFocalLength(1);
+  this->filter->SetSourceWidth(-1);
+  EXPECT_NE(this->error().find("SourceWidth is -1 mm"), std::string::npos);
+  this->filter->SetSourceWidth(0);
+  EXPECT_EQ(this->error(), "none");
+}
+
+TEST_F(Scene, DivergingLightComesFromTenDepthsUnlessItIsSaid)
+{
+  this->filter->SetLightSource(Filter::DIVERGING);
+  EXPECT_DOUBLE_EQ(this->scene().source.distance.value_or(0), 20);
+  this->filter->SetSourceDistance(7);
+  EXPECT_DOUBLE_EQ(this->scene().source.distance.value_or(0), 7);
+  this->filter->SetLightSource(Filter::COLLIMATED);
+  EXPECT_FALSE(this->scene().source.distance.has_value());
+}
+
+TEST_F(Scene, FringesAreATenthOfThePictureHighOrFollowFromTheBeams)
+{
+  this->filter->SetCutoff(Filter::INTERFEROGRAM);
+  this->filter->SetWavelength(500);
+  EXPECT_DOUBLE_EQ(this->scene().wavelength, 500e-9);
+  EXPECT_FALSE(this->scene().fringes.finite);
+  this->filter->SetFringeMode(Filter::FINITE_FRINGES);
+  this->filter->SetFringeAngle(30);
+  EXPECT_TRUE(this->scene().fringes.finite);
+  EXPECT_DOUBLE_EQ(this->scene().fringes.angle, 30);
+  EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.6); // the picture is 6 high
+  this->filter->SetFringeSpacing(0.125);
+  EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.125);
+  this->filter->SetLengthScale(1e-3);
+  this->filter->SetBeamAngle(60); // sin(30 degrees) = 1/2: the wavelength itself, in millimetres
+  EXPECT_NEAR(this->scene().fringes.spacing, 500e-6, 1e-15);
+  this->filter->SetBeamAngle(180);
+  EXPECT_NEAR(this->scene().fringes.spacing, 250e-6, 1e-15);
+  for (const double wrong : { -1., 181., notANumber })
+  {
+    this->filter->SetBeamAngle(wrong);
+    EXPECT_NE(this->error().find("BeamAngle is "), std::string::npos) << wrong;
+  }
+}
+
+// Constants and equations of the models are tested on their own: here, that they are the right ones.
+TEST_F(Scene, WhiteLightDispersesAsTheGasDoes)
+{
+  this->filter->SetCutoff(Filter::INTERFEROGRAM);
+  this->filter->SetWavelength(589.3);
+  EXPECT_FALSE(this->scene().fringes.whiteLight);
+  this->filter->SetWhiteLight(true);
+  EXPECT_TRUE(this->scene().fringes.whiteLight);
+  const auto atBlue = [this]()
+  {
+    const auto dispersion = this->scene().fringes.dispersion;
+    return dispersion ? dispersion(450e-9) : 1;
+  };
+  const auto ofGas = [](const char* name)
+  {
+    const schlieren::Gas* gas = schlieren::findGas(name);
+    return gas->constantAt(450e-9) / gas->constantAt(589.3e-9);
+  };
+  EXPECT_EQ(atBlue(), 1); // a custom gas
+  this->medium->SetGas("argon");
+  EXPECT_DOUBLE_EQ(atBlue(), ofGas("argon"));
+  EXPECT_GT(atBlue(), 1.005);
+  this->medium->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
+  this->medium->AddMixtureGas("helium");
+  EXPECT_EQ(atBlue(), 1); // the background is custom
+  this->medium->SetBackgroundGas("nitrogen");
+  EXPECT_DOUBLE_EQ(atBlue(), ofGas("nitrogen"));
+  this->medium->SetIndexModel(vtkRefractiveIndex::CIDDOR);
+  const auto air = [](double wavelength)
+  { return schlieren::ciddorRefractivity(300, 1e5, 0, 450, wavelength); };
+  EXPECT_NEAR(atBlue(), air(450e-9) / air(589.3e-9), 1e-12);
+  this->medium->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  EXPECT_EQ(atBlue(), 1);
+}
+
+TEST_F(Scene, BackgroundIsAPattern)
+{
+  this->filter->SetCutoff(Filter::BACKGROUND_ORIENTED);
+  EXPECT_EQ(this->scene().background.kind, schlieren::PatternKind::Dots);
+  EXPECT_FALSE(this->scene().background.distance.has_value());
+  this->filter->SetBackgroundPattern(Filter::STRIPES);
+  this->filter->SetBackgroundDistance(0);
+  this->filter->SetBackgroundPeriod(0.2);
+  this->filter->SetBackgroundAngle(45);
+  const schlieren::BackgroundPattern pattern = this->scene().background;
+  EXPECT_EQ(pattern.kind, schlieren::PatternKind::Stripes);
+  EXPECT_EQ(pattern.distance.value_or(-1), 0);
+  EXPECT_EQ(pattern.period, 0.2);
+  EXPECT_EQ(pattern.angle, 45);
+  this->filter->SetBackgroundPattern(Filter::PICTURE);
+  EXPECT_NE(this->error().find("BackgroundImage is empty"), std::string::npos);
+  this->filter->SetBackgroundImage("/nowhere.png");
+  EXPECT_NE(this->error().find("BackgroundImage names the file '/nowhere.png'"), std::string::npos);
+}
+
+// A pixel of red 255, green 16 and blue 32, as a PNG file.
+TEST_F(Scene, ColorFilterIsAWheelOrAPicture)
+{
+  this->filter->SetCutoff(Filter::COLOR_FILTER);
+  EXPECT_EQ(this->scene().colorFilter, nullptr);
+  this->filter->SetColorFilterImage(
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4"
+    "L6AAAANBATCX20YHAAAAAElFTkSuQmCC");
+  ASSERT_NE(this->scene().colorFilter, nullptr);
+  EXPECT_EQ(this->scene().colorFilter->rgb, (std::vector<unsigned char>{ 255, 16, 32 }));
+}

@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The contact sheet: every tile is in its place and shows what its optics say."""
+
+import os
+import sys
+
+import numpy as np
+from demo_testing import DATA, SOURCE, picture
+
+sys.path.insert(0, os.path.join(SOURCE, "Examples"))
+
+import contact_sheet  # noqa: E402
+from sheet import grey  # noqa: E402
+
+WIDTH, HEIGHT = 240, 129
+path = os.path.abspath("sheet.png")
+groups, frame = contact_sheet.main(contact_sheet.options_of([
+    os.path.join(DATA, "ladenburg_jet_3d.vti"), "--size", f"{WIDTH}x{HEIGHT}", "--output", path]))
+tiles = {tile.name: tile for _, row in groups for tile in row}
+assert len(tiles) == sum(len(row) for _, row in groups) == 32
+assert all(len(row) == contact_sheet.COLUMNS for _, row in groups)
+
+# The file holds the tiles, pixel by pixel, and text above each.
+sheet = picture(path)
+width, height, corner = contact_sheet.layout(frame, len(groups))
+assert sheet.shape == (height, width, 3), sheet.shape
+for j, (_, row) in enumerate(groups):
+    for i, tile in enumerate(row):
+        left, top = corner(j, i)
+        assert np.array_equal(sheet[top:top + HEIGHT, left:left + WIDTH], tile.pixels[::-1]), tile.name
+        assert sheet[top - 41:top - 25, left:left + WIDTH].max() > 200, f"{tile.name}: no title"
+        assert tile.pixels.std() > 4, f"{tile.name}: blank"
+
+
+def shot(name):
+    return tiles[name].shot
+
+
+def light(name):
+    return shot(name)["Intensity"].astype(float)
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def check_below(what, value, limit):
+    print(f"{what}: {value:.3g}, below {limit:g}")
+    assert value < limit, what
+
+
+# Rays leave the film's edge or come from beyond it: not there.
+inner = np.s_[6:-6, 6:-6]
+eps = shot("knife 0")["Deflection"].astype(float)
+u, v = eps[..., 0], eps[..., 1]
+size = np.hypot(u, v)
+k, round_k = shot("knife 0").facts["KScale"], shot("circular").facts["KScale"]
+
+# Each stop's formula, at the deflection in the middle of a pixel. What differs is how that varies in the
+# pixel, and that rays land a little beside where they start.
+for name, expected in (
+        ("knife 0", 0.5 + k * u), ("knife 90", 0.5 + k * v),
+        ("knife 45", 0.5 + k * (u + v) / np.sqrt(2)), ("offset", 0.25 + k * v),
+        ("circular", 1 - round_k * size), ("complement", round_k * size),
+        ("graded", np.interp(0.5 + k * v, (0.35, 0.4, 0.6, 0.65), (0.1, 1, 1, 0.4)))):
+    check_below(name, rms((light(name) - np.clip(expected, 0, 1))[inner]), 0.03)
+# Exact, whatever the film does with the rays: what one stop takes the other passes.
+both = light("knife 90") + light("inverted")
+check_below("circular + complement", np.abs(light("circular") + light("complement") - both).max(), 1e-5)
+check_below("all light, knife edge", abs(both[inner].mean() - 1), 1e-3)
+# A round source rounds the corners of the knife edge off; it is weaker in the middle.
+soft = light("disc knife")
+assert 0.2 < abs(soft - light("knife 90"))[inner].max() < 0.5
+
+# Colours: the hue is the direction.
+color = shot("wheel")["Color"].astype(float)
+strong = (round_k * size > 0.3) & (round_k * size < 0.9)
+red, green, blue = np.moveaxis(color, -1, 0)
+hue = np.arctan2(np.sqrt(3) * (green - blue), 2 * red - green - blue)
+turn = np.angle(np.exp(1j * (hue - np.arctan2(v, u))))
+check_below("hue against direction, rad", float(np.median(np.abs(turn[strong]))), 0.06)
+for sign, of in ((1, "up"), (-1, "down")):
+    assert (strong & (sign * v > np.abs(u))).sum() > 50, f"Nothing is deflected {of}"
+color = shot("color filter")["Color"].astype(float)
+for name, where, expected in (("right", u > 2 * abs(v), (230, 40, 30)),
+                              ("up", v > 2 * abs(u), (40, 200, 60)),
+                              ("left", u < -2 * abs(v), (40, 90, 255)),
+                              ("down", v < -2 * abs(u), (250, 210, 30))):
+    found = np.median(color[where & strong], axis=0)
+    check_below(f"colour of light deflected {name}", np.abs(found - expected).max(), 40)
+check_below("colour of undisturbed light", abs(np.median(color[round_k * size < 0.05], axis=0) - 60).max(), 10)
+
+# The histogram counts all rays, where they are deflected to.
+rays = shot("histogram")["Rays"].astype(float)
+facts = shot("knife 0").facts
+check_below("rays missing in the histogram", abs(rays.sum() / (WIDTH * HEIGHT * 4) - 1), 0.02)
+check_below("its asymmetry, up against down", abs(rays - rays[::-1]).sum() / rays.sum(), 0.1)
+
+# Shadowgraphs: light is moved, not made. Close behind the flow, I = 1 - D div(eps).
+for name in ("near", "far", "straight", "refracted", "photons", "sheet", "many"):
+    check_below(f"light of '{name}' - 1", abs(light(name)[inner].mean() - 1), 0.02)
+(_, ux), (vy, _) = (np.gradient(eps[..., i], frame.pixel) for i in (0, 1))
+distance = contact_sheet.caustic_distance(eps, frame.pixel)
+expected = 1 / (1 + distance / 8 * (ux + vy))
+correlation = np.corrcoef(expected[inner].ravel(), light("near")[inner].ravel())[0, 1]
+print(f"near: correlation with 1 / (1 + D div(eps)) {correlation:.3f}")
+assert correlation > 0.95
+assert light("far").std() > 2 * light("near").std()
+check_below("contrast with a round source", light("disc").std() / light("far").std(), 0.6)
+
+# Fringes, at the optical path differences.
+paths = shot("knife 0")["OpticalPathDifference"]
+phase = 2 * np.pi * paths / 632.8e-9
+smooth = np.hypot(*np.gradient(phase)) < 1
+check_below("infinite", rms((light("infinite") - (1 + np.cos(phase)) / 2)[smooth]), 0.05)
+y = (np.arange(HEIGHT)[:, None] - (HEIGHT - 1) / 2) * 2 * np.pi * 16 / HEIGHT
+x = (np.arange(WIDTH)[None, :] - (WIDTH - 1) / 2) * 2 * np.pi * 16 / HEIGHT
+for name, carrier in (("finite", y), ("upright", x)):
+    fits = [rms((light(name) - (1 + np.cos(phase + sign * (carrier + shift))) / 2)[smooth])
+            for sign in (1, -1) for shift in np.linspace(0, 2 * np.pi, 64, endpoint=False)]
+    check_below(f"{name}: 16 fringes on the height", min(fits), 0.08)
+white = shot("white")["Color"].astype(float)
+zeroth, high = np.abs(phase) < 0.5, (np.abs(phase) > 6 * np.pi) & smooth
+check_below("colour of the order 0", float(np.ptp(white[zeroth], axis=1).mean()), 12)
+assert white[zeroth].mean() > 235 and np.ptp(white, axis=2).max() > 100
+
+# The background moves by its distance times the deflection.
+away = 4 * frame.pixel / np.percentile(size, 99)
+moved = shot("shift")["BackgroundDisplacement"].astype(float)
+check_below("displacement against distance x deflection",
+            min(rms((moved - sign * away * eps)[inner]) for sign in (1, -1)) / rms(away * eps), 0.2)
+check_below("the pattern without the flow, straight", rms(light("pattern") - light("seen")), 1)
+
+# The line of sight is near the truth here, but is not it.
+difference = light("refracted") - light("straight")
+check_below("refracted - straight", rms(difference[inner]), 0.2)
+assert rms(difference[inner]) > 1e-3
+
+# From one ray per pixel the sheet is nearer to many photons than photons are.
+errors = {name: rms((light(name) - light("many"))[inner]) for name in ("photons", "cone", "sheet")}
+print("Against 64 photons per pixel:", errors)
+assert errors["sheet"] < errors["photons"]
+assert light("cone").std() < light("photons").std()
+assert np.array_equal(tiles["path"].pixels[..., 0], grey(0.5 + paths / (2 * np.abs(paths).max()), 1)[..., 0])

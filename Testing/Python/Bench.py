@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The bench as scripts set it up and state files keep it: every property, a picture as text, two outputs."""
+
+import base64
+import os
+import struct
+import zlib
+
+from paraview import simple, smstate
+from plugin_testing import Schlieren, gaussian_column, output
+import schlieren.vtkSchlierenFilters  # noqa: F401 (its methods)  pylint: disable=unused-import
+from vtkmodules.vtkCommonCore import vtkDataArray
+
+
+def png(rows):
+    """A PNG file with these rows of (red, green, blue), top row first."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    size = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    lines = b"".join(b"\0" + bytes(sum(row, ())) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", size) + chunk(b"IDAT", zlib.compress(lines))
+            + chunk(b"IEND", b""))
+
+
+def as_text(file):
+    return "data:image/png;base64," + base64.b64encode(file).decode()
+
+
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+FILTER = as_text(png([[RED, GREEN], [BLUE, WHITE]]))
+# Every property of the bench, unlike its default.
+SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.0, "CutoffOffset": 0.1,
+            "InvertCutoff": 1, "AutoKScale": 0, "KScale": 500.0, "KFromOptics": 1, "FocalLength": 2.0,
+            "SourceWidth": 0.5, "SourceLength": 5.0, "CutoffPosition": 0.25, "ColorFilterImage": FILTER,
+            "FringeMode": "Finite", "FringeSpacing": 0.125, "FringeAngle": 45.0, "BeamAngle": 0.5,
+            "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "LightSource": "Diverging",
+            "SourceDistance": 30.0, "SourceShape": "Slit", "BackgroundPattern": "Picture",
+            "BackgroundDistance": 4.0, "BackgroundPeriod": 0.25, "BackgroundAngle": 60.0,
+            "BackgroundImage": as_text(png([[WHITE, RED]])), "FilmEstimator": "Photon",
+            "NoiseFilter": "Gaussian", "NoiseFilterRadius": 1.5, "HistogramSize": 33, "MemoryBudget": 77}
+CURVE = [0, 1, 0.5, 0, 0.25, 0.5, 0.5, 0, 1, 0, 0.5, 0]
+
+source = gaussian_column(16)
+plain = Schlieren(Input=source, registrationName="plain", Density=["POINTS", "rho"], ImageSize=[16, 16])
+for name in SETTINGS:
+    assert plain.GetProperty(name).GetData() != SETTINGS[name], name
+assert list(plain.GradedFilter.Points) == [0, 0, 0.5, 0, 1, 1, 0.5, 0]
+made = Schlieren(Input=source, registrationName="made", **SETTINGS)
+made.GradedFilter.Points = CURVE
+
+
+def check(find=simple.FindSource):
+    bench = find("made")
+    for key, value in SETTINGS.items():
+        assert bench.GetProperty(key).GetData() == value, (key, bench.GetProperty(key).GetData())
+        # The filter itself has it.
+        there = getattr(bench.GetClientSideObject(), "Get" + key)()
+        here = bench.GetProperty(key).SMProperty.GetElement(0)
+        assert there == here, (key, there, here)
+    assert list(bench.GradedFilter.Points) == CURVE, list(bench.GradedFilter.Points)
+    function = bench.GetClientSideObject().GetGradedFilter()
+    assert [function.GetValue(x) for x in (0, 0.25, 1)] == [1, 0.5, 0]
+    assert list(find("plain").GradedFilter.Points) == [0, 0, 0.5, 0, 1, 1, 0.5, 0]
+    return bench
+
+
+check()
+
+# What k and offset optics have is told before there is a picture.
+made.UpdatePropertyInformation()
+assert made.GetProperty("KScaleOfOptics").GetData() == 4000
+assert made.GetProperty("CutoffOffsetOfOptics").GetData() == 0.5
+assert made.GetProperty("KScaleUsed").GetData() == 0 and not made.GetProperty("Sensitivity").GetData()
+plain.UpdatePipeline()
+plain.UpdatePropertyInformation()
+k = output(plain).GetFieldData().GetArray("KScale").GetValue(0)
+assert k > 0 and plain.GetProperty("KScaleUsed").GetData() == k
+assert plain.GetProperty("Sensitivity").GetData().startswith(f"k = {k:.4g}: full scale is ")
+
+# Units.
+image = output(plain)
+units = {}
+for data in (image.GetPointData(), image.GetFieldData()):
+    for i in range(data.GetNumberOfArrays()):
+        array = data.GetAbstractArray(i)
+        if array.GetInformation().Has(vtkDataArray.UNITS_LABEL()):
+            units[array.GetName()] = array.GetInformation().Get(vtkDataArray.UNITS_LABEL())
+assert units == {"Intensity": "1", "Deflection": "rad", "OpticalPathDifference": "m",
+                 "Displacement": "data units", "BlockedFraction": "1", "TraceSeconds": "s",
+                 "DisplacementBound": "data units", "SkippingBound": "rad"}, units
+
+# State files and scripts keep all of it.
+simple.SaveState("bench.pvsm")
+script = smstate.get_state()
+del plain, made
+simple.ResetSession()
+simple.LoadState(os.path.abspath("bench.pvsm"))
+check()
+simple.ResetSession()
+exec(script, {})  # pylint: disable=exec-used
+check()
