@@ -237,4 +237,4 @@ void pqPictureWidget::load()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::clear() { this->setPicture(QString()); }
+void pqPictureWidget::clear() { this->setPicture(QString("")); } // a null one would not be sent
