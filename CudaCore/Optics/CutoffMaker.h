@@ -28,6 +28,7 @@ public:
   Cutoffs cutoffOf(const Scene& scene, double k, double pixelSize);
 
 private:
+  Cutoffs interferogram(const Scene& scene, double pixelSize);
   Table linearPicture(const std::shared_ptr<const RgbPicture>& picture);
 
   std::vector<float> table_;

@@ -10,6 +10,7 @@ namespace
 
 const Carrier* carrierOf(const Interferogram& kind) { return &kind.carrier; }
 const Carrier* carrierOf(const WhiteLight& kind) { return &kind.carrier; }
+const Carrier* carrierOf(const WhiteLightTable& kind) { return &kind.carrier; }
 template <class Kind>
 const Carrier* carrierOf(const Kind&)
 {
@@ -24,7 +25,7 @@ double undisturbedLevel(const Cutoffs& cutoff)
     [](const auto& kind)
     {
       const Carrier* carrier = carrierOf(kind);
-      if (carrier != nullptr && (carrier->perColumn != 0 || carrier->perRow != 0))
+      if (carrier != nullptr && !carrier->isNone())
       {
         return 0.5;
       }

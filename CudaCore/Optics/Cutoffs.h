@@ -28,7 +28,7 @@ struct Shadowgraph
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
 using Cutoffs = std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter,
-  ColorWheel, ColorPicture, Interferogram, WhiteLight>;
+  ColorWheel, ColorPicture, Interferogram, WhiteLight, WhiteLightTable>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {
@@ -38,6 +38,7 @@ inline int channelsOf(const Cutoffs& cutoff)
 /// Where a kind keeps its table, null if it has none.
 inline Table* tableOf(GradedFilter& kind) { return &kind.table; }
 inline Table* tableOf(ColorWheel& kind) { return &kind.linear; }
+inline Table* tableOf(WhiteLightTable& kind) { return &kind.colors; }
 inline Table* tableOf(ColorPicture& kind) { return &kind.linear; }
 template <class Kind>
 Table* tableOf(Kind&)

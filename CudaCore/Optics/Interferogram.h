@@ -33,6 +33,8 @@ struct Carrier
     return { column, row, -0.5 * (column * (width - 1) + row * (height - 1)) };
   }
 
+  bool isNone() const { return perColumn == 0 && perRow == 0; }
+
   SCHLIEREN_HD double turnsAt(const double (&position)[2]) const
   {
     return perColumn * position[0] + perRow * position[1] + atOrigin;
