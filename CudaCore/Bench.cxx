@@ -6,6 +6,7 @@
 #include "Device/Parallel.h"
 #include "Film/CudaFilm.h"
 #include "Film/Exposure.h"
+#include "Film/NoiseFilters.h"
 #include "Film/PixelMeans.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
@@ -450,6 +451,11 @@ Image Bench::Stages::render(
       cutoff = cutoffs.cutoffOf(scene, image.kScale, image.frame.pixelSize);
       image.undisturbedLevel = undisturbedLevel(cutoff);
       films.emplace(channelsOf(cutoff), std::move(tintOfRays), view.width, view.height, mostRays);
+      if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
+      {
+        films->samples = std::make_unique<Films>(
+          Shadowgraph::channels, std::nullopt, view.width, view.height, mostRays);
+      }
     }
     if (traced->onDevice)
     {
@@ -493,7 +499,14 @@ Image Bench::Stages::render(
   {
     image.color = films->developColor(scene.samplesPerPixel, scene.threads);
   }
+  const PixelArray<float> samples =
+    films->samples ? films->samples->developIntensity(1, scene.threads) : PixelArray<float>();
   films.reset(); // the means want memory, too
+  for (PixelArray<float>* picture : { &image.intensity, &image.color })
+  {
+    *picture = filtered(std::move(*picture), view.width, view.height, scene.noiseFilter,
+      scene.noiseFilterRadius, samples, scene.threads);
+  }
   means.develop(waiting, image);
   scratch = {};
   spare.clear();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Validation.h"
 
+#include "Film/NoiseFilters.h"
 #include "Medium/Medium.h"
 
 #include <algorithm>
@@ -150,6 +151,13 @@ void validateScene(const Scene& scene)
   {
     throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
       ". Set it to zero or more, in data units.");
+  }
+  if (!(scene.noiseFilterRadius >= 0 && scene.noiseFilterRadius <= largestFilterRadius))
+  {
+    std::ostringstream text;
+    text << "NoiseFilterRadius is " << scene.noiseFilterRadius << " pixels. Set it between 0 and "
+         << largestFilterRadius << "; to blur more, make a smaller picture.";
+    throw Error(text.str());
   }
   if (scene.threads < 0)
   {

@@ -673,7 +673,7 @@ public:
 
   ///@{
   /**
-   * Bins along each axis of the histogram; 0: none is made. Default: 256.
+   * Bins along each axis of the histogram, up to 2048; 0: none is made. Default: 256.
    */
   vtkSetClampMacro(HistogramSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(HistogramSize, int);

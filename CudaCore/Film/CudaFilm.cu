@@ -207,6 +207,10 @@ struct CudaFilm::DeviceMemory
     clear(sums.data(), pixels * sizeof(PixelSums));
     clear(counts.data(), sizeof(RayCounts));
     clear(planes.data(), films.planes.size() * sizeof(LightSums));
+    if (films.samples)
+    {
+      samples = std::make_unique<CudaFilm>(*films.samples);
+    }
   }
 
   /// A table's copy on the device, as long as none is asked for that lies elsewhere.
@@ -231,6 +235,7 @@ struct CudaFilm::DeviceMemory
   CudaBuffer<RayCounts, DeviceError> counts;
   CudaBuffer<LightSums, DeviceError> planes;
   Sums view;
+  std::unique_ptr<CudaFilm> samples;
   std::unique_ptr<CudaBuffer<float, DeviceError>> copied;
   const float* onHost = nullptr; ///< what has been copied
 };
@@ -265,6 +270,10 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
     },
     cutoff);
   checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
+  if (memory_->samples)
+  {
+    memory_->samples->expose(traced, pass, Shadowgraph{}, projection, margin, estimator);
+  }
 }
 
 RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
@@ -274,6 +283,10 @@ RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
     checkCuda<DeviceError>(
       cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the picture");
   };
+  if (memory_->samples)
+  {
+    memory_->samples->develop(*films.samples, means); // overwritten below
+  }
   for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
   {
     std::vector<std::int64_t> light(memory_->pixels);

@@ -319,6 +319,10 @@ RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
   const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
   Films& films)
 {
+  if (films.samples)
+  {
+    expose(passes, Shadowgraph{}, projection, margin, estimator, threads, *films.samples);
+  }
   return std::visit(
     [&](const auto& kind)
     {

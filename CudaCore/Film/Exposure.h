@@ -11,6 +11,7 @@
 #include "Schlieren.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct Films
 
   std::optional<Tint> tintOfRays;
   std::vector<Film> planes;
+  /// Unset, or where all rays count in full, exposed along with these.
+  std::unique_ptr<Films> samples;
 };
 
 /// What became of rays.

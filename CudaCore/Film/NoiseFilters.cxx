@@ -125,8 +125,13 @@ bool filtersNoise(NoiseFilter filter, double radius)
   return filter != NoiseFilter::None && radius >= 1;
 }
 
-PixelArray<float> filtered(const PixelArray<float>& picture, int width, int height,
-  NoiseFilter filter, double radius, const PixelArray<float>& samples, int threads)
+bool countsSamples(NoiseFilter filter, double radius)
+{
+  return filter == NoiseFilter::Cone && filtersNoise(filter, radius);
+}
+
+PixelArray<float> filtered(PixelArray<float> picture, int width, int height, NoiseFilter filter,
+  double radius, const PixelArray<float>& samples, int threads)
 {
   if (!filtersNoise(filter, radius) || picture.empty())
   {

@@ -96,17 +96,40 @@ void renderAgain(benchmark::State& state, const Field& field, Scene scene, const
   state.counters["other/ms"] = 1e3 * (all - tracing) / pictures;
 }
 
+FilmEstimator estimatorOf(const benchmark::State& state, std::size_t argument)
+{
+  return state.range(argument) == 1 ? FilmEstimator::Sheet : FilmEstimator::Photon;
+}
+
 /// Held rays meet another knife edge, nothing is traced.
 void shadeAgain(benchmark::State& state)
 {
   Scene scene = interactive();
   scene.samplesPerPixel = static_cast<int>(state.range(0));
   scene.threads = static_cast<int>(state.range(1));
+  scene.filmEstimator = estimatorOf(state, 2);
   renderAgain(state, plume(64), scene, [](Scene& next) { next.knifeEdgeAngle += 1; });
 }
 BENCHMARK(shadeAgain)
-  ->ArgNames({ "samples", "threads" })
-  ->ArgsProduct({ { 1, 4 }, { 1, 2 } })
+  ->ArgNames({ "samples", "threads", "sheet" })
+  ->ArgsProduct({ { 1, 4 }, { 1, 2 }, { 0, 1 } })
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+/// A shadowgraph's screen is moved, so many depths of the data away, nothing is traced.
+void moveScreen(benchmark::State& state)
+{
+  Scene scene = interactive();
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.threads = static_cast<int>(state.range(1));
+  scene.filmEstimator = estimatorOf(state, 2);
+  scene.screenDistance = 2 * static_cast<double>(state.range(0));
+  renderAgain(state, plume(64), scene, [](Scene& next) { *next.screenDistance *= 1 + 1e-3; });
+}
+BENCHMARK(moveScreen)
+  ->ArgNames({ "depths", "threads", "sheet" })
+  ->ArgsProduct({ { 1, 30, 300, 3000 }, { 1 }, { 0, 1 } })
   ->MeasureProcessCPUTime()
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // The filters that take the noise out of a finished picture.
+#include "Fields.h"
 #include "Film/NoiseFilters.h"
 #include "Math/Units.h"
 
@@ -181,6 +182,80 @@ TEST(NoiseFilters, TakeNoiseOut)
   const double after =
     deviation(filtered(noise(), width, height, NoiseFilter::Mean, 2, evenPicture(1), 2));
   EXPECT_NEAR(after / before, 1 / std::sqrt(13.), 0.05);
+}
+
+/// What a bench makes of a flow, with a body, is filtered as a whole.
+struct NoisyPicture
+{
+  NoisyPicture()
+    : gas(cube(20, 1),
+        [](double x, double y, double z)
+        { return std::hypot(x, y) < 0.2 ? std::nan("") : 1e-4 * std::sin(9 * x + 5 * y * z); })
+  {
+    scene.device = Device::Cpu;
+    scene.view.width = 30;
+    scene.view.height = 20;
+    scene.samplesPerPixel = 2;
+    scene.noiseFilterRadius = 3;
+    scene.filmEstimator = FilmEstimator::Photon;
+  }
+
+  SampledField<float> gas;
+  Scene scene;
+};
+
+TEST(NoiseFilters, AreAppliedToTheBenchsPictures)
+{
+  NoisyPicture noisy;
+  std::vector<float> gradients(noisy.gas.samples.size(), 1);
+  noisy.gas.field.gradients = { 1, gradients.data(), 1 };
+  Scene& scene = noisy.scene;
+  scene.fieldColors = { { 1, 0, 0.5f } };
+  const Image plain = Bench().render(noisy.gas.field, scene);
+  for (const NoiseFilter filter : allFilters)
+  {
+    scene.noiseFilter = filter;
+    const Image image = Bench().render(noisy.gas.field, scene);
+    EXPECT_NE(image.intensity, plain.intensity);
+    EXPECT_EQ(image.deflection, plain.deflection);
+    EXPECT_EQ(image.light.onFilm, plain.light.onFilm);
+    if (filter != NoiseFilter::Cone)
+    {
+      EXPECT_EQ(image.intensity, filtered(plain.intensity, 30, 20, filter, 3, {}, 1));
+      EXPECT_EQ(image.color, filtered(plain.color, 30, 20, filter, 3, {}, 1));
+    }
+  }
+}
+
+/// The cone's samples are counted where rays land, whatever light they bring.
+TEST(NoiseFilters, ConeCountsTheSamplesThatLand)
+{
+  NoisyPicture noisy;
+  Scene& scene = noisy.scene;
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.screenDistance = 300;
+  const Image plain = Bench().render(noisy.gas.field, scene);
+  PixelArray<float> samples = plain.intensity;
+  std::transform(
+    samples.begin(), samples.end(), samples.begin(), [](float light) { return 2 * light; });
+  scene.noiseFilter = NoiseFilter::Cone;
+  const Image image = Bench().render(noisy.gas.field, scene);
+  const PixelArray<float> expected =
+    filtered(plain.intensity, 30, 20, NoiseFilter::Cone, 3, samples, 1);
+  for (std::size_t pixel = 0; pixel < expected.size(); ++pixel)
+  {
+    EXPECT_NEAR(image.intensity[pixel], expected[pixel], 1e-5f * std::max(1.f, expected[pixel]));
+  }
+}
+
+TEST(NoiseFilters, RadiusMustMakeSense)
+{
+  NoisyPicture noisy;
+  for (const double radius : { -1., 32.5, 1e300, std::nan(""), HUGE_VAL })
+  {
+    noisy.scene.noiseFilterRadius = radius;
+    EXPECT_THROW(Bench().render(noisy.gas.field, noisy.scene), Error);
+  }
 }
 
 } // namespace
