@@ -55,6 +55,42 @@ struct MediumKey
   }
 };
 
+/// Where the light of held rays came from. What does not matter to it has its default.
+struct LightKey
+{
+  bool isOfCamera = false;
+  std::optional<double> distance;
+  SourceShape shape = SourceShape::Point;
+  double width = 0, length = 0; ///< of an extended source, as the next two
+  double angle = 0;
+  double film = 0;
+
+  auto tie() const { return std::tie(isOfCamera, distance, shape, width, length, angle, film); }
+
+  static LightKey of(const Scene& scene, double film)
+  {
+    LightKey key;
+    key.isOfCamera = scene.cutoff == Cutoff::Background;
+    if (key.isOfCamera)
+    {
+      return key;
+    }
+    key.distance = scene.source.distance;
+    key.shape = scene.source.shape;
+    if (key.shape != SourceShape::Point)
+    {
+      key.width = scene.source.width;
+      key.film = film;
+    }
+    if (key.shape == SourceShape::Slit)
+    {
+      key.length = scene.source.length;
+      key.angle = scene.knifeEdgeAngle;
+    }
+    return key;
+  }
+};
+
 /// What held rays were traced with, the medium apart.
 struct RaysKey
 {
@@ -65,13 +101,15 @@ struct RaysKey
   std::uint32_t seed;
   Device device;
   std::optional<std::uint64_t> gradients; ///< version of those that were gathered
+  LightKey light;
 
   auto tie() const
   {
-    return std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry,
-      frame.exit, width, height, settings.kernel.path, settings.kernel.integrator,
-      settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
-      seed, device, gradients);
+    return std::tuple_cat(light.tie(),
+      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
+        width, height, settings.kernel.path, settings.kernel.integrator, settings.stepVoxels,
+        settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance, seed, device,
+        gradients));
   }
 };
 
@@ -140,20 +178,8 @@ double skippingBound(
 {
   const double steepest = visitScheme(
     interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
-  return 2 * steepest * tolerance * length(light.indexScale) * light.depth * (1 + medium.largestNu);
-}
-
-/// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
-/// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
-/// cutoffs, so that changing the cutoff traces nothing.
-std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
-{
-  const double depth = frame.exit - frame.entry;
-  const double furthest = std::max(depth, scene.screenDistance.value_or(depth));
-  const double pixels =
-    std::ceil((bound.displacement + furthest * bound.slope) / frame.pixelSize) + 1;
-  const double most = std::max(16, std::max(scene.view.width, scene.view.height) / 8);
-  return static_cast<std::int64_t>(pixels < most ? pixels : most);
+  const double way = light.depth / light.smallestCosine();
+  return 2 * steepest * tolerance * length(light.indexScale) * way * (1 + medium.largestNu);
 }
 
 /// A deflection that the rounding of the samples alone can make: each step's gradient is wrong by one
@@ -165,16 +191,125 @@ double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& l
   const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
   const double rounding = rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
                                   : std::numeric_limits<double>::epsilon();
-  const double voxels = std::max(1., light.depth * length(light.perLength));
+  const double voxels = std::max(1., light.depth * light.fastest());
   return margin * medium.largestN * rounding * std::sqrt(voxels);
 }
 
-/// How far past the exit plane rays meet what the film shows: a screen, or (going back) the middle of
-/// the data, where the other cutoffs' camera is in focus. Data units.
+/// How far past the plane where rays leave the data they meet what the film shows: a screen; the background
+/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera. Data units.
 double filmDistance(const Scene& scene, const Frame& frame)
 {
   const double depth = frame.exit - frame.entry;
-  return scene.cutoff == Cutoff::Shadowgraph ? scene.screenDistance.value_or(depth) : -0.5 * depth;
+  switch (scene.cutoff)
+  {
+    case Cutoff::Shadowgraph:
+      return scene.screenDistance.value_or(depth);
+    case Cutoff::Background:
+      return scene.background.distance.value_or(depth);
+    default:
+      return -0.5 * depth + scene.focusOffset;
+  }
+}
+
+/// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
+/// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
+/// cutoffs, so that changing the cutoff traces nothing, but for a camera's rays, which stay in their pixel.
+std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
+{
+  if (scene.cutoff == Cutoff::Background)
+  {
+    return 1;
+  }
+  const double depth = frame.exit - frame.entry;
+  double furthest = 0; // data units of the picture
+  for (const double film :
+    { scene.screenDistance.value_or(depth), -0.5 * depth + scene.focusOffset, -0.5 * depth })
+  {
+    const double magnification =
+      scene.source.distance ? 1 + (film + 0.5 * depth) / *scene.source.distance : 1;
+    const double moved = bound.displacement + std::abs(film) * bound.slope;
+    furthest = std::max(furthest, magnification > 0 ? moved / magnification : 0);
+  }
+  const double pixels = std::ceil(furthest / frame.pixelSize) + 1;
+  const auto most = static_cast<double>(mostMargin(scene.view));
+  return static_cast<std::int64_t>(pixels < most ? pixels : most);
+}
+
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
+{
+  return scene.cutoff == Cutoff::Background
+    ? reversedLight(grid, frame)
+    : lightFrom(scene.source, filmDistance(scene, frame), grid, scene.view, frame);
+}
+
+Projection projectionOf(
+  const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit)
+{
+  Projection projection{ filmDistance(scene, frame), 1 / (frame.pixelSize * light.magnification),
+    pathPerDataUnit, light.inclination };
+  projection.isOfCamera = scene.cutoff == Cutoff::Background;
+  if (!projection.isOfCamera && scene.source.distance)
+  {
+    projection.perSourceDistance = 1 / (*scene.source.distance * light.magnification);
+  }
+  return projection;
+}
+
+Films filmsOf(
+  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t mostRays)
+{
+  const View& view = scene.view;
+  Films films(channelsOf(cutoff), std::move(tint), view.width, view.height, mostRays);
+  if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
+  {
+    films.samples = std::make_unique<Films>(
+      Shadowgraph::channels, std::nullopt, view.width, view.height, mostRays);
+  }
+  return films;
+}
+
+/// What the noise filter wants to know; empty if nothing.
+PixelArray<float> samplesOn(const Films& films, const Scene& scene)
+{
+  return films.samples ? films.samples->developIntensity(1, scene.threads) : PixelArray<float>();
+}
+
+/// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the
+/// picture, so that where the flow bends nothing either no bit differs.
+PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
+  const Projection& projection, std::int64_t margin, std::int64_t mostRays)
+{
+  Pass pass{ -margin, -margin, scene.view.width + 2 * margin, scene.view.height + 2 * margin,
+    { 0, 0 } };
+  const std::vector<RayExit> exits(static_cast<std::size_t>(pass.columns * pass.rows));
+  Films films = filmsOf(scene, cutoff, {}, mostRays);
+  for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
+  {
+    pass.offset = pixelOffset(number, scene.seed);
+    expose({ { pass, exits.data(), nullptr } }, cutoff, projection, margin, scene.filmEstimator,
+      scene.threads, films);
+  }
+  return filtered(films.developIntensity(scene.samplesPerPixel, scene.threads), scene.view.width,
+    scene.view.height, scene.noiseFilter, scene.noiseFilterRadius, samplesOn(films, scene),
+    scene.threads);
+}
+
+/// How far from where they start the mean rays of pixels meet the background.
+PixelArray<float> backgroundDisplacement(const Image& image, double distance)
+{
+  PixelArray<float> moved(image.displacement.size());
+  for (std::size_t i = 0; i < moved.size(); i += 2)
+  {
+    const double eps[2] = { static_cast<double>(image.deflection[i]),
+      static_cast<double>(image.deflection[i + 1]) };
+    const double way = distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-30));
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      moved[i + axis] =
+        static_cast<float>(static_cast<double>(image.displacement[i + axis]) + way * eps[axis]);
+    }
+  }
+  return moved;
 }
 
 std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
@@ -353,7 +488,7 @@ Image Bench::Stages::render(
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;
-  const Light light = collimatedLight(field.grid, image.frame);
+  const Light light = lightOf(scene, field.grid, image.frame);
   const DisplacementBound bound = boundDisplacement(held.medium, light);
   image.displacementBound = bound.displacement;
   const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
@@ -373,7 +508,8 @@ Image Bench::Stages::render(
     held.medium, map, FieldGradientsView::of(field.grid, field.gradients), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
-  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, device, {} };
+  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, device, {},
+    LightKey::of(scene, filmDistance(scene, image.frame)) };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
@@ -386,8 +522,8 @@ Image Bench::Stages::render(
   std::optional<Films> films;
   std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
   PixelMeans means(view.width, view.height, scene.threads);
-  const Projection projection{ filmDistance(scene, image.frame), 1 / image.frame.pixelSize,
-    (1 + held.medium.ambient) * field.lengthScale };
+  const Projection projection =
+    projectionOf(scene, image.frame, light, (1 + held.medium.ambient) * field.lengthScale);
 
   if (scene.histogramSize > 0 &&
     (!histogram || histogram->size() != scene.histogramSize ||
@@ -407,6 +543,13 @@ Image Bench::Stages::render(
       { monitor.progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel); };
     }
     pass.offset = pixelOffset(number, scene.seed);
+    if (scene.cutoff != Cutoff::Background)
+    {
+      const std::array<double, 2> place =
+        sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);
+      pass.tilt[0] = place[0] / light.magnification;
+      pass.tilt[1] = place[1] / light.magnification;
+    }
     const TracedPass* traced = raysOf(number, pass, held, task, field, scene, ofPass, image);
     if (traced == nullptr || (monitor.aborted && monitor.aborted()))
     {
@@ -450,12 +593,7 @@ Image Bench::Stages::render(
       }
       cutoff = cutoffs.cutoffOf(scene, image.kScale, image.frame.pixelSize);
       image.undisturbedLevel = undisturbedLevel(cutoff);
-      films.emplace(channelsOf(cutoff), std::move(tintOfRays), view.width, view.height, mostRays);
-      if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
-      {
-        films->samples = std::make_unique<Films>(
-          Shadowgraph::channels, std::nullopt, view.width, view.height, mostRays);
-      }
+      films = filmsOf(scene, cutoff, std::move(tintOfRays), mostRays);
     }
     if (traced->onDevice)
     {
@@ -499,8 +637,7 @@ Image Bench::Stages::render(
   {
     image.color = films->developColor(scene.samplesPerPixel, scene.threads);
   }
-  const PixelArray<float> samples =
-    films->samples ? films->samples->developIntensity(1, scene.threads) : PixelArray<float>();
+  const PixelArray<float> samples = samplesOn(*films, scene);
   films.reset(); // the means want memory, too
   for (PixelArray<float>* picture : { &image.intensity, &image.color })
   {
@@ -508,6 +645,11 @@ Image Bench::Stages::render(
       scene.noiseFilterRadius, samples, scene.threads);
   }
   means.develop(waiting, image);
+  if (scene.cutoff == Cutoff::Background)
+  {
+    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays);
+    image.backgroundDisplacement = backgroundDisplacement(image, projection.distance);
+  }
   scratch = {};
   spare.clear();
   return image;

@@ -83,7 +83,8 @@ enum class Cutoff
   ColorFilter, ///< the colour at k eps of Scene::colorFilter, or of a wheel: hue is the direction of eps,
                ///< saturation min(1, k |eps|)
   Interferogram, ///< I = (1 + cos(2 pi OPD / wavelength + carrier)) / 2; undisturbed: 1 without a carrier
-  Background ///< what a camera sees of a pattern behind the flow (BOS)
+  Background ///< what a camera sees of a pattern behind the flow (BOS): the light of the place where its ray
+             ///< meets the pattern. Undisturbed: the pattern's mean
 };
 
 /// Red, green and blue, row by row, bottom row first; sRGB.
@@ -138,9 +139,11 @@ struct BackgroundPattern
 {
   PatternKind kind = PatternKind::Dots;
   std::optional<double>
-    distance;        ///< from where the data begins, away from the viewer; unset: one depth
-  double period = 0; ///< of dots and stripes, data units; 0: an eighth of what dots can show
-  double angle = 0;  ///< of stripes, degrees: direction across them, from u to v
+    distance; ///< from where the data begins, away from the viewer; unset: one depth
+  /// Of stripes, and of the cells that have a dot each: data units; 0: eight pixels. What is finer than four
+  /// pixels fades to grey, and is gone at two.
+  double period = 0;
+  double angle = 0; ///< of stripes, degrees: direction across them, from u to v
   std::shared_ptr<const RgbPicture> picture; ///< stretched over what the camera sees
 };
 
@@ -298,20 +301,24 @@ struct Image
 
   PixelArray<float> intensity;  ///< per pixel; undisturbed: see Cutoff; luminance of a colour
   PixelArray<float> color;      ///< 3 per pixel, linear; empty where nothing colours
-  PixelArray<float> background; ///< per pixel: the pattern without the flow
-  PixelArray<float> backgroundDisplacement; ///< 2 per pixel: of the pattern, data units
+  PixelArray<float> background; ///< per pixel, of Cutoff::Background: the same without the flow
+  /// 2 per pixel, data units, likewise: the place of the pattern that is seen, less the one seen without the
+  /// flow. What is seen has moved the other way.
+  PixelArray<float> backgroundDisplacement;
   PixelArray<float> deflection;             ///< 2 per pixel: direction cosines along u and v
   PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
-  PixelArray<float> displacement;           ///< 2 per pixel: at the exit plane, data units
-  PixelArray<float> blockedFraction;        ///< per pixel: share of rays that a solid stopped
+  /// 2 per pixel: at the exit plane, data units; of Cutoff::Background, whose rays go from the camera to the
+  /// pattern, at the entry plane.
+  PixelArray<float> displacement;
+  PixelArray<float> blockedFraction; ///< per pixel: share of rays that a solid stopped
 
   Device device = Device::Cpu; ///< where the rays were traced
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff
   double undisturbedLevel = 1;                ///< intensity of light that nothing bends
-  double saturatedShare =
-    0; ///< of the rays that reach the film: darkest or brightest the cutoff can make
+  /// Of the rays that start in the picture and reach the film: cut off at the darkest or brightest light.
+  double saturatedShare = 0;
   LightBalance light;
   Histogram histogram;
   double ambient = 0;           ///< the ambient refractivity used

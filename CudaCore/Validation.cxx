@@ -3,6 +3,7 @@
 #include "Validation.h"
 
 #include "Film/NoiseFilters.h"
+#include "Math/Units.h"
 #include "Medium/Medium.h"
 
 #include <algorithm>
@@ -98,7 +99,7 @@ void validateCutoff(const Scene& scene)
   }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
   {
-    validatePicture(*scene.colorFilter, "ColorFilter");
+    validatePicture(*scene.colorFilter, "ColorFilterImage");
   }
   if (scene.cutoff == Cutoff::Interferogram)
   {
@@ -166,6 +167,70 @@ void validateScene(const Scene& scene)
   }
 }
 
+/// How light travels: from where, and to what film. `frame`: of the picture.
+void validateLight(const Scene& scene, const Frame& frame)
+{
+  const auto require = [](bool isGood, const auto&... message)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      (text << ... << message);
+      throw Error(text.str());
+    }
+  };
+  const double depth = frame.exit - frame.entry;
+  require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
+    ". Set it to a finite number of data units, 0 for the middle of the data.");
+  if (scene.cutoff == Cutoff::Background)
+  {
+    const double distance = scene.background.distance.value_or(depth);
+    require(distance >= 0 && std::isfinite(distance), "The background is at a distance of ",
+      distance, " from the data. Set BackgroundDistance to zero or more, in data units.");
+    require(scene.background.period >= 0 && std::isfinite(scene.background.period),
+      "BackgroundPeriod is ", scene.background.period,
+      ". Set it to a positive number of data units, or to 0 for eight pixels.");
+    require(std::isfinite(scene.background.angle), "BackgroundAngle is ", scene.background.angle,
+      ". Set it to an angle in degrees.");
+    if (scene.background.kind == PatternKind::Picture)
+    {
+      require(scene.background.picture != nullptr,
+        "There is no picture behind the flow. Set BackgroundImage, or another BackgroundPattern.");
+      validatePicture(*scene.background.picture, "BackgroundImage");
+    }
+    return; // light comes from the pattern
+  }
+  const LightSource& source = scene.source;
+  const double middleToFilm = scene.cutoff == Cutoff::Shadowgraph
+    ? 0.5 * depth + scene.screenDistance.value_or(depth)
+    : scene.focusOffset;
+  double slope = 0;
+  double magnification = 1;
+  if (source.distance)
+  {
+    const double distance = *source.distance;
+    require(distance > 0.5 * depth, "The point source is ", distance,
+      " data units from the middle of the data, but these reach ", 0.5 * depth,
+      " towards it, so it is not in front of them. Set SourceDistance to more than that, or choose "
+      "collimated light.");
+    magnification = 1 + middleToFilm / distance;
+    require(magnification > 0, "FocusOffset is ", scene.focusOffset,
+      ", so the plane in focus is behind the light source, ", distance,
+      " before the middle of the data. Set it to more than ", -distance, ".");
+    slope = 0.5 * frame.pixelSize * std::hypot(scene.view.width, scene.view.height) / distance;
+  }
+  if (source.shape != SourceShape::Point)
+  {
+    slope += 0.5 * std::hypot(source.width, source.shape == SourceShape::Slit ? source.length : 0) /
+      magnification;
+  }
+  require(slope <= 1, "Light would be inclined to the view by ",
+    std::atan(slope) / radiansPerDegree,
+    " degrees at the picture's corners. Increase SourceDistance or decrease SourceWidth, "
+    "SourceLength "
+    "or ParallelScale, so that it is no more than 45.");
+}
+
 void validateColors(const FieldGradients& gradients, const Scene& scene)
 {
   if (gradients.count == 0)
@@ -208,7 +273,7 @@ void validate(const Field& field, const Scene& scene)
   validateLengthScale(field.lengthScale);
   validateScene(scene);
   validateColors(field.gradients, scene);
-  frameOf(field.grid, scene.view); // throws where the view is bad
+  validateLight(scene, frameOf(field.grid, scene.view)); // which throws where the view is bad
 }
 
 } // namespace schlieren

@@ -63,6 +63,7 @@ class Shot:
             self.arrays[array.GetName()] = np.squeeze(values, axis=2).copy() \
                 if values.shape[2] == 1 else values.copy()
         self.facts = facts_of(image)
+        self.half_width = image.GetSpacing()[0] * columns / 2
 
     def __getitem__(self, name):
         return self.arrays[name]
@@ -89,7 +90,7 @@ class Photographer:
             if name not in settings:
                 setattr(self.bench, name, value)
         for name, value in settings.items():
-            self.changed.setdefault(name, self.bench.GetPropertyValue(name))
+            self.changed.setdefault(name, self.bench.GetProperty(name).GetData())
             setattr(self.bench, name, value)
         self.shots += 1
         what = settings.get("Cutoff", "Knife Edge").lower()
@@ -230,7 +231,12 @@ def take_tiles(take, frame, options, scratch):
     square = np.full((frame.height, frame.width, 3), Sheet.BACKGROUND, np.uint8)
     left = (frame.width - bins) // 2
     square[:bins, left:left + bins] = grey(np.log1p(rays), np.log1p(rays.max()))
-    add("histogram", "Histogram of the cutoff plane", "rays by ε, logarithmic", square, shot)
+    axes = square[:bins, left:left + bins]
+    for line in (axes[bins // 2], axes[:, bins // 2]):
+        np.maximum(line, 60, out=line)
+    reach = shot.half_width
+    add("histogram", "Histogram of the cutoff plane",
+        f"rays by ε, {-reach:.2g} to {reach:.2g} rad, logarithmic", square, shot)
 
     def shadow_tile(name, title, line, **settings):
         shot = take.shoot(**dict({"Cutoff": "Shadowgraph", "ScreenDistance": caustic}, **settings))
@@ -240,7 +246,7 @@ def take_tiles(take, frame, options, scratch):
     group("Shadowgraph: black to white is 0 to 2 times the undisturbed light")
     shadow_tile("near", "Screen near the flow", f"{length(caustic / 8)} behind it",
                 ScreenDistance=caustic / 8)
-    point = shadow_tile("far", "Screen where the light focuses", f"{length(caustic)} behind it")
+    shadow_tile("far", "Screen where the light focuses", f"{length(caustic)} behind it")
     shadow_tile("diverging", "Diverging light", f"from {length(4 * frame.depth)} before the middle",
                 LightSource="Diverging", SourceDistance=4 * frame.depth, ScreenDistance=frame.depth)
     blur = 8 * pixel
@@ -290,16 +296,16 @@ def take_tiles(take, frame, options, scratch):
     add("path", "Optical path difference", f"as data; black to white: {-full * 1e6:.2g} to {full * 1e6:.2g} µm",
         signed(paths, full), knife)
 
-    group("Film: the same shadowgraph from few rays")
-    one = {"SamplesPerPixel": 1, "FilmEstimator": "Photon"}
+    beyond = 2.5 * caustic
+    group(f"Film: a shadowgraph from few rays, the screen {length(beyond)} behind the flow")
+    one = {"SamplesPerPixel": 1, "FilmEstimator": "Photon", "ScreenDistance": beyond}
     shadow_tile("photons", "Photons, 1 ray per pixel", "each ray is a drop of light", **one)
     shadow_tile("cone", "Photons, cone filter", "the drops, spread over 2 pixels", NoiseFilter="Cone",
                 NoiseFilterRadius=2, **one)
     shadow_tile("sheet", "Sheet, 1 ray per pixel", "light between neighbouring rays",
-                SamplesPerPixel=1, FilmEstimator="Sheet")
+                SamplesPerPixel=1, FilmEstimator="Sheet", ScreenDistance=beyond)
     shadow_tile("many", "Photons, 64 rays per pixel", "to compare with", SamplesPerPixel=64,
-                FilmEstimator="Photon")
-    assert point is not None
+                FilmEstimator="Photon", ScreenDistance=beyond)
     return groups
 
 

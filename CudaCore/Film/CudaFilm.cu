@@ -120,9 +120,9 @@ struct RaysOnDevice
       const double startColumn = static_cast<double>(-margin) + pass.offset.column;
       const double startRow = static_cast<double>(row - margin) + pass.offset.row;
       const RayAtFilm atFilm =
-        rayAtFilm(here, startColumn + static_cast<double>(column), startRow, projection);
-      ray.x = atFilm.position[0] + 0.5;
-      ray.y = atFilm.position[1] + 0.5;
+        rayAtFilm(here, startColumn + static_cast<double>(column), startRow, pass.tilt, projection);
+      ray.x = atFilm.place[0] + 0.5;
+      ray.y = atFilm.place[1] + 0.5;
       cutoff.shade(atFilm, ray.light);
     }
     return ray;

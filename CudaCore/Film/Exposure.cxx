@@ -130,10 +130,10 @@ public:
       ray.arrives = exit.reachesFilm();
       if (ray.arrives)
       {
-        const RayAtFilm atFilm =
-          rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, projection_);
-        const double x = atFilm.position[0] + 0.5;
-        const double y = atFilm.position[1] + 0.5;
+        const RayAtFilm atFilm = rayAtFilm(
+          exit, startColumn + static_cast<double>(i), startRow, pass.pass.tilt, projection_);
+        const double x = atFilm.place[0] + 0.5;
+        const double y = atFilm.place[1] + 0.5;
         ray.x = x;
         ray.y = y;
         shade(atFilm, pass.gathered, first + i, ray);

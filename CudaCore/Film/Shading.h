@@ -4,6 +4,7 @@
 
 #include "Math/HostDevice.h"
 #include "Optics/RayAtFilm.h"
+#include "Rays/Light.h"
 #include "Rays/RayExit.h"
 
 #include <cmath>
@@ -11,29 +12,69 @@
 namespace schlieren
 {
 
-/// From the grid's exit plane to the film.
+/// From where rays leave the grid to the film. The film's coordinates are those of the picture in the middle
+/// of the data, so that undisturbed light is where it was there, however much larger it has become.
 struct Projection
 {
   double distance;    ///< of what the film shows past the exit plane, data units; < 0: before it
-  double perDataUnit; ///< pixels
-  double pathPerDataUnit; ///< optical path of undisturbed light, metres
+  double perDataUnit; ///< pixels, for a data unit on the film
+  double pathPerDataUnit;                 ///< optical path of undisturbed light, metres
+  Inclination inclination{ { 0, 0 }, 0 }; ///< of the light
+  double perSourceDistance = 0; ///< 1 / from the source to the film, by data unit; 0: collimated
+  bool isOfCamera = false; ///< rays come from the picture: their light belongs to where they start
 };
 
 /// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
 /// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
-SCHLIEREN_HD RayAtFilm rayAtFilm(
-  const RayExit& exit, double column, double row, const Projection& projection)
+SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
+  const double (&tilt)[2], const Projection& projection)
 {
   const double* eps = exit.deflection;
-  const double sideways = eps[0] * eps[0] + eps[1] * eps[1];
-  const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30); // cosine along w
-  const double way = projection.distance / forward;
-  // 1 / forward - 1, without losing small angles.
-  const double longer = sideways / (forward * (1 + forward));
-  return { { eps[0], eps[1] },
-    exit.opticalPathDifference + projection.distance * longer * projection.pathPerDataUnit,
-    { column + (static_cast<double>(exit.displacement[0]) + way * eps[0]) * projection.perDataUnit,
-      row + (static_cast<double>(exit.displacement[1]) + way * eps[1]) * projection.perDataUnit } };
+  double moved[2] = { static_cast<double>(exit.displacement[0]),
+    static_cast<double>(exit.displacement[1]) };
+  double longer = 0; // than the undisturbed light's way to this place
+  if (!projection.inclination.isInclined(tilt))
+  {
+    const double sideways = eps[0] * eps[0] + eps[1] * eps[1];
+    const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30); // cosine along w
+    const double way = projection.distance / forward;
+    moved[0] += way * eps[0];
+    moved[1] += way * eps[1];
+    // 1 / forward - 1, without losing small angles.
+    longer = projection.distance * (sideways / (forward * (1 + forward)));
+  }
+  else
+  {
+    // Of the undisturbed ray: slopes, and cosines d along u, v and w. Of the bent one: p = d + eps.
+    const double slope[2] = { projection.inclination.at(0, column, tilt[0]),
+      projection.inclination.at(1, row, tilt[1]) };
+    const double cosine = 1 / sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    const double d[2] = { slope[0] * cosine, slope[1] * cosine };
+    const double p[2] = { d[0] + eps[0], d[1] + eps[1] };
+    const double sideways = p[0] * p[0] + p[1] * p[1];
+    const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30);
+    const double along = -((d[0] + p[0]) * eps[0] + (d[1] + p[1]) * eps[1]) / (forward + cosine);
+    const double way = projection.distance / forward;
+    // tan p - tan d = (eps - tan d eps_w) / p_w.
+    moved[0] += way * (eps[0] - slope[0] * along);
+    moved[1] += way * (eps[1] - slope[1] * along);
+    // 1 - d.p = |p - d|^2 / 2; and the undisturbed light is a sphere around its source.
+    const double perRadius = projection.perSourceDistance * cosine;
+    const double ahead = d[0] * moved[0] + d[1] * moved[1];
+    const double beside = moved[0] * moved[0] + moved[1] * moved[1] - ahead * ahead;
+    const double further = 1 + ahead * perRadius;
+    longer = 0.5 * way * (eps[0] * eps[0] + eps[1] * eps[1] + along * along) -
+      beside * perRadius / (further + sqrt(further * further + beside * perRadius * perRadius));
+  }
+  const double start[2] = { column, row };
+  RayAtFilm ray{ { eps[0], eps[1] },
+    exit.opticalPathDifference + longer * projection.pathPerDataUnit, { 0, 0 }, { 0, 0 } };
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    ray.position[axis] = start[axis] + moved[axis] * projection.perDataUnit;
+    ray.place[axis] = projection.isOfCamera ? start[axis] : ray.position[axis];
+  }
+  return ray;
 }
 
 } // namespace schlieren

@@ -25,19 +25,6 @@ std::array<float, n> linearValues()
   return values;
 }
 
-Cutoffs interferogramOf(const Scene& scene, double pixelSize)
-{
-  const Fringes& fringes = scene.fringes;
-  const Carrier carrier = fringes.finite
-    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle, scene.view.width, scene.view.height)
-    : Carrier{};
-  if (fringes.whiteLight)
-  {
-    return WhiteLight::of(scene.wavelength, fringes.dispersion, carrier);
-  }
-  return Interferogram{ 1 / scene.wavelength, carrier };
-}
-
 } // namespace
 
 double fullScaleOf(Cutoff cutoff)
@@ -59,8 +46,41 @@ double fullScaleOf(Cutoff cutoff)
   return 0;
 }
 
+Cutoffs CutoffMaker::patternOf(const Scene& scene, double pixelSize)
+{
+  constexpr double defaultPeriod = 8; // pixels
+  const View& view = scene.view;
+  const BackgroundPattern& pattern = scene.background;
+  const double period = pattern.period > 0 ? pattern.period / pixelSize : defaultPeriod;
+  const double centre[2] = { 0.5 * (view.width - 1), 0.5 * (view.height - 1) };
+  switch (pattern.kind)
+  {
+    case PatternKind::Picture:
+    {
+      const RgbPicture& picture = *pattern.picture;
+      return BackgroundPicture{ { 1, picture.width, picture.height,
+                                  linearPicture(pattern.picture) },
+        2. / view.width, 2. / view.height };
+    }
+    case PatternKind::Stripes:
+    {
+      const double contrast = patternContrast(period);
+      return Stripes{ contrast > 0 ? Carrier::of(period, pattern.angle, view.width, view.height)
+                                   : Carrier{},
+        contrast };
+    }
+    case PatternKind::Dots:
+      break;
+  }
+  return Dots{ { centre[0], centre[1] }, period, scene.seed };
+}
+
 Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
 {
+  if (scene.cutoff == Cutoff::Background)
+  {
+    return patternOf(scene, pixelSize);
+  }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
   {
     const RgbPicture& picture = *scene.colorFilter;
@@ -88,12 +108,31 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
       return ColorWheel{ k, { linear.data(), linear.size() } };
     }
     case Cutoff::Interferogram:
-      return interferogramOf(scene, pixelSize);
+      return interferogram(scene, pixelSize);
     case Cutoff::Shadowgraph:
     case Cutoff::Background:
       break;
   }
   return Shadowgraph{};
+}
+
+Cutoffs CutoffMaker::interferogram(const Scene& scene, double pixelSize)
+{
+  const Fringes& fringes = scene.fringes;
+  const Carrier carrier = fringes.finite
+    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle, scene.view.width, scene.view.height)
+    : Carrier{};
+  if (!fringes.whiteLight)
+  {
+    return Interferogram{ 1 / scene.wavelength, carrier };
+  }
+  const WhiteLight light = WhiteLight::of(scene.wavelength, fringes.dispersion, carrier);
+  if (!WhiteLightTable::canDo(light))
+  {
+    return light;
+  }
+  table_ = WhiteLightTable::colorsOf(light);
+  return WhiteLightTable{ { table_.data(), table_.size() }, carrier, scene.wavelength };
 }
 
 Table CutoffMaker::linearPicture(const std::shared_ptr<const RgbPicture>& picture)

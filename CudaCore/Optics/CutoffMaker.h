@@ -24,10 +24,12 @@ public:
   CutoffMaker& operator=(const CutoffMaker&) = delete;
 
   /// The cutoff of a scene that has been validated, for pixels of pixelSize data units. Its table is valid
-  /// until the next call. Of a background pattern, which has no cutoff, a shadowgraph's.
+  /// until the next call. Of a camera in front of a background, the pattern there.
   Cutoffs cutoffOf(const Scene& scene, double k, double pixelSize);
 
 private:
+  Cutoffs patternOf(const Scene& scene, double pixelSize);
+  Cutoffs interferogram(const Scene& scene, double pixelSize);
   Table linearPicture(const std::shared_ptr<const RgbPicture>& picture);
 
   std::vector<float> table_;

@@ -7,6 +7,7 @@
 #include "Optics/ColorFilter.h"
 #include "Optics/Interferogram.h"
 #include "Optics/KnifeEdge.h"
+#include "Optics/Pattern.h"
 #include "Optics/RayAtFilm.h"
 #include "Optics/WhiteLight.h"
 
@@ -28,7 +29,8 @@ struct Shadowgraph
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
 using Cutoffs = std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter,
-  ColorWheel, ColorPicture, Interferogram, WhiteLight>;
+  ColorWheel, ColorPicture, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes,
+  BackgroundPicture>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {
@@ -38,14 +40,17 @@ inline int channelsOf(const Cutoffs& cutoff)
 /// Where a kind keeps its table, null if it has none.
 inline Table* tableOf(GradedFilter& kind) { return &kind.table; }
 inline Table* tableOf(ColorWheel& kind) { return &kind.linear; }
+inline Table* tableOf(WhiteLightTable& kind) { return &kind.colors; }
 inline Table* tableOf(ColorPicture& kind) { return &kind.linear; }
+inline Table* tableOf(BackgroundPicture& kind) { return &kind.picture.linear; }
 template <class Kind>
 Table* tableOf(Kind&)
 {
   return nullptr;
 }
 
-/// Light that nothing bends; where a carrier makes fringes of it, their mean. Of colours the luminance.
+/// Light that nothing bends; where a carrier makes fringes of it, and of a pattern, the mean. Of colours the
+/// luminance.
 double undisturbedLevel(const Cutoffs& cutoff);
 
 } // namespace schlieren

@@ -10,7 +10,11 @@ struct RayAtFilm
 {
   double deflection[2]; ///< direction cosines along u and v
   double path;          ///< optical path difference on the film, metres
-  double position[2];   ///< where it meets the film: pixels from the centre of pixel (0, 0)
+  double position
+    [2]; ///< where it meets the film, or a camera's ray what it sees: pixels from the centre
+         ///< of pixel (0, 0)
+  double place[2] = { 0,
+    0 }; ///< of its light in the picture, likewise; position but for a camera's ray
 };
 
 } // namespace schlieren

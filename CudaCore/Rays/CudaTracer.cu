@@ -69,7 +69,7 @@ __global__ void traceKernel(const RayTask<Real> given, const Pass pass, std::int
       sums[field] = 0;
     }
     Real drift = 0;
-    const RayExit exit = traceRay<Kernel>(task, pass.columnOf(ray), pass.rowOf(ray), sums, drift);
+    const RayExit exit = traceRay<Kernel>(task, pass, ray, sums, drift);
     exits[ray] = exit;
     hasCrossed = exit.fate != RayFate::Missed;
     worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN

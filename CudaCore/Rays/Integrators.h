@@ -3,7 +3,7 @@
 //
 // How a ray takes its steps. Real is a number or a pack of numbers, a ray or a pack of rays.
 //
-//   dx/ds = w + q, dq/ds = (1 + nu) grad nu     (Sharma, Kumar & Ghatak 1982, with n measured against
+//   dx/ds = d + q, dq/ds = (1 + nu) grad nu     (Sharma, Kumar & Ghatak 1982, with n measured against
 //                                                the ambient index), ds = path / n
 //
 // An integrator has
@@ -18,7 +18,7 @@
 namespace schlieren
 {
 
-/// A ray in the perturbation form: position = start + length * W + offset and p = w + q, so that what
+/// A ray in the perturbation form: position = start + length * D + offset and p = d + q, so that what
 /// is integrated is only the deviation from the straight ray, in full relative precision however weak
 /// the medium is. Positions and offsets are in index coordinates, q and p along the grid's axes.
 template <class Real>
@@ -41,12 +41,12 @@ struct Ray
 };
 
 /// What an integrator needs to know about the undisturbed light.
-template <class Number>
+template <class Real>
 struct StraightLight
 {
-  Vec3<Number> w;          ///< direction, along the grid's axes
-  Vec3<Number> perLength;  ///< W: index coordinates per unit of length
-  Vec3<Number> indexScale; ///< index coordinates per unit of length along each grid axis
+  Vec3<Real> d;                    ///< direction, along the grid's axes
+  Vec3<Real> perLength;            ///< D: index coordinates per unit of length
+  Vec3<NumberOf<Real>> indexScale; ///< index coordinates per unit of length along each grid axis
 };
 
 /// The ray bends.
@@ -55,36 +55,33 @@ struct RefractedPath
   static constexpr bool bends = true;
 
   template <class Real>
-  SCHLIEREN_HD static Vec3<Real> position(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light)
+  SCHLIEREN_HD static Vec3<Real> position(const Ray<Real>& ray, const StraightLight<Real>& light)
   {
     return ray.start + ray.length * light.perLength + ray.offset;
   }
   /// dx/ds in index coordinates.
   template <class Real>
-  SCHLIEREN_HD static Vec3<Real> along(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light)
+  SCHLIEREN_HD static Vec3<Real> along(const Ray<Real>& ray, const StraightLight<Real>& light)
   {
     return light.perLength + scaled(light.indexScale, ray.q);
   }
   /// The position that a straight step from here leads to.
   template <class Real>
   SCHLIEREN_HD static Vec3<Real> ahead(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light, const Real& step)
+    const Ray<Real>& ray, const StraightLight<Real>& light, const Real& step)
   {
     return ray.start + (ray.length + step) * light.perLength +
       (ray.offset + scaled(step * light.indexScale, ray.q));
   }
   /// dq/ds.
   template <class Real>
-  SCHLIEREN_HD static Vec3<Real> kick(
-    const Sample<Real>& at, const StraightLight<NumberOf<Real>>& light)
+  SCHLIEREN_HD static Vec3<Real> kick(const Sample<Real>& at, const StraightLight<Real>& light)
   {
     return (1 + at.value) * scaled(light.indexScale, at.gradient);
   }
   /// Of the optical path difference, by s. The integral of n ds less the way of the plane wave that meets
-  /// the ray at its end is that of 2 nu + nu^2 - q.w. With |p| = 1 + nu it equals
-  /// nu + (nu^2 + |q|^2) / 2, in which an error of q.w, a sum of many kicks, counts only to second order.
+  /// the ray at its end, along d, is that of 2 nu + nu^2 - q.d. With |p| = 1 + nu it equals
+  /// nu + (nu^2 + |q|^2) / 2, in which an error of q.d, a sum of many kicks, counts only to second order.
   template <class Real>
   SCHLIEREN_HD static Real phase(const Real& nu, const Real& qSquared)
   {
@@ -99,27 +96,23 @@ struct StraightPath
   static constexpr bool bends = false;
 
   template <class Real>
-  SCHLIEREN_HD static Vec3<Real> position(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light)
+  SCHLIEREN_HD static Vec3<Real> position(const Ray<Real>& ray, const StraightLight<Real>& light)
   {
     return ray.start + ray.length * light.perLength;
   }
   template <class Real>
-  SCHLIEREN_HD static Vec3<Real> along(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light)
+  SCHLIEREN_HD static Vec3<Real> along(const Ray<Real>&, const StraightLight<Real>& light)
   {
-    const Real none = ray.length - ray.length;
-    return { light.perLength.x + none, light.perLength.y + none, light.perLength.z + none };
+    return light.perLength;
   }
   template <class Real>
   SCHLIEREN_HD static Vec3<Real> ahead(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light, const Real& step)
+    const Ray<Real>& ray, const StraightLight<Real>& light, const Real& step)
   {
     return ray.start + (ray.length + step) * light.perLength;
   }
   template <class Real>
-  SCHLIEREN_HD static Vec3<Real> kick(
-    const Sample<Real>& at, const StraightLight<NumberOf<Real>>& light)
+  SCHLIEREN_HD static Vec3<Real> kick(const Sample<Real>& at, const StraightLight<Real>& light)
   {
     return scaled(light.indexScale, at.gradient);
   }
@@ -137,7 +130,7 @@ struct Leapfrog
   static constexpr bool samplesBeyond = false;
 
   template <class Path, class Real, class SampleAt>
-  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light,
+  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<Real>& light,
     const Real& step, const Vec3<Real>& middle, const SampleAt& sampleAt)
   {
     using Number = NumberOf<Real>;
@@ -159,7 +152,7 @@ struct Euler
   static constexpr bool samplesBeyond = true;
 
   template <class Path, class Real, class SampleAt>
-  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light,
+  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<Real>& light,
     const Real& step, const Vec3<Real>&, const SampleAt& sampleAt)
   {
     const Sample<Real> sample = sampleAt(Path::position(ray, light));
@@ -167,8 +160,8 @@ struct Euler
     ray.addPath(s * Path::phase(sample.value, dot(ray.q, ray.q)));
     ray.offset += s * scaled(light.indexScale, ray.q);
     ray.length += s;
-    const Vec3<Real> p = (light.w + ray.q) + s * Path::kick(sample, light);
-    ray.q = p - light.w;
+    const Vec3<Real> p = (light.d + ray.q) + s * Path::kick(sample, light);
+    ray.q = p - light.d;
   }
 };
 
@@ -181,14 +174,14 @@ struct Slopes
 
   template <class Path, class SampleAt>
   SCHLIEREN_HD static Slopes of(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light, const SampleAt& sampleAt)
+    const Ray<Real>& ray, const StraightLight<Real>& light, const SampleAt& sampleAt)
   {
     const Sample<Real> sample = sampleAt(Path::position(ray, light));
     return { ray.q, Path::kick(sample, light), Path::phase(sample.value, dot(ray.q, ray.q)) };
   }
   /// The ray after a step with these slopes; its path is left to the caller.
   SCHLIEREN_HD Ray<Real> moved(
-    const Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light, const Real& step) const
+    const Ray<Real>& ray, const StraightLight<Real>& light, const Real& step) const
   {
     Ray<Real> there = ray;
     there.offset += step * scaled(light.indexScale, offset);
@@ -215,7 +208,7 @@ struct Rk4
   static constexpr bool samplesBeyond = true;
 
   template <class Path, class Real, class SampleAt>
-  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<NumberOf<Real>>& light,
+  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<Real>& light,
     const Real& step, const Vec3<Real>&, const SampleAt& sampleAt)
   {
     using Number = NumberOf<Real>;
@@ -250,8 +243,8 @@ struct Adaptive
   };
 
   template <class Path, class Real, class SampleAt>
-  SCHLIEREN_HD static Trial<Real> attempt(const Ray<Real>& ray,
-    const StraightLight<NumberOf<Real>>& light, const Real& step, const SampleAt& sampleAt)
+  SCHLIEREN_HD static Trial<Real> attempt(const Ray<Real>& ray, const StraightLight<Real>& light,
+    const Real& step, const SampleAt& sampleAt)
   {
     using Number = NumberOf<Real>;
     // Butcher's tableau: stages at 0, 1/2, 3/4 and, for the comparison, at the end.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Light.h"
 
+#include "Math/Units.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -71,6 +73,49 @@ constexpr double parallelSine = 1e-6;
 
 constexpr int largestSide = 32768;
 
+/// Collimated light along a unit vector: w or its opposite.
+Light lightAlong(const Vec3<double>& w, const Grid& grid, const Frame& frame)
+{
+  const Vec3<double> u = vec(frame.u);
+  const Vec3<double> v = vec(frame.v);
+  const Vec3<double> centre = centreOf(grid);
+
+  Light light{};
+  light.unit = std::min({ grid.spacing[0], grid.spacing[1], grid.spacing[2] });
+  light.u = inGridAxes(grid, u);
+  light.v = inGridAxes(grid, v);
+  light.w = inGridAxes(grid, w);
+  light.indexScale = { light.unit / grid.spacing[0], light.unit / grid.spacing[1],
+    light.unit / grid.spacing[2] };
+  light.unitsPerIndex = { grid.spacing[0] / light.unit, grid.spacing[1] / light.unit,
+    grid.spacing[2] / light.unit };
+  light.perLength = scaled(light.indexScale, light.w);
+  light.lengthPer = { 1 / light.perLength.x, 1 / light.perLength.y, 1 / light.perLength.z };
+  const double pixel = frame.pixelSize / light.unit;
+  light.perColumn = pixel * scaled(light.indexScale, light.u);
+  light.perRow = pixel * scaled(light.indexScale, light.v);
+  light.depth = 2 * halfExtent(grid, w) / light.unit;
+  light.magnification = 1;
+
+  // From the centre, which is exact in index coordinates however far the origin is from zero.
+  const double a = (frame.origin[0] - dot(centre, u)) / light.unit;
+  const double b = (frame.origin[1] - dot(centre, v)) / light.unit;
+  light.corner = Vec3<double>{ 0.5 * static_cast<double>(grid.dimensions[0] - 1),
+    0.5 * static_cast<double>(grid.dimensions[1] - 1),
+    0.5 * static_cast<double>(grid.dimensions[2] - 1) } +
+    scaled(light.indexScale, a * light.u + b * light.v + (-0.5 * light.depth) * light.w);
+  return light;
+}
+
+double fraction(double x) { return x - std::floor(x); }
+
+/// Of a pass in a sequence that is begun elsewhere for each seed.
+double numberOf(std::int64_t pass, std::uint32_t seed)
+{
+  constexpr double passesPerSeed = 65537;
+  return static_cast<double>(pass) + passesPerSeed * (static_cast<double>(seed) - 1);
+}
+
 } // namespace
 
 Frame frameOf(const Grid& grid, const View& view)
@@ -137,35 +182,85 @@ Frame frameOf(const Grid& grid, const View& view)
 
 Light collimatedLight(const Grid& grid, const Frame& frame)
 {
-  const Vec3<double> u = vec(frame.u);
-  const Vec3<double> v = vec(frame.v);
-  const Vec3<double> w = vec(frame.w);
-  const Vec3<double> centre = centreOf(grid);
+  return lightAlong(vec(frame.w), grid, frame);
+}
 
-  Light light{};
-  light.unit = std::min({ grid.spacing[0], grid.spacing[1], grid.spacing[2] });
-  light.u = inGridAxes(grid, u);
-  light.v = inGridAxes(grid, v);
-  light.w = inGridAxes(grid, w);
-  light.indexScale = { light.unit / grid.spacing[0], light.unit / grid.spacing[1],
-    light.unit / grid.spacing[2] };
-  light.unitsPerIndex = { grid.spacing[0] / light.unit, grid.spacing[1] / light.unit,
-    grid.spacing[2] / light.unit };
-  light.perLength = scaled(light.indexScale, light.w);
-  light.lengthPer = { 1 / light.perLength.x, 1 / light.perLength.y, 1 / light.perLength.z };
-  const double pixel = frame.pixelSize / light.unit;
-  light.perColumn = pixel * scaled(light.indexScale, light.u);
-  light.perRow = pixel * scaled(light.indexScale, light.v);
-  light.depth = 2 * halfExtent(grid, w) / light.unit;
+Light reversedLight(const Grid& grid, const Frame& frame)
+{
+  return lightAlong(-1.0 * vec(frame.w), grid, frame);
+}
 
-  // From the centre, which is exact in index coordinates however far the origin is from zero.
-  const double a = (frame.origin[0] - dot(centre, u)) / light.unit;
-  const double b = (frame.origin[1] - dot(centre, v)) / light.unit;
-  light.corner = Vec3<double>{ 0.5 * static_cast<double>(grid.dimensions[0] - 1),
-    0.5 * static_cast<double>(grid.dimensions[1] - 1),
-    0.5 * static_cast<double>(grid.dimensions[2] - 1) } +
-    scaled(light.indexScale, a * light.u + b * light.v + (-0.5 * light.depth) * light.w);
+Light lightFrom(
+  const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame)
+{
+  Light light = collimatedLight(grid, frame);
+  const double halfDepth = 0.5 * light.depth;
+  light.toFilm = light.depth + film / light.unit;
+  const double perDistance = source.distance ? light.unit / *source.distance : 0;
+  light.magnification = 1 + (light.toFilm - halfDepth) * perDistance;
+
+  // Towards the axis where it enters.
+  const double axis[2] = { 0.5 * (view.width - 1), 0.5 * (view.height - 1) };
+  const double nearer = halfDepth * perDistance;
+  light.corner =
+    light.corner + (nearer * axis[0]) * light.perColumn + (nearer * axis[1]) * light.perRow;
+  light.perColumn = (1 - nearer) * light.perColumn;
+  light.perRow = (1 - nearer) * light.perRow;
+
+  light.inclination.perPixel = frame.pixelSize / light.unit * perDistance;
+  const double reach = source.shape == SourceShape::Point ? 0
+                                                          : 0.5 *
+      (source.shape == SourceShape::Slit ? std::hypot(source.width, source.length) : source.width);
+  for (int i = 0; i < 2; ++i)
+  {
+    light.inclination.atOrigin[i] = -axis[i] * light.inclination.perPixel;
+    light.steepest[i] =
+      (axis[i] + 0.5 + static_cast<double>(mostMargin(view))) * light.inclination.perPixel +
+      reach / light.magnification;
+  }
   return light;
+}
+
+double Light::fastest() const
+{
+  // |a + b| and |a - b| of convex functions are largest in the corners.
+  double most = 0;
+  for (const double sign : { -1., 1. })
+  {
+    most =
+      std::max(most, length(scaled(indexScale, w + steepest[0] * u + (sign * steepest[1]) * v)));
+    most =
+      std::max(most, length(scaled(indexScale, w - steepest[0] * u + (sign * steepest[1]) * v)));
+  }
+  return most;
+}
+
+std::int64_t mostMargin(const View& view)
+{
+  return std::max(16, std::max(view.width, view.height) / 8);
+}
+
+std::array<double, 2> sourcePoint(
+  const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed)
+{
+  if (pass == 0 || source.shape == SourceShape::Point)
+  {
+    return { 0, 0 };
+  }
+  constexpr double goldenRatio = 1.61803398874989484820;
+  constexpr double root2 = 1.41421356237309504880;
+  const double n = numberOf(pass, seed);
+  const double a = fraction(n * goldenRatio), b = fraction(n * root2);
+  if (source.shape == SourceShape::Disc)
+  {
+    const double radius = 0.5 * source.width * std::sqrt(a);
+    return { radius * std::cos(2 * pi * b), radius * std::sin(2 * pi * b) };
+  }
+  const double across = source.width * (fraction(a + 0.5) - 0.5);
+  const double along = source.length * (fraction(b + 0.5) - 0.5);
+  const double angle = knifeEdgeAngle * radiansPerDegree;
+  return { across * std::cos(angle) - along * std::sin(angle),
+    across * std::sin(angle) + along * std::cos(angle) };
 }
 
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
@@ -175,9 +270,7 @@ PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
     return { 0, 0 };
   }
   constexpr double plasticNumber = 1.32471795724474602596;
-  constexpr double passesPerSeed = 65537;
-  const double n = static_cast<double>(pass) + passesPerSeed * (static_cast<double>(seed) - 1);
-  const auto fraction = [](double x) { return x - std::floor(x); };
+  const double n = numberOf(pass, seed);
   return { fraction(0.5 + n / plasticNumber) - 0.5,
     fraction(0.5 + n / (plasticNumber * plasticNumber)) - 0.5 };
 }

@@ -6,36 +6,95 @@
 #include "Rays/RayExit.h"
 #include "Schlieren.h"
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace schlieren
 {
 
-/// Collimated light: for a point of the picture, the straight line in the grid's index coordinates
-/// that light follows there before anything bends it. Lengths are in units of the smallest grid
-/// spacing, so that nothing depends on the data's unit of length.
+/// How undisturbed light is inclined to w: its slopes along u and v, by pixel.
+struct Inclination
+{
+  double atOrigin[2]; ///< of the ray through the centre of pixel (0, 0)
+  double perPixel;    ///< 0: collimated light
+
+  /// Along `axis` (0: u, 1: v) at a column or row, for a pass's tilt along that axis.
+  SCHLIEREN_HD double at(int axis, double pixel, double tilt) const
+  {
+    return atOrigin[axis] + pixel * perPixel + tilt;
+  }
+  /// Whether there are rays that are not along w.
+  SCHLIEREN_HD bool isInclined(const double (&tilt)[2]) const
+  {
+    return perPixel != 0 || tilt[0] != 0 || tilt[1] != 0;
+  }
+};
+
+/// For a point of the picture, the straight line in the grid's index coordinates that light follows there
+/// before anything bends it. With X the point's place from the axis in the picture's plane, which is that
+/// through the middle of the data, and zeta the way along w from there, the line is
+///   P(zeta) = X (1 + zeta / R) + t (zeta - z),
+/// R being the distance of the source, z the film's plane, and t the tilt of the light of one point of an
+/// extended source (Pass). So all light of X meets the film at X (1 + z / R), wherever it comes from.
+/// Lengths are in units of the smallest grid spacing, so that nothing depends on the data's unit of length.
 struct Light
 {
-  Vec3<double> corner;    ///< index coordinates of the centre of pixel (0, 0) on the entry plane
-  Vec3<double> perColumn; ///< index coordinates per pixel along u
-  Vec3<double> perRow;    ///< index coordinates per pixel along v
+  Vec3<double> corner;    ///< index coordinates on the entry plane, of the ray through pixel (0, 0)
+  Vec3<double> perColumn; ///< index coordinates on the entry plane, per pixel along u
+  Vec3<double> perRow;    ///< index coordinates on the entry plane, per pixel along v
+  Inclination inclination;
+  double toFilm; ///< entry plane to the film along w; matters to tilted light only
+
   Vec3<double> perLength; ///< index coordinates per unit of length along w
   Vec3<double> lengthPer; ///< its inverse, axis by axis; infinite where it is 0
 
-  Vec3<double> u, v, w;       ///< the picture's axes in the grid's axes
+  Vec3<double> u, v, w; ///< the picture's axes in the grid's axes; w: the way that rays are traced
   Vec3<double> indexScale;    ///< index coordinates per unit of length along each grid axis
   Vec3<double> unitsPerIndex; ///< its inverse, axis by axis
   double depth;               ///< entry plane to exit plane
   double unit;                ///< the unit of length, data units
+  double steepest[2];         ///< no slope of this light is larger, along u and v
+  double magnification;       ///< 1 + z / R: of what is in the middle of the data, on the film
 
+  /// Where the light of a point of the picture is on the entry plane, in index coordinates.
   SCHLIEREN_HD Vec3<double> start(double column, double row) const
   {
     return corner + column * perColumn + row * perRow;
   }
+  /// By how much a pass's tilt moves that, so that the light meets the film where it did.
+  SCHLIEREN_HD Vec3<double> shift(const double (&tilt)[2]) const
+  {
+    return scaled(indexScale, (-toFilm * tilt[0]) * u + (-toFilm * tilt[1]) * v);
+  }
+  /// The smallest cosine between its rays and w.
+  SCHLIEREN_HD double smallestCosine() const
+  {
+    return 1 / std::sqrt(1 + steepest[0] * steepest[0] + steepest[1] * steepest[1]);
+  }
+  /// Index coordinates that a ray crosses at most per unit of length.
+  double fastest() const;
 };
 
-/// The light of the picture `frame` of `grid`.
+/// The light of the picture `frame` of `grid`, all of it along w.
 Light collimatedLight(const Grid& grid, const Frame& frame);
+
+/// The same from the viewer, against w: the rays of a camera. They start on the frame's exit plane.
+Light reversedLight(const Grid& grid, const Frame& frame);
+
+/// The light of a source on the line through the middle of the picture. `film`: from the exit plane to the
+/// film, data units.
+Light lightFrom(
+  const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame);
+
+/// The place of pass `pass` in an extended source, as slopes along u and v seen from the middle of the data.
+/// Pass 0 is its centre. Later ones follow the sequence of multiples of the golden ratio and of sqrt(2)
+/// (Kronecker), which fills a disc evenly by area. `knifeEdgeAngle`, degrees: across a slit.
+std::array<double, 2> sourcePoint(
+  const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed);
+
+/// Pixels around the picture that rays may start from, at most.
+std::int64_t mostMargin(const View& view);
 
 /// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).
 /// Pass 0 is the centre; later passes follow the two-dimensional golden-ratio sequence R2 (Roberts

@@ -34,12 +34,11 @@ struct RayTask
   HomogeneityView map; ///< levels null: no cube is skipped
   FieldGradientsView gradients;
   Light light;
-  StraightLight<Number> straight;
-  Number step; ///< in units of the light's unit of length
+  Vec3<Number> indexScale; ///< of the light
+  Number step;             ///< in units of the light's unit of length
   std::int32_t stepLimit;
   double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
-  /// Steps that a ray needs at least, by index coordinate, towards the far and the near side on each axis.
-  Vec3<Number> stepsToLast, stepsToFirst;
+  Number largestQ;      ///< no ray has more of q
   Number allowedBend;   ///< Adaptive: error of q allowed in a step, per unit of length
   Number allowedOffset; ///< Adaptive: the same of the offset
 };
@@ -49,7 +48,9 @@ template <class Number, int Lanes>
 struct RayBatch
 {
   alignas(Lanes * sizeof(Number)) Number start[3][Lanes]; ///< within the grid
-  Number q[3][Lanes];                                     ///< at the end, as all that follows
+  Number direction[3][Lanes]; ///< of undisturbed light, along the grid's axes
+  Number perLength[3][Lanes]; ///< the same in index coordinates per unit of length
+  Number q[3][Lanes];         ///< at the end, as all that follows
   Number offset[3][Lanes];
   Number length[Lanes];
   Number path[Lanes];
@@ -123,9 +124,12 @@ struct March
 
   const RayTask<Number>& task;
   Batch& batch;
+  StraightLight<Real> light;
   Ray<Real> ray;
-  Real cruise;   ///< the usual step; 0 for rays that are not under way
-  Real nextStep; ///< Adaptive: no longer than this
+  Vec3<Real> stepsToLast,
+    stepsToFirst; ///< at least, per index coordinate towards the far or near side
+  Real cruise;    ///< the usual step; 0 for rays that are not under way
+  Real nextStep;  ///< Adaptive: no longer than this
   std::int32_t steps = 0;
   std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
@@ -136,7 +140,10 @@ struct March
   SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
     : task(ofTask)
     , batch(ofBatch)
+    , light{ packs(ofBatch.direction), packs(ofBatch.perLength), ofTask.indexScale }
     , ray{}
+    , stepsToLast(stepsPerIndex(light.perLength))
+    , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
     , nextStep(Real{} + ofTask.step)
   {
     Number usual[lanes];
@@ -145,15 +152,19 @@ struct March
       usual[i] = batch.fate[i] == RayFate::Left ? task.step : 0;
     }
     cruise = fromArray<Real>(usual);
-    ray.start = { fromArray<Real>(batch.start[0]), fromArray<Real>(batch.start[1]),
-      fromArray<Real>(batch.start[2]) };
+    ray.start = packs(batch.start);
     areUnderWay = any(cruise > 0);
     park(cruise == 0);
     if constexpr (Path::bends)
     {
-      // Light enters along w, so that |p| = 1 + nu from the start.
-      ray.q = sample(ray.start).value * task.straight.w;
+      // Light enters along d, so that |p| = 1 + nu from the start.
+      ray.q = sample(ray.start).value * light.d;
     }
+  }
+
+  SCHLIEREN_HD static Vec3<Real> packs(const Number (&from)[3][lanes])
+  {
+    return { fromArray<Real>(from[0]), fromArray<Real>(from[1]), fromArray<Real>(from[2]) };
   }
 
   /// Puts rays where they disturb no others.
@@ -292,13 +303,13 @@ struct March
 
   SCHLIEREN_HD void advance(Ray<Real>& there, const Real& step, const Vec3<Real>& middle) const
   {
-    Integrator::template advance<Path>(there, task.straight, step, middle, Sampler{ *this });
+    Integrator::template advance<Path>(there, light, step, middle, Sampler{ *this });
   }
 
   /// Adaptive: the rays after a step, and the square of its error by what is allowed.
   SCHLIEREN_HD Ray<Real> attempt(const Real& step, Real& error) const
   {
-    const auto trial = Adaptive::attempt<Path>(ray, task.straight, step, Sampler{ *this });
+    const auto trial = Adaptive::attempt<Path>(ray, light, step, Sampler{ *this });
     // Scaled first: in a faint medium the square of what is allowed is no float.
     const auto squared = [](const Vec3<Real>& a) { return dot(a, a); };
     const Real perStep = step > 0 ? 1 / step : Real{};
@@ -326,8 +337,8 @@ struct March
       {
         advance(there, step, x + (Number(0.5) * step) * along);
       }
-      const Real rest = wayOut(Path::position(there, task.straight),
-        Path::along(there, task.straight), Vec3<Number>{ 0, 0, 0 }, task.medium.last);
+      const Real rest = wayOut(Path::position(there, light), Path::along(there, light),
+        Vec3<Number>{ 0, 0, 0 }, task.medium.last);
       const Real longest = greater(Real{} + 2 * task.step, 2 * step);
       step = leaving ? lesser(greater(step + rest, Real{}), longest) : step;
     }
@@ -366,7 +377,7 @@ struct March
   {
     // Of a step: nearer to the grid's side than this is there.
     constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
-    const Real rest = wayOut(Path::position(ray, task.straight), Path::along(ray, task.straight),
+    const Real rest = wayOut(Path::position(ray, light), Path::along(ray, light),
       Vec3<Number>{ 0, 0, 0 }, task.medium.last);
     const auto done = leaving & (cruise > 0) & (rest <= Number(near) * task.step);
     if (any(done))
@@ -382,17 +393,12 @@ struct March
     {
       return;
     }
-    const auto packs = [](const Number(&from)[3][lanes])
-    {
-      return Vec3<Real>{ fromArray<Real>(from[0]), fromArray<Real>(from[1]),
-        fromArray<Real>(from[2]) };
-    };
     const Vec3<Real> q = packs(batch.q);
-    const Vec3<Real> at = packs(batch.start) +
-      fromArray<Real>(batch.length) * task.straight.perLength + packs(batch.offset);
+    const Vec3<Real> at =
+      packs(batch.start) + fromArray<Real>(batch.length) * light.perLength + packs(batch.offset);
     const Real nu = sample(at).value;
     const Real n = 1 + nu;
-    const Real drift = (2 * (dot(q, task.straight.w) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
+    const Real drift = (2 * (dot(q, light.d) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
     toArray(drift < 0 ? -drift : drift, batch.drift);
     for (int i = 0; i < lanes; ++i)
     {
@@ -400,14 +406,26 @@ struct March
     }
   }
 
+  /// The steps that a ray needs at least per index coordinate along an axis of the grid: dx/ds is off D by q.
+  SCHLIEREN_HD Real stepsPerIndex(const Real& along, const Number& indexScale) const
+  {
+    constexpr Number slowest = Number(1e-9);
+    return 1 / greater(task.step * (along + task.largestQ * indexScale), Real{} + slowest);
+  }
+  SCHLIEREN_HD Vec3<Real> stepsPerIndex(const Vec3<Real>& along) const
+  {
+    return { stepsPerIndex(along.x, light.indexScale.x), stepsPerIndex(along.y, light.indexScale.y),
+      stepsPerIndex(along.z, light.indexScale.z) };
+  }
+
   /// How many steps the rays can take before any of them can reach the grid's side.
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
-    const Vec3<Real> x = Path::position(ray, task.straight);
+    const Vec3<Real> x = Path::position(ray, light);
     const Vec3<Number>& last = task.medium.last;
     const Vec3<Real> toLast =
-      scaled(Vec3<Real>{ last.x - x.x, last.y - x.y, last.z - x.z }, task.stepsToLast);
-    const Vec3<Real> toFirst = scaled(x, task.stepsToFirst);
+      scaled(Vec3<Real>{ last.x - x.x, last.y - x.y, last.z - x.z }, stepsToLast);
+    const Vec3<Real> toFirst = scaled(x, stepsToFirst);
     const Real least = lesser(lesser(lesser(toLast.x, toFirst.x), lesser(toLast.y, toFirst.y)),
       lesser(toLast.z, toFirst.z));
     Number most[lanes];
@@ -423,7 +441,7 @@ struct March
   /// One step of rays of which none leaves the grid, with nothing to look at but the medium.
   SCHLIEREN_HD void takeStepInside()
   {
-    advance(ray, cruise, Path::ahead(ray, task.straight, Number(0.5) * cruise));
+    advance(ray, cruise, Path::ahead(ray, light, Number(0.5) * cruise));
     ++steps;
   }
 
@@ -438,8 +456,8 @@ struct March
     }
     constexpr Vec3<Number> zero{ 0, 0, 0 };
     constexpr int stepsBetweenLooks = 3;
-    const Vec3<Real> x = Path::position(ray, task.straight);
-    const Vec3<Real> along = Path::along(ray, task.straight);
+    const Vec3<Real> x = Path::position(ray, light);
+    const Vec3<Real> along = Path::along(ray, light);
     Real step = isAdaptive ? lesser(cruise, nextStep) : cruise;
     if (!isAdaptive && task.map.levels != nullptr && steps >= nextLook)
     {

@@ -25,35 +25,23 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   }
   task.gradients = gradients;
   task.light = light;
-  task.straight = { static_cast<Vec3<Real>>(light.w), static_cast<Vec3<Real>>(light.perLength),
-    static_cast<Vec3<Real>>(light.indexScale) };
+  task.indexScale = static_cast<Vec3<Real>>(light.indexScale);
   // Beside solids no longer than a voxel, or rays would step through thin ones.
   const double voxels =
     task.medium.solid == nullptr ? settings.stepVoxels : std::min(settings.stepVoxels, 1.);
-  const double step = voxels / length(light.perLength);
+  const double step = voxels / light.fastest();
   task.step = static_cast<Real>(step);
   constexpr double stepsAhead = 4;
-  const auto ahead = [&](double along) { return std::llround(stepsAhead * step * along); };
-  task.medium.ahead = ahead(light.perLength.z) * task.medium.planeStride +
-    ahead(light.perLength.y) * task.medium.rowStride + ahead(light.perLength.x);
-  // dx/ds is off W by q, which no ray has more of than this.
+  const auto ahead = [&](double along, double scale)
+  { return std::llround(stepsAhead * step * along * scale); };
+  task.medium.ahead = ahead(light.w.z, light.indexScale.z) * task.medium.planeStride +
+    ahead(light.w.y, light.indexScale.y) * task.medium.rowStride +
+    ahead(light.w.x, light.indexScale.x);
+  const double bend = boundDisplacement(medium, light).bend;
+  const double largestQ = medium.largestNu + (std::isfinite(bend) ? bend : 2);
   constexpr double margin = 1.01; // for the integrator's error
-  const double slope = boundDisplacement(medium, light).slope;
-  const double most = margin *
-    (std::isfinite(slope) ? medium.largestNu + slope * (1 - medium.largestNu) / (1 + slope)
-                          : 2 + medium.largestNu);
-  const auto stepsPerIndex = [&](double along, double scale)
-  {
-    const double fastest = step * (along + most * scale);
-    return static_cast<Real>(fastest > 1e-9 ? 1 / fastest : 1e9);
-  };
-  const Vec3<double>& w = light.perLength;
-  const Vec3<double>& scale = light.indexScale;
-  task.stepsToLast = { stepsPerIndex(w.x, scale.x), stepsPerIndex(w.y, scale.y),
-    stepsPerIndex(w.z, scale.z) };
-  task.stepsToFirst = { stepsPerIndex(-w.x, scale.x), stepsPerIndex(-w.y, scale.y),
-    stepsPerIndex(-w.z, scale.z) };
-  const double straightSteps = std::ceil(light.depth / step) + 1;
+  task.largestQ = static_cast<Real>(margin * largestQ);
+  const double straightSteps = std::ceil(light.depth / light.smallestCosine() / step) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
   // Where n is small, a step leads less far; and an adaptive one may have to be much shorter.
   constexpr double smallestIndex = 1e-3;
@@ -81,17 +69,21 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
   const double bend = (1 + medium.largestNu) * steepest;
   if (bend == 0)
   {
-    return { 0, 0 };
+    return { 0, 0, 0 };
   }
-  // The way s after which the ray has advanced by the depth at the latest: (1 - nu) s - bend s^2 / 2.
-  const double forward = 1 - medium.largestNu;
+  // The way s after which the ray has advanced by the depth at the latest, for the ray that is inclined most:
+  // (1 - nu) cosine s - bend s^2 / 2.
+  const double cosine = light.smallestCosine();
+  const double forward = (1 - medium.largestNu) * cosine;
   const double discriminant = forward * forward - 2 * bend * light.depth;
   if (!(forward > 0) || !(discriminant > 0))
   {
-    return { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    return { unknown, unknown, unknown };
   }
   const double way = 2 * light.depth / (forward + std::sqrt(discriminant));
-  return { 0.5 * bend * way * way * light.unit, bend * way / (forward - bend * way) };
+  return { 0.5 * bend * way * way * light.unit / cosine,
+    bend * way / ((forward - bend * way) * cosine), bend * way };
 }
 
 namespace
@@ -118,7 +110,7 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
   std::vector<double> worstDrifts(static_cast<std::size_t>(tilesAlong * tilesUp), 0);
 
   const auto enterBlock = [&](std::int64_t column, std::int64_t row, RayBatch<Number, Lanes>& batch,
-                            double(&from)[Lanes], std::int64_t(&rays)[Lanes])
+                            Entry(&entries)[Lanes], std::int64_t(&rays)[Lanes])
   {
     for (int i = 0; i < Lanes; ++i)
     {
@@ -129,19 +121,19 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
       if (atColumn < pass.columns && atRow < pass.rows)
       {
         rays[i] = atRow * pass.columns + atColumn;
-        from[i] = enterGrid(task, pass.columnOf(rays[i]), pass.rowOf(rays[i]), batch, i);
+        entries[i] = enterGrid(task, pass, rays[i], batch, i);
         batch.gathered[i] = traced.gathered.data() + rays[i] * task.gradients.count;
       }
     }
   };
-  const auto leaveBlock = [&](const RayBatch<Number, Lanes>& batch, const double(&from)[Lanes],
+  const auto leaveBlock = [&](const RayBatch<Number, Lanes>& batch, const Entry(&entries)[Lanes],
                             const std::int64_t(&rays)[Lanes], double& worstDrift)
   {
     for (int i = 0; i < Lanes; ++i)
     {
       if (rays[i] >= 0)
       {
-        traced.exits[static_cast<std::size_t>(rays[i])] = leaveGrid(task, batch, i, from[i]);
+        traced.exits[static_cast<std::size_t>(rays[i])] = leaveGrid(task, batch, i, entries[i]);
         worstDrift = std::max(worstDrift, static_cast<double>(batch.drift[i]));
       }
     }
@@ -162,14 +154,14 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
                column += 2 * Block<Lanes>::columns)
           {
             RayBatch<Number, Lanes> batches[2]{};
-            double from[2][Lanes]{};
+            Entry entries[2][Lanes]{};
             std::int64_t rays[2][Lanes];
-            enterBlock(column, row, batches[0], from[0], rays[0]);
-            enterBlock(column + Block<Lanes>::columns, row, batches[1], from[1], rays[1]);
+            enterBlock(column, row, batches[0], entries[0], rays[0]);
+            enterBlock(column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
             marchBatches(task, batches[0], batches[1]);
             double& worstDrift = worstDrifts[static_cast<std::size_t>(tile)];
-            leaveBlock(batches[0], from[0], rays[0], worstDrift);
-            leaveBlock(batches[1], from[1], rays[1], worstDrift);
+            leaveBlock(batches[0], entries[0], rays[0], worstDrift);
+            leaveBlock(batches[1], entries[1], rays[1], worstDrift);
           }
         }
       }

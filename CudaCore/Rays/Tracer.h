@@ -41,101 +41,140 @@ SCHLIEREN_HD void clip(Chord& chord, double start, double along, double per, dou
   chord.to = lesser(chord.to, greater(a, b));
 }
 
-/// Puts the ray that starts at (column, row) of the picture, in pixels from the centre of pixel (0, 0),
-/// where it enters the grid. Returns how far that is from the entry plane.
+/// A ray where it enters the grid.
+struct Entry
+{
+  double from;     ///< entry plane to there, along w
+  double slope[2]; ///< of the undisturbed ray, along u and v
+  double cosine;   ///< between it and w
+};
+
+/// Puts a ray of a pass where it enters the grid.
 template <class Number, int Lanes>
-SCHLIEREN_HD double enterGrid(
-  const RayTask<Number>& task, double column, double row, RayBatch<Number, Lanes>& batch, int i)
+SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std::int64_t ray,
+  RayBatch<Number, Lanes>& batch, int i)
 {
   batch.steps[i] = 0;
-  const Vec3<double> start = task.light.start(column, row);
+  const Light& light = task.light;
+  const double column = pass.columnOf(ray), row = pass.rowOf(ray);
+  Vec3<double> start = light.start(column, row);
+  double slope[2] = { 0, 0 };
+  double cosine = 1;
+  Vec3<double> steep = light.w, along = light.perLength, per = light.lengthPer;
+  if (light.inclination.isInclined(pass.tilt)) // else nothing to divide by
+  {
+    start += light.shift(pass.tilt);
+    slope[0] = light.inclination.at(0, column, pass.tilt[0]);
+    slope[1] = light.inclination.at(1, row, pass.tilt[1]);
+    cosine = 1 / std::sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    steep = light.w + slope[0] * light.u + slope[1] * light.v;
+    along = scaled(light.indexScale, steep);
+    per = { 1 / along.x, 1 / along.y, 1 / along.z };
+  }
   const Vec3<double> last = static_cast<Vec3<double>>(task.medium.last);
-  Chord chord{ 0, task.light.depth };
-  clip(chord, start.x, task.light.perLength.x, task.light.lengthPer.x, last.x);
-  clip(chord, start.y, task.light.perLength.y, task.light.lengthPer.y, last.y);
-  clip(chord, start.z, task.light.perLength.z, task.light.lengthPer.z, last.z);
+  Chord chord{ 0, light.depth };
+  clip(chord, start.x, along.x, per.x, last.x);
+  clip(chord, start.y, along.y, per.y, last.y);
+  clip(chord, start.z, along.z, per.z, last.z);
   if (!(chord.from < chord.to))
   {
     batch.fate[i] = RayFate::Missed;
-    return 0;
+    return {};
   }
   const Vec3<Number> at =
-    clampTo(static_cast<Vec3<Number>>(start + chord.from * task.light.perLength), task.medium.last);
-  batch.start[0][i] = at.x;
-  batch.start[1][i] = at.y;
-  batch.start[2][i] = at.z;
+    clampTo(static_cast<Vec3<Number>>(start + chord.from * along), task.medium.last);
+  const auto put = [i](const Vec3<Number>& from, Number(&to)[3][Lanes])
+  {
+    to[0][i] = from.x;
+    to[1][i] = from.y;
+    to[2][i] = from.z;
+  };
+  put(at, batch.start);
+  put(static_cast<Vec3<Number>>(cosine * steep), batch.direction);
+  put(static_cast<Vec3<Number>>(cosine * along), batch.perLength);
   // Where it enters and leaves, too: the steps' midpoints do not look at the grid's faces.
   batch.fate[i] =
     task.medium.solid != nullptr && isSolid(task.medium, at) ? RayFate::Blocked : RayFate::Left;
-  return chord.from;
+  return { chord.from, { slope[0], slope[1] }, cosine };
 }
 
-/// What becomes of a ray whose march is over; `from` is what enterGrid gave.
+/// What becomes of a ray whose march is over.
 template <class Number, int Lanes>
 SCHLIEREN_HD RayExit leaveGrid(
-  const RayTask<Number>& task, const RayBatch<Number, Lanes>& batch, int i, double from)
+  const RayTask<Number>& task, const RayBatch<Number, Lanes>& batch, int i, const Entry& entry)
 {
   RayExit exit{ { 0, 0 }, { 0, 0 }, 0, batch.fate[i], batch.steps[i] };
   if (exit.fate != RayFate::Left)
   {
     return exit;
   }
-  const Vec3<Number> gridOffset{ batch.offset[0][i], batch.offset[1][i], batch.offset[2][i] };
-  const Vec3<Number> end = Vec3<Number>{ batch.start[0][i], batch.start[1][i], batch.start[2][i] } +
-    batch.length[i] * task.straight.perLength + gridOffset;
+  const auto of = [i](const Number(&from)[3][Lanes]) {
+    return Vec3<Number>{ from[0][i], from[1][i], from[2][i] };
+  };
+  const Vec3<Number> gridOffset = of(batch.offset);
+  const Vec3<Number> end = of(batch.start) + batch.length[i] * of(batch.perLength) + gridOffset;
   if (task.medium.solid != nullptr && isSolid(task.medium, clampTo(end, task.medium.last)))
   {
     exit.fate = RayFate::Blocked;
     return exit;
   }
-  const Vec3<double> q = { static_cast<double>(batch.q[0][i]), static_cast<double>(batch.q[1][i]),
-    static_cast<double>(batch.q[2][i]) };
-  const double alongU = dot(q, task.light.u);
-  const double alongV = dot(q, task.light.v);
+  const Light& light = task.light;
+  const Vec3<double> ofGrid = static_cast<Vec3<double>>(of(batch.q));
+  const Vec3<double> q = { dot(ofGrid, light.u), dot(ofGrid, light.v), dot(ofGrid, light.w) };
+  const Vec3<double> d = { entry.slope[0] * entry.cosine, entry.slope[1] * entry.cosine,
+    entry.cosine };
   const bool bends = task.kernel.path != PathModel::Straight;
-  double forward = 1;
-  double momentum = 1;
+  // p = d + q; of a straight ray to first order in q.
+  double forward = d.z;
+  double perMomentum = 1;
+  double longer = dot(d, q); // 1 - 1 / |p|
   if (bends)
   {
-    forward += dot(q, task.light.w);
+    const Vec3<double> p = d + q;
+    forward = p.z;
     if (!(forward > 0))
     {
       exit.fate = RayFate::Turned;
       return exit;
     }
-    momentum = std::sqrt(alongU * alongU + alongV * alongV + forward * forward);
+    const double momentum = length(p);
+    const double perBoth = 1 / (momentum * (momentum + 1));
+    perMomentum = (momentum + 1) * perBoth;
+    longer = (2 * longer + dot(q, q)) * perBoth;
   }
-  const double perMomentum = 1 / momentum;
-  exit.deflection[0] = alongU * perMomentum;
-  exit.deflection[1] = alongV * perMomentum;
+  exit.deflection[0] = q.x * perMomentum - d.x * longer;
+  exit.deflection[1] = q.y * perMomentum - d.y * longer;
   exit.opticalPathDifference =
     (static_cast<double>(batch.path[i]) - static_cast<double>(batch.pathError[i])) *
     task.metresPerUnit;
 
-  // From where it leaves the grid, straight on to the exit plane.
-  const Vec3<double> offset =
-    scaled(task.light.unitsPerIndex, static_cast<Vec3<double>>(gridOffset));
-  const double remaining = task.light.depth - from - static_cast<double>(batch.length[i]) -
-    (bends ? dot(offset, task.light.w) : 0);
+  // From where it leaves the grid, straight on to the exit plane, and how far it is from the undisturbed ray
+  // there: p.u / p.w - d.u / d.w per unit along w, where d.u / d.w is the slope.
+  const Vec3<double> offset = scaled(light.unitsPerIndex, static_cast<Vec3<double>>(gridOffset));
+  const double ahead = dot(offset, light.w);
+  const double remaining = light.depth - entry.from -
+    static_cast<double>(batch.length[i]) * entry.cosine - (bends ? ahead : 0);
   const double further = remaining / forward;
-  exit.displacement[0] =
-    static_cast<float>((dot(offset, task.light.u) + further * alongU) * task.light.unit);
-  exit.displacement[1] =
-    static_cast<float>((dot(offset, task.light.v) + further * alongV) * task.light.unit);
+  exit.displacement[0] = static_cast<float>(
+    (dot(offset, light.u) - ahead * entry.slope[0] + further * (q.x - q.z * entry.slope[0])) *
+    light.unit);
+  exit.displacement[1] = static_cast<float>(
+    (dot(offset, light.v) - ahead * entry.slope[1] + further * (q.y - q.z * entry.slope[1])) *
+    light.unit);
   return exit;
 }
 
-/// Traces one ray, with the kernel that is given. `gathered` receives the sums of the fields' gradients.
+/// Traces one ray of a pass, with the kernel that is given. `gathered` receives the sums of the fields' gradients.
 template <class Kernel, class Number>
 SCHLIEREN_HD RayExit traceRay(
-  const RayTask<Number>& task, double column, double row, float* gathered, Number& drift)
+  const RayTask<Number>& task, const Pass& pass, std::int64_t ray, float* gathered, Number& drift)
 {
   RayBatch<Number, 1> batch{};
-  const double from = enterGrid(task, column, row, batch, 0);
+  const Entry entry = enterGrid(task, pass, ray, batch, 0);
   batch.gathered[0] = gathered;
   march<Kernel, Number>(task, batch);
   drift = batch.drift[0];
-  return leaveGrid(task, batch, 0, from);
+  return leaveGrid(task, batch, 0, entry);
 }
 
 /// What of a scene matters to rays.
@@ -152,13 +191,15 @@ template <class Real>
 RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
   const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
 
-/// The furthest that any ray is displaced sideways on the exit plane, and its largest slope there;
-/// infinite where no bound is known. From |dq/ds| <= (1 + nu) |grad nu| with the medium's largest
-/// values, for a ray that goes through all of the grid's depth.
+/// The furthest that any ray is displaced sideways on the exit plane, the most that its slope differs there
+/// from that of the undisturbed ray, and the length of what all kicks add to its momentum; infinite where no
+/// bound is known. From |dq/ds| <= (1 + nu) |grad nu| with the medium's largest values, for a ray that goes
+/// through all of the grid's depth.
 struct DisplacementBound
 {
   double displacement; ///< data units
   double slope;
+  double bend;
 };
 template <class Real>
 DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& light);

@@ -6,6 +6,7 @@
 #include "vtkEventQtSlotConnect.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -24,11 +25,16 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   box->setMargin(0);
   box->addWidget(this->Label);
   this->Connection->Connect(smProperty, vtkCommand::ModifiedEvent, this, SLOT(showText()));
+  // ParaView itself asks when the output's extent is asked for, before the filter has run.
+  this->Connection->Connect(smProxy, vtkCommand::UpdateDataEvent, this, SLOT(ask()));
   this->showText();
 }
 
 //------------------------------------------------------------------------------
 pqNoteWidget::~pqNoteWidget() = default;
+
+//------------------------------------------------------------------------------
+void pqNoteWidget::ask() { this->proxy()->UpdatePropertyInformation(this->property()); }
 
 //------------------------------------------------------------------------------
 void pqNoteWidget::showText()

@@ -20,6 +20,7 @@ public:
   ~pqNoteWidget() override;
 
 private Q_SLOTS:
+  void ask();
   void showText();
 
 private:

@@ -45,7 +45,8 @@ struct Traced
 };
 
 template <class Real>
-Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, double tolerance)
+Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, double tolerance,
+  const LightSource& source)
 {
   const Medium<Real> medium = buildMedium<Real>(field, settings.kernel.interpolation, 1);
   HomogeneityMap<Real> map;
@@ -58,11 +59,16 @@ Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, dou
   view.viewDirection = { -0.5, 0.3, -0.7 };
   view.width = 37; // no multiple of a block, nor of a tile
   view.height = 29;
-  const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
+  const Light light = lightFrom(source, 0, field.grid, view, frameOf(field.grid, view));
   const RayTask<Real> task =
     makeTask<Real>(medium, tolerance > 0 ? &map : nullptr, FieldGradientsView{}, light, settings);
   Traced traced;
-  const Pass pass{ -2, -3, 41, 35, { 0.25, -0.125 } };
+  Pass pass{ -2, -3, 41, 35, { 0.25, -0.125 } };
+  if (source.shape != SourceShape::Point)
+  {
+    pass.tilt[0] = 0.02;
+    pass.tilt[1] = -0.05;
+  }
   traced.pass.resize(pass, 0);
   EXPECT_TRUE(traceOnCpu(task, pass, traced.pass, 2, {}, simd));
   for (const RayExit& exit : traced.pass.exits)
@@ -73,15 +79,16 @@ Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, dou
 }
 
 template <class Real>
-void expectSame(const RaySettings& settings, double tolerance, double kinks)
+void expectSame(
+  const RaySettings& settings, double tolerance, double kinks, const LightSource& source = {})
 {
   const SampledField<double> field = blob();
-  const Traced alone = traceWith<Real>(Simd::None, field.field, settings, tolerance);
+  const Traced alone = traceWith<Real>(Simd::None, field.field, settings, tolerance, source);
   ASSERT_GT(alone.largest, 0.01);
   for (const Simd simd : levels())
   {
     SCOPED_TRACE("simd " + std::to_string(static_cast<int>(simd)));
-    const Traced packed = traceWith<Real>(simd, field.field, settings, tolerance);
+    const Traced packed = traceWith<Real>(simd, field.field, settings, tolerance, source);
     const double allowed =
       std::max(2e3 * static_cast<double>(std::numeric_limits<Real>::epsilon()), kinks) *
       alone.largest;
@@ -94,6 +101,8 @@ void expectSame(const RaySettings& settings, double tolerance, double kinks)
       EXPECT_NEAR(a.deflection[0], b.deflection[0], allowed);
       EXPECT_NEAR(a.deflection[1], b.deflection[1], allowed);
       EXPECT_NEAR(a.opticalPathDifference, b.opticalPathDifference, 10 * allowed);
+      EXPECT_NEAR(a.displacement[0], b.displacement[0], 20 * allowed);
+      EXPECT_NEAR(a.displacement[1], b.displacement[1], 20 * allowed);
       different += a.steps != b.steps ? 1 : 0;
     }
     // Where a step ends next to the grid's side, rounding decides about one more.
@@ -127,6 +136,26 @@ TEST(Simd, RaysSideBySideDoWhatOneDoes)
         expectSame<float>(settings, 0, kinks);
         expectSame<double>(settings, 0, kinks);
       }
+    }
+  }
+}
+
+TEST(Simd, InclinedRaysSideBySideDoWhatOneDoes)
+{
+  LightSource slit;
+  slit.distance = 50; // slopes up to 0.4
+  slit.shape = SourceShape::Slit;
+  slit.width = slit.length = 0.1;
+  for (const Integrator integrator :
+    { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+  {
+    for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
+    {
+      SCOPED_TRACE(static_cast<int>(integrator));
+      RaySettings settings;
+      settings.kernel = { path, integrator, Interpolation::Quadratic };
+      expectSame<float>(settings, 0, integrator == Integrator::Adaptive ? 1e-3 : 0, slit);
+      expectSame<double>(settings, 0, integrator == Integrator::Adaptive ? 1e-3 : 0, slit);
     }
   }
 }

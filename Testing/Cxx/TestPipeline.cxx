@@ -98,6 +98,33 @@ TEST(Pipeline, InformationTellsTheGeometryBeforehand)
   EXPECT_EQ(vtkImageData::GetScalarType(info), VTK_FLOAT);
 }
 
+TEST(Pipeline, TheHistogramIsASecondOutput)
+{
+  auto filter = bench(columnImage(32), 20);
+  filter->SetHistogramSize(9);
+  filter->UpdateInformation();
+  vtkInformation* info = filter->GetOutputInformation(vtkSchlierenFilter::HISTOGRAM_PORT);
+  const std::array<int, 6> whole{ 0, 8, 0, 8, 0, 0 };
+  EXPECT_TRUE(std::equal(
+    whole.begin(), whole.end(), info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+  EXPECT_EQ(vtkImageData::GetScalarType(info), VTK_TYPE_INT64);
+  filter->Update(vtkSchlierenFilter::HISTOGRAM_PORT);
+  auto* histogram =
+    vtkImageData::SafeDownCast(filter->GetOutputDataObject(vtkSchlierenFilter::HISTOGRAM_PORT));
+  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), histogram->GetExtent()));
+  ASSERT_NE(histogram->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(histogram->GetPointData()->GetScalars()->GetName(), "Rays");
+  EXPECT_NEAR(histogram->GetOrigin()[0], -4 * histogram->GetSpacing()[0], 1e-9); // bins' centres
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 20 * 20); // one update makes both
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+
+  filter->SetHistogramSize(0);
+  filter->Update(vtkSchlierenFilter::HISTOGRAM_PORT);
+  EXPECT_EQ(histogram->GetNumberOfPoints(), 0);
+  EXPECT_EQ(histogram->GetPointData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 20 * 20);
+}
+
 TEST(Pipeline, NothingIsDoneTwice)
 {
   auto image = columnImage(32);
@@ -114,7 +141,17 @@ TEST(Pipeline, NothingIsDoneTwice)
   filter->SetKScale(123);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   EXPECT_EQ(fieldValue(filter, "KScale"), 123);
-  filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
+  for (int cutoff = vtkSchlierenFilter::SHADOWGRAPH; cutoff <= vtkSchlierenFilter::INTERFEROGRAM;
+       ++cutoff)
+  {
+    filter->SetCutoff(cutoff);
+    EXPECT_TRUE(workOfUpdate(filter) == none) << cutoff;
+  }
+  filter->SetFringeMode(vtkSchlierenFilter::FINITE_FRINGES);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetHistogramSize(7);
+  EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetNoiseFilter(vtkSchlierenFilter::MEAN);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   EXPECT_EQ(fieldValue(filter, "TraceSeconds"), 0);
 

@@ -25,7 +25,7 @@ def green_for_blue(shown):
 def shoot(name, mirror=same, white=1, array="Intensity", **properties):
     """A picture from the filter's own settings but for `properties`; `mirror` makes of it what it is
     upside down."""
-    before = {name: bench.GetPropertyValue(name) for name in properties}
+    before = {name: bench.GetProperty(name).GetData() for name in properties}
     SetProperties(bench, **properties)
     shown = picture(bench, array).astype(float) / (255 if array == "Color" else white)
     if mirror:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A filter from the menu: made without a question for its optional input, it tells the grid that it uses."""
+"""A filter from the menu: made without a question for its optional input, it tells the grid and the k
+that it uses."""
 
 import os
 import sys
@@ -10,7 +11,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 from plugin_testing import picture, simple  # noqa: E402
-from window_testing import FOLDER, Session  # noqa: E402
+from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 user = Session()
 user.menu("menuFilters", "Schlieren")
@@ -19,6 +20,13 @@ user.check("Grid/Note", "text", "known after Apply")
 user.apply()
 user.check("Grid/Note", "text", "17 x 17 x 17 points: the data's own")
 user.save_state("menu.pvsm")
+
+# What notes tell is of the picture that Apply makes.
+user.event(f"{PROPERTIES}/KFromOptics/CheckBox", "set_boolean", "true")
+user.type("FocalLength/DoubleLineEdit0", "2")
+user.apply()
+user.check("Sensitivity/Note", "text", "k = 2000: full scale is 0.25 mrad; optics: 2 m focal length, "
+           "source 1 mm wide, the edge 0 mm in (offset 0)")
 user.play("""
 from paraview.simple import *
 Sphere(Radius=3, registrationName="ball").UpdatePipeline()

@@ -7,9 +7,11 @@ import os
 import struct
 import zlib
 
+import numpy as np
 from paraview import simple, smstate
-from plugin_testing import Schlieren, gaussian_column, output
-import schlieren.vtkSchlierenFilters  # noqa: F401 (its methods)  pylint: disable=unused-import
+from plugin_testing import Schlieren, gaussian_column, output, picture
+from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray
 
 
@@ -90,6 +92,27 @@ for data in (image.GetPointData(), image.GetFieldData()):
 assert units == {"Intensity": "1", "Deflection": "rad", "OpticalPathDifference": "m",
                  "Displacement": "data units", "BlockedFraction": "1", "TraceSeconds": "s",
                  "DisplacementBound": "data units", "SkippingBound": "rad"}, units
+
+# The histogram is a second output: as many rays as came out, at the deflections that they have.
+bins = simple.OutputPort(plain, "Histogram")
+assert bins.Port == vtkSchlierenFilter.HISTOGRAM_PORT
+assert bins.GetDataInformation().GetNumberOfPoints() == 256**2
+histogram = plain.GetClientSideObject().GetOutputDataObject(1)
+rays = vtk_to_numpy(histogram.GetPointData().GetArray("Rays")).reshape(256, 256)
+assert histogram.GetPointData().GetScalars().GetName() == "Rays"
+x = histogram.GetOrigin()[0] + np.arange(256) * histogram.GetSpacing()[0]
+assert np.allclose(x, -x[::-1], atol=1e-6 * x[-1]), "The middle of the bins is no deflection"
+deflection = picture(plain, "Deflection").reshape(-1, 2)
+assert rays.sum() >= 256, rays.sum()
+edges = np.linspace(x[0] - (x[1] - x[0]) / 2, x[-1] + (x[1] - x[0]) / 2, 257)
+expected, _, _ = np.histogram2d(deflection[:, 1], deflection[:, 0], bins=2 * [edges])
+assert rays.sum() == expected.sum() and np.abs(rays - expected).sum() <= 8, np.abs(rays - expected).sum()
+traced = plain.GetClientSideObject().GetTotalRaysTraced()
+for size in (0, 8):
+    plain.HistogramSize = size
+    plain.UpdatePipeline()
+    assert simple.OutputPort(plain, 1).GetDataInformation().GetNumberOfPoints() == size**2, size
+assert plain.GetClientSideObject().GetTotalRaysTraced() == traced, "Another histogram traces nothing"
 
 # State files and scripts keep all of it.
 simple.SaveState("bench.pvsm")

@@ -66,7 +66,7 @@ def new_bench(reader, array, frame, options):
 
 def output_of(proxy, what, messages, port=0):
     proxy.UpdatePipeline()
-    image = servermanager.Fetch(pv.OutputPort(proxy, port))
+    image = servermanager.Fetch(proxy, idx=port)
     if image is None or image.GetNumberOfPoints() == 0:
         raise DemoError(f"The {what} failed. {messages.last_error()}")
     return image

@@ -38,7 +38,7 @@ class Sheet:
     def text(self, left, top, string, points, color=BRIGHT, anchor="left", room=None):
         """Draws a line of text; made smaller until it fits into `room` pixels."""
         image, dimensions = vtkImageData(), [0, 0]
-        string = string.replace("|", "\\|")  # which would begin a column
+        string = string.replace("|", "\u2223")  # VTK takes | for the border of a column
         while True:
             style = vtkTextProperty()
             if os.path.isfile(self.FONT):

@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What each cutoff makes of a field that bends all light alike, against its formula, and what comes with the
+// picture.
+#include "Fixtures.h"
+
+#include "vtkBase64Utilities.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+#include "vtkMath.h"
+#include "vtkPNGWriter.h"
+#include "vtkPiecewiseFunction.h"
+
+#include <limits>
+
+namespace
+{
+
+using Filter = vtkSchlierenFilter;
+
+constexpr double ambient = 3e-4;
+constexpr int pixels = 16;
+
+/// The cube from -1 to 1, in which N grows so that light is bent by `eps` along x and y.
+vtkSmartPointer<vtkImageData> bending(double epsX, double epsY)
+{
+  auto image = cube(16);
+  const double perDepth = (1 + ambient) / 2;
+  addPointArray(
+    image, "N", [=](const Vec& x) { return ambient + perDepth * (epsX * x[0] + epsY * x[1]); });
+  return image;
+}
+
+/// Looks at the middle of it, away from the cube's faces.
+vtkSmartPointer<Filter> benchOf(vtkImageData* image, int cutoff, double k)
+{
+  auto filter = bench(image, pixels);
+  filter->SetAmbientRefractivity(ambient);
+  filter->SetParallelScale(0.5);
+  filter->SetCutoff(cutoff);
+  filter->SetAutoKScale(false);
+  filter->SetKScale(k);
+  return filter;
+}
+
+constexpr double epsX = 2e-5, epsY = 3e-5;
+const double eps = std::hypot(epsX, epsY);
+
+/// Of the picture's middle, with every pixel of it the same.
+double intensityOf(Filter* filter)
+{
+  filter->Update();
+  const std::vector<double> values = valuesOf(filter, "Intensity");
+  const double middle = values[pixels / 2 * pixels + pixels / 2];
+  EXPECT_NEAR(*std::max_element(values.begin(), values.end()), middle, 1e-3);
+  EXPECT_NEAR(*std::min_element(values.begin(), values.end()), middle, 1e-3);
+  return middle;
+}
+
+std::array<int, 3> colorOf(Filter* filter)
+{
+  filter->Update();
+  vtkDataArray* color = arrayOf(filter, "Color");
+  if (!color)
+  {
+    ADD_FAILURE() << "There is no Color";
+    return {};
+  }
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetScalars(), color);
+  std::array<int, 3> bytes;
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    bytes[static_cast<std::size_t>(channel)] =
+      static_cast<int>(color->GetComponent(pixels / 2 * pixels + pixels / 2, channel));
+  }
+  return bytes;
+}
+
+void expectColor(
+  const std::array<int, 3>& found, const std::array<double, 3>& expected, const char* what)
+{
+  for (std::size_t channel = 0; channel < 3; ++channel)
+  {
+    EXPECT_NEAR(found[channel], expected[channel], 1.1) << what << ", channel " << channel;
+  }
+}
+
+} // namespace
+
+TEST(Cutoffs, AKnifeEdgeLetsAHalfLessTheOffsetAndKEpsPass)
+{
+  auto filter = benchOf(bending(epsX, epsY), Filter::KNIFE_EDGE, 5000);
+  for (const double degrees : { 0., 30., 90., 200. })
+  {
+    const double angle = vtkMath::RadiansFromDegrees(degrees);
+    const double expected = 0.5 + 5000 * (epsX * std::cos(angle) + epsY * std::sin(angle));
+    filter->SetKnifeEdgeAngle(degrees);
+    filter->SetInvertCutoff(false);
+    filter->SetCutoffOffset(0);
+    EXPECT_NEAR(intensityOf(filter), expected, 1e-3) << degrees;
+    filter->SetCutoffOffset(0.125);
+    EXPECT_NEAR(intensityOf(filter), expected - 0.125, 1e-3) << degrees;
+    EXPECT_NEAR(fieldValue(filter, "UndisturbedLevel"), 0.375, 1e-6);
+    filter->SetInvertCutoff(true);
+    EXPECT_NEAR(intensityOf(filter), 1 - (expected - 0.125), 1e-3) << degrees;
+  }
+}
+
+// dI = f eps / a: a focal length of 2 m and a source of 0.4 mm.
+TEST(Cutoffs, RealOpticsHaveTheirSensitivity)
+{
+  auto filter = benchOf(bending(epsX, 0), Filter::KNIFE_EDGE, 1);
+  filter->SetKFromOptics(true);
+  filter->SetFocalLength(2);
+  filter->SetSourceWidth(0.4);
+  filter->SetCutoffPosition(0.1);
+  EXPECT_NEAR(intensityOf(filter), 0.5 - 0.1 / 0.4 + 2 * epsX / 0.4e-3, 1e-3);
+  EXPECT_NEAR(fieldValue(filter, "KScale"), 5000, 1e-9);
+  EXPECT_EQ(filter->GetKScaleUsed(), fieldValue(filter, "KScale"));
+  EXPECT_NE(std::string(filter->GetSensitivity()).find("the edge 0.1 mm in"), std::string::npos);
+}
+
+TEST(Cutoffs, CircularOnesAreDarkOrBrightWhereLightIsBent)
+{
+  auto filter = benchOf(bending(epsX, epsY), Filter::CIRCULAR, 10000);
+  EXPECT_NEAR(intensityOf(filter), 1 - 10000 * eps, 1e-3);
+  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 1);
+  filter->SetCutoff(Filter::CIRCULAR_COMPLEMENT);
+  EXPECT_NEAR(intensityOf(filter), 10000 * eps, 1e-3);
+  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 0);
+}
+
+TEST(Cutoffs, AGradedFilterIsItsCurve)
+{
+  auto filter = benchOf(bending(epsX, epsY), Filter::GRADED_FILTER, 5000);
+  vtkNew<vtkPiecewiseFunction> curve; // a band that is clear in the middle
+  curve->AddPoint(0, 0);
+  curve->AddPoint(0.5, 1);
+  curve->AddPoint(1, 0);
+  filter->SetGradedFilter(curve);
+  EXPECT_NEAR(intensityOf(filter), 1 - 2 * 5000 * epsX, 2e-3);
+  EXPECT_NEAR(fieldValue(filter, "UndisturbedLevel"), 1, 1e-6);
+  curve->AddPoint(0.5, 0.5);
+  EXPECT_NEAR(intensityOf(filter), 0.5 * (1 - 2 * 5000 * epsX), 2e-3);
+  filter->SetInvertCutoff(true);
+  EXPECT_NEAR(intensityOf(filter), 1 - 0.5 * (1 - 2 * 5000 * epsX), 2e-3);
+}
+
+// Hue is the direction, saturation the size of k eps (Brownlee et al. 2011, eq. 17), in all quadrants.
+TEST(Cutoffs, AColorWheelTellsTheDirection)
+{
+  for (const double degrees : { 0., 50., 90., 130., 180., 215., 270., 340. })
+  {
+    const double angle = vtkMath::RadiansFromDegrees(degrees);
+    auto filter = benchOf(
+      bending(eps * std::cos(angle), eps * std::sin(angle)), Filter::COLOR_FILTER, 0.6 / eps);
+    std::array<double, 3> expected;
+    vtkMath::HSVToRGB(degrees / 360, 0.6, 1, &expected[0], &expected[1], &expected[2]);
+    for (double& value : expected)
+    {
+      value *= 255;
+    }
+    expectColor(colorOf(filter), expected, std::to_string(degrees).c_str());
+  }
+  expectColor(colorOf(benchOf(bending(0, 0), Filter::COLOR_FILTER, 1)), { 255, 255, 255 }, "white");
+}
+
+TEST(Cutoffs, AColorPictureShowsItsQuadrants)
+{
+  vtkNew<vtkImageData> picture;
+  picture->SetDimensions(2, 2, 1);
+  picture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const unsigned char colors[12] = { 10, 20, 30, 200, 100, 0, 0, 255, 60, 250, 240, 5 };
+  std::copy_n(colors, 12, static_cast<unsigned char*>(picture->GetScalarPointer()));
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(picture);
+  const std::string name = SCHLIEREN_TEST_OUTPUT "/quadrants.png";
+  writer->SetFileName(name.c_str());
+  writer->Write();
+  for (const int quadrant : { 0, 1, 2, 3 }) // left and right below, then above
+  {
+    const double x = quadrant % 2 == 0 ? -eps : eps, y = quadrant < 2 ? -eps : eps;
+    auto filter = benchOf(bending(x, y), Filter::COLOR_FILTER, 0.9 / eps);
+    filter->SetColorFilterImage(name.c_str());
+    expectColor(colorOf(filter),
+      { double(colors[3 * quadrant]), double(colors[3 * quadrant + 1]),
+        double(colors[3 * quadrant + 2]) },
+      std::to_string(quadrant).c_str());
+  }
+}
+
+// Of photons, which keep what is at the pixel's centre.
+TEST(Cutoffs, AnInterferogramIsTheCosineOfThePath)
+{
+  auto image = cube(64);
+  addPointArray(image, "N", GaussianColumn{ 1e-5, 0.3 });
+  auto filter = bench(image, 64);
+  filter->SetCutoff(Filter::INTERFEROGRAM);
+  filter->SetFilmEstimator(Filter::PHOTON);
+  filter->SetLengthScale(0.5);
+  filter->SetWavelength(500);
+  filter->SetParallelScale(0.9);
+  filter->Update();
+  const std::vector<double> path = valuesOf(filter, "OpticalPathDifference");
+  std::vector<double> expected;
+  for (const double metres : path)
+  {
+    expected.push_back(0.5 * (1 + std::cos(2 * pi * metres / 500e-9)));
+  }
+  EXPECT_GT(largest(path), 5 * 500e-9); // fringes
+  EXPECT_LT(relativeDifference(valuesOf(filter, "Intensity"), expected), 0.02);
+  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 1);
+  EXPECT_EQ(fieldValue(filter, "KScale"), 0);
+  EXPECT_STREQ(filter->GetSensitivity(), "");
+}
+
+TEST(Cutoffs, FiniteFringesHaveTheirSpacingAndDirection)
+{
+  auto filter = benchOf(bending(0, 0), Filter::INTERFEROGRAM, 1);
+  filter->SetFilmEstimator(Filter::PHOTON);
+  filter->SetFringeMode(Filter::FINITE_FRINGES);
+  const auto expectFringes = [&](double spacing, double degrees)
+  {
+    filter->SetFringeAngle(degrees);
+    filter->Update();
+    const double angle = vtkMath::RadiansFromDegrees(degrees);
+    vtkDataArray* intensity = arrayOf(filter, "Intensity");
+    for (vtkIdType i = 0; i < intensity->GetNumberOfTuples(); ++i)
+    {
+      const double* x = filter->GetOutput()->GetPoint(i);
+      const double turns = (x[0] * std::cos(angle) + x[1] * std::sin(angle)) / spacing;
+      EXPECT_NEAR(intensity->GetComponent(i, 0), 0.5 * (1 + std::cos(2 * pi * turns)), 2e-3)
+        << spacing << " " << degrees << " " << i;
+    }
+    EXPECT_NEAR(fieldValue(filter, "FringeSpacing"), spacing, 1e-9 * spacing);
+  };
+  expectFringes(0.1, 0); // a tenth of the picture's height
+  filter->SetFringeSpacing(0.27);
+  expectFringes(0.27, 90);
+  expectFringes(0.27, 35);
+  filter->SetWavelength(700);
+  filter->SetLengthScale(1e-6); // data in micrometres
+  filter->SetBeamAngle(120);
+  expectFringes(0.7 / std::sqrt(3.), 120);
+}
+
+TEST(Cutoffs, WhiteLightHasColors)
+{
+  auto filter = benchOf(bending(0, 0), Filter::INTERFEROGRAM, 1);
+  filter->SetWhiteLight(true);
+  expectColor(colorOf(filter), { 255, 255, 255 }, "undisturbed");
+  EXPECT_NEAR(intensityOf(filter), 1, 1e-3);
+  // Half a wave of green: what is left is purple, and dark.
+  vtkNew<vtkImageData> uniform;
+  uniform->CopyStructure(bending(0, 0));
+  addPointArray(uniform, "N", [](const Vec&) { return ambient + 275e-9 / 2; });
+  filter->SetInputDataObject(uniform);
+  const std::array<int, 3> color = colorOf(filter);
+  EXPECT_LT(color[1], color[0]);
+  EXPECT_LT(color[1], color[2]);
+  EXPECT_LT(fieldValue(filter, "UndisturbedLevel") - 1, 1e-3);
+  filter->SetWhiteLight(false);
+  filter->Update();
+  EXPECT_EQ(arrayOf(filter, "Color"), nullptr);
+}
+
+TEST(Cutoffs, LightAndSaturationAreAccountedFor)
+{
+  auto filter = benchOf(bending(epsX, 0), Filter::KNIFE_EDGE, 5000);
+  EXPECT_NEAR(intensityOf(filter), 0.6, 1e-3);
+  EXPECT_EQ(fieldValue(filter, "SaturatedShare"), 0);
+  const double emitted = fieldValue(filter, "LightEmitted");
+  EXPECT_NEAR(fieldValue(filter, "LightOnFilm") + fieldValue(filter, "LightOutside"), emitted,
+    1e-6 * emitted);
+  EXPECT_NEAR(
+    fieldValue(filter, "LightOnFilm"), 0.6, 0.01); // of the light that the pixels could have
+  filter->SetKScale(1e6);
+  EXPECT_EQ(intensityOf(filter), 1);
+  EXPECT_EQ(fieldValue(filter, "SaturatedShare"), 1);
+}
+
+// A bin has its place at its centre; all rays of this field belong to one.
+TEST(Cutoffs, TheHistogramHasTheRaysWhereTheyMeetTheCutoff)
+{
+  auto filter = benchOf(bending(epsX, -epsY), Filter::KNIFE_EDGE, 1);
+  filter->SetSamplesPerPixel(3);
+  for (const int size : { 256, 5 })
+  {
+    filter->SetHistogramSize(size);
+    filter->Update();
+    auto* histogram =
+      vtkImageData::SafeDownCast(filter->GetOutputDataObject(Filter::HISTOGRAM_PORT));
+    vtkDataArray* rays = histogram->GetPointData()->GetArray("Rays");
+    ASSERT_NE(rays, nullptr);
+    ASSERT_EQ(rays->GetNumberOfTuples(), size * size);
+    double sum = 0, u = 0, v = 0;
+    for (vtkIdType i = 0; i < rays->GetNumberOfTuples(); ++i)
+    {
+      const double count = rays->GetComponent(i, 0);
+      sum += count;
+      u += count * histogram->GetPoint(i)[0];
+      v += count * histogram->GetPoint(i)[1];
+    }
+    EXPECT_EQ(sum, 3 * pixels * pixels);
+    EXPECT_NEAR(u / sum, epsX, 0.51 * histogram->GetSpacing()[0]);
+    EXPECT_NEAR(v / sum, -epsY, 0.51 * histogram->GetSpacing()[1]);
+    EXPECT_LT(histogram->GetBounds()[1], 4 * epsY) << "Most bins are empty";
+    EXPECT_STREQ(rays->GetInformation()->Get(vtkDataArray::UNITS_LABEL()), "1");
+  }
+}
