@@ -317,8 +317,8 @@ struct Image
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff
   double undisturbedLevel = 1;                ///< intensity of light that nothing bends
-  double saturatedShare =
-    0; ///< of the rays that reach the film: darkest or brightest the cutoff can make
+  /// Of the rays that start in the picture and reach the film: cut off at the darkest or brightest light.
+  double saturatedShare = 0;
   LightBalance light;
   Histogram histogram;
   double ambient = 0;           ///< the ambient refractivity used

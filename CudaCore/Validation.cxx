@@ -99,7 +99,7 @@ void validateCutoff(const Scene& scene)
   }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
   {
-    validatePicture(*scene.colorFilter, "ColorFilter");
+    validatePicture(*scene.colorFilter, "ColorFilterImage");
   }
   if (scene.cutoff == Cutoff::Interferogram)
   {

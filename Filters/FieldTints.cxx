@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldTints.h"
 
+#include "FieldFromImage.h"
 #include "RefractivityModels.h"
 #include "RefractivitySource.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
-#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
@@ -145,17 +145,4 @@ std::vector<std::array<float, 3>> fieldColors(const std::vector<double>& values,
       [](double value) { return static_cast<float>(value); });
   }
   return colors;
-}
-
-schlieren::Grid gridFrom(vtkImageData* image)
-{
-  schlieren::Grid grid;
-  int dimensions[3];
-  image->GetDimensions(dimensions);
-  std::copy_n(dimensions, 3, grid.dimensions.begin());
-  std::copy_n(image->GetSpacing(), 3, grid.spacing.begin());
-  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, grid.direction.begin());
-  const int* extent = image->GetExtent();
-  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], grid.origin.data());
-  return grid;
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Schlieren.h"
-
 #include <array>
 #include <vector>
 
@@ -25,6 +23,3 @@ std::vector<float> fieldGradients(
 /// is added.
 std::vector<std::array<float, 3>> fieldColors(
   const std::vector<double>& values, std::size_t fields);
-
-/// `image` as the tracer wants it.
-schlieren::Grid gridFrom(vtkImageData* image);

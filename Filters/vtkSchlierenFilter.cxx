@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
+#include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
@@ -12,8 +13,6 @@
 #include "SceneFromFilter.h"
 
 #include "vtkCommand.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -21,13 +20,10 @@
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkUnsignedCharArray.h"
 
 #include "Schlieren.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -98,17 +94,6 @@ std::vector<double> describeInputs(
   return description;
 }
 
-/// Where all is gas, a mask would only take memory, a fifth of what is held, and be read by the tracer.
-void dropMaskOfOnes(vtkPointData* arrays)
-{
-  auto* valid = vtkUnsignedCharArray::SafeDownCast(arrays->GetArray("vtkValidPointMask"));
-  const auto count = static_cast<std::size_t>(valid->GetNumberOfValues());
-  if (std::memchr(valid->GetPointer(0), 0, count) == nullptr)
-  {
-    arrays->RemoveArray("vtkValidPointMask");
-  }
-}
-
 /// Whether the filter's picture is coloured.
 bool hasColor(vtkSchlierenFilter* self)
 {
@@ -143,26 +128,6 @@ void tellPlaces(vtkInformationVector* outputs)
     info->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
     info->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
   }
-}
-
-/// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`; null where all
-/// is gas.
-const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& storage)
-{
-  const auto bytesOf = [arrays](const char* name)
-  { return vtkUnsignedCharArray::SafeDownCast(arrays->GetArray(name)); };
-  auto* valid = bytesOf("vtkValidPointMask");
-  auto* outside = bytesOf("TransparentPointMask");
-  if (!valid || !outside)
-  {
-    return valid ? valid->GetPointer(0) : nullptr;
-  }
-  storage.resize(static_cast<std::size_t>(valid->GetNumberOfValues()));
-  std::transform(valid->GetPointer(0), valid->GetPointer(0) + storage.size(),
-    outside->GetPointer(0), storage.begin(),
-    [](unsigned char isValid, unsigned char isOutside)
-    { return isOutside ? schlieren::transparent : isValid; });
-  return storage.data();
 }
 
 } // namespace
@@ -470,7 +435,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     vtkWarningMacro(<< warning);
   }
-  dropMaskOfOnes(inside.Refractivity->GetPointData());
+  dropMaskOfOnes(inside.Refractivity);
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
@@ -495,22 +460,13 @@ void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
 {
   vtkImageData* refractivity = this->Inside->Refractivity;
-  vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
-  auto* floats = vtkFloatArray::SafeDownCast(values);
-  auto* doubles = vtkDoubleArray::SafeDownCast(values);
-
-  schlieren::Field field;
-  field.grid = gridFrom(refractivity);
-  field.singles = floats ? floats->GetPointer(0) : nullptr;
-  field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
   std::vector<unsigned char> mask;
-  field.valid = maskFrom(refractivity->GetPointData(), mask);
+  schlieren::Field field = fieldFrom(refractivity, mask);
   if (!this->AutoAmbientRefractivity)
   {
     field.ambient = this->AmbientRefractivity;
   }
   field.lengthScale = this->LengthScale;
-  field.version = refractivity->GetMTime();
 
   schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid);
   if (this->ColorByField)

@@ -2,29 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSchlierenFilter
- * @brief   the picture that a schlieren or shadowgraph bench takes of a flow
+ * @brief   the picture that a schlieren, shadowgraph or interferometry bench takes of a flow
  *
- * Bends parallel light through the refractive index of a flow and produces a 2-D vtkImageData, in
- * the plane z = 0, whose coordinates are those of the view: x = position . u, y = position . v in
- * data units, where u points right and v up. So the picture of the default view lies over the data.
+ * Bends light through the refractive index of a flow and produces a 2-D vtkImageData, in the plane
+ * z = 0, whose coordinates are those of the view: x = position . u, y = position . v in data units,
+ * where u points right and v up. So the picture of the default view lies over the data.
  *
- * Point arrays of the output, all from the rays that start in the pixel:
- * - `Intensity` (float, active scalars): undisturbed light is 1/2 for a knife edge, 1 for a
- *   shadowgraph;
- * - `Color` (3 unsigned chars, active scalars then), with ColorByField only: the intensity, tinted;
- *   undisturbed light is grey, 128;
+ * Point arrays of the picture (their vtkDataArray::UNITS_LABEL tells the unit), all but the first two
+ * and the last two from the rays that start in the pixel:
+ * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured picture;
+ * - `Color` (3 unsigned chars, active scalars then), where the picture has colours: in sRGB behind a
+ *   COLOR_FILTER and in WhiteLight; else, with ColorByField, the intensity, tinted, as linear bytes:
+ *   255 is 1, of a shadowgraph 2;
  * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, against undisturbed light;
  * - `Displacement` (2 floats): sideways, at the plane where light leaves the data, data units;
- * - `BlockedFraction` (float): share of the light that a solid stopped.
+ * - `BlockedFraction` (float): share of the light that a solid stopped;
+ * - `Background` (float) and `BackgroundDisplacement` (2 floats, data units), with BACKGROUND_ORIENTED
+ *   only: the pattern without the flow, and how far the flow shifts what is seen of it.
  *
- * Field data: `Device`, `PathModel`, `KScale` (the k used), `AmbientRefractivity` (the value used),
- * `RaysTraced`, `RaysLost` (trapped in the medium or turned back by it), `StepsTaken` (of all rays),
- * `TraceSeconds` (0 where nothing had to be traced), and what is known of the accuracy:
- * `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping changes no
- * direction cosine by more) and `MomentumDrift` (largest relative error of |p| = n where refracted rays
- * leave; 0 for straight ones). `PathModel` is the one used: `Straight` or `Refracted`.
+ * Field data: `Device`, `PathModel`, `KScale` (the k used), `UndisturbedLevel` (intensity of light that
+ * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
+ * `LightEmitted`, `LightOnFilm` and `LightOutside` (behind the cutoff, in full light of all pixels; the
+ * first is the sum of the others), `FringeSpacing` (of finite fringes, data units),
+ * `AmbientRefractivity` (the value used), `RaysTraced`, `RaysLost` (trapped in the medium or turned back
+ * by it), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
+ * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
+ * changes no direction cosine by more) and `MomentumDrift` (largest relative error of |p| = n where
+ * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight` or `Refracted`.
+ *
+ * The second output is the histogram of the light on the cutoff plane: an image with a point at the
+ * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
+ * (64-bit integers). Empty where HistogramSize is 0.
  *
  * The inputs and the properties that describe the medium are those of vtkRefractiveIndex; an image
  * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
@@ -221,7 +231,7 @@ public:
   ///@{
   /**
    * Wavelength of the light in vacuum, nanometres: of the medium, as in vtkRefractiveIndex, and of an
-   * interferogram. Default: 632.8.
+   * interferogram. Another one finds the refractivity anew only where that depends on it. Default: 632.8.
    */
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);

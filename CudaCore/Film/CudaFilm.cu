@@ -108,8 +108,12 @@ struct RaysOnDevice
   __device__ FilmRay<CutoffKind::channels> at(const CutoffKind& cutoff,
     const Projection& projection, std::int64_t column, std::int64_t row) const
   {
-    const RayExit& here = exit(column, row);
     FilmRay<CutoffKind::channels> ray{};
+    if (column < 0 || column >= columns || row < 0 || row >= rows)
+    {
+      return ray;
+    }
+    const RayExit& here = exit(column, row);
     ray.arrives = here.reachesFilm();
     if (ray.arrives)
     {
@@ -155,8 +159,13 @@ __global__ void exposeKernel(
     }
     else if (i + 1 < rays.columns && j + 1 < rays.rows)
     {
+      const auto smooth = [&ray](std::int64_t right, std::int64_t up)
+      {
+        return sheetRay(ray(right, up), ray(right - 1, up), ray(right + 1, up), ray(right, up - 1),
+          ray(right, up + 1));
+      };
       Sheet<planes, DeviceDeposit<planes>>(sums.film, deposit)
-        .addCell(ray(0, 0), ray(1, 0), ray(0, 1), ray(1, 1));
+        .addCell(smooth(0, 0), smooth(1, 0), smooth(0, 1), smooth(1, 1), ray);
     }
   }
   const int crossed = __syncthreads_count(counts.crossed != 0);

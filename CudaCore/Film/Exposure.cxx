@@ -110,8 +110,7 @@ public:
 
   /// The rays of a pass that start in a row (from 0 on). Returns the rows of the film (from the first to the
   /// last pixel) that some of them land in.
-  RowRange load(
-    const TracedRays& pass, std::int64_t row, std::vector<Ray>& rays, RayCounts& counts) const
+  RowRange load(const TracedRays& pass, std::int64_t row, Ray* rays, RayCounts& counts) const
   {
     const std::int64_t first = pass.rayOf(-margin_, row - margin_);
     const double startColumn = static_cast<double>(-margin_) + pass.pass.offset.column;
@@ -126,7 +125,7 @@ public:
       {
         counts.addShaded(exit, cutoff_);
       }
-      Ray& ray = rays[static_cast<std::size_t>(i)];
+      Ray& ray = rays[i];
       ray.arrives = exit.reachesFilm();
       if (ray.arrives)
       {
@@ -185,7 +184,7 @@ void addPhotons(const Rays& source, const std::vector<TracedRays>& passes, std::
     for (const TracedRays& pass : passes)
     {
       // From half a pixel below where they land.
-      bands.cover(source.load(pass, row, rays, counts), -0.5);
+      bands.cover(source.load(pass, row, rays.data(), counts), -0.5);
       for (const auto& ray : rays)
       {
         addPhoton(ray, film, bands);
@@ -199,25 +198,59 @@ template <class Rays, class Deposit>
 void addSheet(const Rays& source, const std::vector<TracedRays>& passes, std::int64_t begin,
   std::int64_t end, const FilmSize& film, Deposit& bands, RayCounts& counts)
 {
+  using Ray = typename Rays::Ray;
+  using Row = std::vector<Ray>;
   Sheet<Rays::planes, Deposit> sheet(film, bands);
-  std::vector<typename Rays::Ray> lower(static_cast<std::size_t>(source.columns));
-  std::vector<typename Rays::Ray> upper(lower.size());
+  const auto columns = static_cast<std::size_t>(source.columns);
+  // With a ray that does not arrive at either end, as in rows outside.
+  const Row none(columns + 2, Ray{});
+  std::array<Row, 4> rows{ none, none, none, none };
+  std::array<RowRange, 4> lands;
+  std::vector<SheetRay<Rays::planes>> lower(columns), upper(columns);
+  RayCounts ofOthers;
   for (const TracedRays& pass : passes)
   {
-    RowRange lands = source.load(pass, begin, lower, counts);
-    for (std::int64_t row = begin + 1; row < std::min(end + 1, source.rows); ++row)
+    const auto slotOf = [](std::int64_t row) { return static_cast<std::size_t>((row + 4) % 4); };
+    const auto load = [&](std::int64_t row)
     {
-      RayCounts ofNextPiece;
-      const RowRange landsAbove = source.load(pass, row, upper, row < end ? counts : ofNextPiece);
-      bands.cover(
-        { std::min(lands.lowest, landsAbove.lowest), std::max(lands.highest, landsAbove.highest) },
-        0);
-      for (std::size_t i = 1; i < lower.size(); ++i)
+      const std::size_t slot = slotOf(row);
+      if (row < 0 || row >= source.rows)
       {
-        sheet.addCell(lower[i - 1], lower[i], upper[i - 1], upper[i]);
+        rows[slot] = none;
+        return;
+      }
+      lands[slot] = source.load(
+        pass, row, rows[slot].data() + 1, row >= begin && row < end ? counts : ofOthers);
+    };
+    const auto smooth = [&](std::int64_t row, std::vector<SheetRay<Rays::planes>>& to)
+    {
+      const Ray* below = rows[slotOf(row - 1)].data() + 1;
+      const Ray* here = rows[slotOf(row)].data() + 1;
+      const Ray* above = rows[slotOf(row + 1)].data() + 1;
+      for (std::size_t i = 0; i < columns; ++i)
+      {
+        to[i] = sheetRay(here[i], here[i - 1], here[i + 1], below[i], above[i]);
+      }
+    };
+    load(begin - 1);
+    load(begin);
+    load(begin + 1);
+    smooth(begin, lower);
+    for (std::int64_t row = begin; row < std::min(end, source.rows - 1); ++row)
+    {
+      load(row + 2);
+      smooth(row + 1, upper);
+      const RowRange& below = lands[slotOf(row)];
+      const RowRange& above = lands[slotOf(row + 1)];
+      bands.cover(
+        { std::min(below.lowest, above.lowest), std::max(below.highest, above.highest) }, 0);
+      for (std::size_t i = 0; i + 1 < columns; ++i)
+      {
+        sheet.addCell(lower[i], lower[i + 1], upper[i], upper[i + 1],
+          [&](int right, int up) -> const Ray&
+          { return rows[slotOf(row + up)][i + static_cast<std::size_t>(1 + right)]; });
       }
       std::swap(lower, upper);
-      lands = landsAbove;
     }
   }
 }

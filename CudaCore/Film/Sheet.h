@@ -15,6 +15,50 @@
 namespace schlieren
 {
 
+/// A ray among its neighbours of the same pass. Its light is such that linear interpolation between rays, which
+/// would flatten what is curved, has the right mean: less a twelfth of the second difference each way.
+template <int planes>
+struct SheetRay : FilmRay<planes>
+{
+  double bend = 0; ///< pixels: the largest second difference of where rays land
+};
+
+/// Neighbours that do not arrive, or are none, count for nothing.
+template <int planes>
+SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRay<planes>& left,
+  const FilmRay<planes>& right, const FilmRay<planes>& below, const FilmRay<planes>& above)
+{
+  SheetRay<planes> ray;
+  static_cast<FilmRay<planes>&>(ray) = here;
+  const auto look = [&here, &ray](const FilmRay<planes>& before, const FilmRay<planes>& after)
+  {
+    if (!(before.arrives && after.arrives))
+    {
+      return;
+    }
+    const double x = fabs((before.x - here.x) + (after.x - here.x));
+    const double y = fabs((before.y - here.y) + (after.y - here.y));
+    ray.bend = ray.bend > x ? ray.bend : x;
+    ray.bend = ray.bend > y ? ray.bend : y;
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      ray.light[plane] -=
+        ((before.light[plane] - here.light[plane]) + (after.light[plane] - here.light[plane])) *
+        (1. / 12);
+    }
+  };
+  if (here.arrives)
+  {
+    look(left, right);
+    look(below, above);
+    for (double& light : ray.light)
+    {
+      light = light > 0 ? (light < 1 ? light : 1) : 0;
+    }
+  }
+  return ray;
+}
+
 /// Spreads the light between rays over a film's pixels. Deposit: see addPhoton.
 template <int planes, class Deposit>
 class Sheet
@@ -28,6 +72,25 @@ public:
     , rows_(static_cast<double>(film.rows))
     , deposit_(deposit)
   {
+  }
+
+  /// The cell between four neighbouring rays. Where it is bent, it is added as four, with cubic interpolation
+  /// between 4 x 4 rays: `around(i, j)` gives these, which may be unset where they do not arrive; rays 0 and 1
+  /// are the cell's.
+  template <class Around>
+  SCHLIEREN_HD void addCell(const SheetRay<planes>& lowerLeft, const SheetRay<planes>& lowerRight,
+    const SheetRay<planes>& upperLeft, const SheetRay<planes>& upperRight, const Around& around)
+  {
+    constexpr double straight = 0.02; ///< pixels
+    constexpr double tangled =
+      8; ///< where rays are too far from each other to tell what is between
+    const double bend =
+      larger(larger(lowerLeft.bend, lowerRight.bend), larger(upperLeft.bend, upperRight.bend));
+    if (!(bend > straight && bend < tangled) ||
+      !addRefined(lowerLeft, lowerRight, upperLeft, upperRight, around))
+    {
+      addCell(lowerLeft, lowerRight, upperLeft, upperRight);
+    }
   }
 
   /// The light between four neighbouring rays. Where some of them do not arrive, the others bring a quarter
@@ -175,6 +238,65 @@ private:
         plane, column, row, Shares{ whole - second - third - fourth, second, fourth, third });
     }
     return true;
+  }
+
+  /// False if not all rays arrive.
+  template <class Around>
+  SCHLIEREN_APART bool addRefined(const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft,
+    const Ray& upperRight, const Around& around)
+  {
+    Point rows[4];    // half-way between rays 0 and 1 of each row
+    Point columns[4]; // and of each column
+    Point at[4][4];
+    for (int j = 0; j < 4; ++j)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        const Ray& ray = around(i - 1, j - 1);
+        if (!ray.arrives)
+        {
+          return false;
+        }
+        at[j][i] = { ray.x, ray.y };
+      }
+      rows[j] = halfWay(at[j][0], at[j][1], at[j][2], at[j][3]);
+    }
+    for (int i = 1; i < 3; ++i)
+    {
+      columns[i] = halfWay(at[0][i], at[1][i], at[2][i], at[3][i]);
+    }
+    const Ray left = between(upperLeft, lowerLeft, columns[1]);
+    const Ray right = between(upperRight, lowerRight, columns[2]);
+    const Ray below = between(lowerLeft, lowerRight, rows[1]);
+    const Ray above = between(upperLeft, upperRight, rows[2]);
+    const Ray middle = between(left, right, halfWay(rows[0], rows[1], rows[2], rows[3]));
+    Sheet quarter({ film_.columns, film_.rows, 0.25 * film_.one }, deposit_);
+    quarter.addCell(lowerLeft, below, left, middle);
+    quarter.addCell(below, lowerRight, middle, right);
+    quarter.addCell(left, middle, upperLeft, above);
+    quarter.addCell(middle, right, above, upperRight);
+    return true;
+  }
+
+  /// In the middle of a cubic through four points (Catmull & Rom 1974).
+  SCHLIEREN_HD static Point halfWay(
+    const Point& before, const Point& a, const Point& b, const Point& after)
+  {
+    return { (9 * (a.x + b.x) - (before.x + after.x)) / 16,
+      (9 * (a.y + b.y) - (before.y + after.y)) / 16 };
+  }
+
+  SCHLIEREN_HD static Ray between(const Ray& a, const Ray& b, const Point& at)
+  {
+    Ray ray;
+    ray.x = at.x;
+    ray.y = at.y;
+    ray.arrives = true;
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      ray.light[plane] = 0.5 * (a.light[plane] + b.light[plane]);
+    }
+    return ray;
   }
 
   /// A square of half a pixel, whose lower left corner is at (right, up) from where the ray lands.

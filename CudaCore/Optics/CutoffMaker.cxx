@@ -25,19 +25,6 @@ std::array<float, n> linearValues()
   return values;
 }
 
-Cutoffs interferogramOf(const Scene& scene, double pixelSize)
-{
-  const Fringes& fringes = scene.fringes;
-  const Carrier carrier = fringes.finite
-    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle, scene.view.width, scene.view.height)
-    : Carrier{};
-  if (fringes.whiteLight)
-  {
-    return WhiteLight::of(scene.wavelength, fringes.dispersion, carrier);
-  }
-  return Interferogram{ 1 / scene.wavelength, carrier };
-}
-
 } // namespace
 
 double fullScaleOf(Cutoff cutoff)
@@ -121,12 +108,31 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
       return ColorWheel{ k, { linear.data(), linear.size() } };
     }
     case Cutoff::Interferogram:
-      return interferogramOf(scene, pixelSize);
+      return interferogram(scene, pixelSize);
     case Cutoff::Shadowgraph:
     case Cutoff::Background:
       break;
   }
   return Shadowgraph{};
+}
+
+Cutoffs CutoffMaker::interferogram(const Scene& scene, double pixelSize)
+{
+  const Fringes& fringes = scene.fringes;
+  const Carrier carrier = fringes.finite
+    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle, scene.view.width, scene.view.height)
+    : Carrier{};
+  if (!fringes.whiteLight)
+  {
+    return Interferogram{ 1 / scene.wavelength, carrier };
+  }
+  const WhiteLight light = WhiteLight::of(scene.wavelength, fringes.dispersion, carrier);
+  if (!WhiteLightTable::canDo(light))
+  {
+    return light;
+  }
+  table_ = WhiteLightTable::colorsOf(light);
+  return WhiteLightTable{ { table_.data(), table_.size() }, carrier, scene.wavelength };
 }
 
 Table CutoffMaker::linearPicture(const std::shared_ptr<const RgbPicture>& picture)

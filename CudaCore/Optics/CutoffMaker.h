@@ -29,6 +29,7 @@ public:
 
 private:
   Cutoffs patternOf(const Scene& scene, double pixelSize);
+  Cutoffs interferogram(const Scene& scene, double pixelSize);
   Table linearPicture(const std::shared_ptr<const RgbPicture>& picture);
 
   std::vector<float> table_;

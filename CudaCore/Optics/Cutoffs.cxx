@@ -13,6 +13,7 @@ namespace
 
 const Carrier* carrierOf(const Interferogram& kind) { return &kind.carrier; }
 const Carrier* carrierOf(const WhiteLight& kind) { return &kind.carrier; }
+const Carrier* carrierOf(const WhiteLightTable& kind) { return &kind.carrier; }
 template <class Kind>
 const Carrier* carrierOf(const Kind&)
 {
@@ -24,7 +25,7 @@ template <class Kind>
 std::optional<double> meanOf(const Kind& kind)
 {
   const Carrier* carrier = carrierOf(kind);
-  const bool isFringed = carrier != nullptr && (carrier->perColumn != 0 || carrier->perRow != 0);
+  const bool isFringed = carrier != nullptr && !carrier->isNone();
   return isFringed || std::is_same_v<Kind, Dots> || std::is_same_v<Kind, Stripes>
     ? std::optional(0.5)
     : std::nullopt;

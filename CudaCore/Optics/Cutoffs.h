@@ -29,7 +29,8 @@ struct Shadowgraph
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
 using Cutoffs = std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter,
-  ColorWheel, ColorPicture, Interferogram, WhiteLight, Dots, Stripes, BackgroundPicture>;
+  ColorWheel, ColorPicture, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes,
+  BackgroundPicture>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {
@@ -39,6 +40,7 @@ inline int channelsOf(const Cutoffs& cutoff)
 /// Where a kind keeps its table, null if it has none.
 inline Table* tableOf(GradedFilter& kind) { return &kind.table; }
 inline Table* tableOf(ColorWheel& kind) { return &kind.linear; }
+inline Table* tableOf(WhiteLightTable& kind) { return &kind.colors; }
 inline Table* tableOf(ColorPicture& kind) { return &kind.linear; }
 inline Table* tableOf(BackgroundPicture& kind) { return &kind.picture.linear; }
 template <class Kind>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two beams of equal light, one through the medium and one beside it (Merzkirch 1987, ch. 3). A camera sees
-// the mean square of their sum, I = (1 + cos phi) / 2, phi = 2 pi OPD / wavelength + carrier. The sine of
-// Brownlee et al. 2011, eq. 16, is the sum itself, a quarter of a fringe on; it is negative half of the
-// time, and has half as many fringes as |sin|.
+// Two beams of equal light, one through the medium and one past it (Merzkirch 1987, ch. 3). A camera sees the
+// mean square of their sum, I = (1 + cos phi) / 2, phi = 2 pi OPD / wavelength + carrier. Brownlee et al.
+// 2011, eq. 16, take sin(2 pi OPD / wavelength): as many fringes, a quarter of one further on, but half of
+// each is negative, which is no intensity.
 #pragma once
 
 #include "Math/HostDevice.h"
@@ -32,6 +32,8 @@ struct Carrier
     const double row = std::abs(turn) == 180 ? 0 : std::sin(turn * radiansPerDegree) / spacing;
     return { column, row, -0.5 * (column * (width - 1) + row * (height - 1)) };
   }
+
+  bool isNone() const { return perColumn == 0 && perRow == 0; }
 
   SCHLIEREN_HD double turnsAt(const double (&position)[2]) const
   {

@@ -4,10 +4,10 @@
 
 #include "Schlieren.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -48,6 +48,8 @@ WhiteLight WhiteLight::of(
 {
   constexpr double lowest = 1 / 780e-9, highest = 1 / 380e-9; // wavenumbers, 1 / metres
   constexpr double width = (highest - lowest) / bands;
+  WhiteLight light{};
+  light.leastDispersion = light.mostDispersion = 1;
   // One more on either side, for differences.
   std::array<double, bands + 2> wavenumbers, turns;
   std::array<Triple, bands + 2> energies;
@@ -63,6 +65,8 @@ WhiteLight WhiteLight::of(
         " nm, so white light has no fringes. Choose an index model that covers 370 to 800 nm, or "
         "switch WhiteLight off.");
     }
+    light.leastDispersion = std::min(light.leastDispersion, factor);
+    light.mostDispersion = std::max(light.mostDispersion, factor);
     turns[n] = factor * wavenumbers[n];
     energies[n] = colorMatching(wavelengthHere);
     for (double& energy : energies[n])
@@ -71,7 +75,6 @@ WhiteLight WhiteLight::of(
     }
   }
 
-  WhiteLight light{};
   light.carrier = carrier;
   light.fadePerCarrier = static_cast<float>(wavelength * width);
   std::array<Triple, bands> xyz;
@@ -108,6 +111,30 @@ WhiteLight WhiteLight::of(
     }
   }
   return light;
+}
+
+bool WhiteLightTable::canDo(const WhiteLight& light)
+{
+  // Of other gases, which are none, fringes would be wider or closer than the table is made for.
+  return light.carrier.isNone() ? light.leastDispersion > 0.8 && light.mostDispersion < 1.25
+                                : light.leastDispersion == 1 && light.mostDispersion == 1;
+}
+
+std::vector<float> WhiteLightTable::colorsOf(WhiteLight light)
+{
+  light.carrier = {};
+  std::vector<float> colors;
+  colors.reserve(channels * places);
+  for (int place = 0; place < places; ++place)
+  {
+    double color[channels];
+    light.sum({ { 0, 0 }, place * (reach / (places - 1)), { 0, 0 } }, color);
+    for (const double channel : color)
+    {
+      colors.push_back(static_cast<float>(channel));
+    }
+  }
+  return colors;
 }
 
 } // namespace schlieren

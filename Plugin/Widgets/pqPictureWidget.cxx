@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureWidget.h"
 
+#include "pqColorChooserButton.h"
 #include "pqCoreUtilities.h"
 #include "pqFileDialog.h"
+#include "pqPictureView.h"
 
 #include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
 
 #include <QBuffer>
-#include <QColor>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QImageReader>
@@ -19,32 +20,12 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {
 
-const QString pngHeader = "data:image/png;base64,";
 const QString nameKey = "Title";  // of the text in a PNG that keeps its file's name
 constexpr int largestSide = 2048; // pixels: the picture goes into every state file
-constexpr int shownSide = 128;    // pixels
-
-/// A filter that has no picture: the direction of deflection is the hue, its size the saturation.
-QImage colorWheel()
-{
-  QImage wheel(shownSide, shownSide, QImage::Format_RGB32);
-  for (int row = 0; row < shownSide; ++row)
-  {
-    for (int column = 0; column < shownSide; ++column)
-    {
-      const double u = 2 * (column + 0.5) / shownSide - 1, v = 1 - 2 * (row + 0.5) / shownSide;
-      const double turn = std::atan2(v, u) / (2 * std::acos(-1));
-      wheel.setPixelColor(column, row,
-        QColor::fromHsvF(turn < 0 ? turn + 1 : turn, std::min(1., std::hypot(u, v)), 1));
-    }
-  }
-  return wheel;
-}
 
 /// What a property holds, or a null image.
 QImage decoded(const QString& picture)
@@ -70,65 +51,16 @@ QImage opaque(const QImage& read)
   return image;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-class pqPictureWidget::Preview : public QWidget
+/// What a property is to hold; `name` is kept in the PNG.
+QString encoded(QImage image, const QString& name)
 {
-public:
-  Preview(bool hasAxes, QWidget* parentWidget)
-    : QWidget(parentWidget)
-    , HasAxes(hasAxes)
-    , Margin(hasAxes ? this->fontMetrics().height() : 0)
-  {
-    this->setFixedSize(shownSide + 3 * this->Margin, shownSide + 2 * this->Margin);
-  }
+  image.setText(nameKey, name);
+  QBuffer png;
+  image.save(&png, "PNG");
+  return "data:image/png;base64," + QString::fromLatin1(png.data().toBase64());
+}
 
-  bool hasAxes() const { return this->HasAxes; }
-
-  void show(const QImage& image)
-  {
-    this->Shown = image.isNull()
-      ? QImage()
-      : image.scaled(shownSide, shownSide,
-          this->HasAxes ? Qt::IgnoreAspectRatio : Qt::KeepAspectRatio, Qt::SmoothTransformation);
-    if (!this->HasAxes)
-    {
-      this->setFixedSize(this->Shown.size().expandedTo(QSize(1, 1)));
-    }
-    this->update();
-  }
-
-protected:
-  void paintEvent(QPaintEvent*) override
-  {
-    QPainter painter(this);
-    const QRect place(QPoint(this->Margin, this->Margin), this->Shown.size());
-    painter.drawImage(place, this->Shown);
-    if (!this->HasAxes)
-    {
-      return;
-    }
-    painter.setPen(QPen(QColor(0, 0, 0, 128), 1, Qt::DashLine));
-    const QPoint middle = place.center();
-    painter.drawLine(place.left(), middle.y(), place.right(), middle.y());
-    painter.drawLine(middle.x(), place.top(), middle.x(), place.bottom());
-    painter.setPen(this->palette().color(QPalette::WindowText));
-    const int line = this->Margin;
-    const auto write = [&](int x, int y, const QString& text)
-    { painter.drawText(QRect(x - 30, y - line / 2, 60, line), Qt::AlignCenter, text); };
-    write(middle.x(), line / 2, QString::fromUtf8("k ε\u1D65 = 1"));
-    write(middle.x(), place.bottom() + line / 2 + 1, QString::fromUtf8("\u22121"));
-    write(line / 2, middle.y(), QString::fromUtf8("\u22121"));
-    painter.drawText(QRect(place.right() + 3, middle.y() - line, 2 * line, 2 * line),
-      Qt::AlignLeft | Qt::AlignVCenter, QString::fromUtf8("k ε\u1D64\n= 1"));
-  }
-
-private:
-  const bool HasAxes;
-  const int Margin;
-  QImage Shown;
-};
+} // namespace
 
 //------------------------------------------------------------------------------
 pqPictureWidget::pqPictureWidget(
@@ -140,7 +72,7 @@ pqPictureWidget::pqPictureWidget(
   vtkPVXMLElement* hint = hints ? hints->FindNestedElementByName("SchlierenPicture") : nullptr;
   const bool isFilter = hint && QString(hint->GetAttribute("plane")) == "deflection";
 
-  this->View = new Preview(isFilter, this);
+  this->View = new pqPictureView(isFilter, this);
   this->View->setObjectName("Preview");
   this->Note = new QLabel(this);
   this->Note->setObjectName("Note");
@@ -159,6 +91,19 @@ pqPictureWidget::pqPictureWidget(
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(load);
   buttons->addWidget(this->Clear);
+  if (isFilter)
+  {
+    auto* brush = new pqColorChooserButton(this);
+    brush->setObjectName("Brush");
+    brush->setToolTip(tr("The colour to paint with on the filter"));
+    brush->setAccessibleName(brush->toolTip());
+    brush->setChosenColor(Qt::black);
+    buttons->addWidget(brush);
+    QObject::connect(
+      brush, &pqColorChooserButton::chosenColorChanged, this->View, &pqPictureView::setBrush);
+    QObject::connect(this->View, &pqPictureView::painted, this,
+      [this]() { this->setPicture(encoded(this->View->picture(), tr("painted"))); });
+  }
   buttons->addStretch();
   auto* column = new QVBoxLayout(this);
   column->setMargin(0);
@@ -191,11 +136,11 @@ void pqPictureWidget::showPicture()
 {
   const bool isEmpty = this->Picture.isEmpty();
   const QImage image = decoded(this->Picture);
-  this->View->show(isEmpty && this->View->hasAxes() ? colorWheel() : image);
+  this->View->setPicture(image);
   this->Clear->setEnabled(!isEmpty);
   if (isEmpty)
   {
-    this->Note->setText(this->View->hasAxes() ? tr("the colour wheel") : tr("no picture"));
+    this->Note->setText(this->View->isColorFilter() ? tr("the colour wheel") : tr("no picture"));
     return;
   }
   const bool isName = !this->Picture.startsWith("data:");
@@ -229,11 +174,7 @@ void pqPictureWidget::load()
                           .arg(file, reader.errorString()));
     return;
   }
-  QImage image = opaque(read);
-  image.setText(nameKey, QFileInfo(file).fileName());
-  QBuffer png;
-  image.save(&png, "PNG");
-  this->setPicture(pngHeader + QString::fromLatin1(png.data().toBase64()));
+  this->setPicture(encoded(opaque(read), QFileInfo(file).fileName()));
 }
 
 //------------------------------------------------------------------------------

@@ -4,15 +4,15 @@
 
 #include "pqPropertyWidget.h"
 
-#include <QImage>
 #include <QString>
 
 class QLabel;
 class QPushButton;
+class pqPictureView;
 
-/// Shows the picture that a text property names or holds, and loads another one into it. What is loaded is
-/// read where the window runs, and the property then holds all of it as a PNG ("data:image/png;base64,..."):
-/// state files keep it, and servers need not find a file.
+/// Shows the picture that a text property names or holds, loads another one into it, or has the user paint
+/// one. What is loaded is read where the window runs, and the property then holds all of it as a PNG
+/// ("data:image/png;base64,..."): state files keep it, and servers need not find a file.
 ///
 /// A hint in the XML tells what the picture is laid out over:
 ///
@@ -41,12 +41,10 @@ private Q_SLOTS:
   void clear();
 
 private:
-  class Preview;
-
   void showPicture();
 
   QString Picture;
-  Preview* View;
+  pqPictureView* View;
   QLabel* Note;
   QPushButton* Clear;
 };

@@ -363,6 +363,52 @@ TEST(WhiteLight, ACarrierIsAPathBesideTheGas)
   }
 }
 
+TEST(WhiteLightTable, IsTheSameLight)
+{
+  for (const bool isDispersed : { false, true })
+  {
+    // A table does for infinite fringes and for a gas without dispersion.
+    Scene scene = interferogram();
+    scene.view.width = 301;
+    scene.view.height = 201;
+    scene.fringes.whiteLight = true;
+    scene.fringes.finite = !isDispersed;
+    scene.fringes.spacing = 7;
+    scene.fringes.angle = 20;
+    const Carrier carrier = isDispersed ? Carrier{} : Carrier::of(7, 20, 301, 201);
+    if (isDispersed)
+    {
+      scene.fringes.dispersion = likeAir;
+    }
+    CutoffMaker maker;
+    const WhiteLightTable table = std::get<WhiteLightTable>(maker.cutoffOf(scene, 0, 1));
+    const WhiteLight light = WhiteLight::of(heliumNeon, scene.fringes.dispersion, carrier);
+    for (double path = -40e-6; path < 40e-6; path += 77e-9)
+    {
+      const RayAtFilm ray{ { 0, 0 }, path, { 120 + 1e6 * path, 90 - 1e6 * path } };
+      double color[3];
+      table.shade(ray, color);
+      expectNear({ color[0], color[1], color[2] }, lightOf(light, ray), 4e-3);
+      if (std::abs(path) < 15e-6)
+      {
+        expectNear({ color[0], color[1], color[2] }, lightOf(light, ray), 5e-4);
+      }
+    }
+  }
+}
+
+TEST(WhiteLightTable, IsNotTakenForGasesThatItIsNotMadeFor)
+{
+  Scene scene = interferogram();
+  scene.fringes.whiteLight = true;
+  CutoffMaker maker;
+  for (const auto& [least, most] : { std::pair{ 0.5, 1. }, { 1., 1.5 }, { -1., 1. } })
+  {
+    scene.fringes.dispersion = [=](double lambda) { return lambda < 500e-9 ? most : least; };
+    EXPECT_TRUE(std::holds_alternative<WhiteLight>(maker.cutoffOf(scene, 0, 1)));
+  }
+}
+
 TEST(WhiteLight, DispersionThatIsNoNumberIsTold)
 {
   EXPECT_THROW(WhiteLight::of(heliumNeon, [](double) { return std::nan(""); }, {}), Error);

@@ -59,3 +59,6 @@ assert u[inside].mean() < 0 < u[outside].mean()
 
 # The thin line above the middle is in the computation: its density dips within 0.01 of y = 0.
 check_baseline(schlieren, "DeltaWing")
+
+schlieren.Cutoff = "Color Filter"
+check_baseline(schlieren, "DeltaWingColors", array="Color")

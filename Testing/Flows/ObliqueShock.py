@@ -81,3 +81,6 @@ for place, density in (((0.5, 0.3), 1.4), ((1.9, 0.7), 2.380), ((3.9, 0.2), 3.76
 
 schlieren.KnifeEdgeAngle = 90
 check_baseline(schlieren, "ObliqueShock")
+
+schlieren.Cutoff = "Circular Complement"
+check_baseline(schlieren, "ObliqueShockDarkField")

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A colour filter loaded from a PNG in the properties panel: shown, applied, undone, cleared and kept."""
+"""A colour filter loaded from a PNG in the properties panel, or painted: shown, applied, undone, cleared
+and kept."""
 
 import base64
 import os
@@ -14,7 +15,7 @@ from plugin_testing import Schlieren, picture, simple  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
-from window_testing import FOLDER, Session  # noqa: E402
+from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 FILTER, TEXT = os.path.join(FOLDER, "quarters.png"), os.path.join(FOLDER, "text.png")
 TRACE = os.path.join(FOLDER, "trace.py")
@@ -77,6 +78,14 @@ check("the colour wheel", False)
 user.apply()
 user.save_state("cleared.pvsm")
 
+# A stroke of the brush, in the middle of the wheel: the colour of light that nothing deflects.
+user.event(f"{PROPERTIES}/{WIDGET}/Brush", "setChosenColor", "10,200,30")
+for event, buttons, x in (("mousePress", "1,1", 80), ("mouseMove", "0,1", 84), ("mouseRelease", "1,0", 84)):
+    user.event(f"{PROPERTIES}/{WIDGET}/Preview", event, f"{buttons},0,{x},82")
+check("painted: 256 x 256 pixels", True)
+user.apply()
+user.save_state("painted.pvsm")
+
 user.choose("Cutoff/ComboBox", "Background Oriented")
 user.choose("BackgroundPattern/ComboBox", "Picture")
 user.check("BackgroundImage/Note", "text", "no picture")
@@ -120,18 +129,18 @@ def scripted(**properties):
     return picture(bench, properties.get("Array", "Color"))
 
 
-def check_held(text):
-    """The property holds the PNG itself, pixel by pixel."""
+def held(text):
+    """The picture that a property holds: rows x columns x 3, lowest row first."""
     head = "data:image/png;base64,"
     assert text.startswith(head), text[:40]
     path = os.path.join(FOLDER, "held.png")
-    with open(path, "wb") as held:
-        held.write(base64.b64decode(text[len(head):]))
+    with open(path, "wb") as file:
+        file.write(base64.b64decode(text[len(head):]))
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    assert np.array_equal(pixels.reshape(COLORS.shape), COLORS)
+    columns, rows, _ = reader.GetOutput().GetDimensions()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(rows, columns, 3)
 
 
 bench = bench_of("wheel")
@@ -141,7 +150,7 @@ assert np.array_equal(wheel, scripted(Cutoff="Color Filter"))
 
 for state in ("loaded", "kept"):
     bench = bench_of(state)
-    check_held(bench.ColorFilterImage)
+    assert np.array_equal(held(bench.ColorFilterImage), COLORS)
     shown = picture(bench, "Color")
     assert np.abs(shown.astype(int) - wheel).max() > 100, "The loaded filter changes nothing"
     # The same as the file that a script names.
@@ -151,7 +160,17 @@ bench = bench_of("cleared")
 assert bench.ColorFilterImage == ""
 assert np.array_equal(picture(bench, "Color"), wheel)
 
-check_held(bench_of("background").BackgroundImage)
+bench = bench_of("painted")
+filter_ = held(bench.ColorFilterImage).astype(int)
+assert filter_.shape == (256, 256, 3) and (filter_[128, 128] == (10, 200, 30)).all()
+assert 100 < (filter_ == (10, 200, 30)).all(axis=2).sum() < 2000
+right, up, left = filter_[128, 250], filter_[250, 128], filter_[128, 6]
+assert right[0] > 250 > 60 > right[1] and up[1] > 250 > 60 > up[2] and left[2] > 250 > 60 > left[0]
+bench.AutoKScale = 0
+bench.KScale = 0
+assert (picture(bench, "Color") == (10, 200, 30)).all()
+
+assert np.array_equal(held(bench_of("background").BackgroundImage), COLORS)
 
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
@@ -160,4 +179,4 @@ flow = simple.Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
 flow.UpdatePipeline()
 simple.SetActiveSource(Schlieren(Input=flow, registrationName="bench", ImageSize=[32, 32]))
 exec(script, {})  # pylint: disable=exec-used
-check_held(simple.FindSource("bench").ColorFilterImage)
+assert np.array_equal(held(simple.FindSource("bench").ColorFilterImage), COLORS)

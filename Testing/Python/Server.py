@@ -27,11 +27,29 @@ def bench():
                             Quality="Draft", SamplesPerPixel=2)
 
 
+# Red, green, blue and white, as a PNG file.
+PICTURE = ("data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR4nGP4z8DA"
+           "AMIM/4EAAB/uBfsL2WiLAAAAAElFTkSuQmCC")
+
+
 def arrays():
-    image = servermanager.Fetch(bench())
+    schlieren = bench()
+    image = servermanager.Fetch(schlieren)
     names = ("Intensity", "Deflection", "OpticalPathDifference", "BlockedFraction")
     made = {name: vtk_to_numpy(image.GetPointData().GetArray(name)).copy() for name in names}
     made["RaysTraced"] = vtk_to_numpy(image.GetFieldData().GetArray("RaysTraced")).copy()
+    histogram = servermanager.Fetch(schlieren, idx=1)
+    made["Rays"] = vtk_to_numpy(histogram.GetPointData().GetArray("Rays")).copy()
+    schlieren.GradedFilter.Points = [0, 1, 0.5, 0, 1, 0, 0.5, 0]
+    for cutoff, inverted in (("Knife Edge", 1), ("Graded Filter", 0)):
+        schlieren.Cutoff = cutoff
+        schlieren.InvertCutoff = inverted
+        image = servermanager.Fetch(schlieren)
+        made[cutoff] = vtk_to_numpy(image.GetPointData().GetArray("Intensity")).copy()
+    schlieren.Cutoff = "Color Filter"
+    schlieren.ColorFilterImage = PICTURE
+    colored = servermanager.Fetch(schlieren)
+    made["Color"] = vtk_to_numpy(colored.GetPointData().GetArray("Color")).copy()
     return made
 
 
@@ -61,3 +79,6 @@ for name, values in here.items():
     assert np.array_equal(values, there[name]), name
 assert np.ptp(here["Intensity"]) > 0.5 and here["BlockedFraction"].max() == 1
 assert 2 * 32 * 32 <= here["RaysTraced"][0] < 4 * 32 * 32, here["RaysTraced"]
+assert here["Rays"].shape == (256**2,) and here["Rays"].sum() > 0
+assert np.abs(here["Knife Edge"] - here["Graded Filter"]).max() < 1e-3  # which falls from 1 to 0
+assert len(np.unique(here["Color"], axis=0)) > 10
