@@ -301,6 +301,42 @@ TEST_P(DivergingLight, MagnifiesWhatIsNearToItsSource)
   }
 }
 
+/// Light from R casts on a screen at z the shadow that collimated light casts at z R / (z + R), magnified
+/// (Settles 2001, ch. 6).
+TEST_P(DivergingLight, CastsTheShadowOfANearerScreen)
+{
+  constexpr double peak = 2.7e-3, half = 3, source = 30, screen = 20;
+  const SampledField<float> column(
+    cube(64, half), [](double x, double y, double) { return peak * std::exp(-x * x - y * y); });
+  Field field = column.field;
+  field.ambient = 0;
+  Scene scene;
+  scene.device = GetParam();
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.samplesPerPixel = 4;
+  scene.view.viewDirection = { 0, -1, 0 };
+  scene.view.viewUp = { 0, 0, 1 };
+  scene.view.width = 150;
+  scene.view.height = 3;
+  scene.view.parallelScale = 0.03;
+  const auto at = [&](std::optional<double> distance, double fromMiddle)
+  {
+    scene.source.distance = distance;
+    scene.screenDistance = fromMiddle - half;
+    return Bench().render(field, scene).intensity;
+  };
+  const PixelArray<float> nearer = at({}, screen * source / (screen + source));
+  const PixelArray<float> diverging = at(source, screen);
+  float worst = 0, most = 0;
+  for (std::size_t pixel = 0; pixel < nearer.size(); ++pixel)
+  {
+    worst = std::max(worst, std::abs(diverging[pixel] - nearer[pixel]));
+    most = std::max(most, std::abs(nearer[pixel] - 1));
+  }
+  EXPECT_GT(most, 0.1f);
+  EXPECT_LT(worst, 0.03f * most); // the second order of the column's width by R
+}
+
 INSTANTIATE_TEST_SUITE_P(, DivergingLight, bothDevices(), deviceName);
 
 class ExtendedSource : public OnDevice
