@@ -102,16 +102,16 @@ enum class SourceShape
   Disc
 };
 
-/// Where light comes from. An extended source blurs what is not in focus, and the share of its image that a
-/// knife edge lets pass follows from its shape.
+/// Where light comes from; sizes in radians, seen from the data. An extended source blurs what is not in focus,
+/// and the share of its image that a knife edge lets pass follows from its shape.
 struct LightSource
 {
-  /// From a point source to the middle of the data, data units. Unset: collimated light.
+  /// From a point source to the middle of the data, data units: more than half the depth. Unset: collimated.
   std::optional<double> distance;
   SourceShape shape = SourceShape::Point;
-  double width =
-    0; ///< of a slit, across the knife edge; diameter of a disc. Radians, seen from the data
-  double length = 0; ///< of a slit, along the knife edge. Radians, seen from the data
+  /// Of a slit, across the knife edge; diameter of a disc.
+  double width = 0;
+  double length = 0; ///< of a slit, along the knife edge
 };
 
 /// Of an interferogram. The reference beam crosses the light at an angle beta where fringes are finite: their

@@ -22,7 +22,7 @@ namespace schlieren
 /// would look like another one (aliasing).
 SCHLIEREN_HD double patternContrast(double period) { return limited(0.5 * (period - 2)); }
 
-/// Dark dots on white, one for each square cell, anywhere in it: half of the light comes back.
+/// Dark dots on white, one for each square cell, anywhere in it.
 struct Dots
 {
   static constexpr int channels = 1;
@@ -31,9 +31,9 @@ struct Dots
   double period;    ///< edge of a cell, pixels
   std::uint32_t seed;
 
-  // Of the dots' size, periods. Dots that lie at random leave exp(-pi r^2) uncovered.
-  static constexpr double radius = 0.45; ///< where a dot lets half of the light through
-  static constexpr double edge = 0.2;    ///< over which it becomes white
+  // Of the dots' size, periods: so large that half of the light comes back, found by sampling.
+  static constexpr double radius = 0.423; ///< where a dot lets half of the light through
+  static constexpr double edge = 0.2;     ///< over which it becomes white
 
   SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
   {

@@ -223,7 +223,7 @@ Light lightFrom(
 
 double Light::fastest() const
 {
-  // |a + b| and |a - b| of convex functions are largest in the corners.
+  // Of w and slopes, which is more than of their unit vector; convex, so that it is largest in a corner.
   double most = 0;
   for (const double sign : { -1., 1. })
   {

@@ -111,7 +111,7 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
   scene.fringes.spacing = 0.1;
   CutoffMaker maker;
   for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Circular, Cutoff::CircularComplement,
-         Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram })
+         Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram, Cutoff::Background })
   {
     scene.cutoff = cutoff;
     for (const bool other : { false, true })
@@ -120,6 +120,7 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
       SCOPED_TRACE(other);
       scene.source.shape = other ? SourceShape::Disc : SourceShape::Slit;
       scene.fringes.finite = scene.fringes.whiteLight = other;
+      scene.background.kind = other ? PatternKind::Stripes : PatternKind::Dots;
       scene.colorFilter = nullptr;
       if (other)
       {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace schlieren
 {
@@ -33,6 +34,12 @@ ClosedForm blob(double peak)
       return (-2 * (1 + N) * N / (width * width)) * (x - middle);
     },
     {} };
+}
+
+/// Gas whose index is not that around it where light enters and leaves.
+ClosedForm slope(double peak)
+{
+  return linearMedium(peak, { 0.2 * peak, -0.3 * peak, 0.1 * peak });
 }
 
 constexpr double blobHalf = 3;
@@ -116,9 +123,9 @@ class DivergingLight : public OnDevice
 TEST_P(DivergingLight, IsBentAsTheEquationOfRaysSays)
 {
   const Grid grid = boxGrid(1. / 16, { blobHalf, blobHalf, blobHalf });
-  for (const double peak : { 3e-4, 0.05 })
+  for (const auto& [form, peak] : { std::pair{ blob(3e-4), 3e-4 }, std::pair{ blob(0.05), 0.05 },
+         std::pair{ slope(3e-4), 3e-4 }, std::pair{ slope(0.05), 0.05 } })
   {
-    const ClosedForm form = blob(peak);
     const SampledField<double> medium = sampled(grid, form);
     Field field = medium.field;
     field.ambient = 0;
@@ -134,7 +141,9 @@ TEST_P(DivergingLight, IsBentAsTheEquationOfRaysSays)
         scene.interpolation = Interpolation::Cubic;
         scene.integrator = integrator;
         scene.stepSize = integrator == Integrator::Euler ? 0.02 : 0.5;
-        const Comparison found = compare(form, bench.render(field, scene), scene, grid);
+        const Image image = bench.render(field, scene);
+        const Comparison found = compare(form, image, scene, grid);
+        EXPECT_LE(found.size.displacement, image.displacementBound);
         const double allowed = integrator == Integrator::Euler ? 3e-3 : 2e-4;
         EXPECT_LT(found.error.deflection, allowed * found.size.deflection);
         EXPECT_LT(found.error.displacement, allowed * found.size.displacement);
@@ -148,20 +157,22 @@ TEST_P(DivergingLight, IsBentAsTheEquationOfRaysSays)
 TEST_P(DivergingLight, KeepsItsDigitsInFaintMedia)
 {
   const Grid grid = boxGrid(1. / 16, { blobHalf, blobHalf, blobHalf });
-  const ClosedForm form = blob(1e-10);
-  const SampledField<double> medium = sampled(grid, form);
-  Field field = medium.field;
-  field.ambient = 0;
-  for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
+  for (const ClosedForm& form : { blob(1e-10), slope(1e-10) })
   {
-    Scene scene = divergingScene(GetParam());
-    scene.pathModel = path;
-    scene.interpolation = Interpolation::Cubic;
-    const Comparison found = compare(form, Bench().render(field, scene), scene, grid);
-    EXPECT_LT(found.error.deflection, 1e-3 * found.size.deflection);
-    EXPECT_LT(found.error.displacement, 1e-3 * found.size.displacement);
-    EXPECT_LT(found.error.opticalPathDifference, 1e-3 * found.size.opticalPathDifference);
-    EXPECT_LE(found.size.displacement, Bench().render(field, scene).displacementBound);
+    const SampledField<double> medium = sampled(grid, form);
+    Field field = medium.field;
+    field.ambient = 0;
+    for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
+    {
+      SCOPED_TRACE(name(path));
+      Scene scene = divergingScene(GetParam());
+      scene.pathModel = path;
+      scene.interpolation = Interpolation::Cubic;
+      const Comparison found = compare(form, Bench().render(field, scene), scene, grid);
+      EXPECT_LT(found.error.deflection, 1e-3 * found.size.deflection);
+      EXPECT_LT(found.error.displacement, 1e-3 * found.size.displacement);
+      EXPECT_LT(found.error.opticalPathDifference, 1e-3 * found.size.opticalPathDifference);
+    }
   }
 }
 
@@ -182,6 +193,7 @@ TEST_P(DivergingLight, IsUndisturbedByUniformGas)
     scene.source.shape = shape;
     scene.source.width = 0.2;
     scene.source.length = 0.1;
+    scene.pathModel = PathModel::Refracted;
     for (const double ambient : { 3e-4, 1e-4 })
     {
       Field field = gas.field;
@@ -287,6 +299,42 @@ TEST_P(DivergingLight, MagnifiesWhatIsNearToItsSource)
     EXPECT_NEAR(image.intensity[pixelOf(image, 10, 0)], 1, 1e-6);
     EXPECT_NEAR(image.intensity[pixelOf(image, 290, 0)], 0, 1e-6);
   }
+}
+
+/// Light from R casts on a screen at z the shadow that collimated light casts at z R / (z + R), magnified
+/// (Settles 2001, ch. 6).
+TEST_P(DivergingLight, CastsTheShadowOfANearerScreen)
+{
+  constexpr double peak = 2.7e-3, half = 3, source = 30, screen = 20;
+  const SampledField<float> column(
+    cube(64, half), [](double x, double y, double) { return peak * std::exp(-x * x - y * y); });
+  Field field = column.field;
+  field.ambient = 0;
+  Scene scene;
+  scene.device = GetParam();
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.samplesPerPixel = 4;
+  scene.view.viewDirection = { 0, -1, 0 };
+  scene.view.viewUp = { 0, 0, 1 };
+  scene.view.width = 150;
+  scene.view.height = 3;
+  scene.view.parallelScale = 0.03;
+  const auto at = [&](std::optional<double> distance, double fromMiddle)
+  {
+    scene.source.distance = distance;
+    scene.screenDistance = fromMiddle - half;
+    return Bench().render(field, scene).intensity;
+  };
+  const PixelArray<float> nearer = at({}, screen * source / (screen + source));
+  const PixelArray<float> diverging = at(source, screen);
+  float worst = 0, most = 0;
+  for (std::size_t pixel = 0; pixel < nearer.size(); ++pixel)
+  {
+    worst = std::max(worst, std::abs(diverging[pixel] - nearer[pixel]));
+    most = std::max(most, std::abs(nearer[pixel] - 1));
+  }
+  EXPECT_GT(most, 0.1f);
+  EXPECT_LT(worst, 0.03f * most); // the second order of the column's width by R
 }
 
 INSTANTIATE_TEST_SUITE_P(, DivergingLight, bothDevices(), deviceName);

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Background-oriented schlieren: where a camera's rays meet what is behind the flow, and what it is.
+#include "ClosedForms.h"
+#include "Math/Units.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+namespace schlieren
+{
+
+namespace
+{
+
+Scene cameraScene(Device device)
+{
+  Scene scene;
+  scene.device = device;
+  scene.cutoff = Cutoff::Background;
+  scene.view.width = 64;
+  scene.view.height = 48;
+  scene.samplesPerPixel = 3;
+  return scene;
+}
+
+std::shared_ptr<const RgbPicture> fourColors()
+{
+  // Red, green; above blue, white.
+  return std::make_shared<RgbPicture>(
+    RgbPicture{ 2, 2, { 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255 } });
+}
+
+const PatternKind allPatterns[] = { PatternKind::Dots, PatternKind::Stripes, PatternKind::Picture };
+
+class Background : public OnDevice
+{
+};
+
+/// Rays are parabolas, followed from the camera: with light's direction turned around.
+TEST_P(Background, IsMetWhereParabolasGo)
+{
+  const ClosedForm form = linearMedium(2e-3, { 4e-3, -3e-3, 1e-3 });
+  const Grid grid = boxGrid(1. / 16, { 1.2, 1, 0.8 });
+  const SampledField<double> medium = sampled(grid, form);
+  Field field = medium.field;
+  field.ambient = 0;
+  for (const Vector& direction : { Vector{ 0, 0, -1 }, Vector{ -0.4, 0.3, -0.9 } })
+  {
+    Scene scene = cameraScene(GetParam());
+    scene.precision = Precision::Double;
+    scene.samplesPerPixel = 1;
+    scene.view = raysAround({ 0, 0, 0 }, 7, 5, 0.1);
+    scene.view.viewDirection = direction;
+    scene.background.distance = 5;
+    const Image image = Bench().render(field, scene);
+
+    Image backwards = image;
+    for (double& component : backwards.frame.w)
+    {
+      component = -component;
+    }
+    backwards.frame.entry = -image.frame.exit;
+    backwards.frame.exit = -image.frame.entry;
+    double worst = 0, least = std::numeric_limits<double>::infinity();
+    forRays(form, grid, backwards,
+      [&](std::size_t pixel, const RayState& start, const RayState& end)
+      {
+        const Reading truth = readingOf(start, end, backwards.frame);
+        const double cosine = std::sqrt(1 - truth.deflection[0] * truth.deflection[0] -
+          truth.deflection[1] * truth.deflection[1]);
+        for (std::size_t axis = 0; axis < 2; ++axis)
+        {
+          const double moved = truth.displacement[axis] + 5 * truth.deflection[axis] / cosine;
+          worst = std::max(worst, std::abs(image.backgroundDisplacement[2 * pixel + axis] - moved));
+          least = std::min(least, std::abs(moved));
+        }
+      });
+    EXPECT_GT(least, 1e-3);
+    EXPECT_LT(worst, 1e-6);
+  }
+}
+
+/// A column of dense gas is a converging lens: beside it the camera sees what lies nearer to it, so that the
+/// pattern is moved outwards. N = peak exp(-(x^2 + y^2) / radius^2) along z, seen along -y.
+TEST_P(Background, IsSeenThroughAColumn)
+{
+  constexpr double peak = 2.7e-4, radius = 1, half = 3, distance = 200;
+  const SampledField<float> column(cube(96, half),
+    [](double x, double y, double)
+    { return peak * std::exp(-(x * x + y * y) / (radius * radius)); });
+  Field field = column.field;
+  field.ambient = 0;
+  Scene scene = cameraScene(GetParam());
+  scene.view.viewDirection = { 0, -1, 0 };
+  scene.view.viewUp = { 0, 0, 1 };
+  scene.view.width = 201;
+  scene.view.height = 3;
+  scene.view.parallelScale = 0.03;
+  scene.samplesPerPixel = 16;
+  scene.background = { PatternKind::Stripes, distance, 0.4, 0, nullptr };
+  const auto moved = [](double x)
+  {
+    const double eps =
+      -2 * std::sqrt(pi) * peak * x / radius * std::exp(-x * x / (radius * radius));
+    return eps * (half + distance); // from the column's middle
+  };
+  for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
+  {
+    scene.filmEstimator = estimator;
+    const Image image = Bench().render(field, scene);
+    double worst = 0, worstWithout = 0, worstMoved = 0, most = 0;
+    for (int i = 0; i < image.width; ++i)
+    {
+      const double x = centreOf(image, i, 1).u;
+      const std::size_t pixel = pixelOf(image, i, 1);
+      const auto stripes = [](double place) { return 0.5 + 0.5 * std::cos(2 * pi * place / 0.4); };
+      worst = std::max(worst, std::abs(image.intensity[pixel] - stripes(x + moved(x))));
+      worstWithout = std::max(worstWithout, std::abs(image.background[pixel] - stripes(x)));
+      worstMoved =
+        std::max(worstMoved, std::abs(image.backgroundDisplacement[2 * pixel] - moved(x)));
+      most = std::max(most, std::abs(moved(x)));
+      EXPECT_LT(image.backgroundDisplacement[2 * pixel] * x, 1e-9);
+    }
+    EXPECT_GT(most, 0.08);              // a fifth of a period
+    EXPECT_LT(worstMoved, 5e-3 * most); // the mean of a pixel's 16 rays is beside its centre
+    EXPECT_LT(worstWithout, 0.02);      // 20 pixels a period: what pixels and splats blur
+    EXPECT_LT(worst, 0.03);
+  }
+}
+
+/// Without a flow nothing is moved, and no bit differs.
+TEST_P(Background, IsTheSameWithoutFlow)
+{
+  const SampledField<float> gas(cube(16, 1), [](double, double, double) { return 3e-4; });
+  for (const PatternKind kind : allPatterns)
+  {
+    for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
+    {
+      for (const NoiseFilter filter : { NoiseFilter::None, NoiseFilter::Cone })
+      {
+        Scene scene = cameraScene(GetParam());
+        scene.background.kind = kind;
+        scene.background.picture = fourColors();
+        scene.filmEstimator = estimator;
+        scene.noiseFilter = filter;
+        const Image image = Bench().render(gas.field, scene);
+        EXPECT_EQ(image.intensity, image.background);
+        EXPECT_GT(*std::max_element(image.background.begin(), image.background.end()), 0.5f);
+        for (const float moved : image.backgroundDisplacement)
+        {
+          EXPECT_EQ(moved, 0);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Background, PictureIsStretchedOverTheView)
+{
+  const SampledField<float> gas(cube(16, 1), [](double, double, double) { return 3e-4; });
+  Scene scene = cameraScene(GetParam());
+  scene.background.kind = PatternKind::Picture;
+  scene.background.picture = fourColors();
+  const Image image = Bench().render(gas.field, scene);
+  ASSERT_EQ(image.color.size(), 3 * image.intensity.size());
+  const auto expectColor = [&](int column, int row, const std::array<float, 3>& color)
+  {
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      EXPECT_NEAR(image.color[3 * pixelOf(image, column, row) + channel], color[channel], 1e-5);
+    }
+  };
+  expectColor(1, 1, { 1, 0, 0 });
+  expectColor(62, 1, { 0, 1, 0 });
+  expectColor(1, 46, { 0, 0, 1 });
+  expectColor(62, 46, { 1, 1, 1 });
+  EXPECT_NEAR(image.undisturbedLevel, 0.5, 1e-6);
+}
+
+/// Half of the light comes back from dots; they are as random as their seed says.
+TEST_P(Background, DotsAreEvenAndRepeat)
+{
+  const SampledField<float> gas(cube(16, 1), [](double, double, double) { return 3e-4; });
+  Scene scene = cameraScene(GetParam());
+  scene.view.width = scene.view.height = 400;
+  scene.samplesPerPixel = 1;
+  const auto take = [&] { return Bench().render(gas.field, scene).background; };
+  const PixelArray<float> first = take();
+  EXPECT_EQ(first, take());
+  scene.seed = 2;
+  const PixelArray<float> second = take();
+  const auto mean = [](const PixelArray<float>& picture)
+  {
+    return std::accumulate(picture.begin(), picture.end(), 0.) /
+      static_cast<double>(picture.size());
+  };
+  EXPECT_NEAR(mean(first), 0.5, 0.02);
+  EXPECT_NEAR(mean(second), 0.5, 0.02);
+  double differs = 0, contrast = 0;
+  for (std::size_t pixel = 0; pixel < first.size(); ++pixel)
+  {
+    differs += std::pow(first[pixel] - second[pixel], 2);
+    contrast += std::pow(first[pixel] - 0.5, 2);
+  }
+  EXPECT_NEAR(differs / contrast, 2, 0.2); // independent
+  EXPECT_GT(contrast / static_cast<double>(first.size()), 0.12);
+}
+
+/// What is too fine for the picture is grey, what is far away or coarse is drawn all the same.
+TEST_P(Background, SurvivesExtremes)
+{
+  const SampledField<float> gas(
+    cube(16, 1), [](double x, double y, double) { return 3e-4 * std::exp(-x * x - y * y); });
+  for (const PatternKind kind : { PatternKind::Dots, PatternKind::Stripes })
+  {
+    Scene scene = cameraScene(GetParam());
+    scene.background.kind = kind;
+    for (const double distance : { 0., 1e9, 1e300 })
+    {
+      for (const double period : { 1e-300, 1e-3, 0., 1., 1e300 })
+      {
+        scene.background.distance = distance;
+        scene.background.period = period;
+        const Image image = Bench().render(gas.field, scene);
+        const bool isGrey = period > 0 && period < 0.01;
+        for (const float light : image.intensity)
+        {
+          EXPECT_TRUE(light >= -1e-6f && light <= 1 + 1e-6f);
+          EXPECT_LE(isGrey ? std::abs(light - 0.5f) : 0, 1e-6f);
+        }
+        for (const float moved : image.backgroundDisplacement)
+        {
+          EXPECT_FALSE(std::isnan(moved));
+        }
+        if (distance == 0)
+        {
+          EXPECT_EQ(image.backgroundDisplacement, image.displacement);
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Background, bothDevices(), deviceName);
+
+/// Patterns and their distance are seen by the same rays, which come from the camera whatever the light is.
+TEST(RaysOfACamera, AreTracedOnce)
+{
+  const SampledField<float> field(cube(16, 1), [](double x, double, double) { return 1e-4 * x; });
+  Scene scene = cameraScene(Device::Cpu);
+  Bench bench;
+  bench.render(field.field, scene);
+  const std::int64_t traced = bench.work().raysTraced;
+  scene.background = { PatternKind::Stripes, 1e4, 0.1, 30, nullptr };
+  const Image image = bench.render(field.field, scene);
+  scene.source = { 0.1, SourceShape::Disc, 3, 0 }; // within the data
+  scene.knifeEdgeAngle = 45;
+  scene.focusOffset = 3;
+  EXPECT_EQ(bench.render(field.field, scene).intensity, image.intensity);
+  EXPECT_EQ(bench.work().raysTraced, traced);
+}
+
+TEST(BackgroundMistakes, AreTold)
+{
+  const SampledField<float> field(cube(8, 1), [](double x, double, double) { return 1e-4 * x; });
+  const auto expectError = [&](const BackgroundPattern& background, const char* part)
+  {
+    Scene scene = cameraScene(Device::Cpu);
+    scene.background = background;
+    try
+    {
+      Bench().render(field.field, scene);
+      ADD_FAILURE() << "no error about " << part;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  expectError({ PatternKind::Dots, -1, 0, 0, nullptr }, "BackgroundDistance");
+  expectError({ PatternKind::Dots, nan, 0, 0, nullptr }, "BackgroundDistance");
+  expectError({ PatternKind::Dots, {}, -1, 0, nullptr }, "BackgroundPeriod");
+  expectError({ PatternKind::Stripes, {}, 0, nan, nullptr }, "BackgroundAngle");
+  expectError({ PatternKind::Picture, {}, 0, 0, nullptr }, "BackgroundImage");
+  expectError({ PatternKind::Picture, {}, 0, 0,
+                std::make_shared<RgbPicture>(RgbPicture{ 2, 2, { 1, 2, 3 } }) },
+    "BackgroundImage");
+}
+
+} // namespace
+
+} // namespace schlieren
