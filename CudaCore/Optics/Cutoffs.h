@@ -28,9 +28,9 @@ struct Shadowgraph
 
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
-using Cutoffs = std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter,
-  ColorWheel, ColorPicture, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes,
-  BackgroundPicture>;
+using Cutoffs =
+  std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter, ColorWheel,
+    ColorPicture, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes, BackgroundPicture>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {
