@@ -251,7 +251,8 @@ def take_tiles(take, frame, options, scratch):
                 LightSource="Diverging", SourceDistance=4 * frame.depth, ScreenDistance=frame.depth)
     blur = 8 * pixel
     shadow_tile("disc", "Round source", f"blurs what is {length(caustic)} off by 8 pixels",
-                SourceShape="Disc", FocalLength=1, SourceWidth=1e3 * blur / caustic)
+                SourceShape="Disc", FocalLength=1, SourceWidth=1e3 * blur / caustic,
+                SamplesPerPixel=64)  # as many places of the source
 
     def fringe_tile(name, title, line, **settings):
         shot = take.shoot(Cutoff="Interferogram", **settings)
@@ -271,15 +272,15 @@ def take_tiles(take, frame, options, scratch):
                 FringeMode="Finite", FringeSpacing=spacing, FringeAngle=0)
     fringe_tile("white", "White light", "colours of the first few orders", WhiteLight=1)
 
-    away = 4 * pixel / strong
+    away = 8 * pixel / strong
     dots = {"Cutoff": "Background Oriented", "BackgroundDistance": away}
     group(f"Background-oriented schlieren: the pattern is {length(away)} behind the flow")
     shot = take.shoot(**dots)
     add("pattern", "The pattern", "without the flow", grey(shot["Background"], 1), shot)
     add("seen", "The pattern through the flow", "what a camera sees", grey(shot["Intensity"], 1), shot)
     shift = shot["BackgroundDisplacement"]
-    add("shift", "Displacement of the pattern, upwards", "black to white: -4 to 4 pixels",
-        signed(shift[..., 1], 4 * pixel), shot)
+    add("shift", "How much higher the place is that is seen", "black to white: -8 to 8 pixels",
+        signed(shift[..., 1], 8 * pixel), shot)
     stripes = take.shoot(**dict(dots, BackgroundPattern="Stripes", BackgroundAngle=90))
     add("stripes", "Stripes through the flow", "horizontal ones", grey(stripes["Intensity"], 1), stripes)
 
