@@ -100,7 +100,12 @@ facts = shot("knife 0").facts
 check_below("rays missing in the histogram", abs(rays.sum() / (WIDTH * HEIGHT * 4) - 1), 0.02)
 check_below("its asymmetry, up against down", abs(rays - rays[::-1]).sum() / rays.sum(), 0.1)
 
-# Shadowgraphs: light is moved, not made. It lands where deflections say.
+# Light is moved, not made. It lands where deflections say.
+for tile in tiles.values():
+    facts = tile.shot.facts
+    if "LightEmitted" in facts:
+        lost = facts["LightEmitted"] - facts["LightOnFilm"] - facts["LightOutside"]
+        assert abs(lost) < 1e-6 * facts["LightEmitted"], (tile.name, lost)
 for name in ("near", "far", "straight", "refracted", "photons", "sheet", "many"):
     check_below(f"light of '{name}' - 1", abs(light(name)[inner].mean() - 1), 0.02)
 expected = np.zeros((HEIGHT, WIDTH))
