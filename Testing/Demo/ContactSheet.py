@@ -102,7 +102,7 @@ check_below("its asymmetry, up against down", abs(rays - rays[::-1]).sum() / ray
 
 # Light is moved, not made. It lands where deflections say.
 for tile in tiles.values():
-    facts = tile.shot.facts
+    facts = tile.shot.facts if tile.shot else {}
     if "LightEmitted" in facts:
         lost = facts["LightEmitted"] - facts["LightOnFilm"] - facts["LightOutside"]
         assert abs(lost) < 1e-6 * facts["LightEmitted"], (tile.name, lost)
