@@ -80,8 +80,8 @@ class Tile:
 class Photographer:
     """Takes pictures with one bench, each from the same settings but for those it names."""
 
-    def __init__(self, bench, frame, messages):
-        self.bench, self.frame, self.messages = bench, frame, messages
+    def __init__(self, bench, messages):
+        self.bench, self.messages = bench, messages
         self.changed = {}
         self.shots = 0
 
@@ -154,10 +154,6 @@ def caustic_distance(deflection, pixel):
     return 1 / strongest if strongest > 0 else np.inf
 
 
-def color_of(shot):
-    return shot["Color"]
-
-
 def signed(values, full):
     """Grey, black at -full and white at full."""
     return grey(0.5 + values / (2 * full), 1)
@@ -171,7 +167,7 @@ def take_tiles(take, frame, options, scratch):
     pixel = frame.pixel
     knife = take.shoot(KnifeEdgeAngle=90)
     check_light(knife["BlockedFraction"], frame)
-    k = knife.facts["KScale"]
+    k = knife.facts["KScale"] or 1  # 0: nothing bends light
     fixed = {"AutoKScale": 0, "KScale": k}
     eps = np.hypot(knife["Deflection"][..., 0], knife["Deflection"][..., 1])
     strong = max(float(np.percentile(eps, 99)), 1e-30)
@@ -206,7 +202,7 @@ def take_tiles(take, frame, options, scratch):
     knife_tile("graded", "Graded filter, 90°", "clear in its middle, 0.1 below, 0.4 above",
                Cutoff="Graded Filter", GradedFilter=steps, KnifeEdgeAngle=90)
     circular = take.shoot(Cutoff="Circular", AutoKScale=1)
-    round_k = circular.facts["KScale"]
+    round_k = circular.facts["KScale"] or 1
     add("circular", "Circular stop", f"1 - k |ε|, k = {round_k:.4g}", grey(circular["Intensity"], 1),
         circular)
     shot = take.shoot(Cutoff="Circular Complement", AutoKScale=0, KScale=round_k)
@@ -214,18 +210,18 @@ def take_tiles(take, frame, options, scratch):
 
     group("Colour, and where light meets the cutoff plane")
     shot = take.shoot(Cutoff="Color Filter", AutoKScale=0, KScale=round_k)
-    add("wheel", "Colour wheel", "hue: direction, saturation: k |ε|", color_of(shot), shot, wheel())
+    add("wheel", "Colour wheel", "hue: direction, saturation: k |ε|", shot["Color"], shot, wheel())
     path = os.path.join(scratch, "filter.png")
     write_png(path, four_colors())
     shot = take.shoot(Cutoff="Color Filter", AutoKScale=0, KScale=round_k,
                       ColorFilterImage=data_uri(path))
-    add("color filter", "Colour filter from a PNG", "held as text by the property", color_of(shot),
+    add("color filter", "Colour filter from a PNG", "held as text by the property", shot["Color"],
         shot, shrunk(four_colors()))
     # The source's image is as wide as the deflection that goes from black to white.
     source = {"SourceShape": "Disc", "FocalLength": 1, "SourceWidth": 1e3 / k, "KnifeEdgeAngle": 90}
     knife_tile("disc knife", "Knife edge, 90°, round source", f"{1e3 / k:.2g} mm at f = 1 m",
                **source)
-    bins = min(frame.width, frame.height)
+    bins = min(frame.width, frame.height, 2048)
     shot = take.shoot(port=1, HistogramSize=bins)
     rays = shot["Rays"].astype(float)
     square = np.full((frame.height, frame.width, 3), Sheet.BACKGROUND, np.uint8)
@@ -247,15 +243,17 @@ def take_tiles(take, frame, options, scratch):
     shadow_tile("near", "Screen near the flow", f"{length(caustic / 8)} behind it",
                 ScreenDistance=caustic / 8)
     shadow_tile("far", "Screen where the light focuses", f"{length(caustic)} behind it")
-    shadow_tile("diverging", "Diverging light", f"from {length(4 * frame.depth)} before the middle",
-                LightSource="Diverging", SourceDistance=4 * frame.depth, ScreenDistance=frame.depth)
+    shadow_tile("diverging", "The same screen in diverging light",
+                f"from {length(4 * frame.depth)} before the middle", LightSource="Diverging",
+                SourceDistance=4 * frame.depth)
     blur = 8 * pixel
     shadow_tile("disc", "Round source", f"blurs what is {length(caustic)} off by 8 pixels",
-                SourceShape="Disc", FocalLength=1, SourceWidth=1e3 * blur / caustic)
+                SourceShape="Disc", FocalLength=1, SourceWidth=1e3 * blur / caustic,
+                SamplesPerPixel=64)  # as many places of the source
 
     def fringe_tile(name, title, line, **settings):
         shot = take.shoot(Cutoff="Interferogram", **settings)
-        pixels = color_of(shot) if "Color" in shot.arrays else grey(shot["Intensity"], 1)
+        pixels = shot["Color"] if "Color" in shot.arrays else grey(shot["Intensity"], 1)
         add(name, title, line, pixels, shot)
         return shot
 
@@ -271,15 +269,15 @@ def take_tiles(take, frame, options, scratch):
                 FringeMode="Finite", FringeSpacing=spacing, FringeAngle=0)
     fringe_tile("white", "White light", "colours of the first few orders", WhiteLight=1)
 
-    away = 4 * pixel / strong
+    away = 8 * pixel / strong
     dots = {"Cutoff": "Background Oriented", "BackgroundDistance": away}
     group(f"Background-oriented schlieren: the pattern is {length(away)} behind the flow")
     shot = take.shoot(**dots)
     add("pattern", "The pattern", "without the flow", grey(shot["Background"], 1), shot)
     add("seen", "The pattern through the flow", "what a camera sees", grey(shot["Intensity"], 1), shot)
     shift = shot["BackgroundDisplacement"]
-    add("shift", "Displacement of the pattern, upwards", "black to white: -4 to 4 pixels",
-        signed(shift[..., 1], 4 * pixel), shot)
+    add("shift", "How much higher the place is that is seen", "black to white: -8 to 8 pixels",
+        signed(shift[..., 1], 8 * pixel), shot)
     stripes = take.shoot(**dict(dots, BackgroundPattern="Stripes", BackgroundAngle=90))
     add("stripes", "Stripes through the flow", "horizontal ones", grey(stripes["Intensity"], 1), stripes)
 
@@ -359,7 +357,7 @@ def main(options):
         reader, array = open_flow(options, scratch, messages)
         frame = Frame(reader.GetDataInformation().GetBounds(), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
-        take = Photographer(new_bench(reader, array, frame, options), frame, messages)
+        take = Photographer(new_bench(reader, array, frame, options), messages)
         groups = take_tiles(take, frame, options, scratch)
         compose(groups, frame, array, options, groups[0][1][0].shot.facts).write(options.output)
     say(f"{take.shots} pictures in {time.monotonic() - begin:.0f} s")

@@ -64,7 +64,7 @@ shoot("JetBehindStripes", Cutoff="Background Oriented", BackgroundPattern="Strip
 shoot("JetBehindDots", None, Cutoff="Background Oriented", BackgroundDistance=0.3)
 
 shoot("JetCaustics", white=4, Cutoff="Shadowgraph", ScreenDistance=0.5)
-shoot("JetRoundSource", white=2, Cutoff="Shadowgraph", ScreenDistance=0.2, SourceShape="Disc",
-      SourceWidth=5)
+shoot("JetRoundSource", None, white=2, Cutoff="Shadowgraph", ScreenDistance=0.2, SourceShape="Disc",
+      SourceWidth=5, SamplesPerPixel=16)
 shoot("JetDivergingLight", white=2, Cutoff="Shadowgraph", LightSource="Diverging",
       SourceDistance=0.1, ScreenDistance=0.02)
