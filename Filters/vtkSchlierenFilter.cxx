@@ -94,28 +94,27 @@ std::vector<double> describeInputs(
   return description;
 }
 
-/// Whether the filter's picture is coloured.
-bool hasColor(vtkSchlierenFilter* self)
-{
-  const bool isWhite =
-    self->GetCutoff() == vtkSchlierenFilter::INTERFEROGRAM && self->GetWhiteLight();
-  return self->GetColorByField() || isWhite ||
-    self->GetCutoff() == vtkSchlierenFilter::COLOR_FILTER;
-}
-
-ColorScale colorScaleFrom(vtkSchlierenFilter* self)
+/// Whether the bench itself makes colours.
+bool seesColor(vtkSchlierenFilter* self)
 {
   switch (self->GetCutoff())
   {
     case vtkSchlierenFilter::COLOR_FILTER:
-      return ColorScale::Srgb;
+      return true;
     case vtkSchlierenFilter::INTERFEROGRAM:
-      return self->GetWhiteLight() ? ColorScale::Srgb : ColorScale::Linear;
-    case vtkSchlierenFilter::SHADOWGRAPH:
-      return ColorScale::LinearToTwice;
+      return self->GetWhiteLight();
+    case vtkSchlierenFilter::BACKGROUND_ORIENTED:
+      return self->GetBackgroundPattern() == vtkSchlierenFilter::PICTURE;
     default:
-      return ColorScale::Linear;
+      return false;
   }
+}
+
+ColorScale colorScaleFrom(vtkSchlierenFilter* self)
+{
+  const bool isShadow = self->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH;
+  return seesColor(self) ? ColorScale::Srgb
+                         : (isShadow ? ColorScale::LinearToTwice : ColorScale::Linear);
 }
 
 /// Tells the executive where the outputs lie.
@@ -558,7 +557,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
-  const bool isColored = hasColor(this);
+  const bool isColored = this->ColorByField || seesColor(this);
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
     isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(

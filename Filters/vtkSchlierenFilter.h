@@ -12,7 +12,7 @@
  * and the last two from the rays that start in the pixel:
  * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured picture;
  * - `Color` (3 unsigned chars, active scalars then), where the picture has colours: in sRGB behind a
- *   COLOR_FILTER and in WhiteLight; else, with ColorByField, the intensity, tinted, as linear bytes:
+ *   COLOR_FILTER, in WhiteLight and of a background's PICTURE; else, with ColorByField, the intensity, tinted, as linear bytes:
  *   255 is 1, of a shadowgraph 2;
  * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
@@ -20,7 +20,8 @@
  * - `Displacement` (2 floats): sideways, at the plane where light leaves the data, data units;
  * - `BlockedFraction` (float): share of the light that a solid stopped;
  * - `Background` (float) and `BackgroundDisplacement` (2 floats, data units), with BACKGROUND_ORIENTED
- *   only: the pattern without the flow, and how far the flow shifts what is seen of it.
+ *   only: the same without the flow, and the place of the pattern that is seen, less that without the flow
+ *   (what is seen has moved the other way).
  *
  * Field data: `Device`, `PathModel`, `KScale` (the k used), `UndisturbedLevel` (intensity of light that
  * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
@@ -512,8 +513,8 @@ public:
   /**
    * What is seen behind the flow by BACKGROUND_ORIENTED: one of BackgroundPatterns (default: DOTS);
    * BackgroundDistance behind where the data begin (data units; negative, the default: one data depth);
-   * dots and stripes BackgroundPeriod apart (data units; 0, the default: as fine as the picture shows
-   * well); stripes across BackgroundAngle (degrees; 0, the default: u); the PICTURE is BackgroundImage,
+   * dots and stripes BackgroundPeriod apart (data units; 0, the default: eight pixels; below four they fade,
+   * at two they are gone); stripes across BackgroundAngle (degrees; 0, the default: u); the PICTURE is BackgroundImage,
    * given as ColorFilterImage is.
    */
   vtkSetClampMacro(BackgroundPattern, int, DOTS, PICTURE);

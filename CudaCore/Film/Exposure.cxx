@@ -109,8 +109,9 @@ public:
   const std::int64_t columns, rows;
 
   /// The rays of a pass that start in a row (from 0 on). Returns the rows of the film (from the first to the
-  /// last pixel) that some of them land in.
-  RowRange load(const TracedRays& pass, std::int64_t row, Ray* rays, RayCounts& counts) const
+  /// last pixel) that some of them land in. Apart, so that what it calls is compiled into it.
+  SCHLIEREN_APART RowRange load(
+    const TracedRays& pass, std::int64_t row, Ray* rays, RayCounts& counts) const
   {
     const std::int64_t first = pass.rayOf(-margin_, row - margin_);
     const double startColumn = static_cast<double>(-margin_) + pass.pass.offset.column;

@@ -81,7 +81,7 @@ public:
   SCHLIEREN_HD void addCell(const SheetRay<planes>& lowerLeft, const SheetRay<planes>& lowerRight,
     const SheetRay<planes>& upperLeft, const SheetRay<planes>& upperRight, const Around& around)
   {
-    constexpr double straight = 0.02; ///< pixels
+    constexpr double straight = 0.002; ///< pixels
     constexpr double tangled =
       8; ///< where rays are too far from each other to tell what is between
     const double bend =
@@ -335,7 +335,7 @@ private:
     constexpr double furthest = 1e9;
     const Cell cell = cellOf(lowerLeft, lowerRight, upperLeft, upperRight);
     Rest rest;
-    rest.column = -1;
+    rest.column = rest.row = -1;
     for (int plane = 0; plane < planes; ++plane)
     {
       rest.light[plane] = film_.fixed(cell.mean(plane));

@@ -350,9 +350,7 @@ TEST(Estimators, SheetsOfOneRayAreAsExactAs32Photons)
       const double sheet = rmsError(lens.picture(FilmEstimator::Sheet, 1), truth);
       const double photons = rmsError(lens.picture(FilmEstimator::Photon, 1), truth);
       const double manyPhotons = rmsError(lens.picture(FilmEstimator::Photon, 32), truth);
-      // In weak lenses no noise is left of 32 photons, and both blur as much: a cell and a pixel, a photon's
-      // four pixels.
-      EXPECT_LE(sheet, strength == 0.5 ? 1.1 * manyPhotons : manyPhotons);
+      EXPECT_LE(sheet, 0.5 * manyPhotons);
       EXPECT_LT(manyPhotons, photons);
     }
   }

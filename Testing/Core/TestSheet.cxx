@@ -447,6 +447,117 @@ TEST(Sheet, LightIsEvenUpToAShadow)
   }
 }
 
+/// Interpolation between rays adds a twelfth of the second difference to light's mean: it is taken off before.
+TEST(SheetRay, LightHasItsMeanBetweenRays)
+{
+  const auto square = [](double x, double y) {
+    return Ray{ x, y, { 0.1 + 0.03 * x * x + 0.01 * y * y - 0.02 * x * y, 0.5 }, true };
+  };
+  for (const std::array<double, 2>& offset : { std::array<double, 2>{ 0.5, 0.5 }, { 0.1, 0.8 } })
+  {
+    Recorder film;
+    Sheet<2, Recorder> sheet(filmSize, film);
+    const auto around = [&](int i, int j)
+    { return square(0.25 * (i + offset[0]), 0.25 * (j + offset[1])); };
+    const auto ray = [&](int i, int j)
+    {
+      SheetRay<2> at = sheetRay(
+        around(i, j), around(i - 1, j), around(i + 1, j), around(i, j - 1), around(i, j + 1));
+      at.x = i + offset[0];
+      at.y = j + offset[1];
+      EXPECT_NEAR(at.bend, 0, 1e-12);
+      return at;
+    };
+    for (int j = -2; j < 12; ++j)
+    {
+      for (int i = -2; i < 14; ++i)
+      {
+        sheet.addCell(ray(i, j), ray(i + 1, j), ray(i, j + 1), ray(i + 1, j + 1), around);
+      }
+    }
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        // The mean over the pixel: that of x^2 is x^2 + h^2 / 12.
+        const double x = 0.25 * (column + 0.5), y = 0.25 * (row + 0.5);
+        const double expected = square(x, y).light[0] + (0.03 + 0.01) * 0.0625 / 12;
+        ASSERT_NEAR(film.at(column, row), expected, 1e-8);
+        ASSERT_NEAR(film.at(column, row, 1), 0.5, 1e-8);
+      }
+    }
+  }
+}
+
+TEST(SheetRay, TakesNothingFromNeighboursThatDoNotArrive)
+{
+  const Ray here{ 3, 4, { 0.5, 1 }, true }, bright{ 4, 4, { 1, 0 }, true };
+  const Ray none{ std::nan(""), 1e300, { 1, 1 }, false };
+  const SheetRay<2> alone = sheetRay(here, bright, none, none, bright);
+  EXPECT_EQ(alone.light[0], 0.5);
+  EXPECT_EQ(alone.bend, 0);
+  const Ray right{ 2.5, 4.25, { 0.25, 0 }, true };
+  const SheetRay<2> among = sheetRay(here, bright, right, none, none);
+  EXPECT_DOUBLE_EQ(among.light[0], 0.5 - 0.25 / 12);
+  EXPECT_EQ(among.light[1], 1); // limited
+  EXPECT_DOUBLE_EQ(among.bend, 0.5);
+  EXPECT_FALSE(sheetRay(none, here, here, here, here).arrives);
+}
+
+/// Cubics go on where straight lines would cut a corner: quadratic maps are followed to the second order.
+TEST(SheetRay, BentCellsAreRefined)
+{
+  const auto lands = [](double x, double y)
+  {
+    return std::array<double, 2>{ 6 + (x - 6) - 0.03 * (x - 6) * (x - 6) + 0.02 * (y - 4) * (y - 4),
+      4 + 0.9 * (y - 4) - 0.02 * (x - 6) * (y - 4) };
+  };
+  Recorder film, plain = exposed(-3, 17, { 0.5, 0.5 }, lands);
+  const auto around = [&](int i, int j)
+  {
+    const std::array<double, 2> at = lands(i + 0.5, j + 0.5);
+    return Ray{ at[0], at[1], { 1, 0.75 }, true };
+  };
+  const auto ray = [&](int i, int j)
+  {
+    return sheetRay(
+      around(i, j), around(i - 1, j), around(i + 1, j), around(i, j - 1), around(i, j + 1));
+  };
+  for (int j = -3; j < 17; ++j)
+  {
+    for (int i = -3; i < 17; ++i)
+    {
+      Sheet<2, Recorder>(filmSize, film)
+        .addCell(ray(i, j), ray(i + 1, j), ray(i, j + 1), ray(i + 1, j + 1),
+          [&](int right, int up) { return around(i + right, j + up); });
+    }
+  }
+  EXPECT_EQ(film.sent[0], film.onFilm() + film.lost[0]);
+  double worst = 0, worstOfPlain = 0;
+  for (int row = 2; row < 7; ++row)
+  {
+    for (int column = 3; column < 9; ++column)
+    {
+      double expected = 0;
+      constexpr int points = 200; // along each axis, counted where they land
+      for (int j = (row - 2) * points; j < (row + 3) * points; ++j)
+      {
+        for (int i = (column - 2) * points; i < (column + 3) * points; ++i)
+        {
+          const std::array<double, 2> at = lands((i + 0.5) / points, (j + 0.5) / points);
+          expected += at[0] >= column && at[0] < column + 1 && at[1] >= row && at[1] < row + 1
+            ? 1. / (points * points)
+            : 0;
+        }
+      }
+      worst = std::max(worst, std::abs(film.at(column, row) - expected));
+      worstOfPlain = std::max(worstOfPlain, std::abs(plain.at(column, row) - expected));
+    }
+  }
+  EXPECT_LT(worst, 3e-3);
+  EXPECT_GT(worstOfPlain, 2 * worst) << worst;
+}
+
 /// Whatever the shape, a mirrored sheet makes a mirrored picture.
 TEST(Sheet, HasNoHandedness)
 {

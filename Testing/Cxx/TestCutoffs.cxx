@@ -265,6 +265,51 @@ TEST(Cutoffs, WhiteLightHasColors)
   EXPECT_EQ(arrayOf(filter, "Color"), nullptr);
 }
 
+// A camera's rays bend towards denser gas: on their way of 2 through the data as if all at once in its
+// middle, 1 before the side where they leave for the pattern.
+TEST(Cutoffs, ABackgroundIsSeenWhereRaysMeetIt)
+{
+  auto filter = benchOf(bending(0.002, -0.004), Filter::BACKGROUND_ORIENTED, 1);
+  filter->SetFilmEstimator(Filter::PHOTON);
+  filter->SetBackgroundPattern(Filter::STRIPES);
+  filter->SetBackgroundPeriod(0.3);
+  filter->SetBackgroundAngle(90);
+  for (const double distance : { -1., 5. })
+  {
+    filter->SetBackgroundDistance(distance);
+    filter->Update();
+    const double lever = 1 + (distance < 0 ? 2 : distance); // by default one depth
+    vtkDataArray* displacement = arrayOf(filter, "BackgroundDisplacement");
+    ASSERT_NE(displacement, nullptr);
+    EXPECT_STREQ(displacement->GetInformation()->Get(vtkDataArray::UNITS_LABEL()), "data units");
+    for (vtkIdType i = 0; i < displacement->GetNumberOfTuples(); ++i)
+    {
+      EXPECT_NEAR(displacement->GetComponent(i, 0), 0.002 * lever, 2e-3 * 0.002 * lever);
+      EXPECT_NEAR(displacement->GetComponent(i, 1), -0.004 * lever, 2e-3 * 0.004 * lever);
+      const auto stripes = [](double y) { return 0.5 * (1 + std::cos(2 * pi * y / 0.3)); };
+      const double y = filter->GetOutput()->GetPoint(i)[1];
+      EXPECT_NEAR(arrayOf(filter, "Background")->GetComponent(i, 0), stripes(y), 2e-3);
+      EXPECT_NEAR(
+        arrayOf(filter, "Intensity")->GetComponent(i, 0), stripes(y - 0.004 * lever), 2e-3);
+    }
+  }
+  filter->SetCutoff(Filter::KNIFE_EDGE);
+  filter->Update();
+  EXPECT_EQ(arrayOf(filter, "Background"), nullptr);
+  EXPECT_EQ(arrayOf(filter, "BackgroundDisplacement"), nullptr);
+}
+
+// The colours of a picture behind the flow are those of the file.
+TEST(Cutoffs, ABackgroundPictureFillsWhatIsSeen)
+{
+  auto filter = benchOf(bending(0, 0), Filter::BACKGROUND_ORIENTED, 1);
+  filter->SetBackgroundPattern(Filter::PICTURE);
+  filter->SetBackgroundImage(
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAAD"
+    "ElEQVR4nGP4L6AAAANBATCX20YHAAAAAElFTkSuQmCC");
+  expectColor(colorOf(filter), { 255, 16, 32 }, "the one pixel");
+}
+
 TEST(Cutoffs, LightAndSaturationAreAccountedFor)
 {
   auto filter = benchOf(bending(epsX, 0), Filter::KNIFE_EDGE, 5000);
