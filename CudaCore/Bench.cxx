@@ -275,9 +275,9 @@ PixelArray<float> samplesOn(const Films& films, const Scene& scene)
 }
 
 /// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the
-/// picture, so that where the flow bends nothing either no bit differs.
+/// picture, so that where the flow bends nothing either no bit differs. Empty if aborted.
 PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, std::int64_t mostRays)
+  const Projection& projection, std::int64_t margin, std::int64_t mostRays, const Monitor& monitor)
 {
   Pass pass{ -margin, -margin, scene.view.width + 2 * margin, scene.view.height + 2 * margin,
     { 0, 0 } };
@@ -285,6 +285,10 @@ PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
   Films films = filmsOf(scene, cutoff, {}, mostRays);
   for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
   {
+    if (monitor.aborted && monitor.aborted())
+    {
+      return {};
+    }
     pass.offset = pixelOffset(number, scene.seed);
     expose({ { pass, exits.data(), nullptr } }, cutoff, projection, margin, scene.filmEstimator,
       scene.threads, films);
@@ -647,7 +651,11 @@ Image Bench::Stages::render(
   means.develop(waiting, image);
   if (scene.cutoff == Cutoff::Background)
   {
-    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays);
+    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays, monitor);
+    if (image.background.empty())
+    {
+      return aborted;
+    }
     image.backgroundDisplacement = backgroundDisplacement(image, projection.distance);
   }
   scratch = {};
