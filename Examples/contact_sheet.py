@@ -291,8 +291,8 @@ def take_tiles(take, frame, options, scratch):
     add("difference", "Refracted - straight", f"black to white: {-full:.2g} to {full:.2g}",
         signed(difference, full))
     full = float(np.abs(paths).max()) or 1
-    add("path", "Optical path difference", f"as data; black to white: {-full * 1e6:.2g} to {full * 1e6:.2g} µm",
-        signed(paths, full), knife)
+    add("path", "Optical path difference",
+        f"as data; black to white: {-full * 1e6:.2g} to {full * 1e6:.2g} µm", signed(paths, full), knife)
 
     beyond = 2.5 * caustic
     group(f"Film: a shadowgraph from few rays, the screen {length(beyond)} behind the flow")

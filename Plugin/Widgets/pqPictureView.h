@@ -6,8 +6,8 @@
 #include <QImage>
 #include <QWidget>
 
-/// A small view of a picture. A colour filter is drawn as a square with the axes k eps_u and k eps_v from -1
-/// to 1, and can be painted on with the mouse.
+/// A small view of a picture. A colour filter is drawn as a square with the axes k eps_u and k eps_v from
+/// -1 to 1, and can be painted on with the mouse.
 class pqPictureView : public QWidget
 {
   Q_OBJECT
