@@ -5,8 +5,8 @@
 
 #include "Device/Parallel.h"
 #include "Film/CudaFilm.h"
+#include "Film/Development.h"
 #include "Film/Exposure.h"
-#include "Film/NoiseFilters.h"
 #include "Film/PixelMeans.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
@@ -15,8 +15,8 @@
 #include "Optics/DeflectionHistogram.h"
 #include "Optics/Tint.h"
 #include "Rays/CudaTracer.h"
-#include "Rays/Light.h"
 #include "Rays/Tracer.h"
+#include "StageSettings.h"
 #include "Validation.h"
 
 #include <algorithm>
@@ -25,7 +25,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 #include <variant>
 
@@ -34,84 +33,6 @@ namespace schlieren
 
 namespace
 {
-
-/// What a held medium was built from.
-struct MediumKey
-{
-  std::array<std::int64_t, 3> dimensions;
-  Vector origin;
-  Vector spacing;
-  std::array<double, 9> direction;
-  std::uint64_t version;
-  const void* samples;
-  std::optional<double> ambient;
-  Interpolation interpolation;
-  Precision precision;
-
-  auto tie() const
-  {
-    return std::tie(
-      dimensions, origin, spacing, direction, version, samples, ambient, interpolation, precision);
-  }
-};
-
-/// Where the light of held rays came from. What does not matter to it has its default.
-struct LightKey
-{
-  bool isOfCamera = false;
-  std::optional<double> distance;
-  SourceShape shape = SourceShape::Point;
-  double width = 0, length = 0; ///< of an extended source, as the next two
-  double angle = 0;
-  double film = 0;
-
-  auto tie() const { return std::tie(isOfCamera, distance, shape, width, length, angle, film); }
-
-  static LightKey of(const Scene& scene, double film)
-  {
-    LightKey key;
-    key.isOfCamera = scene.cutoff == Cutoff::Background;
-    if (key.isOfCamera)
-    {
-      return key;
-    }
-    key.distance = scene.source.distance;
-    key.shape = scene.source.shape;
-    if (key.shape != SourceShape::Point)
-    {
-      key.width = scene.source.width;
-      key.film = film;
-    }
-    if (key.shape == SourceShape::Slit)
-    {
-      key.length = scene.source.length;
-      key.angle = scene.knifeEdgeAngle;
-    }
-    return key;
-  }
-};
-
-/// What held rays were traced with, the medium apart.
-struct RaysKey
-{
-  Frame frame;
-  int width, height;
-  RaySettings settings;
-  double homogeneityTolerance;
-  std::uint32_t seed;
-  Device device;
-  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
-  LightKey light;
-
-  auto tie() const
-  {
-    return std::tuple_cat(light.tie(),
-      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
-        width, height, settings.kernel.path, settings.kernel.integrator, settings.stepVoxels,
-        settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance, seed, device,
-        gradients));
-  }
-};
 
 template <class Real>
 struct MediumOnDevices
@@ -144,173 +65,6 @@ struct MediumOnDevices
     return map.get();
   }
 };
-
-/// How a scene's rays are to be traced where no ray is displaced further than `bound`. What does not matter
-/// to them has its default, so that changing it traces nothing.
-RaySettings settingsOf(
-  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame)
-{
-  RaySettings settings;
-  const bool straightWillDo = scene.pathModel == PathModel::Auto &&
-    bound.displacement <= scene.pathTolerance * frame.pixelSize;
-  settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
-    ? PathModel::Straight
-    : PathModel::Refracted;
-  settings.kernel.interpolation = scene.interpolation;
-  if (settings.kernel.path == PathModel::Refracted)
-  {
-    settings.kernel.integrator = scene.integrator;
-  }
-  if (settings.kernel.integrator == Integrator::Adaptive)
-  {
-    settings.adaptiveTolerance = scene.adaptiveTolerance;
-  }
-  settings.stepVoxels = scene.stepSize;
-  settings.lengthScale = lengthScale;
-  return settings;
-}
-
-/// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
-/// each: see NuRange, with the whole way through the grid as the way through cubes.
-template <class Real>
-double skippingBound(
-  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
-{
-  const double steepest = visitScheme(
-    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
-  const double way = light.depth / light.smallestCosine();
-  return 2 * steepest * tolerance * length(light.indexScale) * way * (1 + medium.largestNu);
-}
-
-/// A deflection that the rounding of the samples alone can make: each step's gradient is wrong by one
-/// rounding of N per voxel, and over a ray these errors add up like a random walk. With a margin of 16.
-template <class Real>
-double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light)
-{
-  constexpr double margin = 16;
-  const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
-  const double rounding = rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
-                                  : std::numeric_limits<double>::epsilon();
-  const double voxels = std::max(1., light.depth * light.fastest());
-  return margin * medium.largestN * rounding * std::sqrt(voxels);
-}
-
-/// How far past the plane where rays leave the data they meet what the film shows: a screen; the background
-/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera. Data units.
-double filmDistance(const Scene& scene, const Frame& frame)
-{
-  const double depth = frame.exit - frame.entry;
-  switch (scene.cutoff)
-  {
-    case Cutoff::Shadowgraph:
-      return scene.screenDistance.value_or(depth);
-    case Cutoff::Background:
-      return scene.background.distance.value_or(depth);
-    default:
-      return -0.5 * depth + scene.focusOffset;
-  }
-}
-
-/// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
-/// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
-/// cutoffs, so that changing the cutoff traces nothing, but for a camera's rays, which stay in their pixel.
-std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
-{
-  if (scene.cutoff == Cutoff::Background)
-  {
-    return 1;
-  }
-  const double depth = frame.exit - frame.entry;
-  double furthest = 0; // data units of the picture
-  for (const double film :
-    { scene.screenDistance.value_or(depth), -0.5 * depth + scene.focusOffset, -0.5 * depth })
-  {
-    const double magnification =
-      scene.source.distance ? 1 + (film + 0.5 * depth) / *scene.source.distance : 1;
-    const double moved = bound.displacement + std::abs(film) * bound.slope;
-    furthest = std::max(furthest, magnification > 0 ? moved / magnification : 0);
-  }
-  const double pixels = std::ceil(furthest / frame.pixelSize) + 1;
-  const auto most = static_cast<double>(mostMargin(scene.view));
-  return static_cast<std::int64_t>(pixels < most ? pixels : most);
-}
-
-Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
-{
-  return scene.cutoff == Cutoff::Background
-    ? reversedLight(grid, frame)
-    : lightFrom(scene.source, filmDistance(scene, frame), grid, scene.view, frame);
-}
-
-Projection projectionOf(
-  const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit)
-{
-  Projection projection{ filmDistance(scene, frame), 1 / (frame.pixelSize * light.magnification),
-    pathPerDataUnit, light.inclination };
-  projection.isOfCamera = scene.cutoff == Cutoff::Background;
-  if (!projection.isOfCamera && scene.source.distance)
-  {
-    projection.perSourceDistance = 1 / (*scene.source.distance * light.magnification);
-  }
-  return projection;
-}
-
-Films filmsOf(
-  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t mostRays)
-{
-  const View& view = scene.view;
-  Films films(channelsOf(cutoff), std::move(tint), view.width, view.height, mostRays);
-  if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
-  {
-    films.samples = std::make_unique<Films>(
-      Shadowgraph::channels, std::nullopt, view.width, view.height, mostRays);
-  }
-  return films;
-}
-
-/// What the noise filter wants to know; empty if nothing.
-PixelArray<float> samplesOn(const Films& films, const Scene& scene)
-{
-  return films.samples ? films.samples->developIntensity(1, scene.threads) : PixelArray<float>();
-}
-
-/// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the
-/// picture, so that where the flow bends nothing either no bit differs.
-PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, std::int64_t mostRays)
-{
-  Pass pass{ -margin, -margin, scene.view.width + 2 * margin, scene.view.height + 2 * margin,
-    { 0, 0 } };
-  const std::vector<RayExit> exits(static_cast<std::size_t>(pass.columns * pass.rows));
-  Films films = filmsOf(scene, cutoff, {}, mostRays);
-  for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
-  {
-    pass.offset = pixelOffset(number, scene.seed);
-    expose({ { pass, exits.data(), nullptr } }, cutoff, projection, margin, scene.filmEstimator,
-      scene.threads, films);
-  }
-  return filtered(films.developIntensity(scene.samplesPerPixel, scene.threads), scene.view.width,
-    scene.view.height, scene.noiseFilter, scene.noiseFilterRadius, samplesOn(films, scene),
-    scene.threads);
-}
-
-/// How far from where they start the mean rays of pixels meet the background.
-PixelArray<float> backgroundDisplacement(const Image& image, double distance)
-{
-  PixelArray<float> moved(image.displacement.size());
-  for (std::size_t i = 0; i < moved.size(); i += 2)
-  {
-    const double eps[2] = { static_cast<double>(image.deflection[i]),
-      static_cast<double>(image.deflection[i + 1]) };
-    const double way = distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-30));
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      moved[i + axis] =
-        static_cast<float>(static_cast<double>(image.displacement[i + axis]) + way * eps[axis]);
-    }
-  }
-  return moved;
-}
 
 std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
 {
@@ -358,6 +112,14 @@ struct Bench::Stages
   const TracedPass* raysOf(std::int64_t number, const Pass& pass, MediumOnDevices<Real>& held,
     const RayTask<Real>& task, const Field& field, const Scene& scene, const Monitor& monitor,
     Image& image);
+
+  /// Learns from the rays of a pass what has not been asked of them before: how strongly they are bent, for
+  /// automatic k, and where they meet the cutoff plane. `noise`: see noiseFloor.
+  void ask(const TracedPass& traced, TracedRays rays, std::int64_t number, const Scene& scene,
+    double noise);
+
+  /// How fields tint the picture, by the rays of its first pass.
+  std::optional<Tint> tintOf(const TracedRays& rays, const Field& field, const Scene& scene);
 
   template <class Real>
   Image render(const Field& field, const Scene& scene, Device device, const Monitor& monitor);
@@ -472,6 +234,48 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
   return &scratch;
 }
 
+void Bench::Stages::ask(
+  const TracedPass& traced, TracedRays rays, std::int64_t number, const Scene& scene, double noise)
+{
+  if (number == 0 && scene.histogramSize > 0 &&
+    (!histogram || histogram->size() != scene.histogramSize ||
+      histogram->passes() > scene.samplesPerPixel))
+  {
+    histogram.emplace(scene.histogramSize);
+  }
+  const bool isKWanted = number == 0 && fullScaleOf(scene.cutoff) > 0 && !scene.kScale && !strong;
+  const bool isHistogramWanted = scene.histogramSize > 0 && histogram->passes() == number;
+  std::vector<RayExit> fetched;
+  if (traced.onDevice && (isKWanted || isHistogramWanted))
+  {
+    fetched = traced.onDevice->toHost();
+    rays.exits = fetched.data();
+  }
+  if (isKWanted)
+  {
+    strong = strongDeflection(rays, scene.view.width, scene.view.height, noise, scene.threads);
+  }
+  if (isHistogramWanted)
+  {
+    histogram->add(rays, scene.view.width, scene.view.height, scene.threads);
+  }
+}
+
+std::optional<Tint> Bench::Stages::tintOf(
+  const TracedRays& rays, const Field& field, const Scene& scene)
+{
+  if (field.gradients.count == 0)
+  {
+    return {};
+  }
+  if (!tint)
+  {
+    tint = tintReference(
+      rays, scene.fieldColors.size(), scene.view.width, scene.view.height, scene.threads);
+  }
+  return Tint{ scene.fieldColors, *tint };
+}
+
 template <class Real>
 Image Bench::Stages::render(
   const Field& field, const Scene& scene, Device device, const Monitor& monitor)
@@ -525,12 +329,7 @@ Image Bench::Stages::render(
   const Projection projection =
     projectionOf(scene, image.frame, light, (1 + held.medium.ambient) * field.lengthScale);
 
-  if (scene.histogramSize > 0 &&
-    (!histogram || histogram->size() != scene.histogramSize ||
-      histogram->passes() > scene.samplesPerPixel))
-  {
-    histogram.emplace(scene.histogramSize);
-  }
+  const double noise = noiseFloor(held.medium, field, light);
   Cutoffs cutoff;
   RayCounts counts;
   std::vector<TracedRays> waiting; // held passes are exposed together
@@ -542,14 +341,7 @@ Image Bench::Stages::render(
       ofPass.progress = [&](double fraction)
       { monitor.progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel); };
     }
-    pass.offset = pixelOffset(number, scene.seed);
-    if (scene.cutoff != Cutoff::Background)
-    {
-      const std::array<double, 2> place =
-        sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);
-      pass.tilt[0] = place[0] / light.magnification;
-      pass.tilt[1] = place[1] / light.magnification;
-    }
+    aimPass(pass, number, scene, light);
     const TracedPass* traced = raysOf(number, pass, held, task, field, scene, ofPass, image);
     if (traced == nullptr || (monitor.aborted && monitor.aborted()))
     {
@@ -557,43 +349,17 @@ Image Bench::Stages::render(
     }
     image.momentumDrift = std::max(image.momentumDrift, traced->worstDrift);
     waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
-    const double fullScale = fullScaleOf(scene.cutoff);
-    const bool isKWanted = number == 0 && fullScale > 0 && !scene.kScale && !strong;
-    const bool isHistogramWanted = scene.histogramSize > 0 && histogram->passes() == number;
-    std::vector<RayExit> fetched;
-    if (traced->onDevice && (isKWanted || isHistogramWanted))
-    {
-      fetched = traced->onDevice->toHost();
-      waiting.back().exits = fetched.data();
-    }
-    if (isKWanted)
-    {
-      strong = strongDeflection(
-        waiting[0], view.width, view.height, noiseFloor(held.medium, field, light), scene.threads);
-    }
-    if (isHistogramWanted)
-    {
-      histogram->add(waiting.back(), view.width, view.height, scene.threads);
-    }
+    ask(*traced, waiting.back(), number, scene, noise);
     if (number == 0)
     {
-      std::optional<Tint> tintOfRays;
-      if (field.gradients.count > 0)
+      if (fullScaleOf(scene.cutoff) > 0)
       {
-        if (!tint)
-        {
-          tint = tintReference(
-            waiting[0], scene.fieldColors.size(), view.width, view.height, scene.threads);
-        }
-        tintOfRays = Tint{ scene.fieldColors, *tint };
-      }
-      if (fullScale > 0)
-      {
-        image.kScale = scene.kScale ? *scene.kScale : automaticK(*strong, fullScale);
+        image.kScale =
+          scene.kScale ? *scene.kScale : automaticK(*strong, fullScaleOf(scene.cutoff));
       }
       cutoff = cutoffs.cutoffOf(scene, image.kScale, image.frame.pixelSize);
       image.undisturbedLevel = undisturbedLevel(cutoff);
-      films = filmsOf(scene, cutoff, std::move(tintOfRays), mostRays);
+      films = filmsOf(scene, cutoff, tintOf(waiting[0], field, scene), mostRays);
     }
     if (traced->onDevice)
     {
@@ -631,23 +397,16 @@ Image Bench::Stages::render(
   {
     image.histogram = histogram->histogram();
   }
-  image.light = films->balance(scene.samplesPerPixel);
-  image.intensity = films->developIntensity(scene.samplesPerPixel, scene.threads);
-  if (films->isColored())
-  {
-    image.color = films->developColor(scene.samplesPerPixel, scene.threads);
-  }
-  const PixelArray<float> samples = samplesOn(*films, scene);
+  develop(*films, scene, image);
   films.reset(); // the means want memory, too
-  for (PixelArray<float>* picture : { &image.intensity, &image.color })
-  {
-    *picture = filtered(std::move(*picture), view.width, view.height, scene.noiseFilter,
-      scene.noiseFilterRadius, samples, scene.threads);
-  }
   means.develop(waiting, image);
   if (scene.cutoff == Cutoff::Background)
   {
-    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays);
+    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays, monitor);
+    if (image.background.empty())
+    {
+      return aborted;
+    }
     image.backgroundDisplacement = backgroundDisplacement(image, projection.distance);
   }
   scratch = {};

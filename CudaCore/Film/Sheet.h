@@ -12,6 +12,13 @@
 #include <cmath>
 #include <cstdint>
 
+/// Marks what few cells need: one copy of it is enough, on the device, too.
+#ifdef __CUDACC__
+#define SCHLIEREN_CALLED __noinline__ __host__ __device__
+#else
+#define SCHLIEREN_CALLED SCHLIEREN_APART
+#endif
+
 namespace schlieren
 {
 
@@ -81,7 +88,7 @@ public:
   SCHLIEREN_HD void addCell(const SheetRay<planes>& lowerLeft, const SheetRay<planes>& lowerRight,
     const SheetRay<planes>& upperLeft, const SheetRay<planes>& upperRight, const Around& around)
   {
-    constexpr double straight = 0.002; ///< pixels
+    constexpr double straight = 0.02; ///< pixels
     constexpr double tangled =
       8; ///< where rays are too far from each other to tell what is between
     const double bend =
@@ -242,8 +249,8 @@ private:
 
   /// False if not all rays arrive.
   template <class Around>
-  SCHLIEREN_APART bool addRefined(const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft,
-    const Ray& upperRight, const Around& around)
+  SCHLIEREN_CALLED bool addRefined(const Ray& lowerLeft, const Ray& lowerRight,
+    const Ray& upperLeft, const Ray& upperRight, const Around& around)
   {
     Point rows[4];    // half-way between rays 0 and 1 of each row
     Point columns[4]; // and of each column
@@ -270,11 +277,14 @@ private:
     const Ray below = between(lowerLeft, lowerRight, rows[1]);
     const Ray above = between(upperLeft, upperRight, rows[2]);
     const Ray middle = between(left, right, halfWay(rows[0], rows[1], rows[2], rows[3]));
+    const Ray rays[3][3] = { { lowerLeft, below, lowerRight }, { left, middle, right },
+      { upperLeft, above, upperRight } };
     Sheet quarter({ film_.columns, film_.rows, 0.25 * film_.one }, deposit_);
-    quarter.addCell(lowerLeft, below, left, middle);
-    quarter.addCell(below, lowerRight, middle, right);
-    quarter.addCell(left, middle, upperLeft, above);
-    quarter.addCell(middle, right, above, upperRight);
+    for (int n = 0; n < 4; ++n)
+    {
+      const int i = n % 2, j = n / 2;
+      quarter.addCell(rays[j][i], rays[j][i + 1], rays[j + 1][i], rays[j + 1][i + 1]);
+    }
     return true;
   }
 
@@ -328,7 +338,7 @@ private:
   }
 
   /// Any other cell.
-  SCHLIEREN_APART void addBent(
+  SCHLIEREN_CALLED void addBent(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
     constexpr double mostPixels = 4096; // looked at one by one, for one cell

@@ -114,7 +114,7 @@ void column()
   }
   field.doubles = samples.data();
   printErrorsHeader(
-    "Gaussian column, shadowgraph, screen at so many focal lengths (128 x 16 pixels, "
+    "Gaussian column, shadowgraph, screen at so many focal lengths (128 pixels, "
     "its radius 16 of them). Against the closed form");
   Bench bench;
   const double focus = radius / (2 * std::sqrt(pi) * peak);
@@ -277,11 +277,24 @@ void convergence(const Jet& jet)
 
 } // namespace
 
-int main()
+/// All tables, or those that are named: column, jet, convergence.
+int main(int argc, char* argv[])
 {
-  column();
+  const std::vector<std::string> names(argv + 1, argv + argc);
+  const auto isWanted = [&names](const char* name)
+  { return names.empty() || std::find(names.begin(), names.end(), name) != names.end(); };
+  if (isWanted("column"))
+  {
+    column();
+  }
   const Jet jet;
-  jetErrors(jet);
-  convergence(jet);
+  if (isWanted("jet"))
+  {
+    jetErrors(jet);
+  }
+  if (isWanted("convergence"))
+  {
+    convergence(jet);
+  }
   return 0;
 }

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StageSettings.h"
+
+#include "Medium/Interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace schlieren
+{
+
+RaySettings settingsOf(
+  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame)
+{
+  RaySettings settings;
+  const bool straightWillDo = scene.pathModel == PathModel::Auto &&
+    bound.displacement <= scene.pathTolerance * frame.pixelSize;
+  settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
+    ? PathModel::Straight
+    : PathModel::Refracted;
+  settings.kernel.interpolation = scene.interpolation;
+  if (settings.kernel.path == PathModel::Refracted)
+  {
+    settings.kernel.integrator = scene.integrator;
+  }
+  if (settings.kernel.integrator == Integrator::Adaptive)
+  {
+    settings.adaptiveTolerance = scene.adaptiveTolerance;
+  }
+  settings.stepVoxels = scene.stepSize;
+  settings.lengthScale = lengthScale;
+  return settings;
+}
+
+template <class Real>
+double skippingBound(
+  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
+{
+  const double steepest = visitScheme(
+    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
+  const double way = light.depth / light.smallestCosine();
+  return 2 * steepest * tolerance * length(light.indexScale) * way * (1 + medium.largestNu);
+}
+
+template <class Real>
+double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light)
+{
+  constexpr double margin = 16;
+  const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
+  const double rounding = rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                  : std::numeric_limits<double>::epsilon();
+  const double voxels = std::max(1., light.depth * light.fastest());
+  return margin * medium.largestN * rounding * std::sqrt(voxels);
+}
+
+double filmDistance(const Scene& scene, const Frame& frame)
+{
+  const double depth = frame.exit - frame.entry;
+  switch (scene.cutoff)
+  {
+    case Cutoff::Shadowgraph:
+      return scene.screenDistance.value_or(depth);
+    case Cutoff::Background:
+      return scene.background.distance.value_or(depth);
+    default:
+      return -0.5 * depth + scene.focusOffset;
+  }
+}
+
+std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
+{
+  if (scene.cutoff == Cutoff::Background)
+  {
+    return 1;
+  }
+  const double depth = frame.exit - frame.entry;
+  double furthest = 0; // data units of the picture
+  for (const double film :
+    { scene.screenDistance.value_or(depth), -0.5 * depth + scene.focusOffset, -0.5 * depth })
+  {
+    const double magnification =
+      scene.source.distance ? 1 + (film + 0.5 * depth) / *scene.source.distance : 1;
+    const double moved = bound.displacement + std::abs(film) * bound.slope;
+    furthest = std::max(furthest, magnification > 0 ? moved / magnification : 0);
+  }
+  const double pixels = std::ceil(furthest / frame.pixelSize) + 1;
+  const auto most = static_cast<double>(mostMargin(scene.view));
+  return static_cast<std::int64_t>(pixels < most ? pixels : most);
+}
+
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
+{
+  return scene.cutoff == Cutoff::Background
+    ? reversedLight(grid, frame)
+    : lightFrom(scene.source, filmDistance(scene, frame), grid, scene.view, frame);
+}
+
+Projection projectionOf(
+  const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit)
+{
+  Projection projection{ filmDistance(scene, frame), 1 / (frame.pixelSize * light.magnification),
+    pathPerDataUnit, light.inclination };
+  projection.isOfCamera = scene.cutoff == Cutoff::Background;
+  if (!projection.isOfCamera && scene.source.distance)
+  {
+    projection.perSourceDistance = 1 / (*scene.source.distance * light.magnification);
+  }
+  return projection;
+}
+
+void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
+{
+  pass.offset = pixelOffset(number, scene.seed);
+  if (scene.cutoff != Cutoff::Background)
+  {
+    const std::array<double, 2> place =
+      sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);
+    pass.tilt[0] = place[0] / light.magnification;
+    pass.tilt[1] = place[1] / light.magnification;
+  }
+}
+
+template double skippingBound(const Medium<float>&, const Light&, double, Interpolation);
+template double skippingBound(const Medium<double>&, const Light&, double, Interpolation);
+template double noiseFloor(const Medium<float>&, const Field&, const Light&);
+template double noiseFloor(const Medium<double>&, const Field&, const Light&);
+
+} // namespace schlieren

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene asks of each stage, and what the results that are held depend on.
+#pragma once
+
+#include "Film/Shading.h"
+#include "Medium/Medium.h"
+#include "Rays/Light.h"
+#include "Rays/Tracer.h"
+#include "Schlieren.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+namespace schlieren
+{
+
+/// What a held medium was built from.
+struct MediumKey
+{
+  std::array<std::int64_t, 3> dimensions;
+  Vector origin;
+  Vector spacing;
+  std::array<double, 9> direction;
+  std::uint64_t version;
+  const void* samples;
+  std::optional<double> ambient;
+  Interpolation interpolation;
+  Precision precision;
+
+  auto tie() const
+  {
+    return std::tie(
+      dimensions, origin, spacing, direction, version, samples, ambient, interpolation, precision);
+  }
+};
+
+/// Where the light of held rays came from. What does not matter to it has its default.
+struct LightKey
+{
+  bool isOfCamera = false;
+  std::optional<double> distance;
+  SourceShape shape = SourceShape::Point;
+  double width = 0, length = 0; ///< of an extended source, as the next two
+  double angle = 0;
+  double film = 0;
+
+  auto tie() const { return std::tie(isOfCamera, distance, shape, width, length, angle, film); }
+
+  static LightKey of(const Scene& scene, double film)
+  {
+    LightKey key;
+    key.isOfCamera = scene.cutoff == Cutoff::Background;
+    if (key.isOfCamera)
+    {
+      return key;
+    }
+    key.distance = scene.source.distance;
+    key.shape = scene.source.shape;
+    if (key.shape != SourceShape::Point)
+    {
+      key.width = scene.source.width;
+      key.film = film;
+    }
+    if (key.shape == SourceShape::Slit)
+    {
+      key.length = scene.source.length;
+      key.angle = scene.knifeEdgeAngle;
+    }
+    return key;
+  }
+};
+
+/// What held rays were traced with, the medium apart.
+struct RaysKey
+{
+  Frame frame;
+  int width, height;
+  RaySettings settings;
+  double homogeneityTolerance;
+  std::uint32_t seed;
+  Device device;
+  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
+  LightKey light;
+
+  auto tie() const
+  {
+    return std::tuple_cat(light.tie(),
+      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
+        width, height, settings.kernel.path, settings.kernel.integrator, settings.stepVoxels,
+        settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance, seed, device,
+        gradients));
+  }
+};
+
+/// How a scene's rays are to be traced where no ray is displaced further than `bound`. What does not matter
+/// to them has its default, so that changing it traces nothing.
+RaySettings settingsOf(
+  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame);
+
+/// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
+/// each: see NuRange, with the whole way through the grid as the way through cubes.
+template <class Real>
+double skippingBound(
+  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation);
+
+/// A deflection that the rounding of the samples alone can make: each step's gradient is wrong by one
+/// rounding of N per voxel, and over a ray these errors add up like a random walk. With a margin of 16.
+template <class Real>
+double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light);
+
+/// How far past the plane where rays leave the data they meet what the film shows: a screen; the background
+/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera. Data units.
+double filmDistance(const Scene& scene, const Frame& frame);
+
+/// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
+/// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
+/// cutoffs, so that changing the cutoff traces nothing, but for a camera's rays, which stay in their pixel.
+std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame);
+
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame);
+
+/// Where a pass's rays start in their pixels and at their source.
+void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light);
+
+/// `pathPerDataUnit`: see Projection.
+Projection projectionOf(
+  const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit);
+
+} // namespace schlieren
