@@ -113,9 +113,8 @@ void column()
     }
   }
   field.doubles = samples.data();
-  printErrorsHeader(
-    "Gaussian column, shadowgraph, screen at so many focal lengths (128 pixels, "
-    "its radius 16 of them). Against the closed form");
+  printErrorsHeader("Gaussian column, shadowgraph, screen at so many focal lengths (128 pixels, "
+                    "its radius 16 of them). Against the closed form");
   Bench bench;
   const double focus = radius / (2 * std::sqrt(pi) * peak);
   for (const double lengths : { 0.5, 0.9, 1., 1.5, 3., 5. })
