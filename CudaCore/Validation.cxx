@@ -185,8 +185,9 @@ void validateLight(const Scene& scene, const Frame& frame)
   if (scene.cutoff == Cutoff::Background)
   {
     const double distance = scene.background.distance.value_or(depth);
-    require(distance >= 0 && std::isfinite(distance), "The background is at a distance of ",
-      distance, " from the data. Set BackgroundDistance to zero or more, in data units.");
+    constexpr double furthest = 1e30; // displacements are floats
+    require(distance >= 0 && distance <= furthest, "The background is at a distance of ", distance,
+      " from the data. Set BackgroundDistance to zero or more, up to 1e30 data units.");
     require(scene.background.period >= 0 && std::isfinite(scene.background.period),
       "BackgroundPeriod is ", scene.background.period,
       ". Set it to a positive number of data units, or to 0 for eight pixels.");

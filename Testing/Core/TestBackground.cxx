@@ -219,7 +219,7 @@ TEST_P(Background, SurvivesExtremes)
   {
     Scene scene = cameraScene(GetParam());
     scene.background.kind = kind;
-    for (const double distance : { 0., 1e9, 1e300 })
+    for (const double distance : { 0., 1e9, 1e30 })
     {
       for (const double period : { 1e-300, 1e-3, 0., 1., 1e300 })
       {
@@ -234,7 +234,7 @@ TEST_P(Background, SurvivesExtremes)
         }
         for (const float moved : image.backgroundDisplacement)
         {
-          EXPECT_FALSE(std::isnan(moved));
+          EXPECT_TRUE(std::isfinite(moved));
         }
         if (distance == 0)
         {
@@ -284,6 +284,7 @@ TEST(BackgroundMistakes, AreTold)
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   expectError({ PatternKind::Dots, -1, 0, 0, nullptr }, "BackgroundDistance");
   expectError({ PatternKind::Dots, nan, 0, 0, nullptr }, "BackgroundDistance");
+  expectError({ PatternKind::Dots, 1e31, 0, 0, nullptr }, "BackgroundDistance");
   expectError({ PatternKind::Dots, {}, -1, 0, nullptr }, "BackgroundPeriod");
   expectError({ PatternKind::Stripes, {}, 0, nan, nullptr }, "BackgroundAngle");
   expectError({ PatternKind::Picture, {}, 0, 0, nullptr }, "BackgroundImage");
