@@ -115,6 +115,7 @@ struct RaysOnDevice
     }
     const RayExit& here = exit(column, row);
     ray.arrives = here.reachesFilm();
+    ray.crossed = crossedOnTheWay(here, projection);
     if (ray.arrives)
     {
       const double startColumn = static_cast<double>(-margin) + pass.offset.column;

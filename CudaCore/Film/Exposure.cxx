@@ -128,6 +128,7 @@ public:
       }
       Ray& ray = rays[i];
       ray.arrives = exit.reachesFilm();
+      ray.crossed = crossedOnTheWay(exit, projection_);
       if (ray.arrives)
       {
         const RayAtFilm atFilm = rayAtFilm(

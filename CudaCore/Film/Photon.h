@@ -18,6 +18,7 @@ struct FilmRay
     y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
   double light[planes]; ///< 0 ... 1
   bool arrives;
+  bool crossed = true; ///< the medium
 };
 
 /// What light is brought to, in fixed point. `one`: the value of a full ray.

@@ -24,6 +24,13 @@ struct Projection
   bool isOfCamera = false; ///< rays come from the picture: their light belongs to where they start
 };
 
+/// Whether what the film shows of a ray has come through the medium. All that a camera sees counts as such: its
+/// rays stay in their pixels, whatever they meet.
+SCHLIEREN_HD bool crossedOnTheWay(const RayExit& exit, const Projection& projection)
+{
+  return projection.isOfCamera || exit.fate != RayFate::Missed;
+}
+
 /// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
 /// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
 SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,

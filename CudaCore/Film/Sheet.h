@@ -30,7 +30,15 @@ struct SheetRay : FilmRay<planes>
   double bend = 0; ///< pixels: the largest second difference of where rays land
 };
 
-/// Neighbours that do not arrive, or are none, count for nothing.
+/// Whether there is light between two rays. Where one crosses the medium and the other does not, what there is
+/// of either ends at the medium's side.
+template <int planes>
+SCHLIEREN_HD bool areTogether(const FilmRay<planes>& a, const FilmRay<planes>& b)
+{
+  return a.arrives && b.arrives && a.crossed == b.crossed;
+}
+
+/// Neighbours that do not arrive, are none, or on the other side of the medium's edge count for nothing.
 template <int planes>
 SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRay<planes>& left,
   const FilmRay<planes>& right, const FilmRay<planes>& below, const FilmRay<planes>& above)
@@ -39,7 +47,7 @@ SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRa
   static_cast<FilmRay<planes>&>(ray) = here;
   const auto look = [&here, &ray](const FilmRay<planes>& before, const FilmRay<planes>& after)
   {
-    if (!(before.arrives && after.arrives))
+    if (!areTogether(here, before) || !areTogether(here, after))
     {
       return;
     }
@@ -100,13 +108,14 @@ public:
     }
   }
 
-  /// The light between four neighbouring rays. Where some of them do not arrive, the others bring a quarter
-  /// each, spread over the quarter of a cell on their side as if nothing were bent there: so undisturbed light
-  /// is even up to where a shadow begins.
+  /// The light between four neighbouring rays. Where some of them do not arrive, or do not cross the medium, the
+  /// others bring a quarter each, spread over the quarter of a cell on their side as if nothing were bent there:
+  /// so even light is even up to where a shadow begins or the medium ends.
   SCHLIEREN_HD void addCell(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
-    if (lowerLeft.arrives && lowerRight.arrives && upperLeft.arrives && upperRight.arrives)
+    if (areTogether(lowerLeft, lowerRight) && areTogether(lowerLeft, upperLeft) &&
+      areTogether(lowerLeft, upperRight))
     {
       if (!addRegular(lowerLeft, lowerRight, upperLeft, upperRight))
       {
@@ -247,7 +256,7 @@ private:
     return true;
   }
 
-  /// False if not all rays arrive.
+  /// False if not all rays belong together.
   template <class Around>
   SCHLIEREN_CALLED bool addRefined(const Ray& lowerLeft, const Ray& lowerRight,
     const Ray& upperLeft, const Ray& upperRight, const Around& around)
@@ -260,7 +269,7 @@ private:
       for (int i = 0; i < 4; ++i)
       {
         const Ray& ray = around(i - 1, j - 1);
-        if (!ray.arrives)
+        if (!areTogether(lowerLeft, ray))
         {
           return false;
         }
@@ -302,6 +311,7 @@ private:
     ray.x = at.x;
     ray.y = at.y;
     ray.arrives = true;
+    ray.crossed = a.crossed;
     for (int plane = 0; plane < planes; ++plane)
     {
       ray.light[plane] = 0.5 * (a.light[plane] + b.light[plane]);

@@ -108,6 +108,30 @@ TEST(Estimators, BentLightAddsUpToTheUndisturbed)
   }
 }
 
+/// The same bend everywhere in a cube that fills the picture: light is as even in its outermost pixels, though
+/// that beside the cube is not bent.
+TEST(Estimators, LightIsEvenUpToTheSidesOfTheMedium)
+{
+  constexpr double gradient = 1e-7, k = 1e6;
+  const SampledField<float> wedge(
+    cube(16, 1), [](double, double y, double) { return gradient * y; });
+  for (const FilmEstimator estimator : both)
+  {
+    Scene scene;
+    scene.device = Device::Cpu;
+    scene.filmEstimator = estimator;
+    scene.knifeEdgeAngle = 90;
+    scene.kScale = k;
+    scene.view.width = scene.view.height = 32;
+    scene.samplesPerPixel = 1;
+    const Image image = Bench().render(wedge.field, scene);
+    for (const float light : image.intensity)
+    {
+      ASSERT_NEAR(light, 0.5 + k * 2 * gradient, 1e-4);
+    }
+  }
+}
+
 TEST(Estimators, PicturesDoNotDependOnThreads)
 {
   Bodies bodies(1e-3, true);
