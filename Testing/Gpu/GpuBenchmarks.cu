@@ -107,7 +107,25 @@ const char* name(Integrator integrator)
 
 const char* name(Cutoff cutoff)
 {
-  return cutoff == Cutoff::Shadowgraph ? "Shadowgraph" : "Knife Edge";
+  switch (cutoff)
+  {
+    case Cutoff::Shadowgraph:
+      return "Shadowgraph";
+    case Cutoff::Circular:
+      return "Circular";
+    case Cutoff::CircularComplement:
+      return "Complement";
+    case Cutoff::GradedFilter:
+      return "Graded";
+    case Cutoff::ColorFilter:
+      return "Color";
+    case Cutoff::Interferogram:
+      return "Fringes";
+    case Cutoff::Background:
+      return "Background";
+    default:
+      return "Knife Edge";
+  }
 }
 
 /// A jet along y, wavy, in still gas.
@@ -265,6 +283,26 @@ void measureAll(
   }
 }
 
+/// Every cutoff by both estimators. What another cutoff costs is under "again".
+void measureCutoffs(
+  const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
+{
+  Bench bench;
+  for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
+  {
+    std::printf("%s\n", estimator == FilmEstimator::Sheet ? "by sheet" : "by photon");
+    for (const Cutoff cutoff :
+      { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement,
+        Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram, Cutoff::Background })
+    {
+      Scene scene = sceneOf(viewDirection);
+      scene.filmEstimator = estimator;
+      scene.cutoff = cutoff;
+      measure(medium, bench, field, scene, peak);
+    }
+  }
+}
+
 /// Every kernel once.
 void measureKernels(
   const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
@@ -307,6 +345,7 @@ void run(std::int64_t largest)
   {
     const Jet jet(480, 720, 100);
     measureAll("480 x 720 x 100, along z", jet.field, { 0, 0, -1 }, peak);
+    measureCutoffs("480 x 720 x 100, along z", jet.field, { 0, 0, -1 }, peak);
   }
   const Vector aslant{ -0.64, 0.48, -0.6 };
   {
