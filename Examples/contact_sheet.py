@@ -17,7 +17,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "Utilities", "four_pictures"))
 
-from arguments import DemoError, parse_arguments  # noqa: E402
+from arguments import DemoError, options_or_exit, parse_arguments  # noqa: E402
 
 DESCRIPTION = """\
 Writes one PNG with all pictures that the bench can make of a flow field. Without FILE: an
@@ -29,12 +29,7 @@ def options_of(arguments):
 
 
 if __name__ == "__main__":  # --help and mistakes in the arguments need no ParaView
-    try:
-        OPTIONS = options_of(sys.argv[1:])
-    except DemoError as problem:
-        sys.exit(f"error: {problem}")
-    if OPTIONS.check:
-        sys.exit(0)
+    OPTIONS = options_or_exit(options_of)
 
 import numpy as np  # noqa: E402
 import paraview.simple as pv  # noqa: E402

@@ -14,9 +14,6 @@ namespace
 
 using Filter = vtkSchlierenFilter;
 
-constexpr double metresPerMillimetre = 1e-3;
-constexpr double metresPerNanometre = 1e-9;
-
 /// From a diverging source to the middle of the data, and from fringe to fringe, by default.
 constexpr double depthsToSource = 10;
 constexpr double fringesInPicture = 10;

@@ -11,6 +11,9 @@ class vtkSchlierenFilter;
 /// What of a scene follows from mirrors, sources and beams that one can buy. A user's mistake is thrown as
 /// std::runtime_error with a message for the user.
 
+constexpr double metresPerMillimetre = 1e-3;
+constexpr double metresPerNanometre = 1e-9;
+
 /// Whether the sensitivity k counts for the filter's cutoff.
 bool usesK(vtkSchlierenFilter* self);
 

@@ -62,8 +62,6 @@ static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
   sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
   sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
 
-constexpr double metresPerNanometre = 1e-9;
-
 /// Where a graded filter is read off.
 constexpr int gradedFilterSamples = 1025;
 

@@ -57,8 +57,6 @@ struct vtkSchlierenFilter::Internals
 namespace
 {
 
-constexpr double metresPerMillimetre = 1e-3;
-
 /// Share of the progress bar that belongs to finding the refractivity.
 constexpr double mediumShare = 0.2;
 

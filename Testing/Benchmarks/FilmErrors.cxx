@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the film's estimators and noise filters are worth: errors against closed forms and against pictures of
 // many more rays, and how much pictures change as samples come in. Prints tables; takes minutes.
+#include "Jet.h"
 #include "Schlieren.h"
-
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkXMLImageDataReader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,34 +151,6 @@ void column()
     printErrors(name, bench, field, truths);
   }
 }
-
-/// The jet after Ladenburg's experiment, and the memory for it.
-struct Jet
-{
-  Jet()
-  {
-    vtkNew<vtkXMLImageDataReader> reader;
-    reader->SetFileName(SCHLIEREN_TEST_DATA "/ladenburg_jet_3d.vti");
-    reader->Update();
-    vtkImageData* jet = reader->GetOutput();
-    vtkDataArray* density = jet->GetPointData()->GetArray("rho");
-    for (vtkIdType i = 0; i < jet->GetNumberOfPoints(); ++i)
-    {
-      refractivity.push_back(static_cast<float>(2.26e-4 * density->GetComponent(i, 0)));
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const auto a = static_cast<std::size_t>(axis);
-      field.grid.dimensions[a] = jet->GetDimensions()[axis];
-      field.grid.origin[a] = jet->GetOrigin()[axis];
-      field.grid.spacing[a] = jet->GetSpacing()[axis];
-    }
-    field.singles = refractivity.data();
-  }
-
-  std::vector<float> refractivity;
-  Field field;
-};
 
 Scene jetScene(int width, int height)
 {

@@ -7,6 +7,7 @@ import ast
 import math
 import os
 import re
+import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 JET = os.path.join(ROOT, "Testing", "Data", "ladenburg_jet_3d.vti")
@@ -166,4 +167,16 @@ examples:
         if math.hypot(*cross) < 1e-6 * math.hypot(*options.up) or not any(options.up):
             raise DemoError("--up points along the line of sight, or nowhere: give another one.")
         options.view = (options.view[0], options.up)
+    return options
+
+
+def options_or_exit(parse):
+    """What `parse` makes of the program's arguments; ends the program where they are wrong, or are only
+    to be checked."""
+    try:
+        options = parse(sys.argv[1:])
+    except DemoError as problem:
+        sys.exit(f"error: {problem}")
+    if options.check:
+        sys.exit(0)
     return options

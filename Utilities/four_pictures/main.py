@@ -13,14 +13,9 @@ import sys
 import tempfile
 import time
 
-from arguments import DemoError, parse_arguments
+from arguments import DemoError, options_or_exit, parse_arguments
 
-try:
-    OPTIONS = parse_arguments(sys.argv[1:])
-except DemoError as problem:
-    sys.exit(f"error: {problem}")
-if OPTIONS.check:
-    sys.exit(0)
+OPTIONS = options_or_exit(parse_arguments)
 
 # Only now: --help and mistakes in the arguments need no ParaView.
 import numpy as np  # noqa: E402
