@@ -210,6 +210,12 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "PreviewReduction: " << this->PreviewReduction << "\n";
+  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
+  os << indent << "Finished: " << this->GetFinished() << "\n";
+  os << indent << "PictureCount: " << this->PictureCount << "\n";
+  os << indent << "Status: " << this->Status << "\n";
+  os << indent << "FollowedView: " << this->FollowedView << "\n";
   os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
@@ -356,6 +362,18 @@ vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMeshSearches(); }
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Refine()
+{
+  if (!this->GetFinished())
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GetFinished() { return true; }
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
@@ -516,6 +534,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
   }
   addGrid(output, this->Medium->GetGrid(), refractivity);
   setHistogram(histogram, image.histogram);
+  ++this->PictureCount;
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(this, image.kScale);
   return true;

@@ -736,6 +736,51 @@ public:
   vtkTypeInt64 GetTotalRaysTraced();
   ///@}
 
+  ///@{
+  /**
+   * How many pixels along each axis one of a hurried picture stands for: with 2, a picture that lies at the
+   * same place has half as many columns and rows, and one ray for each, whatever SamplesPerPixel is. For
+   * a window to show while the view is being turned. Default: 1.
+   */
+  vtkSetClampMacro(PreviewReduction, int, 1, 64);
+  vtkGetMacro(PreviewReduction, int);
+  ///@}
+
+  ///@{
+  /**
+   * Seconds that an update may take for rays and light, about; 0 (the default): no limit. When they are over,
+   * the output is the picture of the samples that are there, or, before the first of each pixel is, the
+   * picture from before. Refine() then lets the next update go on where this one ended; IsFinished() tells
+   * whether there is anything left. Another limit is no reason to make a picture again.
+   */
+  void SetTimeLimit(double seconds) { this->TimeLimit = seconds; }
+  vtkGetMacro(TimeLimit, double);
+  void Refine();
+  bool GetFinished();
+  ///@}
+
+  /**
+   * How many different pictures this filter has made: unchanged where an update under a TimeLimit had nothing
+   * new to show.
+   */
+  vtkGetMacro(PictureCount, vtkTypeInt64);
+
+  /**
+   * The last picture in words: samples per pixel, rays per second, device, how far light is shifted at most.
+   * Empty where there is none.
+   */
+  const char* GetStatus() const { return this->Status.c_str(); }
+
+  ///@{
+  /**
+   * The name of the render view whose camera ParaView's window makes this picture's view follow, or empty
+   * (the default). The filter itself does nothing with it; the window sets ViewDirection, ViewUp,
+   * FocalPoint and ParallelScale.
+   */
+  void SetFollowedView(const char* name) { this->FollowedView = name ? name : ""; }
+  const char* GetFollowedView() const { return this->FollowedView.c_str(); }
+  ///@}
+
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -830,6 +875,11 @@ private:
   int Seed = 1;
   int Device = AUTO;
   int NumberOfThreads = 0;
+  int PreviewReduction = 1;
+  double TimeLimit = 0;
+  vtkTypeInt64 PictureCount = 0;
+  std::string Status;
+  std::string FollowedView;
 
   bool HasWarnedOfProcesses = false;
 };
