@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCameraFollower.h"
 
+#include "CameraOfView.h"
 #include "SchlierenViews.h"
 #include "pqInteraction.h"
 #include "pqPictureCameras.h"
@@ -17,65 +18,16 @@
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
-#include "vtkMath.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
-
 namespace
 {
 
 const char* const viewProperties[] = { "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale" };
-
-struct View
-{
-  std::array<double, 3> Direction;
-  std::array<double, 3> Up;
-  std::array<double, 3> FocalPoint;
-  double ParallelScale;
-
-  explicit View(vtkCamera* camera)
-  {
-    camera->GetDirectionOfProjection(this->Direction.data());
-    camera->GetViewUp(this->Up.data());
-    camera->GetFocalPoint(this->FocalPoint.data());
-    this->ParallelScale = camera->GetParallelProjection()
-      ? camera->GetParallelScale()
-      : camera->GetDistance() * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
-  }
-
-  /// Not so in the middle of a change of several properties of a camera.
-  bool isUsable() const
-  {
-    std::array<double, 3> right{};
-    vtkMath::Cross(this->Direction.data(), this->Up.data(), right.data());
-    const double size = vtkMath::Norm(right.data());
-    return size > 1e-6 * vtkMath::Norm(this->Up.data()) && std::isfinite(size) &&
-      this->ParallelScale > 0 && std::isfinite(this->ParallelScale) &&
-      std::all_of(this->FocalPoint.begin(), this->FocalPoint.end(),
-        [](double value) { return std::isfinite(value); });
-  }
-};
-
-/// Sets a property; returns whether it was different.
-bool set(vtkSMProxy* filter, const char* name, const double* values, unsigned int count)
-{
-  vtkSMPropertyHelper property(filter, name);
-  const std::vector<double> before = property.GetDoubleArray();
-  if (std::equal(before.begin(), before.end(), values, values + count))
-  {
-    return false;
-  }
-  property.Set(values, count);
-  return true;
-}
 
 } // namespace
 
@@ -203,18 +155,14 @@ void pqCameraFollower::onName(pqServerManagerModelItem* item)
 //------------------------------------------------------------------------------
 bool pqCameraFollower::push(pqPipelineSource* filter, pqRenderView* view)
 {
-  vtkSMProxy* proxy = filter->getProxy();
-  const View seen(view->getRenderViewProxy()->GetActiveCamera());
-  if (!seen.isUsable() || this->IsPushing)
+  if (this->IsPushing)
   {
     return false;
   }
+  vtkSMProxy* proxy = filter->getProxy();
   this->IsPushing = true;
   SCOPED_UNDO_EXCLUDE();
-  bool isChanged = set(proxy, "ViewDirection", seen.Direction.data(), 3);
-  isChanged = set(proxy, "ViewUp", seen.Up.data(), 3) || isChanged;
-  isChanged = set(proxy, "FocalPoint", seen.FocalPoint.data(), 3) || isChanged;
-  isChanged = set(proxy, "ParallelScale", &seen.ParallelScale, 1) || isChanged;
+  const bool isChanged = takeCameraOfView(proxy, view->getRenderViewProxy());
   if (isChanged)
   {
     proxy->UpdateVTKObjects();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureCameras.h"
 
+#include "CameraOfView.h"
 #include "SchlierenViews.h"
 
 #include "pqApplicationCore.h"
@@ -11,7 +12,6 @@
 #include "pqUndoStack.h"
 
 #include "vtkCamera.h"
-#include "vtkMath.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
@@ -19,37 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-
-namespace
-{
-
-/// Where the filter's properties put the picture; false where they do not say.
-bool wantedPlace(vtkSMProxy* filter, double center[2], double& halfHeight)
-{
-  if (vtkSMPropertyHelper(filter, "FocalPoint").GetNumberOfElements() != 3)
-  {
-    return false;
-  }
-  double direction[3];
-  double up[3];
-  double point[3];
-  double right[3];
-  vtkSMPropertyHelper(filter, "ViewDirection").Get(direction, 3);
-  vtkSMPropertyHelper(filter, "ViewUp").Get(up, 3);
-  vtkSMPropertyHelper(filter, "FocalPoint").Get(point, 3);
-  halfHeight = vtkSMPropertyHelper(filter, "ParallelScale").GetAsDouble();
-  vtkMath::Cross(direction, up, right);
-  vtkMath::Cross(right, direction, up);
-  if (vtkMath::Normalize(right) == 0 || vtkMath::Normalize(up) == 0)
-  {
-    return false;
-  }
-  center[0] = vtkMath::Dot(point, right);
-  center[1] = vtkMath::Dot(point, up);
-  return halfHeight > 0;
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 pqPictureCameras::pqPictureCameras(QObject* parentObject)
@@ -95,7 +64,7 @@ void pqPictureCameras::arrange(pqRenderView* view)
   const double* bounds = picture->GetBounds();
   const int rows = extent[3] - extent[2] + 1;
   if (picture->GetNumberOfPoints() < 1 || rows < 2 ||
-    !wantedPlace(place.Filter->getProxy(), place.Center, place.HalfHeight))
+    !placeOfPicture(place.Filter->getProxy(), place.Center, place.HalfHeight))
   {
     return;
   }
@@ -130,23 +99,19 @@ void pqPictureCameras::arrange(pqRenderView* view)
   const bool isNear = std::abs(focus[0] - before.Center[0]) < width &&
     std::abs(focus[1] - before.Center[1]) < 2 * before.HalfHeight &&
     scale < 20 * before.HalfHeight && scale > 0.01 * before.HalfHeight;
+  SCOPED_UNDO_EXCLUDE();
+  if (!isNear)
+  {
+    fitViewToPicture(proxy, place.Filter->getProxy());
+    return;
+  }
+  const double zoom = place.HalfHeight / before.HalfHeight;
   double moved[2];
-  if (isNear)
+  for (int axis = 0; axis < 2; ++axis)
   {
-    const double zoom = place.HalfHeight / before.HalfHeight;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      moved[axis] = place.Center[axis] + (focus[axis] - before.Center[axis]) * zoom - focus[axis];
-    }
-    scale *= zoom;
+    moved[axis] = place.Center[axis] + (focus[axis] - before.Center[axis]) * zoom - focus[axis];
   }
-  else
-  {
-    const QSize size = view->getSize();
-    moved[0] = place.Center[0] - focus[0];
-    moved[1] = place.Center[1] - focus[1];
-    scale = std::max(place.HalfHeight, 0.5 * width * size.height() / std::max(size.width(), 1));
-  }
+  scale *= zoom;
   if (moved[0] == 0 && moved[1] == 0 && scale == camera->GetParallelScale())
   {
     return;
@@ -156,7 +121,6 @@ void pqPictureCameras::arrange(pqRenderView* view)
     position[axis] += moved[axis];
     focus[axis] += moved[axis];
   }
-  SCOPED_UNDO_EXCLUDE();
   proxy->SynchronizeCameraProperties();
   vtkSMPropertyHelper(proxy, "CameraPosition").Set(position, 3);
   vtkSMPropertyHelper(proxy, "CameraFocalPoint").Set(focus, 3);
