@@ -16,6 +16,8 @@
 #include <QEvent>
 #include <QLabel>
 
+#include <algorithm>
+
 namespace
 {
 
@@ -24,8 +26,10 @@ constexpr int margin = 6; // pixels
 
 void place(QLabel* label, QWidget* view)
 {
-  label->setMaximumWidth(view->width() - 2 * margin);
-  label->adjustSize();
+  label->setWordWrap(false);
+  const int width = std::min(label->sizeHint().width(), view->width() - 2 * margin);
+  label->setWordWrap(true);
+  label->resize(width, label->heightForWidth(width));
   label->move(margin, view->height() - label->height() - margin);
 }
 
