@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureStatus.h"
 
-#include "SchlierenViews.h"
+#include "PictureViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -67,10 +67,15 @@ void pqPictureStatus::watch(pqView* item)
 //------------------------------------------------------------------------------
 void pqPictureStatus::show(pqRenderView* view)
 {
-  QStringList lines;
-  if (schlierenViews::isFlat(view))
+  QWidget* widget = view->widget();
+  if (!widget)
   {
-    for (pqPipelineSource* filter : schlierenViews::picturesIn(view))
+    return; // the view is about to go
+  }
+  QStringList lines;
+  if (pictureViews::isFlat(view))
+  {
+    for (pqPipelineSource* filter : pictureViews::picturesIn(view))
     {
       vtkSMProxy* proxy = filter->getProxy();
       proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));
@@ -78,7 +83,6 @@ void pqPictureStatus::show(pqRenderView* view)
     }
     lines.removeAll(QString());
   }
-  QWidget* widget = view->widget();
   QLabel* label = labelOf(widget);
   if (!label && !lines.isEmpty())
   {
