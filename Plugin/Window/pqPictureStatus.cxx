@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureStatus.h"
 
-#include "PictureViews.h"
+#include "PicturesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -73,9 +73,9 @@ void pqPictureStatus::show(pqRenderView* view)
     return; // the view is about to go
   }
   QStringList lines;
-  if (pictureViews::isFlat(view))
+  if (picturesInViews::isFlat(view))
   {
-    for (pqPipelineSource* filter : pictureViews::picturesIn(view))
+    for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
     {
       vtkSMProxy* proxy = filter->getProxy();
       proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));
