@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqViewChoiceWidget.h"
 
-#include "SchlierenViews.h"
+#include "PicturesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqRenderView.h"
@@ -70,7 +70,7 @@ void pqViewChoiceWidget::fill()
     model->findItems<pqRenderView*>(model->findServer(this->proxy()->GetSession())))
   {
     const QString name = view->getSMName();
-    if (!schlierenViews::isFlat(view) && this->Choice->findData(name) < 0)
+    if (!picturesInViews::isFlat(view) && this->Choice->findData(name) < 0)
     {
       this->Choice->addItem(name, name);
     }

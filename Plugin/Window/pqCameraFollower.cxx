@@ -3,7 +3,7 @@
 #include "pqCameraFollower.h"
 
 #include "CameraOfView.h"
-#include "SchlierenViews.h"
+#include "PicturesInViews.h"
 #include "pqInteraction.h"
 #include "pqPictureCameras.h"
 #include "pqPictureRefiner.h"
@@ -88,7 +88,7 @@ void pqCameraFollower::watchView(pqView* view)
 //------------------------------------------------------------------------------
 void pqCameraFollower::watchSource(pqPipelineSource* source)
 {
-  if (schlierenViews::isSchlieren(source))
+  if (picturesInViews::isSchlieren(source))
   {
     this->Connection->Connect(
       source->getProxy(), vtkCommand::UpdateEvent, this, SLOT(onFilter(vtkObject*)));
@@ -99,9 +99,9 @@ void pqCameraFollower::watchSource(pqPipelineSource* source)
 //------------------------------------------------------------------------------
 void pqCameraFollower::onCamera(vtkObject*, unsigned long, void* view)
 {
-  for (pqPipelineSource* filter : schlierenViews::filters())
+  for (pqPipelineSource* filter : picturesInViews::filters())
   {
-    pqRenderView* followed = schlierenViews::followed(filter);
+    pqRenderView* followed = picturesInViews::followed(filter);
     if (followed && followed->getProxy() == view &&
       (pqInteraction::instance()->isOn() || this->push(filter, followed)))
     {
@@ -124,7 +124,7 @@ void pqCameraFollower::onFilter(vtkObject* proxy)
   auto* filter =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
       vtkSMProxy::SafeDownCast(proxy));
-  pqRenderView* view = filter && !this->IsPushing ? schlierenViews::followed(filter) : nullptr;
+  pqRenderView* view = filter && !this->IsPushing ? picturesInViews::followed(filter) : nullptr;
   if (view)
   {
     this->onCamera(nullptr, vtkCommand::ModifiedEvent, view->getProxy());
@@ -139,10 +139,10 @@ void pqCameraFollower::onFilter(vtkObject* proxy)
 void pqCameraFollower::onName(pqServerManagerModelItem* item)
 {
   auto* view = qobject_cast<pqRenderView*>(item);
-  for (pqPipelineSource* filter : schlierenViews::filters())
+  for (pqPipelineSource* filter : picturesInViews::filters())
   {
     if (view && this->Followed.value(filter) == view &&
-      schlierenViews::followedName(filter) != view->getSMName())
+      picturesInViews::followedName(filter) != view->getSMName())
     {
       SCOPED_UNDO_EXCLUDE();
       vtkSMPropertyHelper(filter->getProxy(), "FollowedView")
@@ -176,7 +176,7 @@ void pqCameraFollower::onReleased()
 {
   for (const QPointer<pqPipelineSource>& filter : this->Changed)
   {
-    pqRenderView* view = filter ? schlierenViews::followed(filter) : nullptr;
+    pqRenderView* view = filter ? picturesInViews::followed(filter) : nullptr;
     if (view)
     {
       this->push(filter, view);
@@ -199,7 +199,7 @@ void pqCameraFollower::catchUp()
   }
   for (const QPointer<pqPipelineSource>& filter : filters)
   {
-    pqRenderView* view = filter ? schlierenViews::followed(filter) : nullptr;
+    pqRenderView* view = filter ? picturesInViews::followed(filter) : nullptr;
     if (!view)
     {
       continue;

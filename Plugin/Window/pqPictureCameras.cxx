@@ -3,7 +3,7 @@
 #include "pqPictureCameras.h"
 
 #include "CameraOfView.h"
-#include "SchlierenViews.h"
+#include "PicturesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -50,10 +50,10 @@ void pqPictureCameras::watch(pqView* item)
 //------------------------------------------------------------------------------
 void pqPictureCameras::arrange(pqRenderView* view)
 {
-  const QList<pqPipelineSource*> filters = schlierenViews::picturesIn(view);
+  const QList<pqPipelineSource*> filters = picturesInViews::picturesIn(view);
   const auto following = std::find_if(filters.begin(), filters.end(),
-    [](pqPipelineSource* filter) { return !schlierenViews::followedName(filter).isEmpty(); });
-  if (following == filters.end() || !schlierenViews::isFlat(view))
+    [](pqPipelineSource* filter) { return !picturesInViews::followedName(filter).isEmpty(); });
+  if (following == filters.end() || !picturesInViews::isFlat(view))
   {
     this->Places.remove(view);
     return;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureRefiner.h"
 
-#include "SchlierenViews.h"
+#include "PicturesInViews.h"
 #include "pqInteraction.h"
 
 #include "pqApplicationCore.h"
@@ -181,7 +181,7 @@ void pqPictureRefiner::forget(pqPipelineSource* source)
 void pqPictureRefiner::refine(vtkSMProxy* proxy, Pace pace)
 {
   auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
-  if (!schlierenViews::isSchlieren(sourceOf(filter)))
+  if (!picturesInViews::isSchlieren(sourceOf(filter)))
   {
     return;
   }
@@ -260,7 +260,7 @@ bool pqPictureRefiner::takeTurn(Job& job)
     return false;
   }
   QList<QPointer<pqView>> views;
-  for (pqView* view : schlierenViews::showing(source))
+  for (pqView* view : picturesInViews::showing(source))
   {
     views << view;
   }
@@ -366,11 +366,11 @@ void pqPictureRefiner::onStartRender(vtkObject* view, unsigned long, void*, void
   {
     return;
   }
-  for (pqPipelineSource* source : schlierenViews::filters())
+  for (pqPipelineSource* source : picturesInViews::filters())
   {
     vtkSMSourceProxy* filter = source->getSourceProxy();
     const Speed speed = this->Speeds.value(filter);
-    const QList<pqView*> views = schlierenViews::showing(source);
+    const QList<pqView*> views = picturesInViews::showing(source);
     if ((speed.IsRough || this->hasJob(filter)) &&
       std::any_of(
         views.begin(), views.end(), [view](pqView* shown) { return shown->getProxy() == view; }))

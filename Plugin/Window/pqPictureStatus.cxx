@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureStatus.h"
 
-#include "SchlierenViews.h"
+#include "PicturesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -68,9 +68,9 @@ void pqPictureStatus::watch(pqView* item)
 void pqPictureStatus::show(pqRenderView* view)
 {
   QStringList lines;
-  if (schlierenViews::isFlat(view))
+  if (picturesInViews::isFlat(view))
   {
-    for (pqPipelineSource* filter : schlierenViews::picturesIn(view))
+    for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
     {
       vtkSMProxy* proxy = filter->getProxy();
       proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));

@@ -10,7 +10,7 @@ class pqRenderView;
 class pqView;
 
 /// Which views show which pictures, and which one a picture follows.
-namespace schlierenViews
+namespace picturesInViews
 {
 
 bool isSchlieren(pqPipelineSource* source);
@@ -33,4 +33,4 @@ QString followedName(pqPipelineSource* filter);
 /// The view with that name, best in a layout that shows the picture; null where there is none.
 pqRenderView* followed(pqPipelineSource* filter);
 
-} // namespace schlierenViews
+} // namespace picturesInViews

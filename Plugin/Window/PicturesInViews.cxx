@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SchlierenViews.h"
+#include "PicturesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
@@ -54,7 +54,7 @@ void addViews(pqPipelineSource* source, QSet<pqPipelineSource*>& seen, QList<pqV
 } // namespace
 
 //------------------------------------------------------------------------------
-bool schlierenViews::isSchlieren(pqPipelineSource* source)
+bool picturesInViews::isSchlieren(pqPipelineSource* source)
 {
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
   return name && std::strcmp(name, "Schlieren") == 0 &&
@@ -62,7 +62,7 @@ bool schlierenViews::isSchlieren(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-QList<pqPipelineSource*> schlierenViews::filters()
+QList<pqPipelineSource*> picturesInViews::filters()
 {
   QList<pqPipelineSource*> sources = model()->findItems<pqPipelineSource*>();
   sources.erase(std::remove_if(sources.begin(), sources.end(),
@@ -72,7 +72,7 @@ QList<pqPipelineSource*> schlierenViews::filters()
 }
 
 //------------------------------------------------------------------------------
-QList<pqView*> schlierenViews::showing(pqPipelineSource* filter)
+QList<pqView*> picturesInViews::showing(pqPipelineSource* filter)
 {
   QSet<pqPipelineSource*> seen;
   QList<pqView*> views;
@@ -81,7 +81,7 @@ QList<pqView*> schlierenViews::showing(pqPipelineSource* filter)
 }
 
 //------------------------------------------------------------------------------
-QList<pqPipelineSource*> schlierenViews::picturesIn(pqView* view)
+QList<pqPipelineSource*> picturesInViews::picturesIn(pqView* view)
 {
   QList<pqPipelineSource*> shown;
   for (pqRepresentation* item : view->getRepresentations())
@@ -100,20 +100,20 @@ QList<pqPipelineSource*> schlierenViews::picturesIn(pqView* view)
 }
 
 //------------------------------------------------------------------------------
-bool schlierenViews::isFlat(pqView* view)
+bool picturesInViews::isFlat(pqView* view)
 {
   return vtkSMPropertyHelper(view->getProxy(), "InteractionMode", true).GetAsInt() ==
     vtkPVRenderView::INTERACTION_MODE_2D;
 }
 
 //------------------------------------------------------------------------------
-QString schlierenViews::followedName(pqPipelineSource* filter)
+QString picturesInViews::followedName(pqPipelineSource* filter)
 {
   return QString::fromUtf8(vtkSMPropertyHelper(filter->getProxy(), "FollowedView").GetAsString());
 }
 
 //------------------------------------------------------------------------------
-pqRenderView* schlierenViews::followed(pqPipelineSource* filter)
+pqRenderView* picturesInViews::followed(pqPipelineSource* filter)
 {
   const QString name = followedName(filter);
   if (name.isEmpty())
