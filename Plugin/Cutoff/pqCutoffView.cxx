@@ -19,10 +19,10 @@ namespace
 {
 
 constexpr int smallestSide = 120, largestSide = 360, sideStep = 20; // pixels
-constexpr double edgeStep = 0.01;                    // of the range, per key
-constexpr double turnStep = 1;                       // degrees, per key
-constexpr double sensitivityStep = 1.02;             // per key
-constexpr double marginOfScale = 1.3;                // around full scale
+constexpr double edgeStep = 0.01;                                   // of the range, per key
+constexpr double turnStep = 1;                                      // degrees, per key
+constexpr double sensitivityStep = 1.02;                            // per key
+constexpr double marginOfScale = 1.3;                               // around full scale
 constexpr double marginOfLight = 1.1;
 constexpr double leastRange = 1e-12; // radians, of what can be shown
 
@@ -83,7 +83,8 @@ pqCutoffView::~pqCutoffView() = default;
 QRectF pqCutoffView::square() const
 {
   const int line = this->fontMetrics().height();
-  const int side = std::min({ this->width() - line - 4, this->height() - line - 4, largestSide });
+  const int room = std::min({ this->width() - line - 4, this->height() - line - 4, largestSide });
+  const int side = room - room % sideStep;
   return { line + 2., 2., static_cast<double>(side), static_cast<double>(side) };
 }
 
