@@ -289,6 +289,7 @@ Image Bench::Stages::render(
   image.height = view.height;
   image.frame = frameOf(field.grid, view);
   image.device = device;
+  image.threads = threadCount(scene.threads);
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;

@@ -313,6 +313,7 @@ struct Image
   PixelArray<float> blockedFraction; ///< per pixel: share of rays that a solid stopped
 
   Device device = Device::Cpu; ///< where the rays were traced
+  int threads = 0;             ///< on the CPU
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff

@@ -43,6 +43,14 @@ bool takeCameraOfView(vtkSMProxy* filter, vtkSMRenderViewProxy* view)
     ? camera->GetParallelScale()
     : camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(camera->GetViewAngle() / 2));
 
+  std::array<double, 3> right;
+  vtkMath::Cross(direction.data(), up.data(), right.data());
+  const double sine = vtkMath::Norm(right.data()) / vtkMath::Norm(up.data());
+  if (!(sine > 1e-6 && scale > 0 && std::isfinite(scale + focus[0] + focus[1] + focus[2])))
+  {
+    return false;
+  }
+
   bool isOther = setIfOther(filter, "ViewDirection", { direction.begin(), direction.end() });
   isOther |= setIfOther(filter, "ViewUp", { up.begin(), up.end() });
   isOther |= setIfOther(filter, "FocalPoint", { focus.begin(), focus.end() });
@@ -51,13 +59,13 @@ bool takeCameraOfView(vtkSMProxy* filter, vtkSMRenderViewProxy* view)
 }
 
 //------------------------------------------------------------------------------
-bool fitViewToPicture(vtkSMRenderViewProxy* view, vtkSMProxy* filter)
+bool placeOfPicture(vtkSMProxy* filter, double center[2], double& halfHeight)
 {
   const auto direction = vtkSMPropertyHelper(filter, "ViewDirection").GetDoubleArray();
   const auto up = vtkSMPropertyHelper(filter, "ViewUp").GetDoubleArray();
   const auto focus = vtkSMPropertyHelper(filter, "FocalPoint").GetDoubleArray();
-  const double scale = vtkSMPropertyHelper(filter, "ParallelScale").GetAsDouble();
-  if (focus.size() != 3 || !(scale > 0))
+  halfHeight = vtkSMPropertyHelper(filter, "ParallelScale").GetAsDouble();
+  if (focus.size() != 3 || !(halfHeight > 0))
   {
     return false;
   }
@@ -68,16 +76,27 @@ bool fitViewToPicture(vtkSMRenderViewProxy* view, vtkSMProxy* filter)
   vtkMath::Normalize(right.data());
   vtkMath::Cross(right.data(), direction.data(), upright.data());
   vtkMath::Normalize(upright.data());
-  const double x = vtkMath::Dot(focus.data(), right.data());
-  const double y = vtkMath::Dot(focus.data(), upright.data());
+  center[0] = vtkMath::Dot(focus.data(), right.data());
+  center[1] = vtkMath::Dot(focus.data(), upright.data());
+  return true;
+}
 
+//------------------------------------------------------------------------------
+bool fitViewToPicture(vtkSMRenderViewProxy* view, vtkSMProxy* filter)
+{
+  double center[2];
+  double scale = 0;
+  if (!placeOfPicture(filter, center, scale))
+  {
+    return false;
+  }
   const auto pixels = vtkSMPropertyHelper(filter, "ImageSize").GetIntArray();
   const auto window = vtkSMPropertyHelper(view, "ViewSize").GetIntArray();
   const double wide = double(pixels[0]) / pixels[1];
   const double room = double(window[0]) / window[1];
 
-  setIfOther(view, "CameraFocalPoint", { x, y, 0 });
-  setIfOther(view, "CameraPosition", { x, y, 10 * scale });
+  setIfOther(view, "CameraFocalPoint", { center[0], center[1], 0 });
+  setIfOther(view, "CameraPosition", { center[0], center[1], 10 * scale });
   setIfOther(view, "CameraViewUp", { 0, 1, 0 });
   setIfOther(view, "CameraParallelScale", { scale * std::max(1.0, wide / room) });
   view->UpdateVTKObjects();

@@ -25,7 +25,10 @@ class Session:
 
     def check(self, widget, name, value):
         """The widget, named below the properties, has this Qt property."""
-        self.lines.append(f"<pqcheck object={quoteattr(PROPERTIES + '/' + widget)} "
+        self.check_at(f"{PROPERTIES}/{widget}", name, value)
+
+    def check_at(self, widget, name, value):
+        self.lines.append(f"<pqcheck object={quoteattr(widget)} "
                           f"property={quoteattr(name)} arguments={quoteattr(str(value))}/>")
 
     def click(self, widget):
@@ -41,7 +44,17 @@ class Session:
 
     def key(self, widget, name):
         """Presses a key where the widget has the focus."""
-        self.event(f"{PROPERTIES}/{widget}", "key", {"Space": "32", "Return": "16777220"}[name])
+        self.event(f"{PROPERTIES}/{widget}", "key",
+                   {"Space": "32", "Return": "16777220", "Left": "16777234", "Up": "16777235",
+                    "Right": "16777236", "Down": "16777237", "Home": "16777232",
+                    "Minus": "45"}[name])
+
+    def drag(self, widget, *places, modifiers=0):
+        """Drags with the left button from place to place, pixels of the widget."""
+        events = ["mousePress"] + ["mouseMove"] * (len(places) - 1) + ["mouseRelease"]
+        buttons = ["1,1"] + ["0,1"] * (len(places) - 1) + ["1,0"]
+        for event, button, (x, y) in zip(events, buttons, places + places[-1:]):
+            self.event(f"{PROPERTIES}/{widget}", event, f"{button},{modifiers},{x},{y}")
 
     def apply(self):
         self.event(PANEL + "/Accept", "activate")
