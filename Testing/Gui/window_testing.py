@@ -9,6 +9,8 @@ from xml.sax.saxutils import quoteattr
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
+VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
+        "/MultiViewWidget1/Container/Frame.{}/CentralWidgetFrame/Viewport")
 PROPERTIES = (PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents"
               "/PropertiesFrame/ProxyPanel")
 
@@ -18,6 +20,7 @@ class Session:
 
     def __init__(self):
         self.lines = []
+        self.scripts = 0
 
     def event(self, widget, command, argument=""):
         self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} "
@@ -25,7 +28,10 @@ class Session:
 
     def check(self, widget, name, value):
         """The widget, named below the properties, has this Qt property."""
-        self.lines.append(f"<pqcheck object={quoteattr(PROPERTIES + '/' + widget)} "
+        self.check_at(f"{PROPERTIES}/{widget}", name, value)
+
+    def check_at(self, widget, name, value):
+        self.lines.append(f"<pqcheck object={quoteattr(widget)} "
                           f"property={quoteattr(name)} arguments={quoteattr(str(value))}/>")
 
     def click(self, widget):
@@ -41,7 +47,17 @@ class Session:
 
     def key(self, widget, name):
         """Presses a key where the widget has the focus."""
-        self.event(f"{PROPERTIES}/{widget}", "key", {"Space": "32", "Return": "16777220"}[name])
+        self.event(f"{PROPERTIES}/{widget}", "key",
+                   {"Space": "32", "Return": "16777220", "Left": "16777234", "Up": "16777235",
+                    "Right": "16777236", "Down": "16777237", "Home": "16777232",
+                    "Minus": "45"}[name])
+
+    def drag(self, widget, *places, modifiers=0):
+        """Drags with the left button from place to place, pixels of the widget."""
+        events = ["mousePress"] + ["mouseMove"] * (len(places) - 1) + ["mouseRelease"]
+        buttons = ["1,1"] + ["0,1"] * (len(places) - 1) + ["1,0"]
+        for event, button, (x, y) in zip(events, buttons, places + places[-1:]):
+            self.event(f"{PROPERTIES}/{widget}", event, f"{button},{modifiers},{x},{y}")
 
     def apply(self):
         self.event(PANEL + "/Accept", "activate")
@@ -59,6 +75,26 @@ class Session:
         self.menu("menu_File", "actionFileSaveServerState")
         self.event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected",
                    os.path.join(FOLDER, name))
+
+    def python(self, script):
+        """Runs a Python script within the window, as a macro; see inside_window.py."""
+        folder = os.path.join(self.no_welcome(), "ParaView", "Macros")
+        os.makedirs(folder, exist_ok=True)
+        self.scripts += 1
+        with open(os.path.join(folder, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
+            file.write("from paraview.simple import *\nfrom inside_window import *\n" + script)
+        self.menu("menu_Macros", f"step{self.scripts}")
+
+    def drag_view(self, frame, *places, button=1):
+        """Drags with a button (1 left, 2 right) from place to place in the view of a frame, whose sides are
+        0 to 1."""
+        self.view_event(frame, "mousePress", places[0], button, button)
+        for place in places[1:]:
+            self.view_event(frame, "mouseMove", place, button, button)
+        self.view_event(frame, "mouseRelease", places[-1], button, 0)
+
+    def view_event(self, frame, event, place, button, buttons):
+        self.event(VIEW.format(frame), event, f"({place[0]:g},{place[1]:g},{button},{buttons},0)")
 
     def play(self, script, seconds=240):
         """Plays it after the Python script `script`, and fails where a step does or VTK complains."""

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqColorFilterPicture.h"
+
+#include <QBuffer>
+#include <QPainter>
+#include <QPainterPath>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pqColorFilterPicture
+{
+
+namespace
+{
+
+constexpr int side = 256; // pixels, of the wheel and at least of what is painted on
+
+double limited(double share) { return std::min(1., std::max(0., share)); }
+
+} // namespace
+
+//------------------------------------------------------------------------------
+QRgb wheelColor(const QPointF& place)
+{
+  const double saturation = std::min(1., std::hypot(place.x(), place.y()));
+  const double sixths = std::atan2(place.y(), place.x()) * 3 / std::acos(-1); // -3 ... 3
+  const auto value = [saturation](double light)
+  { return static_cast<int>(std::round(255 * (1 - saturation * (1 - limited(light))))); };
+  return qRgb(value(2 - std::abs(sixths)),
+    value(2 - std::abs(sixths < -1 ? sixths + 4 : sixths - 2)),
+    value(2 - std::abs(sixths > 1 ? sixths - 4 : sixths + 2)));
+}
+
+//------------------------------------------------------------------------------
+QImage wheel()
+{
+  QImage picture(side, side, QImage::Format_RGB32);
+  for (int row = 0; row < side; ++row)
+  {
+    for (int column = 0; column < side; ++column)
+    {
+      picture.setPixel(
+        column, row, wheelColor({ 2 * (column + 0.5) / side - 1, 1 - 2 * (row + 0.5) / side }));
+    }
+  }
+  return picture;
+}
+
+//------------------------------------------------------------------------------
+QRgb colorAt(const QImage& picture, const QPointF& place)
+{
+  if (picture.isNull())
+  {
+    return wheelColor(place);
+  }
+  const auto pixel = [](double share, int size)
+  { return static_cast<int>(std::min(limited(share) * size, size - 1.)); };
+  return picture.pixel(
+    pixel((1 + place.x()) / 2, picture.width()), pixel((1 - place.y()) / 2, picture.height()));
+}
+
+//------------------------------------------------------------------------------
+QImage decoded(const QString& text)
+{
+  if (text.startsWith("data:"))
+  {
+    return QImage::fromData(QByteArray::fromBase64(text.mid(text.indexOf(',') + 1).toLatin1()));
+  }
+  return text.isEmpty() ? QImage() : QImage(text);
+}
+
+//------------------------------------------------------------------------------
+QString encoded(const QImage& picture)
+{
+  QBuffer png;
+  picture.save(&png, "PNG");
+  return "data:image/png;base64," + QString::fromLatin1(png.data().toBase64());
+}
+
+//------------------------------------------------------------------------------
+QImage paintable(const QImage& picture)
+{
+  if (picture.isNull())
+  {
+    return wheel();
+  }
+  const QSize size = picture.size().expandedTo(QSize(side, side));
+  return picture.convertToFormat(QImage::Format_RGB32)
+    .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+//------------------------------------------------------------------------------
+void paint(
+  QImage& picture, const QImage& underneath, const Brush& brush, const QVector<QPointF>& places)
+{
+  const double width = picture.width(), height = picture.height();
+  QPainterPath dabs;
+  dabs.setFillRule(Qt::WindingFill);
+  for (const QPointF& place : places)
+  {
+    dabs.addEllipse(QPointF((1 + place.x()) / 2 * width, (1 - place.y()) / 2 * height),
+      brush.Radius * width, brush.Radius * height);
+  }
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
+}
+
+//------------------------------------------------------------------------------
+QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius)
+{
+  const QPointF way = to - from;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(way.x(), way.y()) / radius)));
+  QVector<QPointF> places;
+  for (int step = 1; step <= steps; ++step)
+  {
+    places.append(from + way * step / steps);
+  }
+  return places;
+}
+
+} // namespace pqColorFilterPicture

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QColor>
+#include <QImage>
+#include <QPointF>
+#include <QString>
+#include <QVector>
+
+/// A colour filter as a picture that can be painted on. A place on it is k times a deflection, from -1 to 1
+/// both ways, v upwards.
+namespace pqColorFilterPicture
+{
+
+/// The wheel that a filter without a picture is: the direction is the hue, the distance the saturation.
+QRgb wheelColor(const QPointF& place);
+QImage wheel();
+
+/// What the filter does to light there; beyond the picture, as at its edge. A null picture is the wheel.
+QRgb colorAt(const QImage& picture, const QPointF& place);
+
+/// What a property holds: a file's name, a data URI or nothing. Null where that is no picture.
+QImage decoded(const QString& text);
+
+/// What a property is to hold: a PNG with the picture's texts in it.
+QString encoded(const QImage& picture);
+
+/// The picture, large enough to be painted on.
+QImage paintable(const QImage& picture);
+
+struct Brush
+{
+  QColor Color = Qt::black;
+  double Radius = 0.04; ///< of the filter's side
+  bool Erases = false;  ///< what was underneath comes back
+};
+
+/// Dabs a brush on some places of a picture, as large as what is underneath.
+void paint(
+  QImage& picture, const QImage& underneath, const Brush& brush, const QVector<QPointF>& places);
+
+/// Places from one to the other, so close that a brush leaves no gaps.
+QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius);
+
+} // namespace pqColorFilterPicture

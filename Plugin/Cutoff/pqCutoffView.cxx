@@ -1,0 +1,516 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqCutoffView.h"
+
+#include "pqColorFilterPicture.h"
+
+#include <QFontMetrics>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QStyle>
+#include <QStyleOption>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+constexpr int smallestSide = 120, largestSide = 360, sideStep = 20; // pixels
+constexpr double edgeStep = 0.01;                                   // of the range, per key
+constexpr double turnStep = 1;                                      // degrees, per key
+constexpr double sensitivityStep = 1.02;                            // per key
+constexpr double marginOfScale = 1.3;                               // around full scale
+constexpr double marginOfLight = 1.1;
+constexpr double leastRange = 1e-12; // radians, of what can be shown
+
+const QColor lineColor(255, 160, 0);
+constexpr int knife[] = { 40, 90, 160 }; // the colour of what stops light
+constexpr double knifeOpacity = 0.75;
+constexpr double colorWithoutLight = 0.35; // how much of a filter's colour is seen there
+
+struct Unit
+{
+  QString Name;
+  double Size; // radians
+};
+
+Unit unitFor(double range)
+{
+  if (range >= 1e-3)
+  {
+    return { QStringLiteral("mrad"), 1e-3 };
+  }
+  return range >= 1e-6 ? Unit{ QString::fromUtf8("µrad"), 1e-6 } : Unit{ "nrad", 1e-9 };
+}
+
+int blend(double a, double b, double share)
+{
+  return static_cast<int>(std::lround(a + share * (b - a)));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqCutoffView::pqCutoffView(QWidget* parentObject)
+  : QWidget(parentObject)
+{
+  this->setMouseTracking(true);
+  this->setFocusPolicy(Qt::StrongFocus);
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  policy.setHeightForWidth(true);
+  this->setSizePolicy(policy);
+  this->setMinimumWidth(smallestSide);
+  this->setAccessibleName(tr("Cutoff plane"));
+  const QString help = tr(
+    "The light on the cutoff plane: how far it is deflected to the right and up. Blue is where the "
+    "cutoff stops it.\nDrag the edge, the dashed lines of full scale, or the round handle that "
+    "turns "
+    "it (Shift: multiples of 15 degrees). Escape gives up.\nKeys: Left and Right move the edge, "
+    "with "
+    "Shift they turn it; Up and Down change the sensitivity k; + and - zoom, Home shows all.\n"
+    "The wheel zooms once the plane has been clicked; a double click shows all.");
+  this->setToolTip(help);
+  this->setAccessibleDescription(help);
+}
+
+//------------------------------------------------------------------------------
+pqCutoffView::~pqCutoffView() = default;
+
+//------------------------------------------------------------------------------
+QRectF pqCutoffView::square() const
+{
+  const int line = this->fontMetrics().height();
+  const int room = std::min({ this->width() - line - 4, this->height() - line - 4, largestSide });
+  const int side = room - room % sideStep;
+  return { line + 2., 2., static_cast<double>(side), static_cast<double>(side) };
+}
+
+//------------------------------------------------------------------------------
+int pqCutoffView::heightForWidth(int width) const
+{
+  return std::min(width, largestSide + this->fontMetrics().height() + 4);
+}
+
+//------------------------------------------------------------------------------
+QSize pqCutoffView::sizeHint() const
+{
+  constexpr int usual = 250;
+  return { usual, this->heightForWidth(usual) };
+}
+
+//------------------------------------------------------------------------------
+pqCutoffPlane pqCutoffView::plane() const { return { this->square(), this->Range }; }
+
+//------------------------------------------------------------------------------
+void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& picture)
+{
+  this->Cutoff = cutoff;
+  this->Picture = picture;
+  this->fit();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::setLight(const pqCutoffLight& light)
+{
+  this->Light = light;
+  this->fit();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::fit()
+{
+  // What is being dragged must not run away from the mouse.
+  if (!this->IsZoomed && !this->isGrabbed())
+  {
+    double range = marginOfLight * this->Light.extent();
+    if (this->Cutoff.Kind != pqCutoff::NoCutoff && this->Cutoff.K > 0)
+    {
+      const double scale = this->Cutoff.hasEdge()
+        ? std::max(std::abs(this->Cutoff.deflectionOf(0)), std::abs(this->Cutoff.deflectionOf(1)))
+        : 1 / this->Cutoff.K;
+      range = std::max(range, marginOfScale * scale);
+    }
+    if (range > leastRange && std::isfinite(range))
+    {
+      this->Range = pqCutoffPlane::roundRange(range, 0);
+    }
+  }
+  this->changed();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::changed()
+{
+  this->Composed = QImage();
+  this->update();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::zoom(int steps)
+{
+  this->Range = std::max(leastRange, pqCutoffPlane::roundRange(this->Range, -steps));
+  this->IsZoomed = true;
+  this->changed();
+}
+
+//------------------------------------------------------------------------------
+QImage pqCutoffView::composed() const
+{
+  const double ratio = this->devicePixelRatioF();
+  const QRectF square = this->square();
+  const int side = static_cast<int>(std::lround(square.width() * ratio));
+  const pqCutoffPlane plane(
+    { 0, 0, static_cast<double>(side), static_cast<double>(side) }, this->Range);
+  QImage image(side, side, QImage::Format_RGB32);
+  for (int row = 0; row < side; ++row)
+  {
+    auto* line = reinterpret_cast<QRgb*>(image.scanLine(row));
+    for (int column = 0; column < side; ++column)
+    {
+      const QPointF deflection = plane.deflectionAt({ column + 0.5, row + 0.5 });
+      const double light = this->Light.brightnessAt(deflection);
+      if (this->Cutoff.Kind == pqCutoff::ColorFilter)
+      {
+        const QRgb color =
+          pqColorFilterPicture::colorAt(this->Picture, this->Cutoff.K * deflection);
+        const double share = colorWithoutLight + (1 - colorWithoutLight) * light;
+        line[column] = qRgb(blend(128, qRed(color), share), blend(128, qGreen(color), share),
+          blend(128, qBlue(color), share));
+      }
+      else
+      {
+        const double grey = light > 0 ? 60 + 195 * light : 0; // sRGB: even steps to the eye
+        const double stopped = knifeOpacity * (1 - this->Cutoff.transmission(deflection));
+        line[column] = qRgb(blend(grey, knife[0], stopped), blend(grey, knife[1], stopped),
+          blend(grey, knife[2], stopped));
+      }
+    }
+  }
+  image.setDevicePixelRatio(ratio);
+  return image;
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::paintEvent(QPaintEvent*)
+{
+  QPainter painter(this);
+  const QRectF square = this->square();
+  if (square.width() < 1)
+  {
+    return;
+  }
+  if (!this->isEnabled())
+  {
+    painter.fillRect(square, this->palette().brush(QPalette::Window));
+  }
+  else
+  {
+    if (this->Composed.isNull() || this->Composed.devicePixelRatioF() != this->devicePixelRatioF())
+    {
+      this->Composed = this->composed();
+    }
+    painter.drawImage(square.topLeft(), this->Composed);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.save();
+    painter.setClipRect(square);
+    this->drawLines(painter);
+    painter.restore();
+  }
+  this->drawAxes(painter);
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::drawLines(QPainter& painter) const
+{
+  const pqCutoffPlane plane = this->plane();
+  const QPointF centre = plane.pixelAt({ 0, 0 });
+  painter.setPen(QPen(QColor(255, 255, 255, 90), 1));
+  const double half = this->square().width() / 2;
+  painter.drawLine(centre - QPointF(half, 0), centre + QPointF(half, 0));
+  painter.drawLine(centre - QPointF(0, half), centre + QPointF(0, half));
+  if (this->Cutoff.Kind == pqCutoff::NoCutoff || !(this->Cutoff.K > 0))
+  {
+    return;
+  }
+  const pqCutoffPlane::Handle lit = this->isGrabbed() ? this->Grabbed : this->Hovered;
+  const auto setPen = [&](pqCutoffPlane::Handle handle, Qt::PenStyle style)
+  { painter.setPen(QPen(lineColor, handle == lit ? 3 : 1.6, style)); };
+  painter.setBrush(Qt::NoBrush);
+  if (!this->Cutoff.hasEdge())
+  {
+    const double size = 1 / this->Cutoff.K / plane.deflectionPerPixel();
+    const QRectF box(centre - QPointF(size, size), QSizeF(2 * size, 2 * size));
+    setPen(pqCutoffPlane::SizeHandle, Qt::SolidLine);
+    this->Cutoff.IsSquare ? painter.drawRect(box) : painter.drawEllipse(box);
+    return;
+  }
+  const QPointF normal = this->Cutoff.normal();
+  const QPointF along(-normal.y(), normal.x());
+  const auto draw = [&](pqCutoffPlane::Handle handle, double place, const QString& name)
+  {
+    setPen(handle, handle == pqCutoffPlane::EdgeLine ? Qt::SolidLine : Qt::DashLine);
+    const QPointF deflection = this->Cutoff.deflectionOf(place) * normal;
+    const double length = 2 * this->Range;
+    painter.drawLine(
+      plane.pixelAt(deflection - length * along), plane.pixelAt(deflection + length * along));
+    const QPointF at = plane.pixelAt(deflection - 0.75 * this->Range * along);
+    const QRectF label(at - QPointF(20, 10), QSizeF(40, 20));
+    painter.setPen(Qt::white);
+    painter.drawText(label.translated(8, 0), Qt::AlignCenter, name);
+  };
+  draw(pqCutoffPlane::DarkLine, 0, this->Cutoff.Inverted ? "1" : "0");
+  draw(pqCutoffPlane::BrightLine, 1, this->Cutoff.Inverted ? "0" : "1");
+  draw(pqCutoffPlane::EdgeLine, 0.5, QString::fromUtf8("½"));
+
+  setPen(pqCutoffPlane::TurnHandle, Qt::DotLine);
+  painter.drawLine(centre, plane.turnHandle(this->Cutoff));
+  setPen(pqCutoffPlane::TurnHandle, Qt::SolidLine);
+  painter.setBrush(Qt::black);
+  painter.drawEllipse(plane.turnHandle(this->Cutoff), 5, 5);
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::drawAxes(QPainter& painter) const
+{
+  const QRectF square = this->square();
+  painter.setBrush(Qt::NoBrush);
+  const bool hasFocus = this->hasFocus();
+  painter.setPen(
+    QPen(this->palette().color(hasFocus ? QPalette::Highlight : QPalette::Mid), hasFocus ? 2 : 1));
+  painter.drawRect(square.adjusted(-1, -1, 1, 1));
+  painter.setPen(this->palette().color(QPalette::WindowText));
+  if (!this->isEnabled())
+  {
+    painter.drawText(square.adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
+      tr("The light on the cutoff plane is known after Apply."));
+    return;
+  }
+  const Unit unit = unitFor(this->Range);
+  const QString end = QString::number(this->Range / unit.Size);
+  const QString minus = QString::fromUtf8("\u2212") + end;
+  const int line = this->fontMetrics().height();
+  const QRectF below(square.left(), square.bottom() + 2, square.width(), line);
+  const auto write = [&](const QRectF& row, const QString& axis)
+  {
+    painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter, minus);
+    painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, end);
+    painter.drawText(row, Qt::AlignCenter, QString("%1, %2").arg(axis, unit.Name));
+  };
+  write(below, QString::fromUtf8("ε\u1D64"));
+  painter.save();
+  painter.translate(square.left() - 2, square.bottom());
+  painter.rotate(-90);
+  write(QRectF(0, -line, square.height(), line), QString::fromUtf8("ε\u1D65"));
+  painter.restore();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::grab(pqCutoffPlane::Handle handle)
+{
+  this->Before = this->Cutoff;
+  this->Grabbed = handle;
+  Q_EMIT this->grabbed();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::moveTo(const pqCutoff& cutoff)
+{
+  this->Cutoff = cutoff;
+  this->changed();
+  Q_EMIT this->dragged();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::release(bool keep)
+{
+  if (this->isGrabbed())
+  {
+    this->Grabbed = pqCutoffPlane::NoHandle;
+    this->ByKeys = false;
+    if (!keep)
+    {
+      this->Cutoff = this->Before;
+    }
+    Q_EMIT this->released(keep);
+    this->fit();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::mousePressEvent(QMouseEvent* event)
+{
+  if (event->button() != Qt::LeftButton || this->isGrabbed())
+  {
+    return;
+  }
+  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, event->localPos());
+  if (handle != pqCutoffPlane::NoHandle)
+  {
+    this->GrabbedAt = event->localPos();
+    this->grab(handle);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
+{
+  if (this->isGrabbed() && !this->ByKeys)
+  {
+    this->moveTo(this->plane().dragged(this->Before, this->Grabbed, this->GrabbedAt,
+      event->localPos(), event->modifiers() & Qt::ShiftModifier));
+    return;
+  }
+  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, event->localPos());
+  if (handle != this->Hovered)
+  {
+    this->Hovered = handle;
+    this->setCursor(handle == pqCutoffPlane::NoHandle ? Qt::ArrowCursor : Qt::OpenHandCursor);
+    this->update();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::mouseReleaseEvent(QMouseEvent* event)
+{
+  if (event->button() == Qt::LeftButton && !this->ByKeys)
+  {
+    this->release(true);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::mouseDoubleClickEvent(QMouseEvent* event)
+{
+  if (event->button() == Qt::LeftButton)
+  {
+    this->IsZoomed = false;
+    this->fit();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::wheelEvent(QWheelEvent* event)
+{
+  // Else one could not scroll the panel past it.
+  if (!this->hasFocus() || event->angleDelta().y() == 0)
+  {
+    event->ignore();
+    return;
+  }
+  if (!this->isGrabbed())
+  {
+    this->zoom(event->angleDelta().y() > 0 ? 1 : -1);
+  }
+  event->accept();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::keyPressEvent(QKeyEvent* event)
+{
+  const bool isAlone = !this->isGrabbed();
+  switch (event->key())
+  {
+    case Qt::Key_Plus:
+      this->zoom(isAlone ? 1 : 0);
+      return;
+    case Qt::Key_Minus:
+      this->zoom(isAlone ? -1 : 0);
+      return;
+    case Qt::Key_Home:
+      this->IsZoomed = false;
+      this->fit();
+      return;
+    case Qt::Key_Escape:
+      if (isAlone)
+      {
+        break;
+      }
+      this->release(false);
+      return;
+    default:
+      break;
+  }
+  using Plane = pqCutoffPlane;
+  const bool right = event->key() == Qt::Key_Right, up = event->key() == Qt::Key_Up;
+  const bool moves = right || event->key() == Qt::Key_Left;
+  const bool scales = up || event->key() == Qt::Key_Down;
+  if (!(this->Cutoff.K > 0) || this->Cutoff.Kind == pqCutoff::NoCutoff ||
+    !(scales || (moves && this->Cutoff.hasEdge())) || (this->isGrabbed() && !this->ByKeys))
+  {
+    QWidget::keyPressEvent(event);
+    return;
+  }
+  const bool turns = moves && event->modifiers() & Qt::ShiftModifier;
+  const Plane::Handle handle = turns ? Plane::TurnHandle
+    : moves                          ? Plane::EdgeLine
+    : this->Cutoff.hasEdge()         ? Plane::BrightLine
+                                     : Plane::SizeHandle;
+  if (this->ByKeys && this->Grabbed != handle)
+  {
+    this->release(true);
+  }
+  if (!this->ByKeys)
+  {
+    this->ByKeys = true;
+    this->grab(handle);
+  }
+  pqCutoff cutoff = this->Cutoff;
+  if (turns)
+  {
+    // To the right is clockwise.
+    cutoff.Angle = std::fmod(cutoff.Angle + (right ? 360 - turnStep : turnStep), 360);
+  }
+  else if (moves)
+  {
+    const double way = (right ? 1 : -1) * edgeStep * this->Range;
+    cutoff.Offset = rounded(cutoff.Offset + cutoff.K * way, 3);
+  }
+  else
+  {
+    cutoff =
+      withSensitivity(cutoff, rounded(cutoff.K * (up ? sensitivityStep : 1 / sensitivityStep), 4));
+  }
+  this->moveTo(cutoff);
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::keyReleaseEvent(QKeyEvent* event)
+{
+  if (this->ByKeys && !event->isAutoRepeat())
+  {
+    this->release(true);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::focusOutEvent(QFocusEvent* event)
+{
+  if (this->ByKeys)
+  {
+    this->release(true);
+  }
+  QWidget::focusOutEvent(event);
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffView::resizeEvent(QResizeEvent*) { this->changed(); }
+
+//------------------------------------------------------------------------------
+bool pqCutoffView::event(QEvent* event)
+{
+  // Escape would be a shortcut of the window.
+  if (event->type() == QEvent::ShortcutOverride && this->isGrabbed())
+  {
+    event->accept();
+    return true;
+  }
+  if (event->type() == QEvent::Leave)
+  {
+    this->Hovered = pqCutoffPlane::NoHandle;
+    this->update();
+  }
+  return QWidget::event(event);
+}

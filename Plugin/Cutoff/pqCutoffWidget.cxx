@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqCutoffWidget.h"
+
+#include "pqColorFilterPicture.h"
+#include "pqCutoffView.h"
+#include "pqFetchedImage.h"
+#include "pqProxyWidget.h"
+
+#include "vtkCommand.h"
+#include "vtkEventQtSlotConnect.h"
+#include "vtkImageData.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkSMPropertyGroup.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace
+{
+
+constexpr int histogramPort = 1;
+constexpr int discSource = 2;
+constexpr int pointSource = 0;
+constexpr int patience = 100; // milliseconds in which no other picture came
+constexpr int digits = 4;     // of numbers that a mouse sets
+
+double valueOf(vtkSMProxy* proxy, const char* property)
+{
+  return vtkSMPropertyHelper(proxy, property).GetAsDouble();
+}
+
+double informationOf(vtkSMProxy* proxy, const char* property)
+{
+  proxy->UpdatePropertyInformation(proxy->GetProperty(property));
+  return valueOf(proxy, property);
+}
+
+vtkPiecewiseFunction* gradedFilterOf(vtkSMProxy* proxy)
+{
+  vtkSMProxy* function = vtkSMPropertyHelper(proxy, "GradedFilter").GetAsProxy();
+  auto* points =
+    function ? vtkPiecewiseFunction::SafeDownCast(function->GetClientSideObject()) : nullptr;
+  return points && points->GetSize() > 0 ? points : nullptr;
+}
+
+/// The cutoff of the picture, as the filter has it now.
+pqCutoff cutoffOf(vtkSMProxy* proxy)
+{
+  pqCutoff cutoff;
+  switch (const int kind = vtkSMPropertyHelper(proxy, "Cutoff").GetAsInt())
+  {
+    case pqCutoff::KnifeEdge:
+    case pqCutoff::Circular:
+    case pqCutoff::CircularComplement:
+    case pqCutoff::GradedFilter:
+    case pqCutoff::ColorFilter:
+      cutoff.Kind = kind;
+      break;
+    default:
+      return cutoff;
+  }
+  cutoff.Angle = valueOf(proxy, "KnifeEdgeAngle");
+  cutoff.Inverted = valueOf(proxy, "InvertCutoff") != 0;
+  cutoff.IsOfDisc = valueOf(proxy, "SourceShape") == discSource;
+  cutoff.IsSquare = *vtkSMPropertyHelper(proxy, "ColorFilterImage").GetAsString() != '\0';
+  if (valueOf(proxy, "KFromOptics") != 0)
+  {
+    const double width = valueOf(proxy, "SourceWidth"); // millimetres
+    cutoff.EdgeIsFastened = true;
+    cutoff.K = 1e3 * valueOf(proxy, "FocalLength") / width;
+    cutoff.Offset = valueOf(proxy, "CutoffPosition") / width;
+  }
+  else
+  {
+    cutoff.K =
+      valueOf(proxy, "AutoKScale") != 0 ? valueOf(proxy, "KScaleUsed") : valueOf(proxy, "KScale");
+    cutoff.Offset = valueOf(proxy, "CutoffOffset");
+  }
+  if (!std::isfinite(cutoff.K) || !std::isfinite(cutoff.Offset))
+  {
+    cutoff.K = cutoff.Offset = 0; // optics without a width
+  }
+  if (vtkPiecewiseFunction* function = gradedFilterOf(proxy))
+  {
+    const vtkSmartPointer<vtkPiecewiseFunction> kept = function;
+    cutoff.Graded = [kept](double place) { return kept->GetValue(place); };
+  }
+  return cutoff;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqCutoffWidget::pqCutoffWidget(
+  vtkSMProxy* smProxy, vtkSMPropertyGroup* group, QWidget* parentObject)
+  : pqPropertyWidget(smProxy, parentObject)
+  , View(new pqCutoffView(this))
+  , Numbers(new QLabel(this))
+{
+  this->setShowLabel(false);
+  this->View->setObjectName("Plane");
+  this->Numbers->setObjectName("Numbers");
+  this->Numbers->setTextFormat(Qt::PlainText);
+  this->Numbers->setWordWrap(true);
+  auto* column = new QVBoxLayout(this);
+  column->setMargin(0);
+  column->addWidget(pqProxyWidget::newGroupLabelWidget(group->GetXMLLabel(), this));
+  column->addWidget(this->View);
+  column->addWidget(this->Numbers);
+
+  this->Fetch.setSingleShot(true);
+  this->Fetch.setInterval(patience);
+  QObject::connect(&this->Fetch, &QTimer::timeout, this, &pqCutoffWidget::fetchLight);
+  QObject::connect(this->View, &pqCutoffView::grabbed, this, &pqCutoffWidget::grabbed);
+  QObject::connect(this->View, &pqCutoffView::dragged, this, &pqCutoffWidget::dragged);
+  QObject::connect(this->View, &pqCutoffView::released, this, &pqCutoffWidget::released);
+  for (const char* name : { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff",
+         "AutoKScale", "KScale", "KFromOptics", "FocalLength", "SourceWidth", "CutoffPosition",
+         "SourceShape", "ColorFilterImage", "GradedFilter", "KScaleUsed" })
+  {
+    this->Connection->Connect(
+      smProxy->GetProperty(name), vtkCommand::ModifiedEvent, this, SLOT(readCutoff()));
+  }
+  this->Connection->Connect(smProxy, vtkCommand::UpdateDataEvent, this, SLOT(pictureUpdated()));
+  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::pictureChanged, this,
+    [this](vtkSMProxy* filter)
+    {
+      if (filter == this->proxy())
+      {
+        this->pictureUpdated();
+      }
+    });
+  this->pictureUpdated();
+  this->readCutoff();
+}
+
+//------------------------------------------------------------------------------
+pqCutoffWidget::~pqCutoffWidget() = default;
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::showEvent(QShowEvent* event)
+{
+  this->pqPropertyWidget::showEvent(event);
+  this->pictureUpdated();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::pictureUpdated()
+{
+  if (this->isVisible())
+  {
+    informationOf(this->proxy(), "KScaleUsed");
+    this->Fetch.start();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::readCutoff()
+{
+  this->View->setEnabled(pqLiveEdit::isPossible(this->proxy()));
+  if (!this->View->isGrabbed())
+  {
+    const pqCutoff cutoff = cutoffOf(this->proxy());
+    const bool isPicture = cutoff.Kind == pqCutoff::ColorFilter && cutoff.IsSquare;
+    this->View->setCutoff(cutoff,
+      isPicture ? pqColorFilterPicture::decoded(
+                    vtkSMPropertyHelper(this->proxy(), "ColorFilterImage").GetAsString())
+                : QImage());
+  }
+  this->showNumbers();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::fetchLight()
+{
+  const int picture = static_cast<int>(informationOf(this->proxy(), "PictureCount"));
+  // An unfinished picture would be finished, however long that takes.
+  if (!this->isVisible() || this->View->isGrabbed() || picture == this->ShownPicture ||
+    informationOf(this->proxy(), "Finished") == 0)
+  {
+    return;
+  }
+  this->ShownPicture = picture;
+  this->View->setLight(pqCutoffLight(fetchedImage(this->proxy(), histogramPort, "Rays")));
+  this->readCutoff();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::showNumbers()
+{
+  const pqCutoff& cutoff = this->View->cutoff();
+  QStringList numbers;
+  if (this->View->isEnabled() && cutoff.Kind != pqCutoff::NoCutoff)
+  {
+    if (cutoff.hasEdge())
+    {
+      numbers << tr("offset %1").arg(cutoff.Offset, 0, 'g', 3)
+              << QString::fromUtf8("%1°").arg(cutoff.Angle);
+    }
+    numbers << tr("k = %1").arg(cutoff.K, 0, 'g', digits);
+  }
+  this->Numbers->setText(numbers.join(", "));
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::grabbed()
+{
+  this->Edit = std::make_unique<pqLiveEdit>(this->proxy(), tr("Drag Cutoff"));
+}
+
+//------------------------------------------------------------------------------
+QMap<QString, QVariant> pqCutoffWidget::changes() const
+{
+  const pqCutoff& now = this->View->cutoff();
+  const bool fromOptics = now.EdgeIsFastened;
+  QMap<QString, QVariant> values;
+  switch (this->View->handle())
+  {
+    case pqCutoffPlane::TurnHandle:
+      values["KnifeEdgeAngle"] = now.Angle;
+      break;
+    case pqCutoffPlane::EdgeLine:
+      fromOptics ? values["CutoffPosition"] =
+                     rounded(now.Offset * valueOf(this->proxy(), "SourceWidth"), digits)
+                 : values["CutoffOffset"] = now.Offset;
+      break;
+    case pqCutoffPlane::DarkLine:
+    case pqCutoffPlane::BrightLine:
+    case pqCutoffPlane::SizeHandle:
+      if (fromOptics)
+      {
+        values["SourceWidth"] =
+          rounded(1e3 * valueOf(this->proxy(), "FocalLength") / now.K, digits);
+      }
+      else
+      {
+        values["AutoKScale"] = 0;
+        values["KScale"] = now.K;
+      }
+      break;
+    case pqCutoffPlane::NoHandle:
+      break;
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::dragged()
+{
+  // A source with a size lies along the edge and is seen by the rays, which then are traced again.
+  const bool raysAreHeld = valueOf(this->proxy(), "SourceShape") == pointSource;
+  this->Edit->show(this->changes(),
+    raysAreHeld ? pqPictureRefiner::Pace::Shading : pqPictureRefiner::Pace::Hurried);
+  this->showNumbers();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffWidget::released(bool keep)
+{
+  const std::unique_ptr<pqLiveEdit> edit = std::move(this->Edit);
+  if (edit)
+  {
+    keep ? edit->finish() : edit->cancel();
+  }
+  this->readCutoff();
+}

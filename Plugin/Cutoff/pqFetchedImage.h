@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkSmartPointer.h"
+
+class vtkImageData;
+class vtkSMProxy;
+
+/// An output of a filter with one of its point arrays, wherever the filter runs, at the time that is shown. Null
+/// where there is none.
+vtkSmartPointer<vtkImageData> fetchedImage(
+  vtkSMProxy* filter, unsigned int port, const char* array);

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqLiveEdit.h"
+
+#include "pqSMAdaptor.h"
+#include "pqUndoStack.h"
+
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkSMTrace.h"
+
+//------------------------------------------------------------------------------
+pqLiveEdit::pqLiveEdit(vtkSMProxy* filter, const QString& label)
+  : Filter(filter)
+  , Label(label)
+{
+}
+
+//------------------------------------------------------------------------------
+bool pqLiveEdit::isPossible(vtkSMProxy* filter)
+{
+  vtkSMProperty* count = filter->GetProperty("PictureCount");
+  filter->UpdatePropertyInformation(count);
+  return filter->GetObjectsCreated() && vtkSMPropertyHelper(count).GetAsInt() > 0;
+}
+
+//------------------------------------------------------------------------------
+void pqLiveEdit::push(const QMap<QString, QVariant>& values)
+{
+  for (auto value = values.begin(); value != values.end(); ++value)
+  {
+    vtkSMProperty* property = this->Filter->GetProperty(value.key().toLatin1());
+    if (pqSMAdaptor::getElementProperty(property) != value.value())
+    {
+      pqSMAdaptor::setElementProperty(property, value.value());
+    }
+  }
+  this->Filter->UpdateVTKObjects();
+}
+
+//------------------------------------------------------------------------------
+void pqLiveEdit::show(const QMap<QString, QVariant>& values, pqPictureRefiner::Pace pace)
+{
+  if (!this->Filter)
+  {
+    return;
+  }
+  for (auto value = values.begin(); value != values.end(); ++value)
+  {
+    if (!this->Before.contains(value.key()))
+    {
+      this->Before[value.key()] =
+        pqSMAdaptor::getElementProperty(this->Filter->GetProperty(value.key().toLatin1()));
+    }
+    this->Now[value.key()] = value.value();
+  }
+  {
+    SCOPED_UNDO_EXCLUDE();
+    this->push(this->Now);
+  }
+  pqPictureRefiner::instance()->refine(this->Filter, pace);
+}
+
+//------------------------------------------------------------------------------
+void pqLiveEdit::finish()
+{
+  if (!this->Filter || this->Now == this->Before)
+  {
+    return;
+  }
+  // What can be undone is a change from the first values, and so is what is traced.
+  {
+    SCOPED_UNDO_EXCLUDE();
+    this->push(this->Before);
+  }
+  {
+    SCOPED_UNDO_SET(this->Label);
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Filter);
+    this->push(this->Now);
+  }
+  pqPictureRefiner::instance()->refine(this->Filter, pqPictureRefiner::Pace::Thorough);
+}
+
+//------------------------------------------------------------------------------
+void pqLiveEdit::cancel()
+{
+  if (this->Filter && !this->Before.isEmpty())
+  {
+    SCOPED_UNDO_EXCLUDE();
+    this->push(this->Before);
+    pqPictureRefiner::instance()->refine(this->Filter, pqPictureRefiner::Pace::Thorough);
+  }
+}

@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The cutoff plane in the properties panel: what is dragged by so many pixels is what the geometry says, and
+is at once in the picture; undone, traced and kept like anything else."""
+
+import json
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from window_testing import FOLDER, PANEL, PROPERTIES, Session  # noqa: E402
+
+SIDE, RANGE, K = 280, 0.005, 200  # pixels, radians
+PIXEL = 2 * RANGE / SIDE
+MIDDLE = np.array([20 + SIDE / 2, 2 + SIDE / 2])  # of the widget; pixels, give or take a few
+PLANE = "SchlierenCutoff/Plane"
+SHIFT = 0x02000000
+TRACE, LOG = os.path.join(FOLDER, "trace.py"), os.path.join(FOLDER, "log.json")
+SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6}
+
+user = Session()
+saved = {}
+
+
+def drag(begin, *ways, modifiers=0):
+    """From a place given from the middle, u right and v up, by ways from there, pixels."""
+    places = [MIDDLE + (begin[0], -begin[1])]
+    places += [places[0] + (u, -v) for u, v in ways]
+    user.drag(PLANE, *[tuple(np.rint(place).astype(int)) for place in places], modifiers=modifiers)
+
+
+def expect(name, **properties):
+    """From here on the state has these properties, and nothing waits for Apply."""
+    user.check_at(PANEL + "/Accept", "enabled", "false")
+    user.save_state(name + ".pvsm")
+    saved[name] = {**(list(saved.values()) or [{}])[-1], **properties}
+
+
+user.check(PLANE, "enabled", "true")
+user.check(PLANE, "side", SIDE)
+user.check(PLANE, "range", RANGE)
+
+# The edge: 21 pixels to the right, on the way there 40.
+drag((0, 30), (40, 0), (21, 0))
+edge = round(K * 21 * PIXEL, 3)
+user.check("CutoffOffset/DoubleLineEdit0", "text", edge)
+expect("edge", CutoffOffset=edge, AutoKScale=0, KScale=K, KnifeEdgeAngle=0)
+
+# Turned by 60 degrees and a little, in steps of 15; back by 30 with less than a pixel's error.
+R = 0.84 * SIDE / 2
+drag((R, 0), (R * np.cos(np.radians(63)) - R, R * np.sin(np.radians(63))), modifiers=SHIFT)
+user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 60)
+expect("turned", KnifeEdgeAngle=60)
+
+# A click and what is given up change nothing; nor does it make a step that can be undone.
+drag((0, 0), (0, 0))
+expect("clicked")
+
+# Full light at half the distance is twice the sensitivity; undisturbed light is as bright as before.
+along = np.array([np.cos(np.radians(60)), np.sin(np.radians(60))])
+full = (0.5 + edge) / K
+way = np.rint(-0.5 * full / PIXEL * along)
+drag(np.rint(full / PIXEL * along), tuple(way))
+scaled = float(f"{K * full / (full + PIXEL * way @ along):.4g}")
+assert abs(scaled - 2 * K) < 0.05 * K
+expect("scaled", KScale=scaled)
+user.menu("menu_Edit", "actionEditUndo")
+user.check("KScale/DoubleLineEdit0", "text", K)
+user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 60)
+expect("undone", KScale=K)
+user.menu("menu_Edit", "actionEditUndo")
+user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 0)
+user.check("CutoffOffset/DoubleLineEdit0", "text", edge)
+user.menu("menu_Edit", "actionEditRedo")
+
+# By keys: the edge by a hundredth of the range, and by a degree. In smaller pixels everything fits.
+for key in ("Right", "Up", "Minus"):
+    user.key(PLANE, key)
+keyed = round(edge + K * RANGE / 100, 3)
+user.check("CutoffOffset/DoubleLineEdit0", "text", keyed)
+user.check(PLANE, "range", 2 * RANGE)
+expect("keyed", CutoffOffset=keyed, KScale=float(f"{1.02 * K:.4g}"))
+user.key(PLANE, "Home")
+user.check(PLANE, "range", RANGE)
+
+# What is typed but not applied waits on.
+user.choose("ImageSize/LineEdit0", "40")
+drag(np.rint(keyed / (1.02 * K) / PIXEL * along), tuple(np.rint(30 * along)))
+user.check("ImageSize/LineEdit0", "text", "40")
+user.check_at(PANEL + "/Accept", "enabled", "true")
+user.reset()
+user.check("ImageSize/LineEdit0", "text", "32")
+further = round(keyed + 1.02 * K * PIXEL * (np.rint(30 * along) @ along), 3)
+expect("waited", CutoffOffset=further)
+
+# A circle, whose sensitivity was automatic before its radius was dragged; and undone at one go.
+user.choose("Cutoff/ComboBox", "Circular")
+user.click("AutoKScale/CheckBox")
+user.apply()
+user.save_state("circle.pvsm")
+
+user.play(f"""
+from paraview.simple import *
+from paraview import smtrace
+import json
+flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench", AutoKScale=0, KScale={K}, **{SETTINGS})
+Show(bench, GetActiveViewOrCreate("RenderView"))
+Render()
+SetActiveSource(bench)
+log = []
+smtrace.start_trace()
+def write(*_):
+    log.append([bench.CutoffOffset, bench.KnifeEdgeAngle, bench.KScale])
+    with open({LOG!r}, "w") as file:
+        json.dump(log, file)
+    with open({TRACE!r}, "w") as file:
+        file.write(smtrace.get_current_trace_output())
+bench.SMProxy.AddObserver("UpdateDataEvent", write)
+""")
+
+
+def scripted(properties):
+    """The picture of a filter that a script has set up."""
+    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow.UpdatePipeline()
+    return picture(Schlieren(Input=flow, **SETTINGS, **properties), "Intensity")
+
+
+for name, properties in saved.items():
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, name + ".pvsm"))
+    bench = simple.FindSource("bench")
+    for key, value in properties.items():
+        assert np.isclose(bench.GetPropertyValue(key), value, rtol=1e-12), (name, key)
+    shown = picture(bench, "Intensity")
+    assert np.array_equal(shown, scripted(properties)), name
+    assert shown.std() > 0.01
+
+# Pictures were made while the mouse was down: of the edge further out, and turned by multiples of 15.
+with open(LOG, encoding="utf-8") as file:
+    made = json.load(file)
+assert [round(K * 40 * PIXEL, 3), 0, K] in made
+assert [edge, 60, K] in made and [edge, 60, scaled] in made
+
+# The trace has each drag once.
+with open(TRACE, encoding="utf-8") as file:
+    lines = [line.split(".", 1)[1] for line in file if line.startswith("bench.")]
+print(lines)
+assert lines[:3] == [f"CutoffOffset = {edge}\n", "KnifeEdgeAngle = 60.0\n", f"KScale = {scaled}\n"]
