@@ -458,7 +458,8 @@ TEST(Slices, AWarningIsGivenOnce)
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   EXPECT_GT(updateInSlices(filter), 3);
   EXPECT_EQ(complaints->Warnings.size(), 1u);
-  filter->SetViewDirection(0.1, 0, -1);
+  filter->SetViewDirection(-0.1, 0, -1);
+  filter->SetParallelScale(0.1);
   updateInSlices(filter);
   EXPECT_EQ(complaints->Warnings.size(), 2u);
   filter->SetPreviewReduction(2); // the whole picture says it
