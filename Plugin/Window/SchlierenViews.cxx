@@ -7,6 +7,7 @@
 #include "FlowOfPort.h"
 #include "PictureDisplay.h"
 #include "SchlierenFilters.h"
+#include "UndoStep.h"
 #include "VolumeDisplay.h"
 #include "pqPictureRefiner.h"
 
@@ -25,7 +26,6 @@
 #include "vtkNew.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMProxyClipboard.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -86,6 +86,19 @@ std::array<int, 2> pictureSizeFor(pqView* view)
     std::max(least, int(std::lround(share * size[1]))) };
 }
 
+/// Makes a view one for pictures.
+void flatten(vtkSMProxy* view)
+{
+  setInt(view, "InteractionMode", Mode2D);
+  setInt(view, "CameraParallelProjection", 1);
+  setInt(view, "OrientationAxesVisibility", 0);
+  setInt(view, "CenterAxesVisibility", 0);
+  setInt(view, "UseColorPaletteForBackground", 0);
+  const double darkGrey[3] = { 0.2, 0.2, 0.2 };
+  vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);
+  view->UpdateVTKObjects();
+}
+
 /// Makes the pictures of one flow and everything around them.
 class Builder
 {
@@ -126,10 +139,18 @@ public:
         this->compare(views);
         break;
     }
-    this->showVolume();
+    if (this->Medium && !isImage(this->Flow))
+    {
+      showAsVolume(this->Medium, this->Scene, this->MediumDefaults, this->Pictures[0]);
+    }
+    else
+    {
+      showAsVolume(this->Flow, this->Scene, this->Defaults, this->Pictures[0]);
+    }
     pqActiveObjects::instance().setActiveView(views[0]);
     pqActiveObjects::instance().setActiveSource(this->Pictures[0]);
-    return QString::fromStdString(this->Defaults.message);
+    return this->Pattern ? "Set as '" + this->Pattern->getSMName() + "' is."
+                         : QString::fromStdString(this->Defaults.message);
   }
 
   /// Shows everything, and brings all pictures to the set quality.
@@ -195,16 +216,8 @@ private:
     auto* builder = pqApplicationCore::instance()->getObjectBuilder();
     auto* view = qobject_cast<pqRenderView*>(builder->createView("RenderView", this->Server));
     layout->AssignView(cell, view->getViewProxy());
-    vtkSMProxy* proxy = view->getProxy();
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
-    setInt(proxy, "InteractionMode", Mode2D);
-    setInt(proxy, "CameraParallelProjection", 1);
-    setInt(proxy, "OrientationAxesVisibility", 0);
-    setInt(proxy, "CenterAxesVisibility", 0);
-    setInt(proxy, "UseColorPaletteForBackground", 0);
-    const double darkGrey[3] = { 0.2, 0.2, 0.2 };
-    vtkSMPropertyHelper(proxy, "Background").Set(darkGrey, 3);
-    proxy->UpdateVTKObjects();
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", view->getProxy());
+    flatten(view->getProxy());
     return view;
   }
 
@@ -216,18 +229,21 @@ private:
     if (factor > 1)
     {
       vtkSMRenderViewProxy* proxy = this->Scene->getRenderViewProxy();
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
-      proxy->SynchronizeCameraProperties();
+      const auto stepForward = cameraSetter(proxy);
       const auto focus = vtkSMPropertyHelper(proxy, "CameraFocalPoint").GetDoubleArray();
       auto position = vtkSMPropertyHelper(proxy, "CameraPosition").GetDoubleArray();
       for (int axis = 0; axis < 3; ++axis)
       {
         position[axis] = focus[axis] + factor * (position[axis] - focus[axis]);
       }
-      vtkSMPropertyHelper(proxy, "CameraPosition").Set(position.data(), 3);
-      vtkSMPropertyHelper scale(proxy, "CameraParallelScale");
-      scale.Set(factor * scale.GetAsDouble());
-      proxy->UpdateVTKObjects();
+      {
+        SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+        vtkSMPropertyHelper(proxy, "CameraPosition").Set(position.data(), 3);
+        vtkSMPropertyHelper scale(proxy, "CameraParallelScale");
+        scale.Set(factor * scale.GetAsDouble());
+        proxy->UpdateVTKObjects();
+      }
+      addUndoStep(stepForward, cameraSetter(proxy));
     }
   }
 
@@ -250,53 +266,51 @@ private:
       filter.GetPointer());
   }
 
+  /// Sets what a Schlieren or RefractiveIndex filter needs to know of the flow.
   void setMedium(vtkSMProxy* filter)
   {
-    if (this->Pattern)
-    {
-      vtkSMPropertyHelper input(filter, "Input");
-      vtkSMProxy* flow = input.GetAsProxy();
-      const unsigned int port = input.GetOutputPort();
-      vtkNew<vtkSMProxyClipboard> clipboard;
-      clipboard->Copy(this->Pattern->getProxy());
-      clipboard->Paste(filter);
-      input.Set(flow, port);
-    }
-    else
+    if (!this->Pattern)
     {
       setFlowDefaults(filter, this->Defaults);
+      return;
     }
+    vtkSMPropertyHelper input(filter, "Input");
+    vtkSMProxy* flow = input.GetAsProxy();
+    const unsigned int port = input.GetOutputPort();
+    filter->Copy(this->Pattern->getProxy());
+    input.Set(flow, port);
   }
 
   /// Puts one RefractiveIndex between the flow and all pictures.
   void resample()
   {
-    pqPipelineSource* index = this->addFilter(
-      "RefractiveIndex", this->Flow, [this](vtkSMProxy* filter) { this->setMedium(filter); });
-    vtkSMSourceProxy::SafeDownCast(index->getProxy())->UpdatePipeline();
-    this->Flow = index->getOutputPort(0);
-    const std::string message = this->Defaults.message;
-    this->Defaults = flowDefaults(arraysOfFlow(this->Flow));
-    this->Defaults.message = message;
-    this->IsResampled = true;
+    if (this->Defaults.indexModel != FlowDefaults::Refractivity || !isImage(this->Flow))
+    {
+      pqPipelineSource* index = this->addFilter(
+        "RefractiveIndex", this->Flow, [this](vtkSMProxy* filter) { this->setMedium(filter); });
+      vtkSMSourceProxy::SafeDownCast(index->getProxy())->UpdatePipeline();
+      this->Medium = index->getOutputPort(0);
+      this->MediumDefaults = flowDefaults(arraysOfFlow(this->Medium));
+    }
   }
 
   /// A filter that looks as the 3-D view does, and its picture in a 2-D view.
   pqPipelineSource* addPicture(pqRenderView* view, const std::function<void(vtkSMProxy*)>& set)
   {
-    pqPipelineSource* source = this->addFilter("Schlieren", this->Flow,
-      [&](vtkSMProxy* filter)
+    const auto setAll = [&](vtkSMProxy* filter)
+    {
+      this->setMedium(filter);
+      if (this->Medium)
       {
-        this->setMedium(filter);
-        if (this->IsResampled)
-        {
-          setFlowDefaults(filter, this->Defaults);
-        }
-        const std::array<int, 2> size = pictureSizeFor(view);
-        vtkSMPropertyHelper(filter, "ImageSize").Set(size.data(), 2);
-        set(filter);
-        follow(filter, this->Scene);
-      });
+        setFlowDefaults(filter, this->MediumDefaults);
+      }
+      const std::array<int, 2> size = pictureSizeFor(view);
+      vtkSMPropertyHelper(filter, "ImageSize").Set(size.data(), 2);
+      set(filter);
+    };
+    pqPipelineSource* source =
+      this->addFilter("Schlieren", this->Medium ? this->Medium : this->Flow, setAll);
+    follow(source->getProxy(), this->Scene);
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
     vtkSMProxy* representation =
       this->Controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, window);
@@ -304,8 +318,19 @@ private:
     {
       PictureDisplay::apply(representation, source->getProxy());
     }
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
-    fitViewToPicture(window, source->getProxy());
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
+      fitViewToPicture(window, source->getProxy());
+    }
+    const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window)]()
+    {
+      if (vtkSMProxy* again = id.get())
+      {
+        flatten(again);
+        setCamera();
+      }
+    };
+    addUndoStep([]() {}, redo);
     this->Pictures.push_back(source);
     return source;
   }
@@ -341,16 +366,14 @@ private:
     linkCameras(views[0], views[1]);
   }
 
-  /// The flow as a volume in the 3-D view, where it hides nothing that somebody wanted to see.
-  void showVolume() { showAsVolume(this->Flow, this->Scene, this->Defaults, this->Pictures[0]); }
-
   pqOutputPort* Flow;
   pqPipelineSource* Pattern; ///< a Schlieren filter whose settings are to be used, or null
   pqServer* Server;
   FlowDefaults Defaults;
   pqRenderView* Scene = nullptr;
   std::vector<pqPipelineSource*> Pictures;
-  bool IsResampled = false;
+  pqOutputPort* Medium = nullptr; ///< the flow's refractivity, where pictures share it
+  FlowDefaults MediumDefaults;
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> Controller;
 };
 

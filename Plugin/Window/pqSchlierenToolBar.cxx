@@ -90,7 +90,7 @@ QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& tex
 //------------------------------------------------------------------------------
 void pqSchlierenToolBar::addToolAction(QAction* action, const char* name, const QString& hint)
 {
-  action->setObjectName(name);
+  action->setObjectName(QString("action%1").arg(name));
   action->setToolTip(hint);
   action->setStatusTip(hint);
   this->addAction(action);
