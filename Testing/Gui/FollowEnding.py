@@ -9,6 +9,7 @@ from follow_testing import SCENE
 from window_testing import FOLDER, Session
 
 REPORT = os.path.join(FOLDER, "report.txt")
+open(REPORT, "w", encoding="utf-8").close()
 BEGIN = f"""
 import os
 def report(text):
@@ -19,7 +20,7 @@ def begin():
     global flow, bench, shadows, turned, shown, other
     flow, bench, shadows, turned, shown, other = by_name(
         "flow", "bench", "shadows", "RenderView1", "RenderView2", "RenderView3")
-    bench.SamplesPerPixel = shadows.SamplesPerPixel = 400
+    bench.SamplesPerPixel = shadows.SamplesPerPixel = 40
     turned.CameraPosition = [40, 20, 30 + turned.CameraPosition[2]]
     Render(turned)
     pause(0.3)
