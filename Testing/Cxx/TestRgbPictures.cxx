@@ -175,3 +175,14 @@ TEST(RgbPictures, DamagedFilesDoNoHarm)
     }
   }
 }
+
+TEST(RgbPictures, AreDecodedOnceForTheSameText)
+{
+  const std::vector<unsigned char> six(3 * 9, 6), seven(3 * 9, 7);
+  RgbPictureReader reader;
+  const auto first = reader.read("ColorFilterImage", text(png(bytes(3, 3, six))));
+  EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, six)))), first);
+  EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, seven))))->rgb, seven);
+  EXPECT_THROW(reader.read("ColorFilterImage", "data:image/png;base64,nothing"), std::runtime_error);
+  EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, six))))->rgb, six);
+}
