@@ -4,31 +4,69 @@
 
 #include "UndoStep.h"
 
-#include "pqApplicationCore.h"
-#include "pqLinksModel.h"
 #include "pqRenderView.h"
+#include "vtkNew.h"
+#include "vtkSMCameraLink.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMTrace.h"
 
-#include <QString>
+#include <string>
+
+namespace
+{
+
+void link(const std::string& name, vtkSMProxy* first, vtkSMProxy* second)
+{
+  vtkNew<vtkSMCameraLink> cameras;
+  for (const int direction : { vtkSMLink::INPUT, vtkSMLink::OUTPUT })
+  {
+    cameras->AddLinkedProxy(first, direction);
+    cameras->AddLinkedProxy(second, direction);
+  }
+  first->GetSessionProxyManager()->RegisterLink(name.c_str(), cameras);
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
-void linkCameras(pqRenderView* first, pqRenderView* second)
+void linkCameras(pqRenderView* firstView, pqRenderView* secondView)
 {
-  pqLinksModel* links = pqApplicationCore::instance()->getLinksModel();
-  QString name;
+  vtkSMProxy* first = firstView->getProxy();
+  vtkSMProxy* second = secondView->getProxy();
+  vtkSMSessionProxyManager* manager = first->GetSessionProxyManager();
+  std::string name;
   int number = 1;
   do
   {
-    name = QString("SchlierenPictures%1").arg(number++);
-  } while (links->getLink(name));
-  links->addCameraLink(name, first->getProxy(), second->getProxy());
+    name = "SchlierenPictures" + std::to_string(number++);
+  } while (manager->GetRegisteredLink(name.c_str()));
+
+  SM_SCOPED_TRACE(CallFunction)
+    .arg("AddCameraLink")
+    .arg(first)
+    .arg(second)
+    .arg(name.c_str())
+    .arg("comment", "link cameras in two views");
+  // Not by pqLinksModel, which clears the undo stack.
+  link(name, first, second);
+
   // A link that outlived its views would keep them.
-  addUndoStep([links, name]() { links->removeLink(name); },
-    [links, name, one = ProxyById(first->getProxy()), other = ProxyById(second->getProxy())]()
+  const ProxyById one(first);
+  const ProxyById other(second);
+  addUndoStep(
+    [name, one]()
+    {
+      if (one.get())
+      {
+        one.get()->GetSessionProxyManager()->UnRegisterLink(name.c_str());
+      }
+    },
+    [name, one, other]()
     {
       if (one.get() && other.get())
       {
-        links->addCameraLink(name, one.get(), other.get());
+        link(name, one.get(), other.get());
       }
     });
 }
