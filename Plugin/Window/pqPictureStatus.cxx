@@ -67,6 +67,11 @@ void pqPictureStatus::watch(pqView* item)
 //------------------------------------------------------------------------------
 void pqPictureStatus::show(pqRenderView* view)
 {
+  QWidget* widget = view->widget();
+  if (!widget)
+  {
+    return; // the view is about to go
+  }
   QStringList lines;
   if (picturesInViews::isFlat(view))
   {
@@ -78,7 +83,6 @@ void pqPictureStatus::show(pqRenderView* view)
     }
     lines.removeAll(QString());
   }
-  QWidget* widget = view->widget();
   QLabel* label = labelOf(widget);
   if (!label && !lines.isEmpty())
   {
