@@ -4,27 +4,44 @@
 
 #include "UndoStep.h"
 
+#include "pqApplicationCore.h"
 #include "pqRenderView.h"
+#include "pqUndoStack.h"
 #include "vtkNew.h"
 #include "vtkSMCameraLink.h"
 #include "vtkSMProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMTrace.h"
+#include "vtkSmartPointer.h"
+
+#include <QSignalBlocker>
 
 #include <string>
 
 namespace
 {
 
-void link(const std::string& name, vtkSMProxy* first, vtkSMProxy* second)
+void link(vtkSMCameraLink* cameras, const std::string& name, vtkSMProxy* first, vtkSMProxy* second)
 {
-  vtkNew<vtkSMCameraLink> cameras;
   for (const int direction : { vtkSMLink::INPUT, vtkSMLink::OUTPUT })
   {
     cameras->AddLinkedProxy(first, direction);
     cameras->AddLinkedProxy(second, direction);
   }
+  SCOPED_UNDO_EXCLUDE();
   first->GetSessionProxyManager()->RegisterLink(name.c_str(), cameras);
+}
+
+/// ParaView clears the undo stack when a link goes, here in the middle of undoing: so it gets none.
+void unlink(vtkSMCameraLink* cameras, const std::string& name, vtkSMProxy* view)
+{
+  pqApplicationCore* core = pqApplicationCore::instance();
+  const QSignalBlocker unnoticed(core);
+  pqUndoStack* stack = core->getUndoStack();
+  core->setUndoStack(nullptr);
+  view->GetSessionProxyManager()->UnRegisterLink(name.c_str());
+  core->setUndoStack(stack);
+  cameras->RemoveAllLinks(); // else it would keep its views
 }
 
 } // namespace
@@ -48,25 +65,26 @@ void linkCameras(pqRenderView* firstView, pqRenderView* secondView)
     .arg(second)
     .arg(name.c_str())
     .arg("comment", "link cameras in two views");
-  // Not by pqLinksModel, which clears the undo stack.
-  link(name, first, second);
+  vtkNew<vtkSMCameraLink> cameras;
+  link(cameras, name, first, second);
 
-  // A link that outlived its views would keep them.
+  // Later steps of the undo stack know this very link by its number, so that it is kept.
+  const vtkSmartPointer<vtkSMCameraLink> kept = cameras.GetPointer();
   const ProxyById one(first);
   const ProxyById other(second);
   addUndoStep(
-    [name, one]()
+    [kept, name, one]()
     {
       if (one.get())
       {
-        one.get()->GetSessionProxyManager()->UnRegisterLink(name.c_str());
+        unlink(kept, name, one.get());
       }
     },
-    [name, one, other]()
+    [kept, name, one, other]()
     {
       if (one.get() && other.get())
       {
-        link(name, one.get(), other.get());
+        link(kept, name, one.get(), other.get());
       }
     });
 }

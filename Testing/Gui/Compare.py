@@ -6,11 +6,9 @@ cameras; of a mesh, and with the settings of a filter that is selected."""
 import os
 
 import numpy as np
-from views_testing import (FOLDER, SOURCE, ViewsSession, check_camera, check_display,
+from views_testing import (FOLDER, MESH, ViewsSession, check_camera, check_display,
                            check_picture_view, filters, load, picture, shown, simple, views)
 from plugin_testing import Schlieren
-
-COIL = os.path.join(SOURCE, "Testing", "Data", "heating_coil_fluid.vtu")
 
 user = ViewsSession()
 user.press("Comparison")
@@ -19,15 +17,9 @@ user.undo()
 user.save_state("undone.pvsm")
 user.redo()
 user.save_state("redone.pvsm")
-user.play(f"""
-from paraview.simple import *
-coil = OpenDataFile({COIL!r}, registrationName="coil")
-coil.UpdatePipeline()
-view = GetActiveViewOrCreate("RenderView")
-Show(coil, view)
-view.ResetCamera()
-SetActiveSource(coil)
-""")
+user.undo()
+user.redo()
+user.play(MESH)
 
 
 def check_session():
@@ -50,11 +42,11 @@ for state in ("compared", "redone"):
     with open(os.path.join(FOLDER, state + ".pvsm"), encoding="utf-8") as file:
         assert file.read().count("<CameraLink name=") == 1, "The cameras are not linked"
     medium = straight.Input
-    assert medium.GetXMLName() == "RefractiveIndex" and medium.Input == simple.FindSource("coil")
+    assert medium.GetXMLName() == "RefractiveIndex" and medium.Input == simple.FindSource("mesh")
     volume = simple.GetRepresentation(medium, scene)
     assert volume.Visibility == 1 and volume.Representation == "Volume"
     assert list(volume.ColorArrayName)[:2] == ["POINTS", "Refractivity"]
-    assert simple.GetRepresentation(simple.FindSource("coil"), scene).Visibility == 1
+    assert simple.GetRepresentation(simple.FindSource("mesh"), scene).Visibility == 1
 
 # k is the one that bent light has by itself.
 alone = Schlieren(
