@@ -149,6 +149,10 @@ public:
     }
     pqActiveObjects::instance().setActiveView(views[0]);
     pqActiveObjects::instance().setActiveSource(this->Pictures[0]);
+    if (arrangement == Arrangement::Comparison)
+    {
+      linkCameras(views[0], views[1]);
+    }
     return this->Pattern ? "Set as '" + this->Pattern->getSMName() + "' is."
                          : QString::fromStdString(this->Defaults.message);
   }
@@ -363,7 +367,6 @@ private:
         }
       }
     }
-    linkCameras(views[0], views[1]);
   }
 
   pqOutputPort* Flow;
