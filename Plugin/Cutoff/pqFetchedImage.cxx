@@ -12,7 +12,6 @@
 #include "vtkAlgorithm.h"
 #include "vtkImageData.h"
 #include "vtkPVDataInformation.h"
-#include "vtkPointData.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -34,7 +33,8 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port, const char* array)
+vtkSmartPointer<vtkImageData> fetchedImage(
+  vtkSMProxy* filter, unsigned int port, const std::vector<std::string>& arrays)
 {
   auto* source =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(filter);
@@ -50,7 +50,11 @@ vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port
   {
     return nullptr;
   }
-  vtkSMPropertyHelper(only, "PointDataArrays").Set(array);
+  vtkSMPropertyHelper names(only, "PointDataArrays");
+  for (unsigned int i = 0; i < arrays.size(); ++i)
+  {
+    names.Set(i, arrays[i].c_str());
+  }
   only->UpdateVTKObjects();
   only->UpdatePipeline(time);
   vtkPVDataInformation* information = only->GetDataInformation(0);
@@ -64,7 +68,7 @@ vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port
   mover->UpdatePipeline(time);
   auto* client = vtkAlgorithm::SafeDownCast(mover->GetClientSideObject());
   auto* output = client ? vtkImageData::SafeDownCast(client->GetOutputDataObject(0)) : nullptr;
-  if (!output || !output->GetPointData()->GetArray(array))
+  if (!output)
   {
     return nullptr;
   }
