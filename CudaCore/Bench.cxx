@@ -4,10 +4,7 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
-#include "Film/CudaFilm.h"
-#include "Film/Development.h"
-#include "Film/Exposure.h"
-#include "Film/PixelMeans.h"
+#include "Film/GrowingPicture.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
@@ -20,7 +17,6 @@
 #include "Validation.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -66,28 +62,64 @@ struct MediumOnDevices
   }
 };
 
-std::int64_t raysThatCrossed(const TracedPass& traced, int threads)
+/// A monitor whose answers are the last ones: once it has said stop, it does.
+class Watch
 {
-  if (traced.onDevice)
+public:
+  explicit Watch(const Monitor& asked)
   {
-    return traced.crossed;
-  }
-  std::atomic<std::int64_t> crossed{ 0 };
-  constexpr std::int64_t raysPerPiece = 1 << 15;
-  parallelFor(static_cast<std::int64_t>(traced.exits.size()), raysPerPiece, threads,
-    [&](std::int64_t begin, std::int64_t end)
+    monitor_.progress = asked.progress;
+    if (asked.aborted)
     {
-      crossed += std::count_if(traced.exits.begin() + begin, traced.exits.begin() + end,
-        [](const RayExit& exit) { return exit.fate != RayFate::Missed; });
-    });
-  return crossed;
-}
+      monitor_.aborted = [this, &asked] { return isAborted_ = isAborted_ || asked.aborted(); };
+    }
+    if (asked.paused)
+    {
+      monitor_.paused = [this, &asked] { return isPaused_ = isPaused_ || asked.paused(); };
+    }
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  const Monitor& monitor() const { return monitor_; }
+  bool mayPause() const { return static_cast<bool>(monitor_.paused); }
+  bool isAborted() const { return monitor_.aborted && monitor_.aborted(); }
+  bool isPaused() const { return monitor_.paused && monitor_.paused(); }
+
+private:
+  Monitor monitor_;
+  bool isAborted_ = false;
+  bool isPaused_ = false;
+};
 
 } // namespace
+
+/// What has been asked for, and as much of it as there is.
+struct Bench::Unfinished
+{
+  Unfinished(const Field& ofField, const Scene& ofScene)
+    : field(ofField)
+    , scene(ofScene)
+    , picture(ofScene)
+  {
+  }
+
+  const Field field;
+  const Scene scene;
+  Device device = Device::Cpu;
+  std::string deviceNote;
+  GrowingPicture picture;
+  double kScale = 0;
+  double momentumDrift = 0;
+  double traceSeconds = 0;
+  std::int64_t shown = 0;     ///< passes of the last picture that was handed out
+  bool hasBeenSilent = false; ///< the last call handed none out
+};
 
 struct Bench::Stages
 {
   Work work;
+  std::unique_ptr<Unfinished> unfinished; ///< after a pause
 
   std::optional<MediumKey> mediumKey;
   std::variant<std::monostate, MediumOnDevices<float>, MediumOnDevices<double>> medium;
@@ -96,7 +128,9 @@ struct Bench::Stages
   std::int64_t heldMargin = 0;
   std::deque<TracedPass> passes; ///< from pass 0 on
   std::deque<TracedPass> spare;  ///< whose memory serves again
-  TracedPass scratch;            ///< a pass that is not held
+  TracedPass scratch;            ///< a pass that is being traced, or is not held
+  std::int64_t inScratch = -1;   ///< its number; -1: no rays are there
+  bool isScratchTraced = false;  ///< all of it
   std::optional<double> strong;  ///< deflection of these rays, once automatic k has asked for it
   std::optional<DeflectionHistogram> histogram; ///< of them, likewise
   std::optional<double> tint; ///< the reference of what they have gathered, likewise
@@ -107,11 +141,13 @@ struct Bench::Stages
 
   void prepareRays(RaysKey key, std::int64_t margin);
 
-  /// The rays of a pass, held or traced now; null if aborted.
+  /// Makes scratch the place for the rays of a pass, where it is not that already.
+  void prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields);
+
+  /// The rays of a pass, held or traced now; null if aborted or paused.
   template <class Real>
   const TracedPass* raysOf(std::int64_t number, const Pass& pass, MediumOnDevices<Real>& held,
-    const RayTask<Real>& task, const Field& field, const Scene& scene, const Monitor& monitor,
-    Image& image);
+    const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked);
 
   /// Learns from the rays of a pass what has not been asked of them before: how strongly they are bent, for
   /// automatic k, and where they meet the cutoff plane. `noise`: see noiseFloor.
@@ -121,8 +157,12 @@ struct Bench::Stages
   /// How fields tint the picture, by the rays of its first pass.
   std::optional<Tint> tintOf(const TracedRays& rays, const Field& field, const Scene& scene);
 
+  /// Goes on with a picture, until it is finished, aborted or paused.
   template <class Real>
-  Image render(const Field& field, const Scene& scene, Device device, const Monitor& monitor);
+  Image goOn(Unfinished& asked, const Watch& watch);
+
+  /// The same on the device of its scene, and keeps what is left after a pause.
+  Image render(std::unique_ptr<Unfinished> asked, const Monitor& monitor);
 
   /// Gives the device's memory back.
   void leaveDevice();
@@ -164,16 +204,45 @@ void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
     strong.reset();
     histogram.reset();
     tint.reset();
+    inScratch = -1;
     raysKey = key;
     heldMargin = margin;
+    ++work.raySets;
   }
+}
+
+void Bench::Stages::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
+{
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  if (inScratch == number && scratch.gathered.size() == rays * static_cast<std::size_t>(fields))
+  {
+    return;
+  }
+  if (scratch.bytes() == 0 && !spare.empty())
+  {
+    scratch = std::move(spare.back());
+    spare.pop_back();
+  }
+  const std::size_t room = scratch.onDevice ? scratch.onDevice->size() : scratch.exits.capacity();
+  if (room < rays || room / 2 > rays)
+  {
+    spare.clear(); // first: two sets of rays at once might not fit
+    scratch = {};
+  }
+  if (device == Device::Cpu)
+  {
+    scratch.resize(pass, fields);
+  }
+  inScratch = number;
+  isScratchTraced = false;
 }
 
 template <class Real>
 const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
-  MediumOnDevices<Real>& held, const RayTask<Real>& task, const Field& field, const Scene& scene,
-  const Monitor& monitor, Image& image)
+  MediumOnDevices<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
 {
+  const Field& field = asked.field;
+  const Scene& scene = asked.scene;
   if (static_cast<std::size_t>(number) < passes.size())
   {
     const TracedPass& kept = passes[static_cast<std::size_t>(number)];
@@ -184,51 +253,46 @@ const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
     passes.resize(static_cast<std::size_t>(number)); // traced while nothing was tinted
     tint.reset();
   }
-  const auto start = std::chrono::steady_clock::now();
-  if (scratch.bytes() == 0 && !spare.empty())
+  prepareScratch(number, pass, asked.device, field.gradients.count);
+  if (!isScratchTraced)
   {
-    scratch = std::move(spare.back());
-    spare.pop_back();
-  }
-  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-  const std::size_t room = scratch.onDevice ? scratch.onDevice->size() : scratch.exits.capacity();
-  if (room < rays || room / 2 > rays)
-  {
-    spare.clear(); // first: two sets of rays at once might not fit
-    scratch = {};
-  }
-  bool finished = false;
-  if (image.device == Device::Cuda)
-  {
-    if (!held.cuda)
+    const auto start = std::chrono::steady_clock::now();
+    const std::int64_t countedBefore = scratch.tilesDone > 0 ? scratch.crossed : 0;
+    if (asked.device == Device::Cuda)
     {
-      held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
+      if (!held.cuda)
+      {
+        held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
+      }
+      using Tracer = CudaTracer<Real>;
+      // All passes of a picture in one place.
+      const bool isWantedHere =
+        field.gradients.count > 0 || (!passes.empty() && !passes.front().onDevice);
+      isScratchTraced = held.cuda->trace(task, pass, { field.gradients.version, held.mapTolerance },
+        isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
     }
-    using Tracer = CudaTracer<Real>;
-    // All passes of a picture in one place.
-    const bool isWantedHere =
-      field.gradients.count > 0 || (!passes.empty() && !passes.front().onDevice);
-    finished = held.cuda->trace(task, pass, { field.gradients.version, held.mapTolerance },
-      isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
+    else
+    {
+      isScratchTraced = traceOnCpu(task, pass, scratch, scene.threads, monitor);
+    }
+    asked.traceSeconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (isScratchTraced || asked.device == Device::Cpu)
+    {
+      work.raysTraced += scratch.crossed - countedBefore;
+    }
+    if (!isScratchTraced)
+    {
+      return nullptr;
+    }
   }
-  else
-  {
-    scratch.resize(pass, field.gradients.count);
-    finished = traceOnCpu(task, pass, scratch, scene.threads, monitor);
-  }
-  image.traceSeconds +=
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!finished)
-  {
-    return nullptr;
-  }
-  work.raysTraced += raysThatCrossed(scratch, scene.threads);
 
   if (static_cast<std::size_t>(number) == passes.size() &&
     (passes.size() + 1) * scratch.bytes() <= scene.memoryBudget)
   {
     passes.push_back(std::move(scratch));
     scratch = {};
+    inScratch = -1;
     return &passes.back();
   }
   return &scratch;
@@ -277,18 +341,21 @@ std::optional<Tint> Bench::Stages::tintOf(
 }
 
 template <class Real>
-Image Bench::Stages::render(
-  const Field& field, const Scene& scene, Device device, const Monitor& monitor)
+Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
 {
   Image aborted;
   aborted.aborted = true;
 
+  const Field& field = asked.field;
+  const Scene& scene = asked.scene;
   const View& view = scene.view;
   Image image;
   image.width = view.width;
   image.height = view.height;
   image.frame = frameOf(field.grid, view);
-  image.device = device;
+  image.device = asked.device;
+  image.deviceNote = asked.deviceNote;
+  image.threads = threadCount(scene.threads);
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;
@@ -312,7 +379,7 @@ Image Bench::Stages::render(
     held.medium, map, FieldGradientsView::of(field.grid, field.gradients), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
-  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, device, {},
+  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, asked.device, {},
     LightKey::of(scene, filmDistance(scene, image.frame)) };
   if (field.gradients.count > 0)
   {
@@ -321,96 +388,89 @@ Image Bench::Stages::render(
   prepareRays(key, margin);
   Pass pass{ -heldMargin, -heldMargin, view.width + 2 * heldMargin, view.height + 2 * heldMargin,
     { 0, 0 } };
-  const std::int64_t mostRays =
-    (view.width + 2 * margin) * (view.height + 2 * margin) * passesToHold(scene.samplesPerPixel);
-  std::optional<Films> films;
-  std::unique_ptr<CudaFilm> filmOnDevice; ///< of passes that lie there
-  PixelMeans means(view.width, view.height, scene.threads);
-  const Projection projection =
-    projectionOf(scene, image.frame, light, (1 + held.medium.ambient) * field.lengthScale);
 
   const double noise = noiseFloor(held.medium, field, light);
-  Cutoffs cutoff;
-  RayCounts counts;
-  std::vector<TracedRays> waiting; // held passes are exposed together
-  for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
+  GrowingPicture& picture = asked.picture;
+  const auto isNewPictureThere = [&]
+  { return picture.isWhole() && picture.passes() > asked.shown; };
+  bool goesOn = !watch.mayPause() || picture.completeUndisturbed(watch.monitor());
+  while (goesOn && picture.passes() < scene.samplesPerPixel)
   {
-    Monitor ofPass = monitor;
-    if (monitor.progress)
+    // What has taken more than a call is shown before the next pass hides it.
+    if (watch.mayPause() && asked.hasBeenSilent && isNewPictureThere())
     {
-      ofPass.progress = [&](double fraction)
-      { monitor.progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel); };
+      break;
+    }
+    const std::int64_t number = picture.passes();
+    Monitor ofPass = watch.monitor();
+    if (ofPass.progress)
+    {
+      ofPass.progress = [&](double fraction) {
+        watch.monitor().progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel);
+      };
     }
     aimPass(pass, number, scene, light);
-    const TracedPass* traced = raysOf(number, pass, held, task, field, scene, ofPass, image);
-    if (traced == nullptr || (monitor.aborted && monitor.aborted()))
+    const TracedPass* traced = raysOf(number, pass, held, task, ofPass, asked);
+    if (traced == nullptr || watch.isAborted())
     {
-      return aborted;
+      break;
     }
-    image.momentumDrift = std::max(image.momentumDrift, traced->worstDrift);
-    waiting.push_back({ pass, traced->exits.data(), traced->gathered.data() });
-    ask(*traced, waiting.back(), number, scene, noise);
-    if (number == 0)
+    asked.momentumDrift = std::max(asked.momentumDrift, traced->worstDrift);
+    const TracedRays rays{ pass, traced->exits.data(), traced->gathered.data() };
+    ask(*traced, rays, number, scene, noise);
+    if (!picture.isBegun())
     {
       if (fullScaleOf(scene.cutoff) > 0)
       {
-        image.kScale =
+        asked.kScale =
           scene.kScale ? *scene.kScale : automaticK(*strong, fullScaleOf(scene.cutoff));
       }
-      cutoff = cutoffs.cutoffOf(scene, image.kScale, image.frame.pixelSize);
-      image.undisturbedLevel = undisturbedLevel(cutoff);
-      films = filmsOf(scene, cutoff, tintOf(waiting[0], field, scene), mostRays);
+      picture.begin(
+        { cutoffs.cutoffOf(scene, asked.kScale, image.frame.pixelSize),
+          projectionOf(scene, image.frame, light, (1 + held.medium.ambient) * field.lengthScale),
+          margin,
+          (view.width + 2 * margin) * (view.height + 2 * margin) *
+            passesToHold(scene.samplesPerPixel) },
+        tintOf(rays, field, scene));
     }
-    if (traced->onDevice)
+    ofPass.progress = {};
+    goesOn = picture.add(*traced, pass, traced == &scratch ? Rays::Go : Rays::Stay, ofPass) &&
+      (!watch.mayPause() || picture.completeUndisturbed(ofPass));
+    if (watch.isPaused())
     {
-      waiting.clear();
-      if (!filmOnDevice)
-      {
-        filmOnDevice = std::make_unique<CudaFilm>(*films);
-      }
-      filmOnDevice->expose(
-        *traced->onDevice, pass, cutoff, projection, margin, scene.filmEstimator);
-      continue;
-    }
-    const bool isLast = number + 1 == scene.samplesPerPixel;
-    if (traced == &scratch || isLast)
-    {
-      counts.add(
-        expose(waiting, cutoff, projection, margin, scene.filmEstimator, scene.threads, *films));
-      if (!isLast)
-      {
-        means.add(waiting);
-        waiting.clear();
-      }
+      break;
     }
   }
-  if (filmOnDevice)
+  if (watch.isAborted())
   {
-    counts = filmOnDevice->develop(*films, means);
+    return aborted;
   }
-  image.raysTraced = counts.crossed;
-  image.stepsTaken = counts.steps;
-  image.raysBlocked = counts.blocked;
-  image.raysLost = counts.lost;
-  image.saturatedShare = counts.saturatedShare();
-  if (scene.histogramSize > 0)
+  image.kScale = asked.kScale;
+  image.momentumDrift = asked.momentumDrift;
+  image.traceSeconds = asked.traceSeconds;
+  image.finished = goesOn && picture.passes() == scene.samplesPerPixel;
+  asked.hasBeenSilent = !image.finished && !isNewPictureThere();
+  if (scene.histogramSize > 0 && !asked.hasBeenSilent)
   {
     image.histogram = histogram->histogram();
   }
-  develop(*films, scene, image);
-  films.reset(); // the means want memory, too
-  means.develop(waiting, image);
-  if (scene.cutoff == Cutoff::Background)
+  if (image.finished)
   {
-    image.background = undisturbedPicture(scene, cutoff, projection, margin, mostRays, monitor);
-    if (image.background.empty())
+    if (!picture.finish(image, watch.monitor()))
     {
       return aborted;
     }
-    image.backgroundDisplacement = backgroundDisplacement(image, projection.distance);
+    scratch = {};
+    inScratch = -1;
+    spare.clear();
+    return image;
   }
-  scratch = {};
-  spare.clear();
+  if (!asked.hasBeenSilent)
+  {
+    picture.develop(image);
+    asked.shown = picture.passes();
+  }
+  image.samples = static_cast<int>(asked.shown);
   return image;
 }
 
@@ -420,6 +480,7 @@ void Bench::Stages::leaveDevice()
   passes.clear();
   spare.clear();
   scratch = {};
+  inScratch = -1;
   std::visit(
     [](auto& held)
     {
@@ -442,10 +503,13 @@ Bench& Bench::operator=(Bench&&) noexcept = default;
 
 const Work& Bench::work() const { return stages_->work; }
 
+bool Bench::isUnfinished() const { return stages_->unfinished != nullptr; }
+
 Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)
 {
+  stages_->unfinished.reset();
   validate(field, scene);
-
+  auto asked = std::make_unique<Unfinished>(field, scene);
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
   if (scene.device == Device::Cuda && !hasCuda)
@@ -453,31 +517,49 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
     throw Error("Device is CUDA, but no CUDA device can be used: " + reason +
       ". Set Device to Auto or CPU, or check the driver with nvidia-smi.");
   }
-  const auto renderOn = [&](Device device)
+  asked->device = hasCuda ? Device::Cuda : Device::Cpu;
+  return stages_->render(std::move(asked), monitor);
+}
+
+Image Bench::resume(const Monitor& monitor)
+{
+  if (!isUnfinished())
   {
-    return scene.precision == Precision::Single
-      ? stages_->render<float>(field, scene, device, monitor)
-      : stages_->render<double>(field, scene, device, monitor);
-  };
-  if (!hasCuda)
-  {
-    return renderOn(Device::Cpu);
+    throw Error("There is no unfinished picture to go on with. Render one.");
   }
+  return stages_->render(std::move(stages_->unfinished), monitor);
+}
+
+Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& monitor)
+{
+  const Watch watch(monitor);
+  const auto goOnWith = [&](Unfinished& picture)
+  {
+    return picture.scene.precision == Precision::Single ? goOn<float>(picture, watch)
+                                                        : goOn<double>(picture, watch);
+  };
+  Image image;
   try
   {
-    return renderOn(Device::Cuda);
+    image = goOnWith(*asked);
   }
   catch (const DeviceError& failure)
   {
-    stages_->leaveDevice();
-    if (scene.device == Device::Cuda)
+    leaveDevice();
+    if (asked->device == Device::Cpu || asked->scene.device == Device::Cuda)
     {
       throw;
     }
-    Image image = renderOn(Device::Cpu);
-    image.deviceNote = failure.what();
-    return image;
+    auto again = std::make_unique<Unfinished>(asked->field, asked->scene);
+    again->deviceNote = failure.what();
+    asked = std::move(again);
+    image = goOnWith(*asked);
   }
+  if (!image.finished && !image.aborted)
+  {
+    unfinished = std::move(asked);
+  }
+  return image;
 }
 
 } // namespace schlieren

@@ -313,6 +313,7 @@ struct Image
   PixelArray<float> blockedFraction; ///< per pixel: share of rays that a solid stopped
 
   Device device = Device::Cpu; ///< where the rays were traced
+  int threads = 0;             ///< on the CPU
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff
@@ -326,7 +327,7 @@ struct Image
   std::int64_t stepsTaken = 0;  ///< integration steps of these rays
   std::int64_t raysBlocked = 0; ///< rays that a solid stopped
   std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
-  double traceSeconds = 0;      ///< spent tracing for this call; 0 when held rays were re-shaded
+  double traceSeconds = 0;      ///< spent tracing for it; 0 when held rays were re-shaded
   double displacementBound = 0; ///< no ray of this medium is displaced further, data units
   /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
   /// because it is elsewhere then, which is of second order.
@@ -335,19 +336,27 @@ struct Image
   /// the error of steps and interpolation.
   double momentumDrift = 0;
   bool aborted = false; ///< the monitor asked to stop; all arrays are empty
+
+  /// False where the monitor has paused it, and Bench::resume goes on. The arrays then hold the picture of
+  /// the samples so far (the histogram may know of more), or are empty where this call has completed none.
+  bool finished = true;
+  int samples = 0; ///< per pixel, that the picture is of
 };
 
-/// How far a render has come, and whether to stop. Both are called by the calling thread only.
+/// How far a render has come, and whether to stop. All are called by the calling thread only.
 struct Monitor
 {
   std::function<void(double fraction)> progress;
-  std::function<bool()> aborted;
+  std::function<bool()> aborted;  ///< gives the picture up
+  std::function<bool()> paused{}; ///< leaves the rest of it for Bench::resume
 };
 
 /// What a Bench has done so far: lets a caller (and the tests) see that nothing is done twice.
 struct Work
 {
   std::int64_t mediumBuilds = 0;
+  std::int64_t raySets =
+    0; ///< how often rays had to be traced anew: for another view, another medium
   std::int64_t raysTraced = 0;
 };
 
@@ -364,9 +373,17 @@ public:
   /// The picture of `field` on the bench `scene`. Throws Error.
   Image render(const Field& field, const Scene& scene, const Monitor& monitor = {});
 
+  /// Goes on with the picture that the monitor paused in the last call, which is given up by any other: the
+  /// same picture, to the last bit, that render would have made without a pause. Each call makes some progress,
+  /// however soon it is paused again: what is not cut into pieces is the medium, a pass on the GPU, and the
+  /// development of a picture. What Field::gradients points to must still be there. Throws Error.
+  Image resume(const Monitor& monitor = {});
+  bool isUnfinished() const;
+
   const Work& work() const;
 
 private:
+  struct Unfinished;
   struct Stages;
   std::unique_ptr<Stages> stages_;
 };

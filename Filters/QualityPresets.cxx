@@ -4,6 +4,9 @@
 
 #include "vtkSchlierenFilter.h"
 
+#include <algorithm>
+#include <string>
+
 using Filter = vtkSchlierenFilter;
 
 #define SETTING(name, ...)                                                           \
@@ -32,3 +35,11 @@ const std::array<QualitySetting, 10> qualitySettings{
   SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
 };
 // clang-format on
+
+//------------------------------------------------------------------------------
+double interactiveStepSize()
+{
+  const auto* setting = std::find_if(qualitySettings.begin(), qualitySettings.end(),
+    [](const QualitySetting& each) { return std::string(each.Property) == "StepSize"; });
+  return setting->Values[Filter::INTERACTIVE];
+}

@@ -17,3 +17,6 @@ struct QualitySetting
 
 /// All of them. What the presets are is written there alone; the XML's defaults are those of the first.
 extern const std::array<QualitySetting, 10> qualitySettings;
+
+/// StepSize of the fastest preset.
+double interactiveStepSize();

@@ -3,6 +3,7 @@
 #include "SceneFromFilter.h"
 
 #include "GasChoices.h"
+#include "HurriedPicture.h"
 #include "RealOptics.h"
 #include "RgbPictures.h"
 
@@ -118,9 +119,7 @@ schlieren::BackgroundPattern backgroundFrom(vtkSchlierenFilter* self)
   return pattern;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
+/// Of the whole picture.
 schlieren::View viewFrom(vtkSchlierenFilter* self)
 {
   schlieren::View view;
@@ -135,6 +134,17 @@ schlieren::View viewFrom(vtkSchlierenFilter* self)
   view.width = self->GetImageSize()[0];
   view.height = self->GetImageSize()[1];
   return view;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+schlieren::Frame frameFrom(vtkSchlierenFilter* self, const schlieren::Grid& grid)
+{
+  const schlieren::View view = viewFrom(self);
+  const schlieren::Frame frame = schlieren::frameOf(grid, view);
+  const int reduction = self->GetPreviewReduction();
+  return reduction > 1 ? schlieren::frameOf(grid, hurriedView(view, frame, reduction)) : frame;
 }
 
 //------------------------------------------------------------------------------
@@ -204,5 +214,9 @@ schlieren::Scene sceneFrom(
   scene.pathTolerance = self->GetPathTolerance();
   scene.device = static_cast<schlieren::Device>(self->GetDevice());
   scene.threads = threadsFrom(self);
+  if (self->GetPreviewReduction() > 1)
+  {
+    hurry(scene, frame, self->GetPreviewReduction());
+  }
   return scene;
 }

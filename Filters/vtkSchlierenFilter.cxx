@@ -5,8 +5,10 @@
 #include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "GasChoices.h"
+#include "HurriedPicture.h"
 #include "InputDescription.h"
 #include "PictureOutput.h"
+#include "PictureStatus.h"
 #include "Processes.h"
 #include "QualityPresets.h"
 #include "RealOptics.h"
@@ -49,6 +51,8 @@ struct vtkSchlierenFilter::Internals
 
   // Of the fields that tint, on the grid of Refractivity; empty where not needed.
   std::vector<float> FieldGradients;
+
+  double RaysPerSecond = 0; // when rays were traced last
 
   // Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
@@ -497,6 +501,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
   { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
 
+  const std::int64_t raysBefore = this->Inside->Bench.work().raysTraced;
   schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
   if (image.aborted)
   {
@@ -504,6 +509,11 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
   }
   const bool isTracedNow =
     image.traceSeconds > 0; // another knife edge is no reason to say it again
+  if (isTracedNow)
+  {
+    this->Inside->RaysPerSecond =
+      static_cast<double>(this->Inside->Bench.work().raysTraced - raysBefore) / image.traceSeconds;
+  }
   if (isTracedNow && !image.deviceNote.empty())
   {
     vtkWarningMacro(<< image.deviceNote);
@@ -523,6 +533,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
       << " rays did not come out towards the film: the medium traps them or turns them "
          "back. Is the refractivity (array, unit, index model) right?");
   }
+  this->Status = statusInWords(image, scene, this->Inside->RaysPerSecond);
   setOutput(output, image);
   if (!image.color.empty())
   {
@@ -545,8 +556,8 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  const int extent[6] = { 0, std::max(this->ImageSize[0], 1) - 1, 0,
-    std::max(this->ImageSize[1], 1) - 1, 0, 0 };
+  const int extent[6] = { 0, hurriedPixels(this->ImageSize[0], this->PreviewReduction) - 1, 0,
+    hurriedPixels(this->ImageSize[1], this->PreviewReduction) - 1, 0, 0 };
   double origin[3] = { 0, 0, 0 };
   double spacing[3] = { 1, 1, 1 };
   try
@@ -563,7 +574,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
         grid = vtkSmartPointer<vtkImageData>::New();
         this->Medium->ComputeGrid(input, grid);
       }
-      const schlieren::Frame frame = schlieren::frameOf(gridFrom(grid), viewFrom(this));
+      const schlieren::Frame frame = frameFrom(this, gridFrom(grid));
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
     }
@@ -609,6 +620,7 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   histogram->Initialize();
   this->KScaleUsed = 0;
   this->Sensitivity.clear();
+  this->Status.clear();
 
   const ProcessRole role = roleOfProcess();
   if (role == ProcessRole::Other)

@@ -739,8 +739,9 @@ public:
   ///@{
   /**
    * How many pixels along each axis one of a hurried picture stands for: with 2, a picture that lies at the
-   * same place has half as many columns and rows, and one ray for each, whatever SamplesPerPixel is. For
-   * a window to show while the view is being turned. Default: 1.
+   * same place has half as many columns and rows, and one ray for each, whatever SamplesPerPixel is, with
+   * steps no shorter than those of INTERACTIVE. For a window to show while the view is being turned.
+   * Default: 1.
    */
   vtkSetClampMacro(PreviewReduction, int, 1, 64);
   vtkGetMacro(PreviewReduction, int);
@@ -766,8 +767,10 @@ public:
   vtkGetMacro(PictureCount, vtkTypeInt64);
 
   /**
-   * The last picture in words: samples per pixel, rays per second, device, how far light is shifted at most.
-   * Empty where there is none.
+   * The last picture in words, in one line: samples per pixel; rays per second, when some were traced last;
+   * device; and how exact its rays are: straight ones are shifted by no more than so many pixels from where
+   * refracted ones leave the data, refracted ones keep |p| = n within MomentumDrift. Empty where there is
+   * none.
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 

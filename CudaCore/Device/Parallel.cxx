@@ -25,7 +25,14 @@ int threadCount(int requested)
 bool parallelFor(std::int64_t count, std::int64_t grain, int threads,
   const std::function<void(std::int64_t, std::int64_t)>& body, const Monitor& monitor)
 {
-  const std::int64_t pieces = (count + grain - 1) / grain;
+  return parallelFrom(0, count, grain, threads, body, { monitor.progress, monitor.aborted, {} }) ==
+    count;
+}
+
+std::int64_t parallelFrom(std::int64_t first, std::int64_t count, std::int64_t grain, int threads,
+  const std::function<void(std::int64_t, std::int64_t)>& body, const Monitor& monitor)
+{
+  const std::int64_t pieces = (count - first + grain - 1) / grain;
   std::atomic<std::int64_t> nextPiece{ 0 };
   std::atomic<std::int64_t> piecesDone{ 0 };
   std::atomic<bool> stop{ false };
@@ -36,15 +43,24 @@ bool parallelFor(std::int64_t count, std::int64_t grain, int threads,
   {
     try
     {
-      for (std::int64_t piece = nextPiece++; piece < pieces && !stop; piece = nextPiece++)
+      while (!stop)
       {
-        body(piece * grain, std::min(count, (piece + 1) * grain));
+        const std::int64_t piece = nextPiece++; // once taken it is done, so that no gaps are left
+        if (piece >= pieces)
+        {
+          break;
+        }
+        const std::int64_t begin = first + piece * grain;
+        body(begin, std::min(count, begin + grain));
         const std::int64_t done = ++piecesDone;
         if (isCaller && monitor.progress)
         {
-          monitor.progress(static_cast<double>(done) / static_cast<double>(pieces));
+          const auto before = static_cast<double>(first) / static_cast<double>(grain);
+          monitor.progress(
+            (before + static_cast<double>(done)) / (before + static_cast<double>(pieces)));
         }
-        if (isCaller && monitor.aborted && monitor.aborted())
+        if (isCaller &&
+          ((monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused())))
         {
           stop = true;
         }
@@ -83,7 +99,7 @@ bool parallelFor(std::int64_t count, std::int64_t grain, int threads,
   {
     std::rethrow_exception(failure);
   }
-  return !stop;
+  return std::min(count, first + nextPiece * grain);
 }
 
 } // namespace schlieren

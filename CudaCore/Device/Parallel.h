@@ -22,4 +22,9 @@ bool parallelFor(std::int64_t count, std::int64_t grain, int threads,
   const std::function<void(std::int64_t begin, std::int64_t end)>& body,
   const Monitor& monitor = {});
 
+/// The same for [first, count), where a pause, asked like abort, ends it too. Returns where to go on: all before
+/// that is done, and nothing after it. At least one piece is done whatever the monitor says.
+std::int64_t parallelFrom(std::int64_t first, std::int64_t count, std::int64_t grain, int threads,
+  const std::function<void(std::int64_t begin, std::int64_t end)>& body, const Monitor& monitor);
+
 } // namespace schlieren

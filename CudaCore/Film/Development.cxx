@@ -28,44 +28,48 @@ Films filmsOf(
   return films;
 }
 
-void develop(Films& films, const Scene& scene, Image& image)
+PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, Image& image)
 {
-  const View& view = scene.view;
-  image.light = films.balance(scene.samplesPerPixel);
-  image.intensity = films.developIntensity(scene.samplesPerPixel, scene.threads);
+  const auto raysPerPixel = static_cast<double>(passes);
+  image.light = films.balance(raysPerPixel);
+  image.intensity = films.developIntensity(raysPerPixel, threads);
   if (films.isColored())
   {
-    image.color = films.developColor(scene.samplesPerPixel, scene.threads);
+    image.color = films.developColor(raysPerPixel, threads);
   }
-  const PixelArray<float> samples =
-    films.samples ? films.samples->developIntensity(1, scene.threads) : PixelArray<float>();
-  films.planes.clear(); // the filters want memory, too
+  return films.samples ? films.samples->developIntensity(1, threads) : PixelArray<float>();
+}
+
+void filterNoise(const PixelArray<float>& samples, const Scene& scene, Image& image)
+{
   for (PixelArray<float>* picture : { &image.intensity, &image.color })
   {
-    *picture = filtered(std::move(*picture), view.width, view.height, scene.noiseFilter,
+    *picture = filtered(std::move(*picture), scene.view.width, scene.view.height, scene.noiseFilter,
       scene.noiseFilterRadius, samples, scene.threads);
   }
 }
 
-PixelArray<float> undisturbedPicture(const Scene& scene, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, std::int64_t mostRays, const Monitor& monitor)
+bool UndisturbedPicture::addPass(const Monitor& monitor)
 {
-  Pass pass{ -margin, -margin, scene.view.width + 2 * margin, scene.view.height + 2 * margin,
+  const std::int64_t margin = exposure_.margin;
+  Pass pass{ -margin, -margin, scene_.view.width + 2 * margin, scene_.view.height + 2 * margin,
     { 0, 0 } };
-  const std::vector<RayExit> exits(static_cast<std::size_t>(pass.columns * pass.rows));
-  Films films = filmsOf(scene, cutoff, {}, mostRays);
-  for (std::int64_t number = 0; number < scene.samplesPerPixel; ++number)
+  if (!films_)
   {
-    if (monitor.aborted && monitor.aborted())
-    {
-      return {};
-    }
-    pass.offset = pixelOffset(number, scene.seed);
-    expose({ { pass, exits.data(), nullptr } }, cutoff, projection, margin, scene.filmEstimator,
-      scene.threads, films);
+    exits_.resize(static_cast<std::size_t>(pass.columns * pass.rows));
+    films_ = filmsOf(scene_, exposure_.cutoff, {}, exposure_.mostRays);
   }
+  pass.offset = pixelOffset(passes_, scene_.seed);
+  exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff, exposure_.projection,
+    margin, scene_.filmEstimator, scene_.threads, *films_, monitor);
+  passes_ += nextRow_ == 0 ? 1 : 0;
+  return nextRow_ == 0;
+}
+
+PixelArray<float> UndisturbedPicture::develop() const
+{
   Image image;
-  develop(films, scene, image);
+  filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);
   return std::move(image.intensity);
 }
 

@@ -257,38 +257,28 @@ void addSheet(const Rays& source, const std::vector<TracedRays>& passes, std::in
   }
 }
 
+/// Rays that start in rows `begin` ... `end` - 1, counted from the margin's lowest on.
 template <bool isTinted, class CutoffKind>
-RayCounts exposeBy(const CutoffKind& cutoff, const std::vector<TracedRays>& passes,
-  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
-  Films& films)
+RayCounts exposeRows(std::int64_t begin, std::int64_t end, const CutoffKind& cutoff,
+  const std::vector<TracedRays>& passes, const Projection& projection, std::int64_t margin,
+  FilmEstimator estimator, Films& films)
 {
   using Rays = RaysAtFilm<isTinted, CutoffKind>;
   const Rays rays(cutoff, projection, films, margin);
   const FilmSize film{ films.planes[0].width(), films.planes[0].height(), films.planes[0].one() };
-  constexpr std::int64_t piecesPerThread = 4;
-  constexpr std::int64_t fewestRows = 16;
-  const std::int64_t rowsPerPiece =
-    std::max(fewestRows, rays.rows / (piecesPerThread * threadCount(threads)));
   RayCounts counts;
-  std::mutex countsLock;
-  parallelFor(rays.rows, rowsPerPiece, threads,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      RayCounts countsHere;
-      Bands<Rays::planes> bands(films);
-      if (estimator == FilmEstimator::Sheet)
-      {
-        addSheet(rays, passes, begin, end, film, bands, countsHere);
-      }
-      else
-      {
-        addPhotons(rays, passes, begin, end, film, bands, countsHere);
-      }
-      const std::lock_guard<std::mutex> guard(countsLock);
-      counts.add(countsHere);
-    });
+  Bands<Rays::planes> bands(films);
+  if (estimator == FilmEstimator::Sheet)
+  {
+    addSheet(rays, passes, begin, end, film, bands, counts);
+  }
+  else
+  {
+    addPhotons(rays, passes, begin, end, film, bands, counts);
+  }
   return counts;
 }
+
 } // namespace
 
 Films::Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t mostRays)
@@ -354,18 +344,49 @@ RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
   const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
   Films& films)
 {
-  if (films.samples)
+  std::int64_t firstRow = 0;
+  return exposeFrom(
+    firstRow, passes, cutoff, projection, margin, estimator, threads, films, Monitor{});
+}
+
+RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& passes,
+  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, FilmEstimator estimator,
+  int threads, Films& films, const Monitor& monitor)
+{
+  constexpr std::int64_t piecesPerThread = 4;
+  constexpr std::int64_t fewestRows = 16;
+  constexpr std::int64_t mostRowsToPause = 64;
+  const std::int64_t rows = films.planes[0].height() + 2 * margin;
+  std::int64_t rowsPerPiece = std::max(fewestRows, rows / (piecesPerThread * threadCount(threads)));
+  if (monitor.paused)
   {
-    expose(passes, Shadowgraph{}, projection, margin, estimator, threads, *films.samples);
+    rowsPerPiece = std::min(rowsPerPiece, mostRowsToPause);
   }
-  return std::visit(
-    [&](const auto& kind)
+  RayCounts counts;
+  std::mutex countsLock;
+  const std::int64_t done = parallelFrom(
+    firstRow, rows, rowsPerPiece, threads,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      return films.tintOfRays
-        ? exposeBy<true>(kind, passes, projection, margin, estimator, threads, films)
-        : exposeBy<false>(kind, passes, projection, margin, estimator, threads, films);
+      if (films.samples)
+      {
+        exposeRows<false>(
+          begin, end, Shadowgraph{}, passes, projection, margin, estimator, *films.samples);
+      }
+      const RayCounts countsHere = std::visit(
+        [&](const auto& kind)
+        {
+          return films.tintOfRays
+            ? exposeRows<true>(begin, end, kind, passes, projection, margin, estimator, films)
+            : exposeRows<false>(begin, end, kind, passes, projection, margin, estimator, films);
+        },
+        cutoff);
+      const std::lock_guard<std::mutex> guard(countsLock);
+      counts.add(countsHere);
     },
-    cutoff);
+    monitor);
+  firstRow = done < rows ? done : 0;
+  return counts;
 }
 
 } // namespace schlieren

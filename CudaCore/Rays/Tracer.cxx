@@ -107,7 +107,12 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
 {
   const std::int64_t tilesAlong = (pass.columns + tileEdge - 1) / tileEdge;
   const std::int64_t tilesUp = (pass.rows + tileEdge - 1) / tileEdge;
-  std::vector<double> worstDrifts(static_cast<std::size_t>(tilesAlong * tilesUp), 0);
+  struct OfTile
+  {
+    double worstDrift = 0;
+    std::int64_t crossed = 0;
+  };
+  std::vector<OfTile> ofTiles(static_cast<std::size_t>(tilesAlong * tilesUp));
 
   const auto enterBlock = [&](std::int64_t column, std::int64_t row, RayBatch<Number, Lanes>& batch,
                             Entry(&entries)[Lanes], std::int64_t(&rays)[Lanes])
@@ -127,20 +132,26 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
     }
   };
   const auto leaveBlock = [&](const RayBatch<Number, Lanes>& batch, const Entry(&entries)[Lanes],
-                            const std::int64_t(&rays)[Lanes], double& worstDrift)
+                            const std::int64_t(&rays)[Lanes], OfTile& tile)
   {
     for (int i = 0; i < Lanes; ++i)
     {
       if (rays[i] >= 0)
       {
         traced.exits[static_cast<std::size_t>(rays[i])] = leaveGrid(task, batch, i, entries[i]);
-        worstDrift = std::max(worstDrift, static_cast<double>(batch.drift[i]));
+        tile.worstDrift = std::max(tile.worstDrift, static_cast<double>(batch.drift[i]));
+        tile.crossed += batch.fate[i] != RayFate::Missed ? 1 : 0;
       }
     }
   };
 
-  const bool finished = parallelFor(
-    tilesAlong * tilesUp, 1, threads,
+  if (traced.tilesDone == 0)
+  {
+    traced.worstDrift = 0;
+    traced.crossed = 0;
+  }
+  const std::int64_t done = parallelFrom(
+    traced.tilesDone, tilesAlong * tilesUp, 1, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       for (std::int64_t tile = begin; tile < end; ++tile)
@@ -159,16 +170,22 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
             enterBlock(column, row, batches[0], entries[0], rays[0]);
             enterBlock(column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
             marchBatches(task, batches[0], batches[1]);
-            double& worstDrift = worstDrifts[static_cast<std::size_t>(tile)];
-            leaveBlock(batches[0], entries[0], rays[0], worstDrift);
-            leaveBlock(batches[1], entries[1], rays[1], worstDrift);
+            OfTile& here = ofTiles[static_cast<std::size_t>(tile)];
+            leaveBlock(batches[0], entries[0], rays[0], here);
+            leaveBlock(batches[1], entries[1], rays[1], here);
           }
         }
       }
     },
     monitor);
-  traced.worstDrift = *std::max_element(worstDrifts.begin(), worstDrifts.end());
-  return finished;
+  for (const OfTile& tile : ofTiles)
+  {
+    traced.worstDrift = std::max(traced.worstDrift, tile.worstDrift);
+    traced.crossed += tile.crossed;
+  }
+  const bool isFinished = done == tilesAlong * tilesUp;
+  traced.tilesDone = isFinished ? 0 : done;
+  return isFinished;
 }
 
 template <class Number>

@@ -211,13 +211,16 @@ struct TracedPass
   std::vector<RayExit> exits;
   std::vector<float> gathered;
   std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
-  std::int64_t crossed = 0;           ///< of rays on the device: how many met the grid
+  std::int64_t crossed = 0;           ///< rays that met the grid
   double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
+  std::int64_t tilesDone =
+    0; ///< by traceOnCpu, which goes on there; 0 where it has not begun, or is done
 
   /// Makes room on the host.
   void resize(const Pass& pass, int fields)
   {
     onDevice.reset();
+    tilesDone = 0;
     const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
     exits.resize(rays);
     gathered.assign(rays * static_cast<std::size_t>(fields), 0);
@@ -241,8 +244,8 @@ enum class Simd
 /// The best one of this processor.
 Simd bestSimd();
 
-/// Traces a pass on the CPU into `traced`, which has its size. Returns false if aborted. `simd` must be one
-/// that the processor has.
+/// Traces a pass on the CPU into `traced`, which has its size, or goes on with it. Returns false if aborted or
+/// paused; the same call then does the rest. `simd` must be one that the processor has.
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd = bestSimd());

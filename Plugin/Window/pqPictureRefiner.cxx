@@ -2,18 +2,150 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureRefiner.h"
 
+#include "PicturesInViews.h"
+#include "pqInteraction.h"
+
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
+#include "pqServer.h"
 #include "pqServerManagerModel.h"
+#include "pqUndoStack.h"
 #include "pqView.h"
 
-#include <QPointer>
+#include "vtkCommand.h"
+#include "vtkEventQtSlotConnect.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMPropertyIterator.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
+
+#include <QElapsedTimer>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+
+// Seconds. A hurried picture leaves as much time for the view that is being turned: twelve a second.
+constexpr double hurriedTurn = 0.040;
+constexpr double thoroughTurn = 0.080;
+constexpr double shortestLimit = 0.010;
+constexpr double longestLimit = 0.060;
+
+// A picture of fewer pixels shows nothing.
+constexpr int largestReduction = 16;
+
+double secondsOf(const QElapsedTimer& timer) { return 1e-9 * double(timer.nsecsElapsed()); }
+
+pqPipelineSource* sourceOf(vtkSMProxy* filter)
+{
+  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
+    filter);
+}
+
+void update(vtkSMSourceProxy* filter, pqView* view)
+{
+  filter->UpdatePipeline(vtkSMPropertyHelper(view->getProxy(), "ViewTime").GetAsDouble());
+}
+
+vtkIdType pictureCount(vtkSMSourceProxy* filter)
+{
+  filter->UpdatePropertyInformation(filter->GetProperty("PictureCount"));
+  return vtkSMPropertyHelper(filter, "PictureCount").GetAsIdType();
+}
+
+bool isFinished(vtkSMSourceProxy* filter)
+{
+  filter->UpdatePropertyInformation(filter->GetProperty("Finished"));
+  return vtkSMPropertyHelper(filter, "Finished").GetAsInt() != 0;
+}
+
+/// When the properties that make the picture were last changed.
+vtkMTimeType changeOf(vtkSMProxy* filter)
+{
+  vtkMTimeType latest = 0;
+  auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(filter->NewPropertyIterator());
+  for (; !properties->IsAtEnd(); properties->Next())
+  {
+    const char* key = properties->GetKey();
+    if (!properties->GetProperty()->GetInformationOnly() && std::strcmp(key, "TimeLimit") != 0 &&
+      std::strcmp(key, "PreviewReduction") != 0 && std::strcmp(key, "Refine") != 0)
+    {
+      latest = std::max(latest, properties->GetProperty()->GetMTime());
+    }
+  }
+  return latest;
+}
+
+void setTimeLimit(vtkSMProxy* filter, double seconds)
+{
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMPropertyHelper(filter, "TimeLimit").Set(seconds);
+  filter->UpdateProperty("TimeLimit");
+}
+
+void setReduction(vtkSMProxy* filter, int reduction)
+{
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMPropertyHelper(filter, "PreviewReduction").Set(reduction);
+  filter->UpdateProperty("PreviewReduction");
+}
+
+/// Lets the next update go on, if there is anything left.
+void askForMore(vtkSMProxy* filter)
+{
+  SCOPED_UNDO_EXCLUDE();
+  filter->InvokeCommand("Refine");
+}
+
+} // namespace
+
+struct pqPictureRefiner::Job
+{
+  vtkWeakPointer<vtkSMSourceProxy> Filter;
+  Pace Haste;
+  bool IsFirstTurn = true;
+  bool WantsRoughPicture = false;
+};
+
+/// What has been learnt about a filter.
+struct pqPictureRefiner::Speed
+{
+  int Reduction = 4;
+  double Overhead = 0.02;        // seconds of a turn that its TimeLimit does not count
+  vtkMTimeType RoughPicture = 0; // changeOf the last hurried picture
+  bool IsRough = false;          // that is the last picture that has been shown
+
+  double limit() const
+  {
+    return std::clamp(thoroughTurn - this->Overhead, shortestLimit, longestLimit);
+  }
+};
 
 //------------------------------------------------------------------------------
 pqPictureRefiner::pqPictureRefiner(QObject* parentObject)
   : QObject(parentObject)
 {
+  this->Timer.setSingleShot(true);
+  QObject::connect(&this->Timer, &QTimer::timeout, this, [this]() { this->takeTurn(); });
+  QObject::connect(
+    pqInteraction::instance(), &pqInteraction::ended, this, &pqPictureRefiner::wakeUp);
+
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &pqPictureRefiner::forget);
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqPictureRefiner::watch);
+  for (pqView* view : model->findItems<pqView*>())
+  {
+    this->watch(view);
+  }
 }
+
+//------------------------------------------------------------------------------
+pqPictureRefiner::~pqPictureRefiner() = default;
 
 //------------------------------------------------------------------------------
 pqPictureRefiner* pqPictureRefiner::instance()
@@ -27,13 +159,246 @@ pqPictureRefiner* pqPictureRefiner::instance()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::refine(vtkSMProxy* filter, Pace)
+void pqPictureRefiner::watch(pqView* view)
 {
-  auto* source =
-    pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(filter);
-  if (source)
+  // Before ParaView looks whether there is anything to update.
+  this->Connection->Connect(view->getProxy(), vtkCommand::StartEvent, this,
+    SLOT(onStartRender(vtkObject*, unsigned long, void*, void*)), nullptr, 1);
+  this->Connection->Connect(
+    view->getProxy(), vtkCommand::EndEvent, this, SLOT(onEndRender(vtkObject*)));
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::forget(pqPipelineSource* source)
+{
+  this->Speeds.remove(source->getProxy());
+  this->Jobs.erase(std::remove_if(this->Jobs.begin(), this->Jobs.end(),
+                     [source](const Job& job) { return job.Filter == source->getProxy(); }),
+    this->Jobs.end());
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::refine(vtkSMProxy* proxy, Pace pace)
+{
+  auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
+  if (!picturesInViews::isSchlieren(sourceOf(filter)))
   {
-    source->renderAllViews();
-    Q_EMIT this->pictureChanged(filter);
+    return;
   }
+  const auto job = std::find_if(this->Jobs.begin(), this->Jobs.end(),
+    [filter](const Job& other) { return other.Filter == filter; });
+  if (job == this->Jobs.end())
+  {
+    this->Jobs << Job{ filter, pace };
+  }
+  else
+  {
+    *job = Job{ filter, pace };
+  }
+  this->wakeUp();
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureRefiner::hasJob(vtkSMSourceProxy* filter) const
+{
+  return std::any_of(this->Jobs.begin(), this->Jobs.end(),
+    [filter](const Job& job) { return job.Filter == filter; });
+}
+
+//------------------------------------------------------------------------------
+QList<pqPictureRefiner::Job>::iterator pqPictureRefiner::nextJob()
+{
+  // The user's own movements come first.
+  const bool isHurriedOnly = pqInteraction::instance()->isOn();
+  return std::find_if(this->Jobs.begin(), this->Jobs.end(),
+    [isHurriedOnly](const Job& job) { return !isHurriedOnly || job.Haste == Pace::Hurried; });
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::wakeUp()
+{
+  if (!this->Timer.isActive() && this->nextJob() != this->Jobs.end())
+  {
+    this->Timer.start(0);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::takeTurn()
+{
+  const auto next = this->nextJob();
+  if (next == this->Jobs.end())
+  {
+    return;
+  }
+  pqPipelineSource* source = sourceOf(next->Filter);
+  if (this->IsBusy || (source && source->getServer()->isProcessingPending()))
+  {
+    // This is an event loop within someone's update or rendering.
+    this->Timer.start(10);
+    return;
+  }
+  Job job = *next;
+  this->Jobs.erase(next);
+  this->IsBusy = true;
+  const bool isUnfinished = this->takeTurn(job);
+  this->IsBusy = false;
+  // Another job for this filter, or its end, may have come in meanwhile.
+  if (isUnfinished && sourceOf(job.Filter) && !this->hasJob(job.Filter))
+  {
+    this->Jobs << job;
+  }
+  this->wakeUp();
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureRefiner::takeTurn(Job& job)
+{
+  pqPipelineSource* source = sourceOf(job.Filter);
+  if (!source || source->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return false;
+  }
+  QList<QPointer<pqView>> views;
+  for (pqView* view : picturesInViews::showing(source))
+  {
+    views << view;
+  }
+  if (views.isEmpty())
+  {
+    return false;
+  }
+  return job.Haste == Pace::Hurried || job.WantsRoughPicture ? this->hurry(job, views)
+                                                             : this->goOn(job, views);
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
+{
+  const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
+  Speed speed = this->Speeds.value(filter);
+  const auto sharers = 1 +
+    std::count_if(this->Jobs.begin(), this->Jobs.end(),
+      [](const Job& other) { return other.Haste == Pace::Hurried; });
+  const vtkIdType count = pictureCount(filter);
+  speed.RoughPicture = changeOf(filter);
+  speed.IsRough = true;
+  job.WantsRoughPicture = false;
+
+  QElapsedTimer timer;
+  timer.start();
+  setReduction(filter, speed.Reduction);
+  update(filter, views.front());
+  const double updating = secondsOf(timer);
+  this->show(filter, count, views);
+  setReduction(filter, 1);
+  const double rendering = secondsOf(timer) - updating;
+
+  // Time goes with the number of pixels, except for what is spent on rendering.
+  const double available = std::max(hurriedTurn / double(sharers) - rendering, 0.25 * hurriedTurn);
+  const double best = speed.Reduction * std::sqrt(updating / available);
+  // Not to and fro between two: finer only where that is sure to be quick enough.
+  const double wanted =
+    best > speed.Reduction ? best : std::min<double>(speed.Reduction, 1.1 * best);
+  speed.Reduction = std::clamp(int(std::ceil(wanted)), 1, largestReduction);
+  this->Speeds[filter] = speed;
+  return job.Haste == Pace::Thorough;
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
+{
+  const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
+  Speed speed = this->Speeds.value(filter);
+  const vtkIdType count = pictureCount(filter);
+
+  QElapsedTimer timer;
+  timer.start();
+  setTimeLimit(filter, speed.limit());
+  update(filter, views.front());
+  const bool isUnfinished = !isFinished(filter);
+  const bool isShown = this->show(filter, count, views);
+  if (isUnfinished)
+  {
+    askForMore(filter);
+  }
+  setTimeLimit(filter, 0);
+  if (isUnfinished)
+  {
+    speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.7 * speed.Overhead);
+  }
+  speed.IsRough = false;
+  this->Speeds[filter] = speed;
+  // Until the first samples are there, the view would show the picture from before.
+  job.WantsRoughPicture =
+    job.IsFirstTurn && isUnfinished && !isShown && speed.RoughPicture != changeOf(filter);
+  job.IsFirstTurn = false;
+  return isUnfinished;
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureRefiner::show(
+  vtkSMSourceProxy* filter, vtkIdType countBefore, const QList<QPointer<pqView>>& views)
+{
+  // Nothing is what is left of a picture that failed.
+  if (pictureCount(filter) == countBefore && filter->GetDataInformation(0)->GetNumberOfPoints() > 0)
+  {
+    return false;
+  }
+  for (const QPointer<pqView>& view : views)
+  {
+    if (view)
+    {
+      view->forceRender();
+    }
+  }
+  Q_EMIT this->pictureChanged(filter);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::onStartRender(vtkObject* view, unsigned long, void*, void* isInteractive)
+{
+  const bool isForUser =
+    *static_cast<int*>(isInteractive) != 0 || pqInteraction::instance()->isAnsweredBy(view);
+  pqInteraction::instance()->setAnswered(view);
+  if (this->IsBusy || !isForUser)
+  {
+    return;
+  }
+  for (pqPipelineSource* source : picturesInViews::filters())
+  {
+    vtkSMSourceProxy* filter = source->getSourceProxy();
+    const Speed speed = this->Speeds.value(filter);
+    const QList<pqView*> views = picturesInViews::showing(source);
+    if ((speed.IsRough || this->hasJob(filter)) &&
+      std::any_of(
+        views.begin(), views.end(), [view](pqView* shown) { return shown->getProxy() == view; }))
+    {
+      setTimeLimit(filter, speed.limit());
+      this->Limited << filter;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::onEndRender(vtkObject*)
+{
+  for (const vtkWeakPointer<vtkSMSourceProxy>& filter : this->Limited)
+  {
+    if (!filter)
+    {
+      continue;
+    }
+    if (!isFinished(filter))
+    {
+      askForMore(filter);
+      if (!this->hasJob(filter))
+      {
+        this->refine(filter, Pace::Thorough);
+      }
+    }
+    setTimeLimit(filter, 0);
+  }
+  this->Limited.clear();
 }

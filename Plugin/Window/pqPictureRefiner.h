@@ -2,12 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <QObject>
+#include "vtkNew.h"
+#include "vtkType.h" // for vtkIdType
+#include "vtkWeakPointer.h"
 
+#include <QHash>
+#include <QList>
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+
+class pqPipelineSource;
+class pqView;
+class vtkEventQtSlotConnect;
+class vtkObject;
 class vtkSMProxy;
+class vtkSMSourceProxy;
 
 /// Brings the pictures of Schlieren filters up to date in the window, in pieces so short that it always
 /// answers.
+///
+/// A turn is one update of one filter, ended by its TimeLimit, and a rendering of the views that show it;
+/// between turns the window does whatever else there is to do, and filters take turns in a circle. Outside
+/// its turns a filter that is not finished is ready to go on, without a limit: whatever else updates it
+/// (Apply, a screenshot, a script) gets the whole picture.
 class pqPictureRefiner : public QObject
 {
   Q_OBJECT
@@ -31,6 +49,34 @@ Q_SIGNALS:
   /// Views now show another picture of the filter.
   void pictureChanged(vtkSMProxy* filter);
 
+private Q_SLOTS:
+  void takeTurn();
+  void wakeUp();
+  void watch(pqView* view);
+  void forget(pqPipelineSource* source);
+  void onStartRender(vtkObject* view, unsigned long event, void* client, void* isInteractive);
+  void onEndRender(vtkObject* view);
+
 private:
+  struct Job;
+  struct Speed;
+
   explicit pqPictureRefiner(QObject* parent);
+  ~pqPictureRefiner() override;
+
+  /// All return whether there is more to do.
+  bool takeTurn(Job& job);
+  bool hurry(Job& job, const QList<QPointer<pqView>>& views);
+  bool goOn(Job& job, const QList<QPointer<pqView>>& views);
+
+  bool show(vtkSMSourceProxy* filter, vtkIdType countBefore, const QList<QPointer<pqView>>& views);
+  QList<Job>::iterator nextJob();
+  bool hasJob(vtkSMSourceProxy* filter) const;
+
+  QList<Job> Jobs; // the next one first
+  QHash<vtkSMProxy*, Speed> Speeds;
+  QTimer Timer;
+  bool IsBusy = false;
+  QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user
+  vtkNew<vtkEventQtSlotConnect> Connection;
 };

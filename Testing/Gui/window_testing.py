@@ -9,6 +9,8 @@ from xml.sax.saxutils import quoteattr
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
+VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
+        "/MultiViewWidget1/Container/Frame.{}/CentralWidgetFrame/Viewport")
 PROPERTIES = (PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents"
               "/PropertiesFrame/ProxyPanel")
 
@@ -18,6 +20,7 @@ class Session:
 
     def __init__(self):
         self.lines = []
+        self.scripts = 0
 
     def event(self, widget, command, argument=""):
         self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} "
@@ -72,6 +75,26 @@ class Session:
         self.menu("menu_File", "actionFileSaveServerState")
         self.event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected",
                    os.path.join(FOLDER, name))
+
+    def python(self, script):
+        """Runs a Python script within the window, as a macro; see inside_window.py."""
+        folder = os.path.join(self.no_welcome(), "ParaView", "Macros")
+        os.makedirs(folder, exist_ok=True)
+        self.scripts += 1
+        with open(os.path.join(folder, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
+            file.write("from paraview.simple import *\nfrom inside_window import *\n" + script)
+        self.menu("menu_Macros", f"step{self.scripts}")
+
+    def drag_view(self, frame, *places, button=1):
+        """Drags with a button (1 left, 2 right) from place to place in the view of a frame, whose sides are
+        0 to 1."""
+        self.view_event(frame, "mousePress", places[0], button, button)
+        for place in places[1:]:
+            self.view_event(frame, "mouseMove", place, button, button)
+        self.view_event(frame, "mouseRelease", places[-1], button, 0)
+
+    def view_event(self, frame, event, place, button, buttons):
+        self.event(VIEW.format(frame), event, f"({place[0]:g},{place[1]:g},{button},{buttons},0)")
 
     def play(self, script, seconds=240):
         """Plays it after the Python script `script`, and fails where a step does or VTK complains."""

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Film/GrowingPicture.h"
+
+#include <utility>
+
+namespace schlieren
+{
+
+GrowingPicture::GrowingPicture(const Scene& scene)
+  : scene_(scene)
+  , means_(scene.view.width, scene.view.height, scene.threads)
+{
+}
+
+void GrowingPicture::begin(const Exposure& exposure, std::optional<Tint> tint)
+{
+  exposure_ = exposure;
+  films_ = filmsOf(scene_, exposure.cutoff, std::move(tint), exposure.mostRays);
+  if (scene_.cutoff == Cutoff::Background)
+  {
+    undisturbed_.emplace(scene_, exposure_);
+  }
+}
+
+bool GrowingPicture::add(
+  const TracedPass& traced, const Pass& pass, Rays rays, const Monitor& monitor)
+{
+  if (traced.onDevice)
+  {
+    if (!filmOnDevice_)
+    {
+      filmOnDevice_ = std::make_unique<CudaFilm>(*films_);
+    }
+    filmOnDevice_->expose(*traced.onDevice, pass, exposure_.cutoff, exposure_.projection,
+      exposure_.margin, scene_.filmEstimator);
+    ++passes_;
+    return true;
+  }
+  waiting_.push_back({ pass, traced.exits.data(), traced.gathered.data() });
+  const bool isLast = passes_ + 1 == scene_.samplesPerPixel;
+  if (rays == Rays::Go || isLast || monitor.paused || nextRow_ > 0)
+  {
+    counts_.add(exposeFrom(nextRow_, waiting_, exposure_.cutoff, exposure_.projection,
+      exposure_.margin, scene_.filmEstimator, scene_.threads, *films_, monitor));
+    if (nextRow_ > 0)
+    {
+      waiting_.pop_back();
+      return false;
+    }
+    if (!isLast || monitor.paused)
+    {
+      means_.add(waiting_);
+      waiting_.clear();
+    }
+  }
+  ++passes_;
+  return true;
+}
+
+bool GrowingPicture::completeUndisturbed(const Monitor& monitor)
+{
+  while (undisturbed_ && undisturbed_->passes() < passes_)
+  {
+    if (!undisturbed_->addPass(monitor))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool GrowingPicture::isWhole() const
+{
+  return passes_ > 0 && nextRow_ == 0 && (!undisturbed_ || undisturbed_->passes() == passes_);
+}
+
+void GrowingPicture::developCounts(Image& image)
+{
+  if (filmOnDevice_)
+  {
+    counts_ = filmOnDevice_->develop(*films_, means_);
+  }
+  image.samples = static_cast<int>(passes_);
+  image.undisturbedLevel = undisturbedLevel(exposure_.cutoff);
+  image.raysTraced = counts_.crossed;
+  image.stepsTaken = counts_.steps;
+  image.raysBlocked = counts_.blocked;
+  image.raysLost = counts_.lost;
+  image.saturatedShare = counts_.saturatedShare();
+}
+
+void GrowingPicture::develop(Image& image)
+{
+  developCounts(image);
+  filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);
+  means_.develop(waiting_, image);
+  if (undisturbed_)
+  {
+    image.background = undisturbed_->develop();
+    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection.distance);
+  }
+}
+
+bool GrowingPicture::finish(Image& image, const Monitor& monitor)
+{
+  developCounts(image);
+  filmOnDevice_.reset();
+  const PixelArray<float> samples = schlieren::develop(*films_, passes_, scene_.threads, image);
+  films_.reset(); // all that follows wants memory, too
+  filterNoise(samples, scene_, image);
+  means_.develop(waiting_, image);
+  if (!completeUndisturbed(monitor))
+  {
+    return false;
+  }
+  if (undisturbed_)
+  {
+    image.background = undisturbed_->develop();
+    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection.distance);
+  }
+  return true;
+}
+
+} // namespace schlieren

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Film/CudaFilm.h"
+#include "Film/Development.h"
+#include "Film/Exposure.h"
+#include "Film/PixelMeans.h"
+#include "Rays/Tracer.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Whether the rays of a pass stay where they are until the picture is finished.
+enum class Rays
+{
+  Stay,
+  Go
+};
+
+/// A picture that is summed up pass by pass, as a whole or in pieces: not a bit of it depends on where it was
+/// stopped. Where `paused` of the monitor is set, passes are exposed one by one, so that there is a picture
+/// to show; else those that stay are exposed together, which is faster.
+class GrowingPicture
+{
+public:
+  explicit GrowingPicture(const Scene& scene);
+  GrowingPicture(const GrowingPicture&) = delete;
+  GrowingPicture& operator=(const GrowingPicture&) = delete;
+
+  /// What the first pass has to be traced for.
+  void begin(const Exposure& exposure, std::optional<Tint> tint);
+  bool isBegun() const { return films_.has_value(); }
+  const Cutoffs& cutoff() const { return exposure_.cutoff; } ///< once begun
+
+  /// Passes that have been added.
+  std::int64_t passes() const { return passes_; }
+
+  /// Adds the next pass. False if aborted or paused before all of its light is on the films: the same pass is
+  /// then to be added again.
+  bool add(const TracedPass& traced, const Pass& pass, Rays rays, const Monitor& monitor);
+
+  /// Makes what a camera sees without the flow have as many passes, where that is wanted. False if aborted or
+  /// paused before.
+  bool completeUndisturbed(const Monitor& monitor);
+
+  /// Whether the films hold whole passes, and could be developed.
+  bool isWhole() const;
+
+  /// Writes the picture of the passes so far into the image. More may follow.
+  void develop(Image& image);
+
+  /// Writes the picture into the image, with what has been left for the end, and gives all memory back. False
+  /// if aborted.
+  bool finish(Image& image, const Monitor& monitor);
+
+private:
+  void developCounts(Image& image);
+
+  Scene scene_;
+  Exposure exposure_;
+  std::optional<Films> films_;
+  std::unique_ptr<CudaFilm> filmOnDevice_; ///< of passes that lie there
+  PixelMeans means_;
+  RayCounts counts_;
+  std::vector<TracedRays> waiting_; ///< not in means_ yet
+  std::int64_t passes_ = 0;
+  std::int64_t nextRow_ = 0; ///< of the pass that is being added
+  std::optional<UndisturbedPicture> undisturbed_;
+};
+
+} // namespace schlieren

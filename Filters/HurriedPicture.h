@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+/// For a window to show while things move: a picture that lies where the whole one does, with fewer pixels and
+/// one ray for each. `reduction`: pixels of the whole picture, along each axis, that one of it stands for.
+
+/// Pixels along a side of the hurried picture, at least 1.
+int hurriedPixels(int pixels, int reduction);
+
+/// Its view: the same place, exactly along one axis; along the other, where `reduction` does not divide the
+/// pixels, up to a pixel more. `frame`: that of the whole picture.
+schlieren::View hurriedView(
+  const schlieren::View& view, const schlieren::Frame& frame, int reduction);
+
+/// Makes of a whole picture's scene that of the hurried one. What counts in pixels keeps its size in data
+/// units; but a background whose period is left to the filter stays coarse enough to be seen.
+void hurry(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction);

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PictureStatus.h"
+
+#include "Schlieren.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace
+{
+
+std::string textOf(const char* format, double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string textOf(double value) { return textOf("%.2g", value); }
+
+std::string samplesInWords(const schlieren::Scene& scene)
+{
+  return std::to_string(scene.samplesPerPixel) +
+    (scene.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
+}
+
+/// Like "85 million rays/s".
+std::string speedInWords(double raysPerSecond)
+{
+  constexpr double million = 1e6;
+  return raysPerSecond >= 10 * million ? textOf("%.0f million rays/s", raysPerSecond / million)
+    : raysPerSecond >= 0.1 * million   ? textOf("%.1f million rays/s", raysPerSecond / million)
+                                       : textOf("%.0f rays/s", raysPerSecond);
+}
+
+std::string deviceInWords(const schlieren::Image& image)
+{
+  return image.device == schlieren::Device::Cuda
+    ? "CUDA"
+    : "CPU (" + std::to_string(image.threads) + (image.threads == 1 ? " thread)" : " threads)");
+}
+
+/// Straight rays leave the data beside where refracted ones do; those are as exact as their steps, which keep
+/// |p| = n only nearly.
+std::string accuracyInWords(const schlieren::Image& image)
+{
+  if (image.pathModel == schlieren::PathModel::Refracted)
+  {
+    return "refracted rays, |p| = n within " + textOf(image.momentumDrift);
+  }
+  const double pixels = image.displacementBound / image.frame.pixelSize;
+  return std::isfinite(pixels) ? "straight rays, within " + textOf(pixels) + " pixels of refracted"
+                               : "straight rays, of unknown error";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string statusInWords(
+  const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
+{
+  std::string words = samplesInWords(scene) + ", ";
+  if (raysPerSecond > 0)
+  {
+    words += speedInWords(raysPerSecond) + " on ";
+  }
+  return words + deviceInWords(image) + ", " + accuracyInWords(image);
+}

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace schlieren
+{
+struct Image;
+struct Scene;
+} // namespace schlieren
+
+/// A picture in words that fit in a line: its samples, the speed and the device, and how exact its rays are.
+/// `raysPerSecond`: 0 where it is not known.
+std::string statusInWords(
+  const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond);

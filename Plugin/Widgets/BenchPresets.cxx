@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BenchPresets.h"
+
+#include "vtkSchlierenFilter.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace
+{
+
+using Filter = vtkSchlierenFilter;
+
+/// What the others are when a preset does not say otherwise: the filter's defaults.
+const std::vector<PresetSetting> defaults = {
+  { "Cutoff", Filter::KNIFE_EDGE, nullptr },
+  { "KnifeEdgeAngle", 0, nullptr },
+  { "CutoffOffset", 0, nullptr },
+  { "InvertCutoff", 0, nullptr },
+  { "AutoKScale", 1, nullptr },
+  { "KFromOptics", 0, nullptr },
+  { "FocalLength", 1, nullptr },
+  { "SourceWidth", 1, nullptr },
+  { "SourceLength", 10, nullptr },
+  { "CutoffPosition", 0, nullptr },
+  { "ColorFilterImage", 0, "" },
+  { "FringeMode", Filter::INFINITE_FRINGES, nullptr },
+  { "FringeSpacing", 0, nullptr },
+  { "FringeAngle", 0, nullptr },
+  { "BeamAngle", 0, nullptr },
+  { "WhiteLight", 0, nullptr },
+  { "BackgroundPattern", Filter::DOTS, nullptr },
+  { "BackgroundDistance", -1, nullptr },
+  { "BackgroundPeriod", 0, nullptr },
+  { "ScreenDistance", -1, nullptr },
+  { "FocusOffset", 0, nullptr },
+  { "LightSource", Filter::COLLIMATED, nullptr },
+  { "SourceShape", Filter::POINT, nullptr },
+};
+
+BenchPreset preset(const char* name, const std::vector<PresetSetting>& changes)
+{
+  BenchPreset made{ name, defaults };
+  for (const PresetSetting& change : changes)
+  {
+    *std::find_if(made.settings.begin(), made.settings.end(),
+      [&](const PresetSetting& setting)
+      { return std::strcmp(setting.property, change.property) == 0; }) = change;
+  }
+  return made;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<BenchPreset>& benchPresets()
+{
+  static const std::vector<BenchPreset> presets = {
+    preset("Vertical knife edge", {}),
+    preset("Horizontal knife edge", { { "KnifeEdgeAngle", 90, nullptr } }),
+    preset("Toepler bench: mirror of 1 m, slit of 1 mm",
+      { { "KFromOptics", 1, nullptr }, { "SourceShape", Filter::SLIT, nullptr } }),
+    preset("Bright field", { { "Cutoff", Filter::CIRCULAR, nullptr } }),
+    preset("Dark field", { { "Cutoff", Filter::CIRCULAR_COMPLEMENT, nullptr } }),
+    preset("Colour wheel", { { "Cutoff", Filter::COLOR_FILTER, nullptr } }),
+    preset("Shadowgraph", { { "Cutoff", Filter::SHADOWGRAPH, nullptr } }),
+    preset("Interferogram, infinite fringes", { { "Cutoff", Filter::INTERFEROGRAM, nullptr } }),
+    preset("Interferogram, finite fringes",
+      { { "Cutoff", Filter::INTERFEROGRAM, nullptr },
+        { "FringeMode", Filter::FINITE_FRINGES, nullptr }, { "FringeAngle", 90, nullptr } }),
+    preset("Interferogram in white light",
+      { { "Cutoff", Filter::INTERFEROGRAM, nullptr }, { "WhiteLight", 1, nullptr } }),
+    preset("Background-oriented schlieren, dots",
+      { { "Cutoff", Filter::BACKGROUND_ORIENTED, nullptr } }),
+  };
+  return presets;
+}

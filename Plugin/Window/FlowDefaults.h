@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which index model suits a flow, by the names, units and ranges of its arrays.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct FlowArray
+{
+  enum Association
+  {
+    Points, ///< as in vtkDataObject::FieldAssociations
+    Cells
+  };
+
+  std::string name;
+  Association association;
+  int components;
+  std::array<double, 2> range;
+};
+
+/// How a Schlieren filter gets the refractive index.
+struct FlowDefaults
+{
+  /// Values of the property IndexModel.
+  enum IndexModel
+  {
+    GladstoneDale = 0,
+    RefractiveIndex = 1,
+    Refractivity = 2,
+    Mixture = 3,
+    Ciddor = 4
+  };
+
+  IndexModel indexModel = GladstoneDale;
+  FlowArray::Association association = FlowArray::Points;
+
+  /// Properties that take an array, and the array. The first is what the flow is shown by. None: the flow
+  /// has no array that could be used.
+  std::vector<std::pair<std::string, std::string>> arrays;
+
+  /// Properties that take a factor to SI units.
+  std::vector<std::pair<std::string, double>> scales;
+
+  /// Of a mixture: arrays and gases, and whether the arrays are fractions of the volume.
+  std::vector<std::string> fractions;
+  std::vector<std::string> gases;
+  bool ofVolume = false;
+
+  /// What was chosen, and what was not understood, in words for the user.
+  std::string message;
+};
+
+FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays);

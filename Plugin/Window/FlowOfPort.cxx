@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlowOfPort.h"
+
+#include "pqOutputPort.h"
+#include "pqPipelineSource.h"
+#include "vtkDataObject.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
+#include "vtkSMPropertyHelper.h"
+
+namespace
+{
+
+/// A property that repeats its command for each of the values.
+void setStrings(vtkSMProxy* filter, const char* name, const std::vector<std::string>& values)
+{
+  vtkSMPropertyHelper property(filter, name);
+  property.SetNumberOfElements(static_cast<unsigned int>(values.size()));
+  for (unsigned int i = 0; i < values.size(); ++i)
+  {
+    property.Set(i, values[i].c_str());
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+QString problemOfFlow(pqOutputPort* port)
+{
+  if (!port)
+  {
+    return "There is no flow to make a picture of. Open data, press Apply, and select them in the "
+           "Pipeline Browser.";
+  }
+  const QString name = "'" + port->getSource()->getSMName() + "'";
+  if (port->getSource()->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return name + " has not been applied yet. Press Apply first.";
+  }
+  vtkPVDataInformation* info = port->getDataInformation();
+  if (info->IsNull() || info->GetNumberOfCells() < 1)
+  {
+    return name + " has no cells to send light through. Select data that fill a volume.";
+  }
+  if (!info->HasDataSetType("vtkDataSet"))
+  {
+    return name + " is no data set in space. Select data that fill a volume.";
+  }
+  if (flowDefaults(arraysOfFlow(port)).arrays.empty())
+  {
+    return name +
+      " has no array with one value at a point or cell, so that nothing tells its refractive "
+      "index. Load or compute a density.";
+  }
+  return QString();
+}
+
+//------------------------------------------------------------------------------
+std::vector<FlowArray> arraysOfFlow(pqOutputPort* port)
+{
+  std::vector<FlowArray> arrays;
+  for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
+  {
+    vtkPVDataSetAttributesInformation* info =
+      port->getDataInformation()->GetAttributeInformation(association);
+    for (int i = 0; i < info->GetNumberOfArrays(); ++i)
+    {
+      vtkPVArrayInformation* array = info->GetArrayInformation(i);
+      const double* range = array->GetComponentFiniteRange(0);
+      arrays.push_back(
+        { array->GetName(), association, array->GetNumberOfComponents(), { range[0], range[1] } });
+    }
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name)
+{
+  vtkPVArrayInformation* array = port->getDataInformation()->GetArrayInformation(name, association);
+  if (!array)
+  {
+    return { 0, -1 };
+  }
+  const double* range = array->GetComponentFiniteRange(0);
+  return { range[0], range[1] };
+}
+
+//------------------------------------------------------------------------------
+void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
+{
+  vtkSMPropertyHelper(filter, "IndexModel").Set(defaults.indexModel);
+  for (const auto& [property, array] : defaults.arrays)
+  {
+    vtkSMPropertyHelper(filter, property.c_str())
+      .SetInputArrayToProcess(defaults.association, array.c_str());
+  }
+  for (const auto& [property, scale] : defaults.scales)
+  {
+    vtkSMPropertyHelper(filter, property.c_str()).Set(scale);
+  }
+  if (!defaults.fractions.empty())
+  {
+    setStrings(filter, "MixtureArrays", defaults.fractions);
+    setStrings(filter, "MixtureGases", defaults.gases);
+    vtkSMPropertyHelper(filter, "FractionType").Set(defaults.ofVolume ? 1 : 0);
+  }
+}

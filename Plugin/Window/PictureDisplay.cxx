@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PictureDisplay.h"
+
+#include "vtkDataObject.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMTrace.h"
+#include "vtkSMTransferFunctionProxy.h"
+
+#include <string>
+
+namespace
+{
+
+/// Values of the properties Cutoff and BackgroundPattern.
+enum
+{
+  Shadowgraph = 1,
+  ColorFilter = 5,
+  Interferogram = 6,
+  BackgroundOriented = 7,
+  PatternPicture = 2
+};
+
+int valueOf(vtkSMProxy* proxy, const char* name)
+{
+  return vtkSMPropertyHelper(proxy, name).GetAsInt();
+}
+
+bool hasColors(vtkSMProxy* filter)
+{
+  const int cutoff = valueOf(filter, "Cutoff");
+  return cutoff == ColorFilter || valueOf(filter, "ColorByField") != 0 ||
+    (cutoff == Interferogram && valueOf(filter, "WhiteLight") != 0) ||
+    (cutoff == BackgroundOriented && valueOf(filter, "BackgroundPattern") == PatternPicture);
+}
+
+double white(vtkSMProxy* filter) { return valueOf(filter, "Cutoff") == Shadowgraph ? 2 : 1; }
+
+std::string shownArray(vtkSMProxy* representation)
+{
+  const char* name =
+    vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
+  return name ? name : "";
+}
+
+/// What is white, where the colour map goes from 0 up to one of the values of white(); else 0.
+double shownWhite(vtkSMProxy* representation)
+{
+  vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!colors)
+  {
+    return 0;
+  }
+  // Nodes of four values; the first is the place.
+  const auto nodes = vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray();
+  if (nodes.size() < 8 || nodes.front() != 0)
+  {
+    return 0;
+  }
+  const double last = nodes[nodes.size() - 4];
+  return last == 1 || last == 2 ? last : 0;
+}
+
+void setValue(vtkSMProxy* proxy, const char* name, int value)
+{
+  vtkSMPropertyHelper property(proxy, name);
+  if (property.GetAsInt() != value)
+  {
+    property.Set(value);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
+{
+  const bool isColored = hasColors(filter);
+  setValue(representation, "UseSeparateColorMap", 1);
+  vtkSMPVRepresentationProxy::SetScalarColoring(
+    representation, isColored ? "Color" : "Intensity", vtkDataObject::POINT);
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
+    setValue(representation, "MapScalars", isColored ? 0 : 1);
+  }
+  representation->UpdateVTKObjects();
+  vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!isColored && colors)
+  {
+    vtkSMTransferFunctionProxy::ApplyPreset(colors, "Grayscale", false);
+    vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, 0, white(filter));
+    // The default makes room for light that gathers, and all else would darken.
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", colors);
+    vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode").Set(-1);
+    colors->UpdateVTKObjects();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool PictureDisplay::isApplied(vtkSMProxy* representation)
+{
+  if (!representation->GetProperty("ColorArrayName") ||
+    !representation->GetProperty("MapScalars") ||
+    !representation->GetProperty("UseSeparateColorMap"))
+  {
+    return false;
+  }
+  const std::string array = shownArray(representation);
+  const bool isMapped = valueOf(representation, "MapScalars") != 0;
+  return (array == "Color" && !isMapped) ||
+    (array == "Intensity" && isMapped && valueOf(representation, "UseSeparateColorMap") != 0 &&
+      shownWhite(representation) > 0);
+}
+
+//------------------------------------------------------------------------------
+bool PictureDisplay::suits(vtkSMProxy* representation, vtkSMProxy* filter)
+{
+  return hasColors(filter)
+    ? shownArray(representation) == "Color"
+    : shownArray(representation) == "Intensity" && shownWhite(representation) == white(filter);
+}

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How the picture of a Schlieren filter is to be seen: in grey as on film, or in its own colours.
+#pragma once
+
+class vtkSMProxy;
+
+namespace PictureDisplay
+{
+
+/// Shows what the filter's cutoff makes: Intensity in grey, from 0 to 1, of a shadowgraph to 2, with a
+/// colour map that no other picture shares; or Color as it is.
+void apply(vtkSMProxy* representation, vtkSMProxy* filter);
+
+/// Whether it is shown as apply() does it for some cutoff, that is, nobody has chosen something else.
+bool isApplied(vtkSMProxy* representation);
+
+/// Whether it is shown as apply() does it for the filter's cutoff.
+bool suits(vtkSMProxy* representation, vtkSMProxy* filter);
+
+} // namespace PictureDisplay

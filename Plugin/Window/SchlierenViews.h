@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pictures of the selected flow beside its 3-D view, made in one step.
+#pragma once
+
+#include <QString>
+
+class pqOutputPort;
+
+namespace SchlierenViews
+{
+
+enum class Arrangement
+{
+  OnePicture,
+  ThreePictures, ///< knife edge, shadowgraph and interferogram of one medium
+  Comparison     ///< straight and bent light, with linked cameras
+};
+
+/// What was made of the data, or, where nothing could be made, why.
+struct Result
+{
+  bool isMade;
+  QString message;
+};
+
+/// Makes filters, views and what they show: one undo step. Where a Schlieren filter or what is made from
+/// its picture is selected, it is that filter's flow and settings that are used.
+Result add(Arrangement arrangement);
+
+} // namespace SchlierenViews

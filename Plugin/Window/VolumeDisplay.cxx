@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeDisplay.h"
+
+#include "FlowDefaults.h"
+#include "FlowOfPort.h"
+
+#include "pqDataRepresentation.h"
+#include "pqOutputPort.h"
+#include "pqPipelineSource.h"
+#include "pqRenderView.h"
+#include "pqServer.h"
+#include "vtkDataObject.h"
+#include "vtkNew.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMTrace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/// The array's value where its refractivity is that of the surroundings; NaN where that takes several
+/// arrays to know.
+double ambientValue(vtkSMProxy* filter, pqOutputPort* picture)
+{
+  const std::array<double, 2> ambient =
+    rangeOfArray(picture, vtkDataObject::FIELD, "AmbientRefractivity");
+  if (ambient[0] <= ambient[1])
+  {
+    const char* gas = vtkSMPropertyHelper(filter, "Gas").GetAsString();
+    switch (vtkSMPropertyHelper(filter, "IndexModel").GetAsInt())
+    {
+      case FlowDefaults::GladstoneDale:
+        if (!gas || !*gas || std::strcmp(gas, "Custom") == 0)
+        {
+          return ambient[0] /
+            (vtkSMPropertyHelper(filter, "GladstoneDaleConstant").GetAsDouble() *
+              vtkSMPropertyHelper(filter, "DensityScale").GetAsDouble());
+        }
+        break;
+      case FlowDefaults::RefractiveIndex:
+        return 1 + ambient[0];
+      case FlowDefaults::Refractivity:
+        return ambient[0];
+      default:
+        break;
+    }
+  }
+  return std::nan("");
+}
+
+/// Clear at the ambient value, dim where the field is furthest from it.
+void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double ambient)
+{
+  constexpr double most = 0.5;
+  const double furthest = std::max(range[1] - ambient, ambient - range[0]);
+  const auto opacityAt = [&](double value)
+  { return furthest > 0 ? most * std::abs(value - ambient) / furthest : 0; };
+  std::vector<double> nodes;
+  for (const double value : { range[0], ambient, range[1] })
+  {
+    if (nodes.empty() || value > nodes[nodes.size() - 4])
+    {
+      const double node[4] = { value, opacityAt(value), 0.5, 0 };
+      nodes.insert(nodes.end(), node, node + 4);
+    }
+  }
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", opacity);
+  vtkSMPropertyHelper(opacity, "Points").Set(nodes.data(), static_cast<unsigned int>(nodes.size()));
+  opacity->UpdateVTKObjects();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool isImage(pqOutputPort* port)
+{
+  return port->getDataInformation()->DataSetTypeIsA("vtkImageData");
+}
+
+//------------------------------------------------------------------------------
+void showAsVolume(
+  pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults, pqPipelineSource* picture)
+{
+  if (!isImage(flow) || defaults.arrays.empty())
+  {
+    return;
+  }
+  pqDataRepresentation* before = flow->getRepresentation(view);
+  if (before && before->isVisible() &&
+    std::strcmp(vtkSMPropertyHelper(before->getProxy(), "Representation").GetAsString(), "Outline"))
+  {
+    return;
+  }
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  vtkSMProxy* shown =
+    controller->Show(flow->getSourceProxy(), flow->getPortNumber(), view->getRenderViewProxy());
+  const std::string& array = defaults.arrays.front().second;
+  const std::array<double, 2> range = rangeOfArray(flow, defaults.association, array.c_str());
+  if (!shown || !(range[0] < range[1]))
+  {
+    return;
+  }
+  // Somebody's colours and opacities of this array stay.
+  const std::string name = array + ".PiecewiseFunction";
+  vtkSMSessionProxyManager* manager = flow->getServer()->proxyManager();
+  const bool isNew = !manager->GetProxy("piecewise_functions", name.c_str());
+  vtkSMPVRepresentationProxy::SetScalarColoring(shown, array.c_str(), defaults.association);
+  if (isNew)
+  {
+    vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown, false, true);
+    vtkSMProxy* opacity = vtkSMPropertyHelper(shown, "ScalarOpacityFunction").GetAsProxy();
+    double ambient = ambientValue(picture->getProxy(), picture->getOutputPort(0));
+    if (!(range[0] <= ambient && ambient <= range[1]))
+    {
+      ambient = range[0];
+    }
+    if (opacity)
+    {
+      setOpacity(opacity, range, ambient);
+    }
+  }
+  vtkSMRepresentationProxy::SetRepresentationType(shown, "Volume");
+  shown->UpdateVTKObjects();
+}

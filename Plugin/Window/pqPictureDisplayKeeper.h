@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QObject>
+
+#include "vtkNew.h"
+
+class pqPipelineSource;
+class vtkEventQtSlotConnect;
+class vtkObject;
+
+/// Keeps pictures displayed as their filters' cutoffs want it, whoever changes a cutoff: grey, twice as
+/// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else.
+class pqPictureDisplayKeeper : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit pqPictureDisplayKeeper(QObject* parent);
+  ~pqPictureDisplayKeeper() override;
+
+private Q_SLOTS:
+  void watch(pqPipelineSource* source);
+  void onFilterChanged(vtkObject* filter);
+
+private:
+  vtkNew<vtkEventQtSlotConnect> Events;
+};

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqPictureStatus.h"
+
+#include "PicturesInViews.h"
+
+#include "pqApplicationCore.h"
+#include "pqPipelineSource.h"
+#include "pqRenderView.h"
+#include "pqRepresentation.h"
+#include "pqServerManagerModel.h"
+
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+
+#include <QEvent>
+#include <QLabel>
+
+#include <algorithm>
+
+namespace
+{
+
+const QString labelName = "SchlierenStatus";
+constexpr int margin = 6; // pixels
+
+void place(QLabel* label, QWidget* view)
+{
+  label->setWordWrap(false);
+  const int width = std::min(label->sizeHint().width(), view->width() - 2 * margin);
+  label->setWordWrap(true);
+  label->resize(width, label->heightForWidth(width));
+  label->move(margin, view->height() - label->height() - margin);
+}
+
+QLabel* labelOf(QWidget* view)
+{
+  return view->findChild<QLabel*>(labelName, Qt::FindDirectChildrenOnly);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqPictureStatus::pqPictureStatus(QObject* parentObject)
+  : QObject(parentObject)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqPictureStatus::watch);
+  for (pqView* view : model->findItems<pqView*>())
+  {
+    this->watch(view);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureStatus::watch(pqView* item)
+{
+  if (auto* view = qobject_cast<pqRenderView*>(item))
+  {
+    const auto update = [this, view]() { this->show(view); };
+    QObject::connect(view, &pqView::updateDataEvent, this, update);
+    QObject::connect(view, &pqView::representationVisibilityChanged, this, update);
+    QObject::connect(view, &pqView::representationRemoved, this, update);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureStatus::show(pqRenderView* view)
+{
+  QWidget* widget = view->widget();
+  if (!widget)
+  {
+    return; // the view is about to go
+  }
+  QStringList lines;
+  if (picturesInViews::isFlat(view))
+  {
+    for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
+    {
+      vtkSMProxy* proxy = filter->getProxy();
+      proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));
+      lines << QString::fromUtf8(vtkSMPropertyHelper(proxy, "Status").GetAsString());
+    }
+    lines.removeAll(QString());
+  }
+  QLabel* label = labelOf(widget);
+  if (!label && !lines.isEmpty())
+  {
+    label = new QLabel(widget);
+    label->setObjectName(labelName);
+    label->setTextFormat(Qt::PlainText);
+    label->setAttribute(Qt::WA_TransparentForMouseEvents);
+    label->setStyleSheet(
+      "color: white; background: rgba(0, 0, 0, 150); padding: 2px 5px; border-radius: 3px");
+    widget->installEventFilter(this);
+  }
+  if (label)
+  {
+    label->setText(lines.join('\n'));
+    label->setVisible(!lines.isEmpty());
+    place(label, widget);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureStatus::eventFilter(QObject* object, QEvent* event)
+{
+  auto* widget = qobject_cast<QWidget*>(object);
+  QLabel* label = widget && event->type() == QEvent::Resize ? labelOf(widget) : nullptr;
+  if (label)
+  {
+    place(label, widget);
+  }
+  return QObject::eventFilter(object, event);
+}

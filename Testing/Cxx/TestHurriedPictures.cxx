@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pictures of fewer pixels, for while a view is turned: the same place, seen roughly.
+#include "Fixtures.h"
+#include "HurriedPicture.h"
+#include "QualityPresets.h"
+#include "SceneFromFilter.h"
+
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace
+{
+
+vtkSmartPointer<vtkImageData> columnImage()
+{
+  auto image = cube(48);
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
+/// Borders of the pixels, not their centres: left, right, low, high.
+std::array<double, 4> bordersOf(vtkImageData* picture)
+{
+  const double* origin = picture->GetOrigin();
+  const double* spacing = picture->GetSpacing();
+  const int* size = picture->GetDimensions();
+  return { origin[0] - 0.5 * spacing[0], origin[0] + (size[0] - 0.5) * spacing[0],
+    origin[1] - 0.5 * spacing[1], origin[1] + (size[1] - 0.5) * spacing[1] };
+}
+
+/// Means over squares of `edge` pixels.
+std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge)
+{
+  auto* picture = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* array = picture->GetPointData()->GetArray(name);
+  const int* size = picture->GetDimensions();
+  std::vector<double> means;
+  for (int row = 0; row < size[1]; row += edge)
+  {
+    for (int column = 0; column < size[0]; column += edge)
+    {
+      for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+      {
+        double sum = 0;
+        for (int pixel = 0; pixel < edge * edge; ++pixel)
+        {
+          const vtkIdType at = (row + pixel / edge) * size[0] + column + pixel % edge;
+          sum += array->GetComponent(at, component);
+        }
+        means.push_back(sum / (edge * edge));
+      }
+    }
+  }
+  return means;
+}
+
+} // namespace
+
+// Of a smooth flow, whose picture changes little within four pixels.
+TEST(HurriedPicture, IsTheWholeOneAveragedOverBoxes)
+{
+  for (const int cutoff : { vtkSchlierenFilter::KNIFE_EDGE, vtkSchlierenFilter::SHADOWGRAPH })
+  {
+    auto filter = bench(columnImage(), 160);
+    filter->SetViewDirection(0.3, 0.2, -1);
+    filter->SetFocalPoint(0.2, -0.1, 0.3);
+    filter->SetAutoKScale(false);
+    filter->SetKScale(300);
+    filter->SetCutoff(cutoff);
+    filter->SetScreenDistance(100);
+    filter->Update();
+    const auto borders = bordersOf(filter->GetOutput());
+    const std::vector<double> deflection = boxAverages(filter, "Deflection", 4);
+    const std::vector<double> intensity = boxAverages(filter, "Intensity", 4);
+
+    filter->SetPreviewReduction(4);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 40 * 40);
+    for (std::size_t side = 0; side < borders.size(); ++side)
+    {
+      EXPECT_NEAR(bordersOf(filter->GetOutput())[side], borders[side], 1e-12);
+    }
+    EXPECT_LT(relativeDifference(valuesOf(filter, "Deflection"), deflection), 0.03);
+    EXPECT_LT(relativeDifference(valuesOf(filter, "Intensity"), intensity), 0.03);
+  }
+}
+
+TEST(HurriedPicture, LiesWhereTheInformationSays)
+{
+  const int sizes[][3] = { { 160, 120, 4 }, { 101, 37, 3 }, { 16, 16, 64 }, { 200, 3, 32 } };
+  for (const auto& [width, height, reduction] : sizes)
+  {
+    SCOPED_TRACE(reduction);
+    auto filter = bench(columnImage());
+    filter->SetImageSize(width, height);
+    filter->Update();
+    const auto whole = bordersOf(filter->GetOutput());
+    filter->SetPreviewReduction(reduction);
+    filter->UpdateInformation();
+    vtkInformation* info = filter->GetOutputInformation(0);
+    filter->Update();
+    vtkImageData* picture = filter->GetOutput();
+    EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
+      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+    EXPECT_TRUE(std::equal(
+      picture->GetOrigin(), picture->GetOrigin() + 2, info->Get(vtkDataObject::ORIGIN())));
+    EXPECT_TRUE(std::equal(
+      picture->GetSpacing(), picture->GetSpacing() + 2, info->Get(vtkDataObject::SPACING())));
+    const auto hurried = bordersOf(picture);
+    for (std::size_t side = 0; side < whole.size(); side += 2)
+    {
+      EXPECT_LE(hurried[side], whole[side] + 1e-12);                    // all of it,
+      EXPECT_GE(hurried[side], whole[side] - picture->GetSpacing()[0]); // and hardly more
+      EXPECT_GE(hurried[side + 1], whole[side + 1] - 1e-12);
+      EXPECT_LE(hurried[side + 1], whole[side + 1] + picture->GetSpacing()[0]);
+    }
+  }
+}
+
+TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
+{
+  vtkNew<vtkSchlierenFilter> filter;
+  vtkNew<vtkRefractiveIndex> medium;
+  schlieren::Grid grid;
+  grid.dimensions = { 41, 41, 21 };
+  filter->SetQuality(vtkSchlierenFilter::PUBLICATION);
+  filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
+  filter->SetFringeMode(vtkSchlierenFilter::FINITE_FRINGES);
+  filter->SetNoiseFilter(vtkSchlierenFilter::GAUSSIAN);
+  const schlieren::Scene whole = sceneFrom(filter, medium, grid);
+  filter->SetPreviewReduction(4);
+  const schlieren::Scene hurried = sceneFrom(filter, medium, grid);
+  EXPECT_EQ(hurried.view.width, 128);
+  EXPECT_EQ(hurried.samplesPerPixel, 1);
+  EXPECT_EQ(hurried.stepSize, interactiveStepSize());
+  EXPECT_GT(interactiveStepSize(), whole.stepSize);
+  EXPECT_EQ(hurried.fringes.spacing, whole.fringes.spacing); // data units
+  EXPECT_EQ(hurried.noiseFilterRadius, whole.noiseFilterRadius / 4);
+  EXPECT_EQ(hurried.histogramSize, whole.histogramSize);
+  EXPECT_EQ(hurried.interpolation, whole.interpolation);
+  filter->SetStepSize(3);
+  EXPECT_EQ(sceneFrom(filter, medium, grid).stepSize, 3);
+}
+
+TEST(HurriedPicture, ShowsTheSameBackground)
+{
+  vtkNew<vtkSchlierenFilter> filter;
+  vtkNew<vtkRefractiveIndex> medium;
+  schlieren::Grid grid;
+  grid.dimensions = { 41, 41, 21 };
+  const double pixel = schlieren::frameOf(grid, sceneFrom(filter, medium, grid).view).pixelSize;
+  filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
+  filter->SetPreviewReduction(2);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid).background.period, 8 * pixel);
+  filter->SetPreviewReduction(4); // finer than four of its pixels would be grey
+  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid).background.period, 16 * pixel);
+  filter->SetBackgroundPeriod(0.1);
+  EXPECT_EQ(sceneFrom(filter, medium, grid).background.period, 0.1);
+}
+
+TEST(HurriedPicture, HidesNoMistake)
+{
+  expectOneMessage(
+    bench(columnImage()).Get(),
+    [](vtkSchlierenFilter* filter)
+    {
+      filter->SetPreviewReduction(4);
+      filter->SetImageSize(0, 40);
+    },
+    { "ImageSize" }, [](vtkSchlierenFilter* filter) { filter->SetImageSize(40, 40); });
+}

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What tests do with Python inside ParaView's window."""
+
+import ctypes
+import os
+import time
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
+
+# Not CDLL, which lets go of the interpreter's lock: VTK's observers in Python do not ask for it.
+_process_events = ctypes.PyDLL(
+    "libQt5Core.so.5")["_ZN16QCoreApplication13processEventsE6QFlagsIN10QEventLoop17ProcessEventsFlagEE"]
+
+
+def process_events():
+    """Lets the window do what is to be done now; returns the seconds that this took."""
+    start = time.perf_counter()
+    _process_events(0)
+    return time.perf_counter() - start
+
+
+def until(condition, seconds=120):
+    """Lets the window go on until something is so."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"Still not so after {seconds} s"
+        if process_events() < 1e-3:
+            time.sleep(1e-3)
+
+
+def pause(seconds):
+    end = time.monotonic() + seconds
+    until(lambda: time.monotonic() > end)
+
+
+def information(source, name):
+    """The present value of a property that only tells something."""
+    prop = source.SMProxy.GetProperty(name)
+    source.SMProxy.UpdatePropertyInformation(prop)
+    return prop.GetElement(0)
+
+
+def finished(source):
+    return information(source, "Finished") == 1
+
+
+def save(name, source, *views):
+    """Keeps the picture that a filter has, as it is, its properties and the cameras of views."""
+    image = source.GetClientSideObject().GetOutputDataObject(0)
+    cameras = [view.GetActiveCamera() for view in views]
+    np.savez(
+        os.path.join(FOLDER, name),
+        intensity=vtk_to_numpy(image.GetPointData().GetArray("Intensity")),
+        dimensions=image.GetDimensions(), origin=image.GetOrigin(), spacing=image.GetSpacing(),
+        reduction=source.PreviewReduction, limit=source.TimeLimit, status=information(source, "Status"),
+        direction=source.ViewDirection, up=source.ViewUp, focus=source.FocalPoint,
+        scale=source.ParallelScale, count=information(source, "PictureCount"),
+        **{f"{key}{index}": value for index, camera in enumerate(cameras) for key, value in (
+            ("position", camera.GetPosition()), ("focal_point", camera.GetFocalPoint()),
+            ("view_up", camera.GetViewUp()), ("angle", camera.GetViewAngle()),
+            ("parallel", camera.GetParallelProjection()),
+            ("parallel_scale", camera.GetParallelScale()))})
+
+
+def by_name(*names):
+    return [simple.FindSource(name) or simple.FindView(name) for name in names]

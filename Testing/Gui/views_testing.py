@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the toolbar Schlieren share: pressing it, and looking at what it has made."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+
+SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
+sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
+
+from plugin_testing import picture, simple  # noqa: E402, F401
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
+from window_testing import FOLDER, Session  # noqa: E402
+
+JET = os.path.join(SOURCE, "Testing", "Data", "ladenburg_jet_3d.vti")
+TOOLBAR = "pqClientMainWindow/SchlierenToolBar/"
+TRACE = os.path.join(FOLDER, "trace.py")
+
+# Opened and applied: images are shown as outlines.
+OPEN_JET = f"""
+from paraview.simple import *
+jet = OpenDataFile({JET!r}, registrationName="jet")
+jet.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+Show(jet, view)
+view.ResetCamera()
+SetActiveSource(jet)
+"""
+
+# Writes the Python trace of what is done first, when the view shows it.
+TRACE_FIRST_STEP = f"""
+from paraview import smtrace
+smtrace.start_trace()
+def write(*_):
+    if servermanager.vtkSMTrace.GetActiveTracer():
+        text = smtrace.get_current_trace_output()
+        if "SetActiveSource(" in text:
+            with open({TRACE!r}, "w") as file:
+                file.write(text)
+            smtrace.stop_trace()
+view.SMProxy.AddObserver("EndEvent", write)
+"""
+
+
+class ViewsSession(Session):
+    def press(self, name):
+        self.event(TOOLBAR + name, "activate")
+
+    def check_button(self, name, prop, value):
+        self.lines.append(f'<pqcheck object="{TOOLBAR}{name}" property="{prop}" '
+                          f'arguments="{value}"/>')
+
+    def check_message(self, text):
+        """The message that a mistake ends in; it is closed."""
+        box = "pqClientMainWindow/SchlierenMessage"
+        self.lines.append(f'<pqcheck object="{box}" property="text" arguments="{text}"/>')
+        self.event(box + "/qt_msgbox_buttonbox/1QPushButton0", "activate")
+
+    def undo(self):
+        self.menu("menu_Edit", "actionEditUndo")
+
+    def redo(self):
+        self.menu("menu_Edit", "actionEditRedo")
+
+
+def play_trace(state, before):
+    """Plays what was traced in a program of its own, after the script `before`, and saves the state."""
+    script = os.path.join(FOLDER, "played.py")
+    with open(TRACE, encoding="utf-8") as trace, open(script, "w", encoding="utf-8") as file:
+        file.write(f"{before}\n{trace.read()}\nRenderAllViews()\nSaveState({state!r})\n"
+                   "[Delete(view) for view in GetRenderViews()]\n")
+    environment = dict(os.environ, PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
+    done = subprocess.run(["pvpython", script], cwd=FOLDER, env=environment, text=True, check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=100)
+    print(done.stdout)
+    assert done.returncode == 0, f"pvpython ended with {done.returncode}"
+
+
+def load(state):
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, state))
+
+
+def views():
+    """Those of the layout, in the order of their cells: (cell, view)."""
+    layout = list(simple.GetLayouts().values())[0]
+    found = [(layout.GetViewLocation(view.SMProxy), view) for view in simple.GetRenderViews()]
+    return sorted(found, key=lambda pair: pair[0])
+
+
+def filters():
+    """The Schlieren filters by their names."""
+    return {key[0]: proxy for key, proxy in sorted(simple.GetSources().items())
+            if proxy.GetXMLName() == "Schlieren"}
+
+
+def shown(bench, view):
+    return simple.GetRepresentation(bench, view)
+
+
+def check_display(representation, white=1):
+    """Intensity in grey between fixed ends, without a legend and with its own colours."""
+    assert representation.Visibility == 1
+    assert list(representation.ColorArrayName)[:2] == ["POINTS", "Intensity"]
+    assert representation.UseSeparateColorMap == 1 and representation.MapScalars == 1
+    points = np.reshape(representation.LookupTable.RGBPoints, (-1, 4))
+    assert points[0, 0] == 0 and points[-1, 0] == white, points
+    assert np.ptp(points[:, 1:], axis=1).max() == 0, "The colour map is not grey"
+    assert representation.LookupTable.AutomaticRescaleRangeMode == "Never"
+    assert not representation.LookupTable.SMProxy.IsScalarBarVisible(
+        simple.LocateView(representation).SMProxy)
+
+
+def check_picture_view(view, bench):
+    """A flat view that the picture fills from edge to edge."""
+    assert view.InteractionMode == "2D" and view.CameraParallelProjection == 1
+    assert view.OrientationAxesVisibility == 0 and view.CenterAxesVisibility == 0
+    assert np.ptp(view.Background) == 0 and view.UseColorPaletteForBackground == 0
+    bench.UpdatePipeline()
+    low, high = np.reshape(bench.GetDataInformation().GetBounds(), (3, 2))[:2].T
+    assert np.allclose(view.CameraFocalPoint[:2], (low + high) / 2, atol=1e-6 * (high - low)[0])
+    assert np.isclose(view.CameraParallelScale, (high - low)[1] / 2, rtol=0.02)
+
+
+def check_camera(bench, view):
+    """The filter looks as the 3-D view's camera does; an independent calculation."""
+    eye, focus = np.array(view.CameraPosition), np.array(view.CameraFocalPoint)
+    distance = np.linalg.norm(focus - eye)
+    assert np.allclose(bench.ViewDirection, (focus - eye) / distance, atol=1e-9)
+    assert np.allclose(bench.FocalPoint, focus) and np.allclose(bench.ViewUp, view.CameraViewUp)
+    half = (view.CameraParallelScale if view.CameraParallelProjection
+            else distance * np.tan(np.radians(view.CameraViewAngle) / 2))
+    assert np.isclose(bench.ParallelScale, half)
+
+
+def screenshot(view, name, size):
+    """RGB, rows x columns, lowest row first."""
+    path = os.path.join(FOLDER, name)
+    simple.SaveScreenshot(path, view, ImageResolution=size)
+    return png(path)
+
+
+def png(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    columns, rows, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, -1).astype(int)
+
+
+def values(proxy, without=()):
+    """All that is set on a filter, as text."""
+    return {name: str(proxy.GetPropertyValue(name)) for name in proxy.ListProperties()
+            if name not in ("Input", "Bodies", "TransferFunctions", "GradedFilter") + without
+            and not proxy.GetProperty(name).SMProperty.GetInformationOnly()}
