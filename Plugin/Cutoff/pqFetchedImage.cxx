@@ -30,6 +30,29 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
   return filter;
 }
 
+/// Updates end soon while it lives: an unfinished picture goes on, but not to its end.
+class ShortUpdates
+{
+public:
+  explicit ShortUpdates(vtkSMProxy* filter)
+    : Filter(filter)
+  {
+    this->setLimit(0.03);
+  }
+  ~ShortUpdates() { this->setLimit(0); }
+  ShortUpdates(const ShortUpdates&) = delete;
+  void operator=(const ShortUpdates&) = delete;
+
+private:
+  void setLimit(double seconds)
+  {
+    vtkSMPropertyHelper(this->Filter, "TimeLimit").Set(seconds);
+    this->Filter->UpdateProperty("TimeLimit");
+  }
+
+  vtkSMProxy* Filter;
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -43,6 +66,7 @@ vtkSmartPointer<vtkImageData> fetchedImage(
     return nullptr;
   }
   SCOPED_UNDO_EXCLUDE();
+  const ShortUpdates shortUpdates(filter);
   const double time = source->getServer()->getTimeKeeper()->getTime();
   const auto only = newFilter("PassArrays", filter, port);
   const auto mover = only ? newFilter("ClientServerMoveData", only, 0) : nullptr;
