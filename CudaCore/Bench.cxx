@@ -503,6 +503,8 @@ Bench& Bench::operator=(Bench&&) noexcept = default;
 
 const Work& Bench::work() const { return stages_->work; }
 
+void Bench::giveUp() { stages_->unfinished.reset(); }
+
 bool Bench::isUnfinished() const { return stages_->unfinished != nullptr; }
 
 Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)

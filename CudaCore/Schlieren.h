@@ -379,6 +379,7 @@ public:
   /// development of a picture. What Field::gradients points to must still be there. Throws Error.
   Image resume(const Monitor& monitor = {});
   bool isUnfinished() const;
+  void giveUp(); ///< forgets it
 
   const Work& work() const;
 

@@ -6,6 +6,7 @@
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -15,24 +16,12 @@
 namespace
 {
 
-/// The mask of a refractivity grid, with what its TransparentPointMask adds in `storage`; null where all
-/// is gas.
-const unsigned char* maskFrom(vtkPointData* arrays, std::vector<unsigned char>& storage)
+constexpr const char* maskName = "vtkValidPointMask";
+constexpr const char* transparentName = "TransparentPointMask";
+
+vtkUnsignedCharArray* bytesOf(vtkImageData* image, const char* name)
 {
-  const auto bytesOf = [arrays](const char* name)
-  { return vtkUnsignedCharArray::SafeDownCast(arrays->GetArray(name)); };
-  auto* valid = bytesOf("vtkValidPointMask");
-  auto* outside = bytesOf("TransparentPointMask");
-  if (!valid || !outside)
-  {
-    return valid ? valid->GetPointer(0) : nullptr;
-  }
-  storage.resize(static_cast<std::size_t>(valid->GetNumberOfValues()));
-  std::transform(valid->GetPointer(0), valid->GetPointer(0) + storage.size(),
-    outside->GetPointer(0), storage.begin(),
-    [](unsigned char isValid, unsigned char isOutside)
-    { return isOutside ? schlieren::transparent : isValid; });
-  return storage.data();
+  return vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetArray(name));
 }
 
 } // namespace
@@ -52,7 +41,7 @@ schlieren::Grid gridFrom(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-schlieren::Field fieldFrom(vtkImageData* refractivity, std::vector<unsigned char>& mask)
+schlieren::Field fieldFrom(vtkImageData* refractivity)
 {
   vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
   auto* floats = vtkFloatArray::SafeDownCast(values);
@@ -61,19 +50,32 @@ schlieren::Field fieldFrom(vtkImageData* refractivity, std::vector<unsigned char
   field.grid = gridFrom(refractivity);
   field.singles = floats ? floats->GetPointer(0) : nullptr;
   field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
-  field.valid = maskFrom(refractivity->GetPointData(), mask);
+  auto* mask = bytesOf(refractivity, maskName);
+  field.valid = mask ? mask->GetPointer(0) : nullptr;
   field.version = refractivity->GetMTime();
   return field;
 }
 
 //------------------------------------------------------------------------------
-void dropMaskOfOnes(vtkImageData* refractivity)
+void mergeMasks(vtkImageData* refractivity)
 {
   vtkPointData* arrays = refractivity->GetPointData();
-  auto* valid = vtkUnsignedCharArray::SafeDownCast(arrays->GetArray("vtkValidPointMask"));
+  auto* valid = bytesOf(refractivity, maskName);
   const auto count = static_cast<std::size_t>(valid->GetNumberOfValues());
   if (std::memchr(valid->GetPointer(0), 0, count) == nullptr)
   {
-    arrays->RemoveArray("vtkValidPointMask");
+    arrays->RemoveArray(maskName);
   }
+  else if (auto* outside = bytesOf(refractivity, transparentName))
+  {
+    vtkNew<vtkUnsignedCharArray> merged; // the others may be the input's
+    merged->SetName(maskName);
+    merged->SetNumberOfValues(valid->GetNumberOfValues());
+    std::transform(valid->GetPointer(0), valid->GetPointer(0) + count, outside->GetPointer(0),
+      merged->GetPointer(0),
+      [](unsigned char isValid, unsigned char isOutside)
+      { return isOutside ? schlieren::transparent : isValid; });
+    arrays->AddArray(merged);
+  }
+  arrays->RemoveArray(transparentName);
 }

@@ -4,17 +4,14 @@
 
 #include "Schlieren.h"
 
-#include <vector>
-
 class vtkImageData;
 
-/// What an image with Refractivity and its masks says, as the tracer wants it.
+/// What an image with Refractivity says, as the tracer wants it.
 schlieren::Grid gridFrom(vtkImageData* image);
 
-/// All of the field that the image knows. Its arrays are those of the image, or `mask`, which has to live
-/// as long.
-schlieren::Field fieldFrom(vtkImageData* refractivity, std::vector<unsigned char>& mask);
+/// All of the field that the image knows, with its arrays. Its masks have been merged.
+schlieren::Field fieldFrom(vtkImageData* refractivity);
 
-/// Removes a mask that says gas everywhere: it would only take memory, a fifth of what is held, and be
-/// read by the tracer.
-void dropMaskOfOnes(vtkImageData* refractivity);
+/// Makes one of an image's two masks, with the tracer's values. One that says gas everywhere is removed: it
+/// would only take memory, a fifth of what is held, and be read by the tracer.
+void mergeMasks(vtkImageData* refractivity);

@@ -27,6 +27,13 @@ schlieren::View hurriedView(
 }
 
 //------------------------------------------------------------------------------
+int reductionAtFirst(const schlieren::View& view)
+{
+  constexpr int pixels = 64;
+  return std::max(2, (std::max(view.width, view.height) + pixels - 1) / pixels);
+}
+
+//------------------------------------------------------------------------------
 void hurry(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
 {
   constexpr double pixelsPerPeriod = 8; // the tracer's default

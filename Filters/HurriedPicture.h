@@ -15,6 +15,9 @@ int hurriedPixels(int pixels, int reduction);
 schlieren::View hurriedView(
   const schlieren::View& view, const schlieren::Frame& frame, int reduction);
 
+/// For a first one that takes no noticeable time.
+int reductionAtFirst(const schlieren::View& view);
+
 /// Makes of a whole picture's scene that of the hurried one. What counts in pixels keeps its size in data
 /// units; but a background whose period is left to the filter stays coarse enough to be seen.
 void hurry(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction);

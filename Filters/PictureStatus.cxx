@@ -19,9 +19,12 @@ std::string textOf(const char* format, double value)
 
 std::string textOf(double value) { return textOf("%.2g", value); }
 
-std::string samplesInWords(const schlieren::Scene& scene)
+/// Like "2 of 4 samples per pixel".
+std::string samplesInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
-  return std::to_string(scene.samplesPerPixel) +
+  const std::string wanted = std::to_string(scene.samplesPerPixel);
+  const bool isWhole = image.samples == scene.samplesPerPixel;
+  return (isWhole ? wanted : std::to_string(image.samples) + " of " + wanted) +
     (scene.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
 }
 
@@ -60,7 +63,7 @@ std::string accuracyInWords(const schlieren::Image& image)
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
 {
-  std::string words = samplesInWords(scene) + ", ";
+  std::string words = samplesInWords(image, scene) + ", ";
   if (raysPerSecond > 0)
   {
     words += speedInWords(raysPerSecond) + " on ";

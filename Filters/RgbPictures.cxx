@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace
@@ -82,18 +83,14 @@ struct PngImage : png_image
   PngImage& operator=(const PngImage&) = delete;
 };
 
-} // namespace
-
-//------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
-  const std::string& property, const std::string& text)
+/// `name`: of the file; empty where the property holds it.
+std::shared_ptr<const schlieren::RgbPicture> decoded(
+  const std::string& property, const std::string& name, const Bytes& file)
 {
-  const bool isContent = text.compare(0, scheme.size(), scheme) == 0;
-  const Bytes file = isContent ? bytesFromText(property, text) : bytesFromFile(property, text);
   const auto refuse = [&](const std::string& reason)
   {
     throw std::runtime_error(property +
-      (isContent ? " holds a file" : " names the file '" + text + "'") +
+      (name.empty() ? " holds a file" : " names the file '" + name + "'") +
       " that is no whole PNG picture (" + reason +
       "). Save the picture as PNG, and use all of it.");
   };
@@ -121,4 +118,32 @@ std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
     refuse(image.message);
   }
   return picture;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::RgbPicture> RgbPictureReader::read(
+  const std::string& property, const std::string& text)
+{
+  const bool isContent = text.compare(0, scheme.size(), scheme) == 0;
+  if (isContent && this->Picture && this->Text == text)
+  {
+    return this->Picture;
+  }
+  Bytes file = isContent ? bytesFromText(property, text) : bytesFromFile(property, text);
+  if (!this->Picture || file != this->File)
+  {
+    this->Picture = decoded(property, isContent ? "" : text, file);
+    this->File = std::move(file);
+  }
+  this->Text = text;
+  return this->Picture;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
+  const std::string& property, const std::string& text)
+{
+  return RgbPictureReader().read(property, text);
 }

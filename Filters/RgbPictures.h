@@ -6,6 +6,21 @@
 
 #include <memory>
 #include <string>
+#include <vector>
+
+/// A picture that is decoded once, as long as it is asked for again and again.
+class RgbPictureReader
+{
+public:
+  /// See readRgbPicture. The same text, or a file with the same content, gives the same picture.
+  std::shared_ptr<const schlieren::RgbPicture> read(
+    const std::string& property, const std::string& text);
+
+private:
+  std::vector<unsigned char> File;
+  std::string Text;
+  std::shared_ptr<const schlieren::RgbPicture> Picture;
+};
 
 /// The picture that `text` stands for: the name of a PNG file, or the content of one as
 /// "data:image/png;base64,..." (RFC 2397). Of any kind: grey or coloured, 1 to 16 bits; transparent places

@@ -96,7 +96,7 @@ schlieren::Fringes fringesFrom(
   return fringes;
 }
 
-schlieren::BackgroundPattern backgroundFrom(vtkSchlierenFilter* self)
+schlieren::BackgroundPattern backgroundFrom(vtkSchlierenFilter* self, RgbPictureReader& pictures)
 {
   schlieren::BackgroundPattern pattern;
   pattern.kind = static_cast<schlieren::PatternKind>(self->GetBackgroundPattern());
@@ -114,7 +114,7 @@ schlieren::BackgroundPattern backgroundFrom(vtkSchlierenFilter* self)
         "BackgroundImage is empty, so there is no picture behind the flow. Give "
         "the name of one, or set BackgroundPattern to Dots or Stripes.");
     }
-    pattern.picture = readRgbPicture("BackgroundImage", self->GetBackgroundImage());
+    pattern.picture = pictures.read("BackgroundImage", self->GetBackgroundImage());
   }
   return pattern;
 }
@@ -156,8 +156,8 @@ int threadsFrom(vtkSchlierenFilter* self)
 }
 
 //------------------------------------------------------------------------------
-schlieren::Scene sceneFrom(
-  vtkSchlierenFilter* self, vtkRefractiveIndex* medium, const schlieren::Grid& grid)
+schlieren::Scene sceneFrom(vtkSchlierenFilter* self, vtkRefractiveIndex* medium,
+  const schlieren::Grid& grid, RgbPictureReader& pictures)
 {
   schlieren::Scene scene;
   scene.view = viewFrom(self);
@@ -179,7 +179,7 @@ schlieren::Scene sceneFrom(
     case schlieren::Cutoff::ColorFilter:
       if (*self->GetColorFilterImage())
       {
-        scene.colorFilter = readRgbPicture("ColorFilterImage", self->GetColorFilterImage());
+        scene.colorFilter = pictures.read("ColorFilterImage", self->GetColorFilterImage());
       }
       break;
     case schlieren::Cutoff::Interferogram:
@@ -187,7 +187,7 @@ schlieren::Scene sceneFrom(
       scene.fringes = fringesFrom(self, medium, frame);
       break;
     case schlieren::Cutoff::Background:
-      scene.background = backgroundFrom(self);
+      scene.background = backgroundFrom(self, pictures);
       break;
     default:
       break;

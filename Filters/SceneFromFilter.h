@@ -4,6 +4,7 @@
 
 #include "Schlieren.h"
 
+class RgbPictureReader;
 class vtkRefractiveIndex;
 class vtkSchlierenFilter;
 
@@ -11,8 +12,8 @@ class vtkSchlierenFilter;
 /// the tracer does. Throws std::runtime_error with a message for the user.
 
 /// All but the colours of fields. `medium` and `grid` are those of the picture.
-schlieren::Scene sceneFrom(
-  vtkSchlierenFilter* self, vtkRefractiveIndex* medium, const schlieren::Grid& grid);
+schlieren::Scene sceneFrom(vtkSchlierenFilter* self, vtkRefractiveIndex* medium,
+  const schlieren::Grid& grid, RgbPictureReader& pictures);
 
 /// Where the picture lies.
 schlieren::Frame frameFrom(vtkSchlierenFilter* self, const schlieren::Grid& grid);

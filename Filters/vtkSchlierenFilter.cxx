@@ -7,11 +7,13 @@
 #include "GasChoices.h"
 #include "HurriedPicture.h"
 #include "InputDescription.h"
+#include "LastPicture.h"
+#include "PictureInSlices.h"
 #include "PictureOutput.h"
-#include "PictureStatus.h"
 #include "Processes.h"
 #include "QualityPresets.h"
 #include "RealOptics.h"
+#include "RgbPictures.h"
 #include "SceneFromFilter.h"
 
 #include "vtkCommand.h"
@@ -22,6 +24,7 @@
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTimeStamp.h"
 
 #include "Schlieren.h"
 
@@ -37,7 +40,9 @@ vtkStandardNewMacro(vtkSchlierenFilter);
 
 struct vtkSchlierenFilter::Internals
 {
-  schlieren::Bench Bench;
+  PictureInSlices Pictures;
+  LastPicture Shown[2]; // at each output
+  RgbPictureReader RgbPictures;
   vtkNew<vtkImageData> Refractivity;
 
   // What Refractivity was made from: the input, and Medium at that time (0: nothing yet).
@@ -52,10 +57,11 @@ struct vtkSchlierenFilter::Internals
   // Of the fields that tint, on the grid of Refractivity; empty where not needed.
   std::vector<float> FieldGradients;
 
-  double RaysPerSecond = 0; // when rays were traced last
-
-  // Newest time of this filter and of everything upstream when it last failed.
+  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, and when the
+  // picture that is not finished was begun (0: there is none).
   vtkMTimeType FailedAt = 0;
+  vtkMTimeType UnfinishedOf = 0;
+  vtkTimeStamp RefineTime;
 };
 
 namespace
@@ -355,13 +361,13 @@ void vtkSchlierenFilter::SetPrecision(int precision)
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()
 {
-  return this->Inside->Bench.work().mediumBuilds;
+  return this->Inside->Pictures.GetBench().work().mediumBuilds;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 {
-  return this->Inside->Bench.work().raysTraced;
+  return this->Inside->Pictures.GetBench().work().raysTraced;
 }
 
 //------------------------------------------------------------------------------
@@ -372,18 +378,32 @@ void vtkSchlierenFilter::Refine()
 {
   if (!this->GetFinished())
   {
-    this->Modified();
+    this->Inside->RefineTime.Modified();
+    this->InvokeEvent(vtkCommand::ModifiedEvent);
   }
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::GetFinished() { return true; }
+bool vtkSchlierenFilter::GetFinished() { return this->Inside->UnfinishedOf == 0; }
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
 {
+  return std::max(this->GetTimeOfProperties(), this->Inside->RefineTime.GetMTime());
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkSchlierenFilter::GetTimeOfProperties()
+{
   vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Medium->GetMTime());
   return this->GradedFilter ? std::max(time, this->GradedFilter->GetMTime()) : time;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkSchlierenFilter::GetTimeOfPicture()
+{
+  return std::max({ this->GetTimeOfProperties(), upstreamTime(this, 0),
+    upstreamTime(this, vtkRefractiveIndex::BODIES) });
 }
 
 //------------------------------------------------------------------------------
@@ -454,7 +474,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     vtkWarningMacro(<< warning);
   }
-  dropMaskOfOnes(inside.Refractivity);
+  mergeMasks(inside.Refractivity);
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
@@ -476,64 +496,85 @@ void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
+bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
 {
-  vtkImageData* refractivity = this->Inside->Refractivity;
-  std::vector<unsigned char> mask;
-  schlieren::Field field = fieldFrom(refractivity, mask);
+  Internals& inside = *this->Inside;
+  return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfPicture() &&
+    inside.holdsRefractivityOf(describeInputs(this, input, bodies), this->Medium);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, bool goesOn)
+{
+  Internals& inside = *this->Inside;
+  schlieren::Monitor monitor;
+  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
+  if (!(this->TimeLimit > 0)) // else it would flicker
+  {
+    monitor.progress = [this](double fraction)
+    { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
+  }
+  if (goesOn)
+  {
+    return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
+  }
+
+  schlieren::Field field = fieldFrom(inside.Refractivity);
   if (!this->AutoAmbientRefractivity)
   {
     field.ambient = this->AmbientRefractivity;
   }
   field.lengthScale = this->LengthScale;
-
-  schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid);
+  schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid, inside.RgbPictures);
   if (this->ColorByField)
   {
     const std::size_t fields = this->Medium->GetFields().size();
     scene.fieldColors = fieldColors(this->FieldColors, fields);
-    field.gradients = { static_cast<int>(fields), this->Inside->FieldGradients.data(),
-      field.version };
+    field.gradients = { static_cast<int>(fields), inside.FieldGradients.data(), field.version };
   }
+  if (this->TimeLimit > 0 && !inside.Shown[PICTURE_PORT].IsThere())
+  {
+    // Something to show if time is over before the first sample of each pixel is there.
+    schlieren::Scene hurried = scene;
+    hurry(hurried, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
+    if (!this->Show(inside.Pictures.Begin(field, hurried, 0, monitor), output, histogram))
+    {
+      return false;
+    }
+  }
+  return this->Show(
+    inside.Pictures.Begin(field, scene, this->TimeLimit, monitor), output, histogram);
+}
 
-  schlieren::Monitor monitor;
-  monitor.progress = [this](double fraction)
-  { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
-  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
-
-  const std::int64_t raysBefore = this->Inside->Bench.work().raysTraced;
-  schlieren::Image image = this->Inside->Bench.render(field, scene, monitor);
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Show(
+  schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram)
+{
+  Internals& inside = *this->Inside;
+  inside.UnfinishedOf = image.finished || image.aborted ? 0 : this->GetTimeOfPicture();
   if (image.aborted)
   {
     return false;
   }
-  const bool isTracedNow =
-    image.traceSeconds > 0; // another knife edge is no reason to say it again
-  if (isTracedNow)
+  if (image.intensity.empty()) // no more samples than before
   {
-    this->Inside->RaysPerSecond =
-      static_cast<double>(this->Inside->Bench.work().raysTraced - raysBefore) / image.traceSeconds;
+    return true;
   }
-  if (isTracedNow && !image.deviceNote.empty())
+  const schlieren::Scene& scene = inside.Pictures.GetScene();
+  const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
+  if (isWhole) // of a hurried one the whole picture will say it
   {
-    vtkWarningMacro(<< image.deviceNote);
+    for (const std::string& warning : inside.Pictures.GetWarnings(image))
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
-  if (isTracedNow && image.raysTraced > 0 && image.raysBlocked == image.raysTraced)
-  {
-    vtkWarningMacro(
-      << "All light that meets the data is blocked, so the picture is black there: every "
-         "ray meets a place that is solid (NaN, masked, blanked, a body) or that no cell covers. "
-         "Look along another ViewDirection, or let light pass where no cell is with "
-         "OutsideBlocksLight off.");
-  }
-  if (isTracedNow && image.raysLost > 0)
-  {
-    vtkWarningMacro(
-      << image.raysLost << " of " << image.raysTraced
-      << " rays did not come out towards the film: the medium traps them or turns them "
-         "back. Is the refractivity (array, unit, index model) right?");
-  }
-  this->Status = statusInWords(image, scene, this->Inside->RaysPerSecond);
+  this->Status = inside.Pictures.GetStatus(image);
+  this->KScaleUsed = image.kScale;
+  this->Sensitivity = sensitivityInWords(this, image.kScale);
+  ++this->PictureCount;
+  output->Initialize();
+  histogram->Initialize();
   setOutput(output, image);
   if (!image.color.empty())
   {
@@ -543,11 +584,10 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram)
   {
     addFringeSpacing(output, scene.fringes.spacing);
   }
-  addGrid(output, this->Medium->GetGrid(), refractivity);
+  addGrid(output, this->Medium->GetGrid(), inside.Refractivity);
   setHistogram(histogram, image.histogram);
-  ++this->PictureCount;
-  this->KScaleUsed = image.kScale;
-  this->Sensitivity = sensitivityInWords(this, image.kScale);
+  inside.Shown[PICTURE_PORT].Keep(output);
+  inside.Shown[HISTOGRAM_PORT].Keep(histogram);
   return true;
 }
 
@@ -614,13 +654,11 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  Internals& inside = *this->Inside;
   vtkImageData* output = vtkImageData::GetData(outputVector, PICTURE_PORT);
   vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
   histogram->Initialize();
-  this->KScaleUsed = 0;
-  this->Sensitivity.clear();
-  this->Status.clear();
 
   const ProcessRole role = roleOfProcess();
   if (role == ProcessRole::Other)
@@ -634,9 +672,8 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now = std::max(
-    { this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, vtkRefractiveIndex::BODIES) });
-  if (this->Inside->FailedAt == now)
+  const vtkMTimeType now = this->GetTimeOfPicture();
+  if (inside.FailedAt == now)
   {
     return 1;
   }
@@ -645,28 +682,56 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   try
   {
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    if (this->UpdateRefractivity(
-          input, vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES])))
+    vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+    this->PassToMedium();
+    const bool goesOn = this->GoesOn(input, bodies);
+    inside.UnfinishedOf = 0;
+    bool isMade = goesOn || this->UpdateRefractivity(input, bodies);
+    if (isMade && !goesOn)
     {
       this->UpdateFieldGradients(input);
-      if (this->Render(output, histogram))
-      {
-        tellPlaces(outputVector);
-      }
     }
-    return 1;
+    isMade = isMade && this->Render(output, histogram, goesOn);
+    if (isMade)
+    {
+      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+      {
+        inside.Shown[port].Show(vtkImageData::GetData(outputVector, port),
+          outputVector->GetInformationObject(port)->Get(
+            vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
+      }
+      tellPlaces(outputVector);
+      return 1;
+    }
   }
   catch (const std::bad_alloc&)
   {
+    inside.FailedAt = now;
     vtkErrorMacro(<< "There is not enough memory for the refractivity grid or the picture. Use a "
                      "coarser input, smaller SamplingDimensions or a smaller ImageSize.");
   }
   catch (const std::exception& problem)
   {
+    inside.FailedAt = now;
     vtkErrorMacro(<< problem.what());
   }
+  this->ForgetPicture();
   output->Initialize();
   histogram->Initialize();
-  this->Inside->FailedAt = now;
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ForgetPicture()
+{
+  Internals& inside = *this->Inside;
+  inside.UnfinishedOf = 0;
+  inside.Pictures.GiveUp();
+  for (LastPicture& picture : inside.Shown)
+  {
+    picture.Drop();
+  }
+  this->KScaleUsed = 0;
+  this->Sensitivity.clear();
+  this->Status.clear();
 }

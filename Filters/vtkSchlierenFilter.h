@@ -62,6 +62,11 @@
 
 class vtkPiecewiseFunction;
 
+namespace schlieren
+{
+struct Image;
+} // namespace schlieren
+
 /// A property that belongs to the inner vtkRefractiveIndex.
 #define vtkSchlierenMediumMacro(name, type)                              \
   virtual void Set##name(type value) { this->Medium->Set##name(value); } \
@@ -812,8 +817,16 @@ private:
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
   /// Finds the gradients of the fields that tint, if they do.
   void UpdateFieldGradients(vtkDataObject* input);
-  /// Makes the picture from the refractivity. False if aborted.
-  bool Render(vtkImageData* output, vtkImageData* histogram);
+  /// The newest time of all properties, Refine() apart, and of those and everything upstream.
+  vtkMTimeType GetTimeOfProperties();
+  vtkMTimeType GetTimeOfPicture();
+  /// Whether an update has only to go on with the picture that is not finished.
+  bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
+  /// Makes the picture from the refractivity, or goes on with it. False if aborted.
+  bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
+  /// Hands out what there is of a picture, where there is anything new. False if aborted.
+  bool Show(schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram);
+  void ForgetPicture();
 
   vtkNew<vtkRefractiveIndex> Medium;
   std::unique_ptr<Internals> Inside;

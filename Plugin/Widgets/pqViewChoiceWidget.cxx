@@ -33,10 +33,8 @@ pqViewChoiceWidget::pqViewChoiceWidget(
     &pqViewChoiceWidget::viewChanged);
 
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  const auto fillAgain = [this]() { this->fill(); };
-  QObject::connect(model, &pqServerManagerModel::viewAdded, this, fillAgain);
-  QObject::connect(model, &pqServerManagerModel::viewRemoved, this, fillAgain);
-  QObject::connect(model, &pqServerManagerModel::nameChanged, this, fillAgain);
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqViewChoiceWidget::fill);
+  QObject::connect(model, &pqServerManagerModel::viewRemoved, this, &pqViewChoiceWidget::fill);
   this->addPropertyLink(this, "view", SIGNAL(viewChanged()), smProperty);
 }
 
@@ -70,6 +68,8 @@ void pqViewChoiceWidget::fill()
     model->findItems<pqRenderView*>(model->findServer(this->proxy()->GetSession())))
   {
     const QString name = view->getSMName();
+    QObject::connect(
+      view, &pqProxy::nameChanged, this, &pqViewChoiceWidget::fill, Qt::UniqueConnection);
     if (!picturesInViews::isFlat(view) && this->Choice->findData(name) < 0)
     {
       this->Choice->addItem(name, name);

@@ -26,8 +26,9 @@ public:
 Q_SIGNALS:
   void viewChanged();
 
-private:
+private Q_SLOTS:
   void fill();
 
+private:
   QComboBox* Choice;
 };

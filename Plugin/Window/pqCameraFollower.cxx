@@ -56,7 +56,6 @@ void pqCameraFollower::startup()
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this, &pqCameraFollower::watchSource);
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqCameraFollower::watchView);
-  QObject::connect(model, &pqServerManagerModel::nameChanged, this, &pqCameraFollower::onName);
   for (pqView* view : model->findItems<pqView*>())
   {
     this->watchView(view);
@@ -79,6 +78,7 @@ void pqCameraFollower::watchView(pqView* view)
   vtkCamera* camera = proxy ? proxy->GetActiveCamera() : nullptr;
   if (camera)
   {
+    QObject::connect(view, &pqProxy::nameChanged, this, &pqCameraFollower::onName);
     this->Connection->Connect(camera, vtkCommand::ModifiedEvent, this,
       SLOT(onCamera(vtkObject*, unsigned long, void*)), proxy);
     this->onCamera(camera, vtkCommand::ModifiedEvent, proxy);

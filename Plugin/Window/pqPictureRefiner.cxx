@@ -115,14 +115,54 @@ struct pqPictureRefiner::Job
 /// What has been learnt about a filter.
 struct pqPictureRefiner::Speed
 {
+  // Seconds of an update for a hurried picture: Fixed + PerPixel * share, the share of the pixels it has.
   int Reduction = 4;
+  double Fixed = 0;
+  double PerPixel = 0;
+  double LastShare = 0;
+  double LastSeconds = 0;
+
   double Overhead = 0.02;        // seconds of a turn that its TimeLimit does not count
   vtkMTimeType RoughPicture = 0; // changeOf the last hurried picture
   bool IsRough = false;          // that is the last picture that has been shown
+  vtkIdType ShownCount = -1;     // PictureCount of that
 
   double limit() const
   {
     return std::clamp(thoroughTurn - this->Overhead, shortestLimit, longestLimit);
+  }
+
+  /// Takes a hurried picture's time into account, and chooses the next one's pixels.
+  void learn(double updating, double available)
+  {
+    const double share = 1. / (this->Reduction * this->Reduction);
+    if (this->LastShare == 0)
+    {
+      this->PerPixel = updating / share;
+    }
+    else if (share != this->LastShare)
+    {
+      const double slope = (updating - this->LastSeconds) / (share - this->LastShare);
+      this->PerPixel = std::clamp(slope, 0., updating / share);
+      this->Fixed = updating - this->PerPixel * share;
+    }
+    else
+    {
+      const double factor = updating / (this->Fixed + this->PerPixel * share);
+      this->Fixed *= factor;
+      this->PerPixel *= factor;
+    }
+    this->LastShare = share;
+    this->LastSeconds = updating;
+
+    // However slow all the rest is, light gets a quarter of the time.
+    const double forLight = std::max(available - this->Fixed, 0.25 * hurriedTurn);
+    const double best = std::sqrt(this->PerPixel / forLight);
+    // Not to and fro between two: finer only where that is sure to be quick enough.
+    const double wanted =
+      best > this->Reduction ? best : std::min<double>(this->Reduction, 1.1 * best);
+    this->Reduction = std::clamp(int(std::ceil(wanted)), (this->Reduction + 1) / 2,
+      std::min(2 * this->Reduction, largestReduction));
   }
 };
 
@@ -175,6 +215,16 @@ void pqPictureRefiner::forget(pqPipelineSource* source)
   this->Jobs.erase(std::remove_if(this->Jobs.begin(), this->Jobs.end(),
                      [source](const Job& job) { return job.Filter == source->getProxy(); }),
     this->Jobs.end());
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::keep(vtkSMProxy* filter, const Speed& speed)
+{
+  // Showing a picture may have been the end of its filter.
+  if (sourceOf(filter))
+  {
+    this->Speeds[filter] = speed;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -280,7 +330,6 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
   const auto sharers = 1 +
     std::count_if(this->Jobs.begin(), this->Jobs.end(),
       [](const Job& other) { return other.Haste == Pace::Hurried; });
-  const vtkIdType count = pictureCount(filter);
   speed.RoughPicture = changeOf(filter);
   speed.IsRough = true;
   job.WantsRoughPicture = false;
@@ -290,18 +339,12 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
   setReduction(filter, speed.Reduction);
   update(filter, views.front());
   const double updating = secondsOf(timer);
-  this->show(filter, count, views);
+  this->show(filter, speed.ShownCount, views);
   setReduction(filter, 1);
   const double rendering = secondsOf(timer) - updating;
 
-  // Time goes with the number of pixels, except for what is spent on rendering.
-  const double available = std::max(hurriedTurn / double(sharers) - rendering, 0.25 * hurriedTurn);
-  const double best = speed.Reduction * std::sqrt(updating / available);
-  // Not to and fro between two: finer only where that is sure to be quick enough.
-  const double wanted =
-    best > speed.Reduction ? best : std::min<double>(speed.Reduction, 1.1 * best);
-  speed.Reduction = std::clamp(int(std::ceil(wanted)), 1, largestReduction);
-  this->Speeds[filter] = speed;
+  speed.learn(updating, hurriedTurn / double(sharers) - rendering);
+  this->keep(filter, speed);
   return job.Haste == Pace::Thorough;
 }
 
@@ -310,14 +353,13 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
 {
   const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
   Speed speed = this->Speeds.value(filter);
-  const vtkIdType count = pictureCount(filter);
 
   QElapsedTimer timer;
   timer.start();
   setTimeLimit(filter, speed.limit());
   update(filter, views.front());
   const bool isUnfinished = !isFinished(filter);
-  const bool isShown = this->show(filter, count, views);
+  const bool isShown = this->show(filter, speed.ShownCount, views);
   if (isUnfinished)
   {
     askForMore(filter);
@@ -328,7 +370,7 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
     speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.7 * speed.Overhead);
   }
   speed.IsRough = false;
-  this->Speeds[filter] = speed;
+  this->keep(filter, speed);
   // Until the first samples are there, the view would show the picture from before.
   job.WantsRoughPicture =
     job.IsFirstTurn && isUnfinished && !isShown && speed.RoughPicture != changeOf(filter);
@@ -338,13 +380,15 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
 
 //------------------------------------------------------------------------------
 bool pqPictureRefiner::show(
-  vtkSMSourceProxy* filter, vtkIdType countBefore, const QList<QPointer<pqView>>& views)
+  vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views)
 {
+  const vtkIdType count = pictureCount(filter);
   // Nothing is what is left of a picture that failed.
-  if (pictureCount(filter) == countBefore && filter->GetDataInformation(0)->GetNumberOfPoints() > 0)
+  if (count == shownCount && filter->GetDataInformation(0)->GetNumberOfPoints() > 0)
   {
     return false;
   }
+  shownCount = count;
   for (const QPointer<pqView>& view : views)
   {
     if (view)

@@ -5,6 +5,7 @@
 #include "Fixtures.h"
 #include "HurriedPicture.h"
 #include "QualityPresets.h"
+#include "RgbPictures.h"
 #include "SceneFromFilter.h"
 
 #include "vtkInformation.h"
@@ -125,13 +126,14 @@ TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
   vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
   grid.dimensions = { 41, 41, 21 };
+  RgbPictureReader pictures;
   filter->SetQuality(vtkSchlierenFilter::PUBLICATION);
   filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
   filter->SetFringeMode(vtkSchlierenFilter::FINITE_FRINGES);
   filter->SetNoiseFilter(vtkSchlierenFilter::GAUSSIAN);
-  const schlieren::Scene whole = sceneFrom(filter, medium, grid);
+  const schlieren::Scene whole = sceneFrom(filter, medium, grid, pictures);
   filter->SetPreviewReduction(4);
-  const schlieren::Scene hurried = sceneFrom(filter, medium, grid);
+  const schlieren::Scene hurried = sceneFrom(filter, medium, grid, pictures);
   EXPECT_EQ(hurried.view.width, 128);
   EXPECT_EQ(hurried.samplesPerPixel, 1);
   EXPECT_EQ(hurried.stepSize, interactiveStepSize());
@@ -141,7 +143,7 @@ TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
   EXPECT_EQ(hurried.histogramSize, whole.histogramSize);
   EXPECT_EQ(hurried.interpolation, whole.interpolation);
   filter->SetStepSize(3);
-  EXPECT_EQ(sceneFrom(filter, medium, grid).stepSize, 3);
+  EXPECT_EQ(sceneFrom(filter, medium, grid, pictures).stepSize, 3);
 }
 
 TEST(HurriedPicture, ShowsTheSameBackground)
@@ -150,14 +152,16 @@ TEST(HurriedPicture, ShowsTheSameBackground)
   vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
   grid.dimensions = { 41, 41, 21 };
-  const double pixel = schlieren::frameOf(grid, sceneFrom(filter, medium, grid).view).pixelSize;
+  RgbPictureReader pictures;
+  const double pixel =
+    schlieren::frameOf(grid, sceneFrom(filter, medium, grid, pictures).view).pixelSize;
   filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
   filter->SetPreviewReduction(2);
-  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid).background.period, 8 * pixel);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid, pictures).background.period, 8 * pixel);
   filter->SetPreviewReduction(4); // finer than four of its pixels would be grey
-  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid).background.period, 16 * pixel);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid, pictures).background.period, 16 * pixel);
   filter->SetBackgroundPeriod(0.1);
-  EXPECT_EQ(sceneFrom(filter, medium, grid).background.period, 0.1);
+  EXPECT_EQ(sceneFrom(filter, medium, grid, pictures).background.period, 0.1);
 }
 
 TEST(HurriedPicture, HidesNoMistake)

@@ -4,6 +4,7 @@
 // What the filter's properties ask of the tracer.
 #include "Fixtures.h"
 #include "RealOptics.h"
+#include "RgbPictures.h"
 #include "SceneFromFilter.h"
 
 #include "vtkPiecewiseFunction.h"
@@ -30,7 +31,10 @@ protected:
     this->filter->SetParallelScale(3);
   }
 
-  schlieren::Scene scene() { return sceneFrom(this->filter, this->medium, this->grid); }
+  schlieren::Scene scene()
+  {
+    return sceneFrom(this->filter, this->medium, this->grid, this->pictures);
+  }
 
   std::string error()
   {
@@ -48,6 +52,7 @@ protected:
   vtkNew<Filter> filter;
   vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
+  RgbPictureReader pictures;
 };
 
 } // namespace

@@ -12,6 +12,7 @@ TEST(Status, SaysWhatIsKnownOfAPicture)
   schlieren::Image image;
   schlieren::Scene scene;
   image.threads = 2;
+  image.samples = 4;
   image.pathModel = schlieren::PathModel::Straight;
   image.displacementBound = 0.004;
   image.frame.pixelSize = 0.2;
@@ -22,10 +23,13 @@ TEST(Status, SaysWhatIsKnownOfAPicture)
   image.pathModel = schlieren::PathModel::Refracted;
   image.momentumDrift = 3.1e-7;
   image.threads = 1;
-  scene.samplesPerPixel = 1;
+  scene.samplesPerPixel = image.samples = 1;
   EXPECT_EQ(statusInWords(image, scene, 1.23e6),
     "1 sample per pixel, 1.2 million rays/s on CPU (1 thread), refracted rays, |p| = n within "
     "3.1e-07");
+  scene.samplesPerPixel = 64; // an unfinished one
+  EXPECT_EQ(statusInWords(image, scene, 1.23e6).find("1 of 64 samples per pixel, 1.2 million"), 0u);
+  scene.samplesPerPixel = 1;
   image.device = schlieren::Device::Cuda;
   EXPECT_EQ(statusInWords(image, scene, 0),
     "1 sample per pixel, CUDA, refracted rays, |p| = n within 3.1e-07");

@@ -15,6 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 from window_testing import FOLDER, PANEL, Session  # noqa: E402
 
 LOG = os.path.join(FOLDER, "rendered.txt")
+open(LOG, "w", encoding="utf-8").close()
 SAVE = """
 bench, shadows, turned, shown, other = by_name(
     "bench", "shadows", "RenderView1", "RenderView2", "RenderView3")

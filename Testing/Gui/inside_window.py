@@ -7,7 +7,7 @@ import os
 import time
 
 import numpy as np
-from paraview import simple
+from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
@@ -51,7 +51,8 @@ def finished(source):
 
 def save(name, source, *views):
     """Keeps the picture that a filter has, as it is, its properties and the cameras of views."""
-    image = source.GetClientSideObject().GetOutputDataObject(0)
+    here = source.GetClientSideObject()
+    image = here.GetOutputDataObject(0) if here else servermanager.Fetch(source)
     cameras = [view.GetActiveCamera() for view in views]
     np.savez(
         os.path.join(FOLDER, name),

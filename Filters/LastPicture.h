@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkImageData.h"
+#include "vtkNew.h"
+
+/// The picture that was shown last, for as long as there is nothing better.
+class LastPicture
+{
+public:
+  bool IsThere() const;
+
+  /// Takes no memory of its own as long as `output` lives.
+  void Keep(vtkImageData* output);
+  void Drop();
+
+  /// Makes `output` that picture. Where another extent has been promised, its pixels are stretched to it.
+  void Show(vtkImageData* output, const int promised[6]);
+
+private:
+  vtkNew<vtkImageData> Picture;
+};

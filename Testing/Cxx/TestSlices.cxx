@@ -1,0 +1,483 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pictures that are made in slices of time, and what is shown in between.
+#include "Fixtures.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace
+{
+
+/// So short that each update does as little as it can.
+constexpr double shortest = 1e-9;
+
+vtkSmartPointer<vtkImageData> columnImage()
+{
+  auto image = cube(24);
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
+vtkSmartPointer<vtkSchlierenFilter> smallBench(vtkDataObject* input)
+{
+  auto filter = bench(input, 40);
+  filter->SetSamplesPerPixel(3);
+  filter->SetNumberOfThreads(2);
+  return filter;
+}
+
+/// Updates in slices to the end, and counts them.
+int updateInSlices(vtkSchlierenFilter* filter, double seconds = shortest)
+{
+  filter->SetTimeLimit(seconds);
+  filter->Update();
+  int slices = 1;
+  for (constexpr int tooMany = 10000; !filter->GetFinished() && slices < tooMany; ++slices)
+  {
+    const vtkTypeInt64 pictures = filter->GetPictureCount();
+    const std::vector<double> before = valuesOf(filter, "Intensity");
+    filter->Refine();
+    filter->Update();
+    EXPECT_TRUE(filter->GetPictureCount() > pictures || valuesOf(filter, "Intensity") == before);
+  }
+  EXPECT_TRUE(filter->GetFinished());
+  filter->SetTimeLimit(0);
+  return slices;
+}
+
+void expectSamePicture(vtkSchlierenFilter* a, vtkSchlierenFilter* b)
+{
+  for (int port = 0; port < 2; ++port)
+  {
+    auto* one = vtkImageData::SafeDownCast(a->GetOutputDataObject(port));
+    auto* other = vtkImageData::SafeDownCast(b->GetOutputDataObject(port));
+    ASSERT_GT(one->GetNumberOfPoints(), 0);
+    EXPECT_TRUE(std::equal(one->GetExtent(), one->GetExtent() + 6, other->GetExtent()));
+    EXPECT_TRUE(std::equal(one->GetOrigin(), one->GetOrigin() + 3, other->GetOrigin()));
+    EXPECT_TRUE(std::equal(one->GetSpacing(), one->GetSpacing() + 3, other->GetSpacing()));
+    vtkPointData* arrays = other->GetPointData();
+    ASSERT_EQ(one->GetPointData()->GetNumberOfArrays(), arrays->GetNumberOfArrays());
+    for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = arrays->GetArray(i);
+      vtkDataArray* same = one->GetPointData()->GetArray(array->GetName());
+      ASSERT_NE(same, nullptr) << array->GetName();
+      ASSERT_EQ(same->GetNumberOfValues(), array->GetNumberOfValues()) << array->GetName();
+      vtkIdType different = 0;
+      for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
+      {
+        different += array->GetVariantValue(value) == same->GetVariantValue(value) ? 0 : 1;
+      }
+      EXPECT_EQ(different, 0) << array->GetName();
+    }
+  }
+  for (const char* name : { "KScale", "RaysTraced", "StepsTaken", "LightOnFilm", "SaturatedShare" })
+  {
+    EXPECT_EQ(fieldValue(a, name), fieldValue(b, name)) << name;
+  }
+}
+
+/// Compares slices with a whole picture of a filter that is set up alike.
+template <class SetUp>
+void expectSameInSlices(vtkDataObject* input, const SetUp& setUp)
+{
+  auto whole = smallBench(input);
+  setUp(whole);
+  whole->Update();
+  auto sliced = smallBench(input);
+  setUp(sliced);
+  EXPECT_GT(updateInSlices(sliced), 3);
+  expectSamePicture(sliced, whole);
+  EXPECT_EQ(sliced->GetMediumBuilds(), 1);
+}
+
+/// Progress of an update.
+std::vector<double> progressOf(vtkSchlierenFilter* filter)
+{
+  std::vector<double> progress;
+  vtkNew<vtkCallbackCommand> watch;
+  watch->SetClientData(&progress);
+  watch->SetCallback([](vtkObject*, unsigned long, void* seen, void* value)
+    { static_cast<std::vector<double>*>(seen)->push_back(*static_cast<double*>(value)); });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  filter->Update();
+  filter->RemoveObserver(tag);
+  return progress;
+}
+
+/// Stops the filter once it has come so far. Removed with removeObserver(tag).
+unsigned long abortAt(vtkSchlierenFilter* filter, double* share)
+{
+  vtkNew<vtkCallbackCommand> watch;
+  watch->SetClientData(share);
+  watch->SetCallback(
+    [](vtkObject* caller, unsigned long, void* at, void* value)
+    {
+      if (*static_cast<double*>(value) >= *static_cast<double*>(at))
+      {
+        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+      }
+    });
+  return filter->AddObserver(vtkCommand::ProgressEvent, watch);
+}
+
+} // namespace
+
+TEST(Slices, GiveTheBitsOfTheWhole)
+{
+  const auto image = columnImage();
+  addPointArray(image, "f", [](const Vec& x) { return x[0] + x[1] * x[1]; });
+  for (int cutoff = vtkSchlierenFilter::KNIFE_EDGE;
+       cutoff <= vtkSchlierenFilter::BACKGROUND_ORIENTED; ++cutoff)
+  {
+    SCOPED_TRACE(cutoff);
+    expectSameInSlices(image, [cutoff](vtkSchlierenFilter* filter) { filter->SetCutoff(cutoff); });
+  }
+  expectSameInSlices(image,
+    [](vtkSchlierenFilter* filter)
+    {
+      filter->SetFilmEstimator(vtkSchlierenFilter::PHOTON);
+      filter->SetNoiseFilter(vtkSchlierenFilter::CONE);
+      filter->SetPrecision(vtkSchlierenFilter::DOUBLE);
+      filter->SetMemoryBudget(0);
+    });
+  expectSameInSlices(image,
+    [](vtkSchlierenFilter* filter)
+    {
+      filter->AddField("f");
+      filter->SetColorByField(true);
+    });
+}
+
+TEST(Slices, AreNoneWhereTheLimitIsLong)
+{
+  auto filter = smallBench(columnImage());
+  constexpr double anHour = 3600;
+  EXPECT_EQ(updateInSlices(filter, anHour), 1);
+}
+
+TEST(Slices, TheLimitIsNoModification)
+{
+  auto filter = smallBench(columnImage());
+  filter->Update();
+  const vtkMTimeType time = filter->GetMTime();
+  filter->SetTimeLimit(1);
+  EXPECT_EQ(filter->GetMTime(), time);
+  EXPECT_TRUE(progressOf(filter).empty()); // nothing is run
+  filter->Refine();                        // of a finished picture
+  EXPECT_EQ(filter->GetMTime(), time);
+  EXPECT_TRUE(progressOf(filter).empty());
+
+  filter->SetSeed(7);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  EXPECT_FALSE(filter->GetFinished());
+  EXPECT_TRUE(progressOf(filter).empty()); // it waits for Refine()
+  EXPECT_FALSE(filter->GetFinished());
+  filter->SetTimeLimit(0);
+  EXPECT_TRUE(progressOf(filter).empty());
+  filter->Refine();
+  EXPECT_FALSE(progressOf(filter).empty());
+  EXPECT_TRUE(filter->GetFinished()); // without a limit all is done
+}
+
+TEST(Slices, ANewFilterBeginsWithAHurriedPicture)
+{
+  auto filter = smallBench(columnImage());
+  filter->SetImageSize(200, 160);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  EXPECT_FALSE(filter->GetFinished());
+  EXPECT_EQ(filter->GetPictureCount(), 1);
+  vtkImageData* picture = filter->GetOutput();
+  EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
+    filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+  EXPECT_EQ(picture->GetPointData()->GetScalars()->GetNumberOfTuples(), 200 * 160);
+  const std::vector<double> rough = valuesOf(filter, "Deflection");
+  const Vec origin{ picture->GetOrigin()[0], picture->GetOrigin()[1], 0 };
+
+  EXPECT_GT(updateInSlices(filter), 3);
+  EXPECT_EQ(filter->GetPictureCount(), 4); // one for each sample, too
+  EXPECT_LT(relativeDifference(rough, valuesOf(filter, "Deflection")), 0.3);
+  EXPECT_NEAR(picture->GetOrigin()[0], origin[0], 1e-12);
+  EXPECT_NEAR(picture->GetOrigin()[1], origin[1], 1e-12);
+}
+
+TEST(Slices, TheLastPictureStaysUntilThereIsABetterOne)
+{
+  auto filter = smallBench(columnImage());
+  filter->Update();
+  const std::vector<double> last = valuesOf(filter, "Intensity");
+  const vtkTypeInt64 pictures = filter->GetPictureCount();
+  const std::string status = filter->GetStatus();
+  filter->SetViewDirection(0.5, 0.2, -1);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  EXPECT_FALSE(filter->GetFinished());
+  EXPECT_EQ(valuesOf(filter, "Intensity"), last);
+  EXPECT_EQ(filter->GetPictureCount(), pictures);
+  EXPECT_EQ(filter->GetStatus(), status);
+  EXPECT_GT(filter->GetOutput(vtkSchlierenFilter::HISTOGRAM_PORT)->GetNumberOfPoints(), 0);
+
+  while (filter->GetPictureCount() == pictures)
+  {
+    filter->Refine();
+    filter->Update();
+  }
+  EXPECT_NE(valuesOf(filter, "Intensity"), last);
+  EXPECT_EQ(std::string(filter->GetStatus()).find("1 of 3 samples per pixel"), 0u)
+    << filter->GetStatus();
+  updateInSlices(filter);
+  EXPECT_EQ(std::string(filter->GetStatus()).find("3 samples per pixel"), 0u)
+    << filter->GetStatus();
+}
+
+// Of another size than the last one: filters after this one rely on the extent they were told.
+TEST(Slices, TheLastPictureFillsThePromisedExtent)
+{
+  auto filter = smallBench(columnImage());
+  filter->SetCutoff(vtkSchlierenFilter::COLOR_FILTER);
+  filter->Update();
+  vtkImageData* picture = filter->GetOutput();
+  const double left = picture->GetOrigin()[0] - 0.5 * picture->GetSpacing()[0];
+  const double width = 40 * picture->GetSpacing()[0];
+  const std::vector<double> last = valuesOf(filter, "Color");
+  filter->SetImageSize(120, 20);
+  filter->SetHistogramSize(32);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  for (int port = 0; port < 2; ++port)
+  {
+    picture = filter->GetOutput(port);
+    EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
+      filter->GetOutputInformation(port)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+    ASSERT_NE(picture->GetPointData()->GetScalars(), nullptr);
+    EXPECT_EQ(
+      picture->GetPointData()->GetScalars()->GetNumberOfTuples(), picture->GetNumberOfPoints());
+  }
+  picture = filter->GetOutput();
+  EXPECT_STREQ(picture->GetPointData()->GetScalars()->GetName(), "Color");
+  EXPECT_NEAR(picture->GetOrigin()[0] - 0.5 * picture->GetSpacing()[0], left, 1e-12);
+  EXPECT_NEAR(120 * picture->GetSpacing()[0], width, 1e-12);
+  const std::vector<double> stretched = valuesOf(filter, "Color");
+  for (int row = 0; row < 20; ++row)
+  {
+    for (int column = 0; column < 120; ++column)
+    {
+      const auto to = static_cast<std::size_t>(3 * (row * 120 + column));
+      const auto from = static_cast<std::size_t>(3 * ((2 * row + 1) * 40 + column / 3));
+      EXPECT_EQ(stretched[to], last[from]);
+    }
+  }
+  updateInSlices(filter);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 120 * 20);
+}
+
+TEST(Slices, AnotherPropertyInTheMidstMakesAnotherPicture)
+{
+  const auto image = columnImage();
+  const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
+    { "cutoff", [](vtkSchlierenFilter* filter) { filter->SetKnifeEdgeAngle(60); } },
+    { "view", [](vtkSchlierenFilter* filter) { filter->SetViewDirection(1, 0.2, 0); } },
+    { "medium", [](vtkSchlierenFilter* filter) { filter->SetAmbientRefractivity(1e-5); } },
+    { "more samples", [](vtkSchlierenFilter* filter) { filter->SetSamplesPerPixel(5); } }
+  };
+  for (const auto& [what, change] : changes)
+  {
+    SCOPED_TRACE(what);
+    auto fresh = smallBench(image);
+    change(fresh);
+    fresh->Update();
+    for (const bool isRefined : { false, true }) // the order does not matter
+    {
+      auto filter = smallBench(image);
+      filter->SetNumberOfThreads(1); // so that slices are alike
+      filter->SetTimeLimit(shortest);
+      filter->Update();
+      for (int slice = 0; slice < 14; ++slice)
+      {
+        filter->Refine();
+        filter->Update();
+      }
+      EXPECT_FALSE(filter->GetFinished());
+      if (isRefined)
+      {
+        filter->Refine();
+      }
+      change(filter);
+      filter->Refine();
+      updateInSlices(filter);
+      expectSamePicture(filter, fresh);
+    }
+  }
+}
+
+TEST(Slices, AnotherInputInTheMidstMakesAnotherPicture)
+{
+  auto image = columnImage();
+  auto filter = smallBench(image);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  image->GetPointData()->GetArray("N")->SetComponent(2345, 0, 3e-4);
+  image->GetPointData()->GetArray("N")->Modified();
+  filter->Refine();
+  updateInSlices(filter);
+  auto fresh = smallBench(image);
+  fresh->Update();
+  expectSamePicture(filter, fresh);
+  EXPECT_EQ(filter->GetMediumBuilds(), 2);
+}
+
+TEST(Slices, ANewKnifeEdgeInTheMidstTracesNothingAgain)
+{
+  auto image = columnImage();
+  auto whole = smallBench(image);
+  whole->Update();
+  auto filter = smallBench(image);
+  filter->SetImageSize(40, 40);
+  filter->Update();
+  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
+  filter->SetSamplesPerPixel(4);
+  filter->SetTimeLimit(shortest);
+  for (int angle = 1; angle < 30; ++angle)
+  {
+    filter->SetKnifeEdgeAngle(angle);
+    filter->Update();
+    filter->Refine();
+    filter->Update();
+  }
+  updateInSlices(filter);
+  EXPECT_NEAR(
+    static_cast<double>(filter->GetTotalRaysTraced()) / static_cast<double>(rays), 4 / 3., 0.02);
+}
+
+TEST(Slices, AMistakeInTheMidstLeavesNothing)
+{
+  auto filter = smallBench(columnImage());
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  EXPECT_FALSE(filter->GetFinished());
+  expectOneMessage(
+    filter.Get(),
+    [](vtkSchlierenFilter* wrong)
+    {
+      wrong->SetStepSize(-1);
+      wrong->Refine();
+    },
+    { "StepSize" },
+    [](vtkSchlierenFilter* right)
+    {
+      EXPECT_TRUE(right->GetFinished());
+      EXPECT_STREQ(right->GetStatus(), "");
+      right->SetStepSize(1);
+    });
+  EXPECT_FALSE(filter->GetFinished());
+  updateInSlices(filter);
+
+  filter->SetSeed(3);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  expectOneMessage(
+    filter.Get(), // found before rays are thought of
+    [](vtkSchlierenFilter* wrong)
+    {
+      wrong->SetInputArrayToProcess(
+        vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "gone");
+    },
+    { "gone" },
+    [](vtkSchlierenFilter* right)
+    {
+      EXPECT_TRUE(right->GetFinished());
+      right->SetInputArrayToProcess(
+        vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+    });
+}
+
+TEST(Slices, AbortLeavesNothing)
+{
+  auto image = columnImage();
+  for (const double limit : { 0., shortest })
+  {
+    auto filter = smallBench(image);
+    filter->SetTimeLimit(shortest);
+    filter->Update();
+    EXPECT_FALSE(filter->GetFinished());
+    filter->SetTimeLimit(limit);
+    double share = 0.3; // while rays are traced
+    if (limit > 0)
+    {
+      share = 0.01; // while the refractivity is found
+      image->GetPointData()->GetArray("N")->Modified();
+    }
+    const unsigned long tag = abortAt(filter, &share);
+    filter->Refine();
+    filter->Update();
+    EXPECT_TRUE(isEmpty(filter)) << limit;
+    EXPECT_TRUE(filter->GetFinished()) << limit;
+    EXPECT_STREQ(filter->GetStatus(), "") << limit;
+    filter->RemoveObserver(tag);
+    updateInSlices(filter);
+    auto fresh = smallBench(image);
+    fresh->Update();
+    expectSamePicture(filter, fresh);
+  }
+}
+
+TEST(Slices, NoLimitFinishesWhatWasBegun)
+{
+  auto image = columnImage();
+  auto fresh = smallBench(image);
+  fresh->Update();
+  for (const int slices : { 1, 4, 12, 20, 25 })
+  {
+    auto filter = smallBench(image);
+    filter->SetTimeLimit(shortest);
+    filter->Update();
+    for (int slice = 1; slice < slices; ++slice)
+    {
+      filter->Refine();
+      filter->Update();
+    }
+    filter->SetTimeLimit(0);
+    filter->Refine();
+    filter->Update();
+    EXPECT_TRUE(filter->GetFinished());
+    expectSamePicture(filter, fresh);
+  }
+}
+
+TEST(Slices, AWarningIsGivenOnce)
+{
+  auto image = cube(12);
+  addPointArray(
+    image, "N", [](const Vec& x) { return std::abs(x[2]) < 0.2 ? std::nan("") : 1e-4; });
+  auto filter = smallBench(image);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  EXPECT_GT(updateInSlices(filter), 3);
+  EXPECT_EQ(complaints->Warnings.size(), 1u);
+  filter->SetViewDirection(-0.1, 0, -1);
+  filter->SetParallelScale(0.1);
+  updateInSlices(filter);
+  EXPECT_EQ(complaints->Warnings.size(), 2u);
+  filter->SetPreviewReduction(2); // the whole picture says it
+  filter->Update();
+  EXPECT_EQ(complaints->Warnings.size(), 2u);
+}
+
+TEST(Slices, ShowNoProgressButThatOfTheMedium)
+{
+  auto filter = smallBench(columnImage());
+  filter->SetTimeLimit(shortest);
+  const std::vector<double> first = progressOf(filter);
+  EXPECT_GT(std::count_if(
+              first.begin(), first.end(), [](double share) { return share > 0 && share < 0.2; }),
+    0);
+  filter->Refine();
+  for (const double share : progressOf(filter))
+  {
+    EXPECT_TRUE(share == 0 || share == 1) << share;
+  }
+}
