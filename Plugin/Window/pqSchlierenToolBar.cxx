@@ -108,7 +108,7 @@ void pqSchlierenToolBar::addMenu()
   {
     return;
   }
-  auto* menu = new QMenu("Schlie&ren", window);
+  auto* menu = new QMenu("Schlie&ren", window->menuBar());
   menu->setObjectName("menuSchlieren");
   menu->addActions(this->actions());
   const QList<QAction*> menus = window->menuBar()->actions();

@@ -84,12 +84,11 @@ assert np.ptp(picture(bench, "Intensity")) > 0.2
 
 load("two.pvsm")
 first, second = filters().values()
-(_, scene), *flat = views()
-assert len(flat) == 2 and first.FollowedView == second.FollowedView
+((_, scene),) = [(cell, view) for cell, view in views() if view.InteractionMode == "3D"]
+assert [cell for cell, _ in views()] == [2, 3, 4] and first.FollowedView == second.FollowedView
 assert first.Cutoff == second.Cutoff == "Shadowgraph" and first.Input == second.Input
-shown_in = {name: [view for _, view in flat if shown(bench, view)] for name, bench in filters().items()}
-for name, bench in filters().items():
-    (view,) = shown_in[name]
+for bench in (first, second):
+    (view,) = [view for _, view in views() if shown(bench, view)]
     check_camera(bench, scene)
     check_display(shown(bench, view), 2)
     check_picture_view(view, bench)

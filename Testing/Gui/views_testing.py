@@ -112,7 +112,9 @@ def filters():
 
 
 def shown(bench, view):
-    return simple.GetRepresentation(bench, view)
+    """How the view shows it; null where it does not."""
+    found = view.SMProxy.FindRepresentation(bench.SMProxy, 0)
+    return simple.servermanager._getPyProxy(found) if found else None  # pylint: disable=protected-access
 
 
 def check_display(representation, white=1):
