@@ -139,13 +139,15 @@ public:
         this->compare(views);
         break;
     }
+    pqPipelineSource* picture = this->Pictures[0];
     if (this->Medium && !isImage(this->Flow))
     {
-      showAsVolume(this->Medium, this->Scene, this->MediumDefaults, this->Pictures[0]);
+      showAsVolume(this->Medium, this->Scene, this->MediumDefaults, picture->getProxy(), picture);
     }
     else
     {
-      showAsVolume(this->Flow, this->Scene, this->Defaults, this->Pictures[0]);
+      pqPipelineSource* model = this->Medium ? this->Medium->getSource() : picture;
+      showAsVolume(this->Flow, this->Scene, this->Defaults, model->getProxy(), picture);
     }
     pqActiveObjects::instance().setActiveView(views[0]);
     pqActiveObjects::instance().setActiveSource(this->Pictures[0]);
