@@ -183,6 +183,7 @@ TEST(RgbPictures, AreDecodedOnceForTheSameText)
   const auto first = reader.read("ColorFilterImage", text(png(bytes(3, 3, six))));
   EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, six)))), first);
   EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, seven))))->rgb, seven);
-  EXPECT_THROW(reader.read("ColorFilterImage", "data:image/png;base64,nothing"), std::runtime_error);
+  EXPECT_THROW(
+    reader.read("ColorFilterImage", "data:image/png;base64,nothing"), std::runtime_error);
   EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, six))))->rgb, six);
 }

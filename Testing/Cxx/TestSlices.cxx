@@ -349,8 +349,8 @@ TEST(Slices, ANewKnifeEdgeInTheMidstTracesNothingAgain)
     filter->Update();
   }
   updateInSlices(filter);
-  EXPECT_NEAR(static_cast<double>(filter->GetTotalRaysTraced()) / static_cast<double>(rays), 4 / 3.,
-    0.02);
+  EXPECT_NEAR(
+    static_cast<double>(filter->GetTotalRaysTraced()) / static_cast<double>(rays), 4 / 3., 0.02);
 }
 
 TEST(Slices, AMistakeInTheMidstLeavesNothing)
@@ -470,7 +470,9 @@ TEST(Slices, ShowNoProgressButThatOfTheMedium)
   auto filter = smallBench(columnImage());
   filter->SetTimeLimit(shortest);
   const std::vector<double> first = progressOf(filter);
-  EXPECT_GT(std::count_if(first.begin(), first.end(), [](double share) { return share > 0 && share < 0.2; }), 0);
+  EXPECT_GT(std::count_if(
+              first.begin(), first.end(), [](double share) { return share > 0 && share < 0.2; }),
+    0);
   filter->Refine();
   for (const double share : progressOf(filter))
   {
