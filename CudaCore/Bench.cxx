@@ -410,9 +410,12 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
       };
     }
     aimPass(pass, number, scene, light);
+    const double tracedBefore = asked.traceSeconds;
     const TracedPass* traced = raysOf(number, pass, held, task, ofPass, asked);
-    if (traced == nullptr || watch.isAborted())
+    const bool hasTraced = asked.traceSeconds > tracedBefore;
+    if (traced == nullptr || watch.isAborted() || (hasTraced && watch.isPaused()))
     {
+      goesOn = false;
       break;
     }
     asked.momentumDrift = std::max(asked.momentumDrift, traced->worstDrift);
