@@ -62,6 +62,12 @@ struct vtkSchlierenFilter::Internals
   vtkMTimeType FailedAt = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
+
+  void DropShown()
+  {
+    this->Shown[0].Drop();
+    this->Shown[1].Drop();
+  }
 };
 
 namespace
@@ -686,6 +692,10 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
     this->PassToMedium();
     const bool goesOn = this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;
+    if (!(this->TimeLimit > 0))
+    {
+      inside.DropShown(); // there will be a better picture, which wants the memory
+    }
     bool isMade = goesOn || this->UpdateRefractivity(input, bodies);
     if (isMade && !goesOn)
     {
@@ -727,10 +737,7 @@ void vtkSchlierenFilter::ForgetPicture()
   Internals& inside = *this->Inside;
   inside.UnfinishedOf = 0;
   inside.Pictures.GiveUp();
-  for (LastPicture& picture : inside.Shown)
-  {
-    picture.Drop();
-  }
+  inside.DropShown();
   this->KScaleUsed = 0;
   this->Sensitivity.clear();
   this->Status.clear();

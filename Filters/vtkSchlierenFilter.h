@@ -756,8 +756,11 @@ public:
   /**
    * Seconds that an update may take for rays and light, about; 0 (the default): no limit. When they are over,
    * the output is the picture of the samples that are there, or, before the first of each pixel is, the
-   * picture from before. Refine() then lets the next update go on where this one ended; IsFinished() tells
-   * whether there is anything left. Another limit is no reason to make a picture again.
+   * picture from before, stretched where it was of another size (of a new filter: a hurried one). Refine()
+   * then lets the next update go on where this one ended; GetFinished() tells whether there is anything left.
+   * Each makes some progress, however short the limit, and the finished picture is the one made without a
+   * limit, to the last bit. Another limit is no reason to make a picture again. What the medium takes does not
+   * count, and progress is not reported.
    */
   void SetTimeLimit(double seconds) { this->TimeLimit = seconds; }
   vtkGetMacro(TimeLimit, double);
