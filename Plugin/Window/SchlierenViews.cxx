@@ -111,7 +111,7 @@ public:
   {
   }
 
-  QString add(Arrangement arrangement)
+  SchlierenViews::Result add(Arrangement arrangement)
   {
     this->findScene();
     std::vector<pqRenderView*> views;
@@ -155,8 +155,11 @@ public:
     {
       linkCameras(views[0], views[1]);
     }
-    return this->Pattern ? "Set as '" + this->Pattern->getSMName() + "' is."
-                         : QString::fromStdString(this->Defaults.message);
+    if (this->Pattern)
+    {
+      return { true, true, "Set as '" + this->Pattern->getSMName() + "' is." };
+    }
+    return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
   /// Shows everything, and brings all pictures to the set quality.
@@ -398,15 +401,15 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
     pattern && !isApplied(pattern) ? notApplied(pattern) : problemOfFlow(flow);
   if (!problem.isEmpty())
   {
-    return { false, problem };
+    return { false, true, problem };
   }
   pqWaitCursor cursor;
   static const char* const names[] = { "Add Schlieren View", "Add Three Pictures",
     "Compare Light" };
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   Builder builder(flow, pattern);
-  const QString message = builder.add(arrangement);
+  const Result result = builder.add(arrangement);
   END_UNDO_SET();
   builder.render();
-  return { true, message };
+  return result;
 }
