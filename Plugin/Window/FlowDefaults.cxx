@@ -251,10 +251,9 @@ public:
       {
         this->Result.arrays = { { "Density", array.name } };
         this->Result.isSure = false;
-        this->Result.message = this->Note + "No array is known by its name: " + quoted(array.name) +
-          " is taken as the density in kg/m\xc2\xb3. Choose the right one, or another Index Model, "
-          "in the "
-          "properties panel.";
+        this->Result.message = this->Note + quoted(array.name) +
+          " is taken as the density in kg/m\xc2\xb3, for no array is known by its name. Choose "
+          "another one, or another Index Model, in the properties panel.";
         return true;
       }
     }
