@@ -4,8 +4,10 @@
 
 #include "vtkCamera.h"
 #include "vtkMath.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
+#include "vtkSMSourceProxy.h"
 
 #include <algorithm>
 #include <array>
@@ -27,6 +29,35 @@ bool setIfOther(vtkSMProxy* proxy, const char* name, const std::vector<double>& 
   return true;
 }
 
+/// How far the middle of the filter's data is in front of a camera; how far the focal point is where that is
+/// not known, or behind. ParaView's zoom takes the focal point along.
+double distanceOfData(vtkSMProxy* filter, vtkCamera* camera)
+{
+  vtkSMPropertyHelper input(filter, "Input");
+  auto* flow = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+  double bounds[6];
+  if (flow)
+  {
+    flow->GetDataInformation(input.GetOutputPort())->GetBounds(bounds);
+    if (vtkMath::AreBoundsInitialized(bounds))
+    {
+      const double* eye = camera->GetPosition();
+      const double* direction = camera->GetDirectionOfProjection();
+      double distance = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double center = 0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]);
+        distance += (center - eye[axis]) * direction[axis];
+      }
+      if (distance > 0)
+      {
+        return distance;
+      }
+    }
+  }
+  return camera->GetDistance();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -39,9 +70,9 @@ bool takeCameraOfView(vtkSMProxy* filter, vtkSMRenderViewProxy* view)
   camera->GetDirectionOfProjection(direction.data());
   camera->GetViewUp(up.data());
   camera->GetFocalPoint(focus.data());
-  const double scale = camera->GetParallelProjection()
-    ? camera->GetParallelScale()
-    : camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(camera->GetViewAngle() / 2));
+  const double scale = camera->GetParallelProjection() ? camera->GetParallelScale()
+                                                       : distanceOfData(filter, camera) *
+      std::tan(vtkMath::RadiansFromDegrees(camera->GetViewAngle() / 2));
 
   std::array<double, 3> right;
   vtkMath::Cross(direction.data(), up.data(), right.data());

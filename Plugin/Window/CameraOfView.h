@@ -8,8 +8,8 @@ class vtkSMProxy;
 class vtkSMRenderViewProxy;
 
 /// Lets a Schlieren filter look as the view does: its properties ViewDirection, ViewUp, FocalPoint and
-/// ParallelScale. Light is parallel; of a perspective view, what is as far away as its focal point has the
-/// same size. Nothing is pushed (UpdateVTKObjects). Returns whether the filter's view is another one now. A
+/// ParallelScale. Light is parallel; of a perspective view, what is as far away as the middle of the data
+/// has the same size. Nothing is pushed (UpdateVTKObjects). Returns whether the filter's view is another one now. A
 /// camera that has no direction, up or size, as in the middle of a change, changes nothing.
 bool takeCameraOfView(vtkSMProxy* filter, vtkSMRenderViewProxy* view);
 

@@ -102,9 +102,13 @@ void pqCameraFollower::onCamera(vtkObject*, unsigned long, void* view)
   for (pqPipelineSource* filter : picturesInViews::filters())
   {
     pqRenderView* followed = picturesInViews::followed(filter);
-    if (followed && followed->getProxy() == view &&
-      (pqInteraction::instance()->isOn() || this->push(filter, followed)))
+    const bool isMoving = pqInteraction::instance()->isOn();
+    if (followed && followed->getProxy() == view && (isMoving || this->push(filter, followed)))
     {
+      if (!isMoving)
+      {
+        pqPictureRefiner::instance()->refine(filter->getProxy(), pqPictureRefiner::Pace::Thorough);
+      }
       if (!this->Changed.contains(filter))
       {
         this->Changed << filter;
@@ -180,6 +184,7 @@ void pqCameraFollower::onReleased()
     if (view)
     {
       this->push(filter, view);
+      pqPictureRefiner::instance()->refine(filter->getProxy(), pqPictureRefiner::Pace::Thorough);
     }
   }
   if (!this->Changed.isEmpty())
@@ -222,6 +227,5 @@ void pqCameraFollower::catchUp()
         proxy->GetProperty(name)->Modified();
       }
     }
-    pqPictureRefiner::instance()->refine(proxy, pqPictureRefiner::Pace::Thorough);
   }
 }

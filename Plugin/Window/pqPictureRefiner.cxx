@@ -81,6 +81,18 @@ vtkMTimeType changeOf(vtkSMProxy* filter)
   return latest;
 }
 
+/// Whether a view is rendering because someone has asked it to do so later (pqView::render): nobody waits for
+/// the result then.
+bool isRenderingLater(pqView* view)
+{
+  // A slot of the view is running that its timer has called.
+  struct Slots : QObject
+  {
+    static QObject* senderOf(QObject* receiver) { return (receiver->*(&Slots::sender))(); }
+  };
+  return qobject_cast<QTimer*>(Slots::senderOf(view)) != nullptr;
+}
+
 void setTimeLimit(vtkSMProxy* filter, double seconds)
 {
   SCOPED_UNDO_EXCLUDE();
@@ -334,6 +346,10 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
   speed.IsRough = true;
   job.WantsRoughPicture = false;
 
+  // A picture of all pixels has all their samples, too.
+  const bool isOneSample = vtkSMPropertyHelper(filter, "SamplesPerPixel").GetAsInt() == 1;
+  speed.Reduction = std::max(speed.Reduction, isOneSample ? 1 : 2);
+
   QElapsedTimer timer;
   timer.start();
   setReduction(filter, speed.Reduction);
@@ -401,12 +417,15 @@ bool pqPictureRefiner::show(
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::onStartRender(vtkObject* view, unsigned long, void*, void* isInteractive)
+void pqPictureRefiner::onStartRender(vtkObject* proxy, unsigned long, void*, void* isInteractive)
 {
-  const bool isForUser =
-    *static_cast<int*>(isInteractive) != 0 || pqInteraction::instance()->isAnsweredBy(view);
-  pqInteraction::instance()->setAnswered(view);
-  if (this->IsBusy || !isForUser)
+  pqInteraction* interaction = pqInteraction::instance();
+  auto* view = pqApplicationCore::instance()->getServerManagerModel()->findItem<pqView*>(
+    vtkSMProxy::SafeDownCast(proxy));
+  const bool isForUser = *static_cast<int*>(isInteractive) != 0 ||
+    interaction->isAnsweredBy(proxy) || (view && isRenderingLater(view));
+  interaction->setAnswered(proxy);
+  if (this->IsBusy || !view || !isForUser)
   {
     return;
   }
@@ -414,10 +433,7 @@ void pqPictureRefiner::onStartRender(vtkObject* view, unsigned long, void*, void
   {
     vtkSMSourceProxy* filter = source->getSourceProxy();
     const Speed speed = this->Speeds.value(filter);
-    const QList<pqView*> views = picturesInViews::showing(source);
-    if ((speed.IsRough || this->hasJob(filter)) &&
-      std::any_of(
-        views.begin(), views.end(), [view](pqView* shown) { return shown->getProxy() == view; }))
+    if ((speed.IsRough || this->hasJob(filter)) && picturesInViews::showing(source).contains(view))
     {
       setTimeLimit(filter, speed.limit());
       this->Limited << filter;

@@ -86,7 +86,7 @@ for step in ("first", "turned", "zoomed", "moved", "movedOn", "parallel"):
     assert is_scripted(step, step), step
     assert is_scripted(step + "Shadows", step, "shadows"), step
     assert saved(step)["reduction"] == 1 and saved(step)["limit"] == 0
-assert not is_scripted("turned", "first")
+assert not is_scripted("turned", "first") and not is_scripted("zoomed", "turned")
 assert is_scripted("off", "parallel") and not is_scripted("off", "off")
 assert is_scripted("offShadows", "off", "shadows")
 

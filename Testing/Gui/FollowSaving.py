@@ -25,7 +25,7 @@ def reference(camera, name):
     scripted.ViewDirection = list((focus - position) / distance)
     scripted.ViewUp = list(camera.GetViewUp())
     scripted.FocalPoint = list(focus)
-    scripted.ParallelScale = float(distance * np.tan(np.radians(camera.GetViewAngle()) / 2))
+    scripted.ParallelScale = float(np.linalg.norm(position) * np.tan(np.radians(camera.GetViewAngle()) / 2))
     Hide(bench, shown)
     Show(scripted, shown)
     Render(shown)
@@ -55,14 +55,13 @@ scene.NumberOfFrames = 3
 track = GetCameraTrack(view=turned)
 track.Mode = "Path-based"
 first = CameraKeyFrame(
-    KeyTime=0, PositionPathPoints=[60, 0, 0, 0, 0, 60, -60, 0, 0, 0, 0, -60], ClosedPositionPath=1,
+    KeyTime=0, PositionPathPoints=[60, 0, 0, 0, 30, 60, -60, 20, 0, 0, 0, -60], ClosedPositionPath=1,
     FocalPathPoints=[0, 0, 0], ViewUp=[0, 1, 0])
 track.KeyFrames = [first, CameraKeyFrame(KeyTime=1)]
 SaveAnimation(os.path.join(FOLDER, "orbit.png"), shown, FrameWindow=[0, 2], ImageResolution=SIZE)
 for frame in range(3):
     scene.AnimationTime = frame / 2
     camera = turned.GetActiveCamera()
-    print("camera", camera.GetPosition())
     reference(camera, f"reference{frame}.png")
 """)
 

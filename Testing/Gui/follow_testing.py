@@ -42,14 +42,15 @@ SetActiveSource(benches["bench"])
 def scripted(simple, schlieren, camera, name="bench"):
     """The picture that a script makes of what a saved camera sees, by a filter of its own."""
     position, focus = camera["position0"], camera["focal_point0"]
-    distance = np.linalg.norm(focus - position)
+    direction = (focus - position) / np.linalg.norm(focus - position)
+    # The middle of the data, at 0, has the same size in both.
     scale = (camera["parallel_scale0"] if camera["parallel0"]
-             else distance * np.tan(np.radians(camera["angle0"]) / 2))
+             else -position @ direction * np.tan(np.radians(camera["angle0"]) / 2))
     flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
     flow.UpdatePipeline()
     return schlieren(Input=flow, ImageSize=[SIZE, SIZE], GladstoneDaleConstant=1e-6, Quality="Draft",
                      Cutoff={"bench": "Knife Edge", "shadows": "Shadowgraph"}[name],
-                     ViewDirection=list((focus - position) / distance), ViewUp=list(camera["view_up0"]),
+                     ViewDirection=list(direction), ViewUp=list(camera["view_up0"]),
                      FocalPoint=list(focus), ParallelScale=float(scale))
 
 
