@@ -26,6 +26,7 @@
 #include "vtkNew.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyClipboard.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -197,9 +198,15 @@ private:
   /// with which it makes a square.
   std::vector<pqRenderView*> addViews(int number)
   {
+    // A script may have made a view without a place.
+    if (!vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy()))
+    {
+      this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
+    }
     const std::array<int, 2> before = sizeOf(this->Scene);
     vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
-    int left = layout->SplitHorizontal(layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
+    const int left =
+      layout->SplitHorizontal(layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
     std::vector<int> cells = { left + 1 };
     if (number > 1)
     {
@@ -286,7 +293,14 @@ private:
     vtkSMPropertyHelper input(filter, "Input");
     vtkSMProxy* flow = input.GetAsProxy();
     const unsigned int port = input.GetOutputPort();
-    filter->Copy(this->Pattern->getProxy());
+    vtkSMProxy* pattern = this->Pattern->getProxy();
+    // Pasting makes curves of its own, for filters of the same kind only.
+    vtkNew<vtkSMProxyClipboard> clipboard;
+    clipboard->Copy(pattern);
+    if (!clipboard->CanPaste(filter) || !clipboard->Paste(filter))
+    {
+      filter->Copy(pattern);
+    }
     input.Set(flow, port);
   }
 
