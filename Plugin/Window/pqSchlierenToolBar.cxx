@@ -153,7 +153,7 @@ void pqSchlierenToolBar::tell(const SchlierenViews::Result& result)
   }
   else if (!result.message.isEmpty())
   {
-    const QByteArray line = ("Schlieren: " + result.message + "\n").toUtf8();
+    const QByteArray line = ("Schlieren: " + result.message).toUtf8();
     if (result.isSure)
     {
       vtkOutputWindowDisplayText(line.constData());
