@@ -30,7 +30,7 @@ schlieren::View hurriedView(
 int reductionAtFirst(const schlieren::View& view)
 {
   constexpr int pixels = 64;
-  return (std::max(view.width, view.height) + pixels - 1) / pixels;
+  return std::max(2, (std::max(view.width, view.height) + pixels - 1) / pixels);
 }
 
 //------------------------------------------------------------------------------

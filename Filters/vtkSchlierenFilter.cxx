@@ -561,7 +561,8 @@ bool vtkSchlierenFilter::Show(
     return true;
   }
   const schlieren::Scene& scene = inside.Pictures.GetScene();
-  if (this->PreviewReduction == 1) // else the whole picture will say it
+  const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
+  if (isWhole) // of a hurried one the whole picture will say it
   {
     for (const std::string& warning : inside.Pictures.GetWarnings(image))
     {

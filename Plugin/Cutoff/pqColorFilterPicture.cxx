@@ -15,7 +15,10 @@ namespace pqColorFilterPicture
 namespace
 {
 
-constexpr int side = 256; // pixels, of the wheel and at least of what is painted on
+constexpr int side = 256;        // pixels, of the wheel and at least of what is painted on
+constexpr int largestSide = 512; // pixels, of what is painted on
+constexpr double colorWithoutLight = 0.35;
+constexpr int grey = 128;
 
 double limited(double share) { return std::min(1., std::max(0., share)); }
 
@@ -62,6 +65,15 @@ QRgb colorAt(const QImage& picture, const QPointF& place)
 }
 
 //------------------------------------------------------------------------------
+QRgb lit(QRgb color, double light)
+{
+  const double share = colorWithoutLight + (1 - colorWithoutLight) * light;
+  const auto mixed = [share](int value)
+  { return static_cast<int>(std::lround(grey + share * (value - grey))); };
+  return qRgb(mixed(qRed(color)), mixed(qGreen(color)), mixed(qBlue(color)));
+}
+
+//------------------------------------------------------------------------------
 QImage decoded(const QString& text)
 {
   if (text.startsWith("data:"))
@@ -86,7 +98,8 @@ QImage paintable(const QImage& picture)
   {
     return wheel();
   }
-  const QSize size = picture.size().expandedTo(QSize(side, side));
+  const QSize size =
+    picture.size().expandedTo({ side, side }).boundedTo({ largestSide, largestSide });
   return picture.convertToFormat(QImage::Format_RGB32)
     .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }

@@ -20,13 +20,16 @@ QImage wheel();
 /// What the filter does to light there; beyond the picture, as at its edge. A null picture is the wheel.
 QRgb colorAt(const QImage& picture, const QPointF& place);
 
+/// A colour of the filter, greyed where no light (0 to 1) is, so that one sees where there is.
+QRgb lit(QRgb color, double light);
+
 /// What a property holds: a file's name, a data URI or nothing. Null where that is no picture.
 QImage decoded(const QString& text);
 
 /// What a property is to hold: a PNG with the picture's texts in it.
 QString encoded(const QImage& picture);
 
-/// The picture, large enough to be painted on.
+/// The picture, large enough to be painted on and small enough to be sent while that is done.
 QImage paintable(const QImage& picture);
 
 struct Brush

@@ -29,7 +29,6 @@ constexpr double leastRange = 1e-12; // radians, of what can be shown
 const QColor lineColor(255, 160, 0);
 constexpr int knife[] = { 40, 90, 160 }; // the colour of what stops light
 constexpr double knifeOpacity = 0.75;
-constexpr double colorWithoutLight = 0.35; // how much of a filter's colour is seen there
 
 struct Unit
 {
@@ -174,11 +173,8 @@ QImage pqCutoffView::composed() const
       const double light = this->Light.brightnessAt(deflection);
       if (this->Cutoff.Kind == pqCutoff::ColorFilter)
       {
-        const QRgb color =
-          pqColorFilterPicture::colorAt(this->Picture, this->Cutoff.K * deflection);
-        const double share = colorWithoutLight + (1 - colorWithoutLight) * light;
-        line[column] = qRgb(blend(128, qRed(color), share), blend(128, qGreen(color), share),
-          blend(128, qBlue(color), share));
+        line[column] = pqColorFilterPicture::lit(
+          pqColorFilterPicture::colorAt(this->Picture, this->Cutoff.K * deflection), light);
       }
       else
       {

@@ -3,13 +3,12 @@
 #include "pqCutoffWidget.h"
 
 #include "pqColorFilterPicture.h"
+#include "pqCutoffLightFetcher.h"
 #include "pqCutoffView.h"
-#include "pqFetchedImage.h"
 #include "pqProxyWidget.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
-#include "vtkImageData.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
@@ -23,21 +22,13 @@
 namespace
 {
 
-constexpr int histogramPort = 1;
 constexpr int discSource = 2;
 constexpr int pointSource = 0;
-constexpr int patience = 100; // milliseconds in which no other picture came
-constexpr int digits = 4;     // of numbers that a mouse sets
+constexpr int digits = 4; // of numbers that a mouse sets
 
 double valueOf(vtkSMProxy* proxy, const char* property)
 {
   return vtkSMPropertyHelper(proxy, property).GetAsDouble();
-}
-
-double informationOf(vtkSMProxy* proxy, const char* property)
-{
-  proxy->UpdatePropertyInformation(proxy->GetProperty(property));
-  return valueOf(proxy, property);
 }
 
 vtkPiecewiseFunction* gradedFilterOf(vtkSMProxy* proxy)
@@ -101,6 +92,7 @@ pqCutoffWidget::pqCutoffWidget(
   : pqPropertyWidget(smProxy, parentObject)
   , View(new pqCutoffView(this))
   , Numbers(new QLabel(this))
+  , Fetcher(new pqCutoffLightFetcher(smProxy, this))
 {
   this->setShowLabel(false);
   this->View->setObjectName("Plane");
@@ -113,9 +105,14 @@ pqCutoffWidget::pqCutoffWidget(
   column->addWidget(this->View);
   column->addWidget(this->Numbers);
 
-  this->Fetch.setSingleShot(true);
-  this->Fetch.setInterval(patience);
-  QObject::connect(&this->Fetch, &QTimer::timeout, this, &pqCutoffWidget::fetchLight);
+  QObject::connect(this->Fetcher, &pqCutoffLightFetcher::pictureChanged, this,
+    [this]()
+    {
+      this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty("KScaleUsed"));
+      this->readCutoff();
+    });
+  QObject::connect(this->Fetcher, &pqCutoffLightFetcher::lightChanged, this,
+    [this]() { this->View->setLight(this->Fetcher->light()); });
   QObject::connect(this->View, &pqCutoffView::grabbed, this, &pqCutoffWidget::grabbed);
   QObject::connect(this->View, &pqCutoffView::dragged, this, &pqCutoffWidget::dragged);
   QObject::connect(this->View, &pqCutoffView::released, this, &pqCutoffWidget::released);
@@ -126,38 +123,11 @@ pqCutoffWidget::pqCutoffWidget(
     this->Connection->Connect(
       smProxy->GetProperty(name), vtkCommand::ModifiedEvent, this, SLOT(readCutoff()));
   }
-  this->Connection->Connect(smProxy, vtkCommand::UpdateDataEvent, this, SLOT(pictureUpdated()));
-  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::pictureChanged, this,
-    [this](vtkSMProxy* filter)
-    {
-      if (filter == this->proxy())
-      {
-        this->pictureUpdated();
-      }
-    });
-  this->pictureUpdated();
   this->readCutoff();
 }
 
 //------------------------------------------------------------------------------
 pqCutoffWidget::~pqCutoffWidget() = default;
-
-//------------------------------------------------------------------------------
-void pqCutoffWidget::showEvent(QShowEvent* event)
-{
-  this->pqPropertyWidget::showEvent(event);
-  this->pictureUpdated();
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffWidget::pictureUpdated()
-{
-  if (this->isVisible())
-  {
-    informationOf(this->proxy(), "KScaleUsed");
-    this->Fetch.start();
-  }
-}
 
 //------------------------------------------------------------------------------
 void pqCutoffWidget::readCutoff()
@@ -173,21 +143,6 @@ void pqCutoffWidget::readCutoff()
                 : QImage());
   }
   this->showNumbers();
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffWidget::fetchLight()
-{
-  const int picture = static_cast<int>(informationOf(this->proxy(), "PictureCount"));
-  // An unfinished picture would be finished, however long that takes.
-  if (!this->isVisible() || this->View->isGrabbed() || picture == this->ShownPicture ||
-    informationOf(this->proxy(), "Finished") == 0)
-  {
-    return;
-  }
-  this->ShownPicture = picture;
-  this->View->setLight(pqCutoffLight(fetchedImage(this->proxy(), histogramPort, "Rays")));
-  this->readCutoff();
 }
 
 //------------------------------------------------------------------------------
@@ -210,6 +165,7 @@ void pqCutoffWidget::showNumbers()
 //------------------------------------------------------------------------------
 void pqCutoffWidget::grabbed()
 {
+  this->Fetcher->setWaiting(true);
   this->Edit = std::make_unique<pqLiveEdit>(this->proxy(), tr("Drag Cutoff"));
 }
 
@@ -267,5 +223,6 @@ void pqCutoffWidget::released(bool keep)
   {
     keep ? edit->finish() : edit->cancel();
   }
+  this->Fetcher->setWaiting(false);
   this->readCutoff();
 }

@@ -8,16 +8,15 @@
 #include "vtkNew.h"
 
 #include <QMap>
-#include <QTimer>
 #include <QVariant>
 
 #include <memory>
 
+class pqCutoffLightFetcher;
 class pqCutoffView;
 class QLabel;
 class vtkSMPropertyGroup;
 class vtkEventQtSlotConnect;
-struct pqCutoff;
 
 /// Shows the light on the cutoff plane and edits the cutoff there, live: the knife edge, its angle and the
 /// sensitivity are those of the picture, and what is dragged is at once in the picture.
@@ -29,26 +28,19 @@ public:
   pqCutoffWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
   ~pqCutoffWidget() override;
 
-protected:
-  void showEvent(QShowEvent* event) override;
-
 private Q_SLOTS:
-  void pictureUpdated();
   void readCutoff();
-  void fetchLight();
   void grabbed();
   void dragged();
   void released(bool keep);
 
 private:
-  void watchGradedFilter();
   QMap<QString, QVariant> changes() const;
   void showNumbers();
 
   pqCutoffView* View;
   QLabel* Numbers;
-  QTimer Fetch;
-  int ShownPicture = 0; ///< PictureCount of the light that is shown
+  pqCutoffLightFetcher* Fetcher;
   std::unique_ptr<pqLiveEdit> Edit;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

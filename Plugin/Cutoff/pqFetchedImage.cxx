@@ -12,7 +12,6 @@
 #include "vtkAlgorithm.h"
 #include "vtkImageData.h"
 #include "vtkPVDataInformation.h"
-#include "vtkPointData.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -31,10 +30,34 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
   return filter;
 }
 
+/// Updates end soon while it lives: an unfinished picture goes on, but not to its end.
+class ShortUpdates
+{
+public:
+  explicit ShortUpdates(vtkSMProxy* filter)
+    : Filter(filter)
+  {
+    this->setLimit(0.03);
+  }
+  ~ShortUpdates() { this->setLimit(0); }
+  ShortUpdates(const ShortUpdates&) = delete;
+  void operator=(const ShortUpdates&) = delete;
+
+private:
+  void setLimit(double seconds)
+  {
+    vtkSMPropertyHelper(this->Filter, "TimeLimit").Set(seconds);
+    this->Filter->UpdateProperty("TimeLimit");
+  }
+
+  vtkSMProxy* Filter;
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port, const char* array)
+vtkSmartPointer<vtkImageData> fetchedImage(
+  vtkSMProxy* filter, unsigned int port, const std::vector<std::string>& arrays)
 {
   auto* source =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(filter);
@@ -43,6 +66,7 @@ vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port
     return nullptr;
   }
   SCOPED_UNDO_EXCLUDE();
+  const ShortUpdates shortUpdates(filter);
   const double time = source->getServer()->getTimeKeeper()->getTime();
   const auto only = newFilter("PassArrays", filter, port);
   const auto mover = only ? newFilter("ClientServerMoveData", only, 0) : nullptr;
@@ -50,7 +74,11 @@ vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port
   {
     return nullptr;
   }
-  vtkSMPropertyHelper(only, "PointDataArrays").Set(array);
+  vtkSMPropertyHelper names(only, "PointDataArrays");
+  for (unsigned int i = 0; i < arrays.size(); ++i)
+  {
+    names.Set(i, arrays[i].c_str());
+  }
   only->UpdateVTKObjects();
   only->UpdatePipeline(time);
   vtkPVDataInformation* information = only->GetDataInformation(0);
@@ -64,7 +92,7 @@ vtkSmartPointer<vtkImageData> fetchedImage(vtkSMProxy* filter, unsigned int port
   mover->UpdatePipeline(time);
   auto* client = vtkAlgorithm::SafeDownCast(mover->GetClientSideObject());
   auto* output = client ? vtkImageData::SafeDownCast(client->GetOutputDataObject(0)) : nullptr;
-  if (!output || !output->GetPointData()->GetArray(array))
+  if (!output)
   {
     return nullptr;
   }

@@ -4,10 +4,13 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
+#include <vector>
+
 class vtkImageData;
 class vtkSMProxy;
 
-/// An output of a filter with one of its point arrays, wherever the filter runs, at the time that is shown. Null
+/// An output of a filter with some of its point arrays, wherever the filter runs, at the time that is shown. Null
 /// where there is none.
 vtkSmartPointer<vtkImageData> fetchedImage(
-  vtkSMProxy* filter, unsigned int port, const char* array);
+  vtkSMProxy* filter, unsigned int port, const std::vector<std::string>& arrays);

@@ -19,9 +19,7 @@ pqLiveEdit::pqLiveEdit(vtkSMProxy* filter, const QString& label)
 //------------------------------------------------------------------------------
 bool pqLiveEdit::isPossible(vtkSMProxy* filter)
 {
-  vtkSMProperty* count = filter->GetProperty("PictureCount");
-  filter->UpdatePropertyInformation(count);
-  return filter->GetObjectsCreated() && vtkSMPropertyHelper(count).GetAsInt() > 0;
+  return vtkSMPropertyHelper(filter, "PictureCount").GetAsInt() > 0;
 }
 
 //------------------------------------------------------------------------------

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureView.h"
 
+#include "pqColorFilterPicture.h"
+
 #include <QFontMetrics>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 
@@ -12,26 +15,9 @@
 namespace
 {
 
-constexpr int shownSide = 128;       // pixels
-constexpr int wheelSide = 256;       // pixels, to paint on
-constexpr double brushRadius = 0.05; // of the filter's side
-
-/// A filter that has no picture: the direction of deflection is the hue, its size the saturation.
-QImage colorWheel()
-{
-  QImage wheel(wheelSide, wheelSide, QImage::Format_RGB32);
-  for (int row = 0; row < wheelSide; ++row)
-  {
-    for (int column = 0; column < wheelSide; ++column)
-    {
-      const double u = 2 * (column + 0.5) / wheelSide - 1, v = 1 - 2 * (row + 0.5) / wheelSide;
-      const double turn = std::atan2(v, u) / (2 * std::acos(-1));
-      wheel.setPixelColor(column, row,
-        QColor::fromHsvF(turn < 0 ? turn + 1 : turn, std::min(1., std::hypot(u, v)), 1));
-    }
-  }
-  return wheel;
-}
+constexpr int pictureSide = 128, filterSide = 192; // pixels
+constexpr double keyStep = 1. / 64;                // of the filter's side
+constexpr int largeStep = 8;                       // times a step
 
 } // namespace
 
@@ -41,47 +27,119 @@ pqPictureView::pqPictureView(bool isColorFilter, QWidget* parentObject)
   , IsColorFilter(isColorFilter)
   , Margin(isColorFilter ? this->fontMetrics().height() : 0)
 {
-  this->setFixedSize(shownSide + 3 * this->Margin, shownSide + 2 * this->Margin);
   if (isColorFilter)
   {
-    this->setToolTip(tr("Paint with the mouse: which colour light has that is deflected there."));
+    this->setFixedSize(filterSide + 3 * this->Margin, filterSide + 2 * this->Margin);
+    this->setMouseTracking(true);
+    this->setFocusPolicy(Qt::StrongFocus);
+    this->setAccessibleName(tr("Colour filter"));
+    const QString help = tr(
+      "Which colour light has that is deflected there; grey is where no light is.\n"
+      "Paint with the mouse; or move the brush with the arrow keys, further with Shift, and paint "
+      "with Space.");
+    this->setToolTip(help);
+    this->setAccessibleDescription(help);
   }
 }
 
 //------------------------------------------------------------------------------
+pqPictureView::~pqPictureView() = default;
+
+//------------------------------------------------------------------------------
 QRect pqPictureView::place() const
 {
-  return QRect(QPoint(this->Margin, this->Margin), this->Shown.size());
+  return this->IsColorFilter ? QRect(this->Margin, this->Margin, filterSide, filterSide)
+                             : this->rect();
+}
+
+//------------------------------------------------------------------------------
+QPointF pqPictureView::placeAt(const QPointF& pixel) const
+{
+  const QPointF inside = (pixel - this->place().topLeft()) / (filterSide / 2.);
+  return { inside.x() - 1, 1 - inside.y() };
+}
+
+//------------------------------------------------------------------------------
+QPointF pqPictureView::pixelAt(const QPointF& place) const
+{
+  return this->place().topLeft() + QPointF(1 + place.x(), 1 - place.y()) * (filterSide / 2.);
 }
 
 //------------------------------------------------------------------------------
 void pqPictureView::setPicture(const QImage& picture)
 {
   this->Picture = picture;
-  if (this->IsColorFilter)
-  {
-    this->Picture = picture.isNull() ? colorWheel() : picture.convertToFormat(QImage::Format_RGB32);
-  }
-  this->Shown = this->Picture.isNull()
-    ? QImage()
-    : this->Picture.scaled(shownSide, shownSide,
-        this->IsColorFilter ? Qt::IgnoreAspectRatio : Qt::KeepAspectRatio,
-        Qt::SmoothTransformation);
+  this->Shown = QImage();
   if (!this->IsColorFilter)
   {
-    this->setFixedSize(this->Shown.size().expandedTo(QSize(1, 1)));
+    this->setFixedSize(
+      picture.size().scaled(pictureSide, pictureSide, Qt::KeepAspectRatio).expandedTo(QSize(1, 1)));
   }
   this->update();
+}
+
+//------------------------------------------------------------------------------
+void pqPictureView::setLight(const pqCutoffLight& light, double k)
+{
+  this->Light = light;
+  this->K = k;
+  this->Shown = QImage();
+  this->update();
+}
+
+//------------------------------------------------------------------------------
+void pqPictureView::setBrushRadius(double radius)
+{
+  this->BrushRadius = radius;
+  this->update();
+}
+
+//------------------------------------------------------------------------------
+QImage pqPictureView::shown() const
+{
+  const double ratio = this->devicePixelRatioF();
+  const QSize size = (QSizeF(this->place().size()) * ratio).toSize();
+  if (!this->IsColorFilter)
+  {
+    return this->Picture.scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+  }
+  QImage image = pqColorFilterPicture::paintable(this->Picture)
+                   .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+  if (!this->Light.isEmpty() && this->K > 0)
+  {
+    for (int row = 0; row < size.height(); ++row)
+    {
+      auto* line = reinterpret_cast<QRgb*>(image.scanLine(row));
+      for (int column = 0; column < size.width(); ++column)
+      {
+        const QPointF place(
+          2 * (column + 0.5) / size.width() - 1, 1 - 2 * (row + 0.5) / size.height());
+        line[column] =
+          pqColorFilterPicture::lit(line[column], this->Light.brightnessAt(place / this->K));
+      }
+    }
+  }
+  return image;
 }
 
 //------------------------------------------------------------------------------
 void pqPictureView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
-  painter.drawImage(this->place(), this->Shown);
+  const double ratio = this->devicePixelRatioF();
+  if (this->IsColorFilter || !this->Picture.isNull())
+  {
+    if (this->Shown.isNull() || this->Shown.devicePixelRatioF() != ratio)
+    {
+      this->Shown = this->shown();
+      this->Shown.setDevicePixelRatio(ratio);
+    }
+    painter.drawImage(this->place().topLeft(), this->Shown);
+  }
   if (this->IsColorFilter)
   {
     this->drawAxes(painter);
+    this->drawBrush(painter);
   }
 }
 
@@ -93,6 +151,11 @@ void pqPictureView::drawAxes(QPainter& painter) const
   painter.setPen(QPen(QColor(0, 0, 0, 128), 1, Qt::DashLine));
   painter.drawLine(square.left(), middle.y(), square.right(), middle.y());
   painter.drawLine(middle.x(), square.top(), middle.x(), square.bottom());
+  if (this->hasFocus())
+  {
+    painter.setPen(QPen(this->palette().color(QPalette::Highlight), 2));
+    painter.drawRect(square.adjusted(-1, -1, 1, 1));
+  }
 
   painter.setPen(this->palette().color(QPalette::WindowText));
   const int line = this->Margin;
@@ -107,18 +170,18 @@ void pqPictureView::drawAxes(QPainter& painter) const
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::dab(const QPointF& at)
+void pqPictureView::drawBrush(QPainter& painter) const
 {
-  const QPointF inside = at - QPointF(this->Margin, this->Margin);
-  const double width = this->Picture.width(), height = this->Picture.height();
-  QPainter painter(&this->Picture);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(this->Brush);
-  painter.drawEllipse(QPointF(inside.x() / shownSide * width, inside.y() / shownSide * height),
-    brushRadius * width, brushRadius * height);
-  painter.end();
-  this->setPicture(this->Picture);
+  if (this->IsBrushShown)
+  {
+    painter.setRenderHint(QPainter::Antialiasing);
+    const double radius = this->BrushRadius * filterSide;
+    for (const QColor& color : { Qt::black, Qt::white }) // seen on any colour
+    {
+      painter.setPen(QPen(color, color == Qt::black ? 3 : 1));
+      painter.drawEllipse(this->pixelAt(this->Brush), radius, radius);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -126,24 +189,99 @@ void pqPictureView::mousePressEvent(QMouseEvent* event)
 {
   if (this->IsColorFilter && event->button() == Qt::LeftButton)
   {
-    this->dab(event->localPos());
+    this->Brush = this->placeAt(event->localPos());
+    this->IsDown = true;
+    Q_EMIT this->strokeBegan();
+    Q_EMIT this->brushed({ this->Brush });
   }
 }
 
 //------------------------------------------------------------------------------
 void pqPictureView::mouseMoveEvent(QMouseEvent* event)
 {
-  if (this->IsColorFilter && event->buttons() & Qt::LeftButton)
+  if (this->IsColorFilter)
   {
-    this->dab(event->localPos());
+    const QPointF before = this->Brush;
+    this->Brush = this->placeAt(event->localPos());
+    this->IsBrushShown = true;
+    if (this->IsDown)
+    {
+      Q_EMIT this->brushed(pqColorFilterPicture::stroke(before, this->Brush, this->BrushRadius));
+    }
+    this->update();
   }
 }
 
 //------------------------------------------------------------------------------
 void pqPictureView::mouseReleaseEvent(QMouseEvent* event)
 {
-  if (this->IsColorFilter && event->button() == Qt::LeftButton)
+  if (this->IsDown && event->button() == Qt::LeftButton)
   {
-    Q_EMIT this->painted();
+    this->IsDown = false;
+    Q_EMIT this->strokeEnded();
   }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureView::keyPressEvent(QKeyEvent* event)
+{
+  QPointF way;
+  switch (event->key())
+  {
+    case Qt::Key_Left:
+      way = { -1, 0 };
+      break;
+    case Qt::Key_Right:
+      way = { 1, 0 };
+      break;
+    case Qt::Key_Up:
+      way = { 0, 1 };
+      break;
+    case Qt::Key_Down:
+      way = { 0, -1 };
+      break;
+    case Qt::Key_Space:
+      break;
+    default:
+      QWidget::keyPressEvent(event);
+      return;
+  }
+  if (!this->IsColorFilter || this->IsDown)
+  {
+    return;
+  }
+  if (way.isNull())
+  {
+    Q_EMIT this->strokeBegan();
+    Q_EMIT this->brushed({ this->Brush });
+    Q_EMIT this->strokeEnded();
+    return;
+  }
+  const int steps = event->modifiers() & Qt::ShiftModifier ? largeStep : 1;
+  const QPointF to = this->Brush + way * (2 * keyStep * steps);
+  this->Brush = { qBound(-1., to.x(), 1.), qBound(-1., to.y(), 1.) };
+  this->IsBrushShown = true;
+  this->update();
+}
+
+//------------------------------------------------------------------------------
+void pqPictureView::leaveEvent(QEvent* event)
+{
+  this->IsBrushShown = this->hasFocus();
+  this->update();
+  QWidget::leaveEvent(event);
+}
+
+//------------------------------------------------------------------------------
+void pqPictureView::focusInEvent(QFocusEvent* event)
+{
+  this->IsBrushShown = true;
+  QWidget::focusInEvent(event);
+}
+
+//------------------------------------------------------------------------------
+void pqPictureView::focusOutEvent(QFocusEvent* event)
+{
+  this->IsBrushShown = false;
+  QWidget::focusOutEvent(event);
 }

@@ -2,46 +2,65 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <QColor>
+#include "pqCutoffLight.h"
+
 #include <QImage>
+#include <QVector>
 #include <QWidget>
 
 /// A small view of a picture. A colour filter is drawn as a square with the axes k eps_u and k eps_v from
-/// -1 to 1, and can be painted on with the mouse.
+/// -1 to 1, with the light on it, and tells where a brush paints: the mouse's, or that of the keyboard.
 class pqPictureView : public QWidget
 {
   Q_OBJECT
 
 public:
   explicit pqPictureView(bool isColorFilter, QWidget* parent = nullptr);
+  ~pqPictureView() override;
 
   bool isColorFilter() const { return this->IsColorFilter; }
 
   /// A null image leaves the view empty, or with the wheel that a colour filter without a picture is.
   void setPicture(const QImage& picture);
-  const QImage& picture() const { return this->Picture; }
+
+  /// Of a colour filter: the light to be drawn on it, and k.
+  void setLight(const pqCutoffLight& light, double k);
 
 public Q_SLOTS:
-  void setBrush(const QColor& color) { this->Brush = color; }
+  /// As a share of the filter's side.
+  void setBrushRadius(double radius);
 
 Q_SIGNALS:
-  /// A stroke has ended.
-  void painted();
+  void strokeBegan();
+  /// The brush has been at these places, each coordinate from -1 to 1, v upwards.
+  void brushed(const QVector<QPointF>& places);
+  void strokeEnded();
 
 protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
 private:
   QRect place() const;
-  void dab(const QPointF& at);
+  QPointF placeAt(const QPointF& pixel) const;
+  QPointF pixelAt(const QPointF& place) const;
+  QImage shown() const;
   void drawAxes(QPainter& painter) const;
+  void drawBrush(QPainter& painter) const;
 
   const bool IsColorFilter;
   const int Margin;
-  QColor Brush = Qt::black;
   QImage Picture;
-  QImage Shown;
+  mutable QImage Shown; ///< null: has to be made again
+  pqCutoffLight Light;
+  double K = 0;
+  double BrushRadius = 0.04;
+  QPointF Brush; ///< where it is
+  bool IsBrushShown = false, IsDown = false;
 };

@@ -2,21 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureWidget.h"
 
+#include "pqApplicationCore.h"
 #include "pqColorChooserButton.h"
 #include "pqCoreUtilities.h"
+#include "pqCutoffLightFetcher.h"
 #include "pqFileDialog.h"
+#include "pqLiveEdit.h"
+#include "pqPicturePainter.h"
 #include "pqPictureView.h"
+#include "pqUndoStack.h"
 
 #include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
 
-#include <QBuffer>
 #include <QFileInfo>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QImageReader>
+#include <QImageWriter>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -24,19 +32,11 @@
 namespace
 {
 
-const QString nameKey = "Title";  // of the text in a PNG that keeps its file's name
+// Texts in a PNG: its file's name, and what is underneath the paint.
+const QString nameKey = "Title", underneathKey = "Underneath", wheelName = "wheel";
 constexpr int largestSide = 2048; // pixels: the picture goes into every state file
-
-/// What a property holds, or a null image.
-QImage decoded(const QString& picture)
-{
-  if (picture.startsWith("data:"))
-  {
-    const int comma = picture.indexOf(',');
-    return QImage::fromData(QByteArray::fromBase64(picture.mid(comma + 1).toLatin1()));
-  }
-  return picture.isEmpty() ? QImage() : QImage(picture);
-}
+constexpr int pauseOfStroke = 40; // milliseconds
+constexpr int usualBrush = 8;     // per cent of the filter's side, the diameter
 
 /// An image without transparency and not too large, for a PNG. What is transparent lets all light pass.
 QImage opaque(const QImage& read)
@@ -51,14 +51,9 @@ QImage opaque(const QImage& read)
   return image;
 }
 
-/// What a property is to hold; `name` is kept in the PNG.
-QString encoded(QImage image, const QString& name)
-{
-  image.setText(nameKey, name);
-  QBuffer png;
-  image.save(&png, "PNG");
-  return "data:image/png;base64," + QString::fromLatin1(png.data().toBase64());
-}
+QString strokeLabel() { return pqPictureWidget::tr("Paint Color Filter"); }
+
+pqUndoStack* undoStack() { return pqApplicationCore::instance()->getUndoStack(); }
 
 } // namespace
 
@@ -78,47 +73,138 @@ pqPictureWidget::pqPictureWidget(
   this->Note->setObjectName("Note");
   this->Note->setTextFormat(Qt::PlainText);
   this->Note->setWordWrap(true);
-  auto* load = new QPushButton(tr("&Load..."), this);
-  load->setObjectName("Load");
-  load->setToolTip(
-    tr("Reads a PNG, or any picture, into this property: state files keep it. At most %1 pixels "
-       "along a side; larger ones are scaled down.")
-      .arg(largestSide));
-  this->Clear = new QPushButton(tr("&Clear"), this);
-  this->Clear->setObjectName("Clear");
-  this->Clear->setToolTip(tr("Takes the picture out."));
-
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(load);
-  buttons->addWidget(this->Clear);
-  if (isFilter)
-  {
-    auto* brush = new pqColorChooserButton(this);
-    brush->setObjectName("Brush");
-    brush->setToolTip(tr("The colour to paint with on the filter"));
-    brush->setAccessibleName(brush->toolTip());
-    brush->setChosenColor(Qt::black);
-    buttons->addWidget(brush);
-    QObject::connect(
-      brush, &pqColorChooserButton::chosenColorChanged, this->View, &pqPictureView::setBrush);
-    QObject::connect(this->View, &pqPictureView::painted, this,
-      [this]() { this->setPicture(encoded(this->View->picture(), tr("painted"))); });
-  }
-  buttons->addStretch();
   auto* column = new QVBoxLayout(this);
   column->setMargin(0);
   column->addWidget(this->View);
   column->addWidget(this->Note);
-  column->addLayout(buttons);
+  auto* grid = new QGridLayout;
+  column->addLayout(grid);
 
-  QObject::connect(load, &QPushButton::clicked, this, &pqPictureWidget::load);
-  QObject::connect(this->Clear, &QPushButton::clicked, this, &pqPictureWidget::clear);
+  QAbstractButton* load = this->newButton("Load", tr("&Load..."),
+    tr("Reads a PNG, or any picture, into this property: state files keep it. At most %1 pixels "
+       "along a side; larger ones are scaled down.")
+      .arg(largestSide));
+  this->Clear = this->newButton("Clear", tr("&Clear"), tr("Takes the picture out."));
+  grid->addWidget(load, 0, 0);
+  grid->addWidget(this->Clear, 0, 2);
+  if (isFilter)
+  {
+    this->setShowLabel(false); // the filter takes all of a narrow panel
+    this->addPainting(grid);
+  }
+
+  QObject::connect(load, &QAbstractButton::clicked, this, &pqPictureWidget::load);
+  QObject::connect(this->Clear, &QAbstractButton::clicked, this, &pqPictureWidget::clear);
   this->showPicture();
   this->addPropertyLink(this, "picture", SIGNAL(pictureChanged()), smProperty);
 }
 
 //------------------------------------------------------------------------------
 pqPictureWidget::~pqPictureWidget() = default;
+
+//------------------------------------------------------------------------------
+QAbstractButton* pqPictureWidget::newButton(
+  const char* name, const QString& text, const QString& tip)
+{
+  auto* button = new QPushButton(text, this);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  button->setMinimumWidth(1); // else three of them are wider than the panel
+  return button;
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::addPainting(QGridLayout* grid)
+{
+  this->Save = this->newButton("Save", tr("&Save..."), tr("Writes the filter to a PNG file."));
+  auto* brush = new pqColorChooserButton(this);
+  brush->setObjectName("Brush");
+  brush->setToolTip(tr("The colour to paint with on the filter"));
+  brush->setAccessibleName(brush->toolTip());
+  brush->setChosenColor(this->Brush.Color);
+  auto* size = new QSpinBox(this);
+  size->setObjectName("BrushSize");
+  size->setRange(1, 100);
+  size->setSuffix(tr(" %"));
+  size->setToolTip(tr("The brush's diameter, of the filter's side"));
+  size->setAccessibleName(size->toolTip());
+  size->setMinimumWidth(1);
+  QAbstractButton* erase = this->newButton("Erase", tr("&Erase"),
+    tr("Brushes away what has been painted: the picture that was loaded, or the wheel, comes "
+       "back."));
+  erase->setCheckable(true);
+  QAbstractButton* undo =
+    this->newButton("Undo", tr("&Undo"), tr("Takes the last stroke back, as Edit > Undo does."));
+  QAbstractButton* fill = this->newButton(
+    "Fill", tr("&Fill"), tr("Paints all of the filter, for instance white to begin with."));
+  this->Light = this->newButton(
+    "Light", tr("L&ight"), tr("Shows where on the filter light is: the rest is greyed."));
+  this->Light->setCheckable(true);
+  this->Light->setChecked(true);
+  this->OnPicture = this->newButton("PaintOnPicture", tr("&Paint on Picture"),
+    tr("While this is on, the left mouse button paints on the schlieren picture: where the rays "
+       "of the brushed pixels meet the filter, it gets the brush's colour, or is erased. Escape "
+       "ends it."));
+  this->OnPicture->setCheckable(true);
+
+  grid->addWidget(this->Save, 0, 1);
+  grid->addWidget(brush, 1, 0);
+  grid->addWidget(size, 1, 1);
+  grid->addWidget(erase, 1, 2);
+  grid->addWidget(undo, 2, 0);
+  grid->addWidget(fill, 2, 1);
+  grid->addWidget(this->Light, 2, 2);
+  grid->addWidget(this->OnPicture, 3, 0, 1, 3);
+
+  this->Painter = new pqPicturePainter(this->proxy(), this);
+  const auto setBrushSize = [this](int percent)
+  {
+    this->Brush.Radius = percent / 200.;
+    this->View->setBrushRadius(this->Brush.Radius);
+    this->Painter->setBrushRadius(this->Brush.Radius);
+  };
+  QObject::connect(size, QOverload<int>::of(&QSpinBox::valueChanged), this, setBrushSize);
+  size->setValue(usualBrush);
+  QObject::connect(brush, &pqColorChooserButton::chosenColorChanged, this,
+    [this](const QColor& color) { this->Brush.Color = color; });
+  QObject::connect(
+    erase, &QAbstractButton::toggled, this, [this](bool on) { this->Brush.Erases = on; });
+  QObject::connect(fill, &QAbstractButton::clicked, this, &pqPictureWidget::fill);
+  QObject::connect(this->Save, &QAbstractButton::clicked, this, &pqPictureWidget::save);
+
+  // The one stack of the window knows all strokes.
+  if (pqUndoStack* stack = undoStack())
+  {
+    const auto showUndo = [undo](bool can, const QString& label)
+    { undo->setEnabled(can && label == strokeLabel()); };
+    QObject::connect(stack, &pqUndoStack::stackChanged, this, showUndo);
+    QObject::connect(undo, &QAbstractButton::clicked, stack, &pqUndoStack::undo);
+    showUndo(stack->canUndo(), stack->undoLabel());
+  }
+
+  this->Pause.setSingleShot(true);
+  this->Pause.setInterval(pauseOfStroke);
+  QObject::connect(&this->Pause, &QTimer::timeout, this, &pqPictureWidget::showStroke);
+  QObject::connect(this->View, &pqPictureView::strokeBegan, this, &pqPictureWidget::beginStroke);
+  QObject::connect(this->View, &pqPictureView::brushed, this, &pqPictureWidget::brush);
+  QObject::connect(this->View, &pqPictureView::strokeEnded, this, &pqPictureWidget::endStroke);
+  QObject::connect(
+    this->Painter, &pqPicturePainter::strokeBegan, this, &pqPictureWidget::beginStroke);
+  QObject::connect(this->Painter, &pqPicturePainter::brushed, this, &pqPictureWidget::brush);
+  QObject::connect(
+    this->Painter, &pqPicturePainter::strokeEnded, this, &pqPictureWidget::endStroke);
+  QObject::connect(this->Painter, &pqPicturePainter::stopped, this,
+    [this]() { this->OnPicture->setChecked(false); });
+  QObject::connect(
+    this->OnPicture, &QAbstractButton::toggled, this, &pqPictureWidget::paintOnPicture);
+
+  this->Fetcher = new pqCutoffLightFetcher(this->proxy(), this);
+  QObject::connect(
+    this->Fetcher, &pqCutoffLightFetcher::lightChanged, this, &pqPictureWidget::showLight);
+  QObject::connect(
+    this->Fetcher, &pqCutoffLightFetcher::pictureChanged, this, &pqPictureWidget::showLight);
+  QObject::connect(this->Light, &QAbstractButton::toggled, this, &pqPictureWidget::showLight);
+}
 
 //------------------------------------------------------------------------------
 void pqPictureWidget::setPicture(const QString& picture)
@@ -135,9 +221,16 @@ void pqPictureWidget::setPicture(const QString& picture)
 void pqPictureWidget::showPicture()
 {
   const bool isEmpty = this->Picture.isEmpty();
-  const QImage image = decoded(this->Picture);
+  const QImage image =
+    this->IsPainting ? this->Canvas : pqColorFilterPicture::decoded(this->Picture);
   this->View->setPicture(image);
   this->Clear->setEnabled(!isEmpty);
+  const bool isKnown = isEmpty || !image.isNull();
+  if (this->View->isColorFilter())
+  {
+    this->View->setEnabled(isKnown);
+    this->Save->setEnabled(isKnown);
+  }
   if (isEmpty)
   {
     this->Note->setText(this->View->isColorFilter() ? tr("the colour wheel") : tr("no picture"));
@@ -146,11 +239,145 @@ void pqPictureWidget::showPicture()
   const bool isName = !this->Picture.startsWith("data:");
   const QString name = isName ? this->Picture : image.text(nameKey);
   QString size = tr("%1 x %2 pixels").arg(image.width()).arg(image.height());
-  if (image.isNull())
+  if (!isKnown)
   {
-    size = isName ? tr("a file on the server") : tr("no picture that can be read");
+    size = isName ? tr("a file on the server; load it to see it here and to paint on it")
+                  : tr("no picture that can be read");
   }
   this->Note->setText(name.isEmpty() ? size : tr("%1: %2").arg(name, size));
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::showLight()
+{
+  this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty("KScaleUsed"));
+  const double k = vtkSMPropertyHelper(this->proxy(), "KScaleUsed").GetAsDouble();
+  this->View->setLight(this->Light->isChecked() ? this->Fetcher->light() : pqCutoffLight(), k);
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::beginStroke()
+{
+  const QImage before = pqColorFilterPicture::decoded(this->Picture);
+  if (this->IsPainting || (before.isNull() && !this->Picture.isEmpty()))
+  {
+    return;
+  }
+  QString underneath = before.text(underneathKey);
+  this->Canvas = pqColorFilterPicture::paintable(before);
+  if (underneath.isEmpty())
+  {
+    underneath = this->Picture.isEmpty() ? wheelName : pqColorFilterPicture::encoded(this->Canvas);
+  }
+  this->Underneath = underneath == wheelName
+    ? pqColorFilterPicture::paintable(QImage())
+    : pqColorFilterPicture::decoded(underneath).convertToFormat(QImage::Format_RGB32);
+  this->Canvas.setText(nameKey, tr("painted"));
+  this->Canvas.setText(underneathKey, underneath);
+  this->IsPainting = true;
+  this->Fetcher->setWaiting(true);
+  if (pqLiveEdit::isPossible(this->proxy()))
+  {
+    this->Edit = std::make_unique<pqLiveEdit>(this->proxy(), strokeLabel());
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::brush(const QVector<QPointF>& places)
+{
+  if (this->IsPainting)
+  {
+    pqColorFilterPicture::paint(this->Canvas, this->Underneath, this->Brush, places);
+    this->View->setPicture(this->Canvas);
+    if (!this->Pause.isActive())
+    {
+      this->Pause.start();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::showStroke()
+{
+  const QString picture = pqColorFilterPicture::encoded(this->Canvas);
+  if (this->Edit)
+  {
+    const QString name = this->proxy()->GetPropertyName(this->property());
+    this->Edit->show({ { name, picture } }, pqPictureRefiner::Pace::Shading);
+  }
+  else
+  {
+    this->setPicture(picture);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::endStroke()
+{
+  if (!this->IsPainting)
+  {
+    return;
+  }
+  if (this->Pause.isActive())
+  {
+    this->Pause.stop();
+    this->showStroke();
+  }
+  if (this->Edit)
+  {
+    this->Edit->finish();
+    this->Edit.reset();
+  }
+  this->IsPainting = false;
+  this->Fetcher->setWaiting(false);
+  this->showPicture();
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::fill()
+{
+  this->beginStroke();
+  if (this->IsPainting)
+  {
+    if (this->Brush.Erases)
+    {
+      QPainter(&this->Canvas).drawImage(0, 0, this->Underneath);
+    }
+    else
+    {
+      this->Canvas.fill(this->Brush.Color);
+    }
+    this->showStroke();
+    this->endStroke();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::paintOnPicture(bool on)
+{
+  if (!on)
+  {
+    this->Painter->stop();
+    return;
+  }
+  constexpr int colorFilter = 5;
+  if (vtkSMPropertyHelper(this->proxy(), "Cutoff").GetAsInt() != colorFilter ||
+    !this->Painter->start())
+  {
+    this->OnPicture->setChecked(false);
+    this->Note->setText(tr("No view shows a picture made with the colour filter. Press Apply, and "
+                           "show it in a render view."));
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::hideEvent(QHideEvent* event)
+{
+  if (this->Painter)
+  {
+    this->Painter->stop();
+  }
+  this->pqPropertyWidget::hideEvent(event);
 }
 
 //------------------------------------------------------------------------------
@@ -174,7 +401,29 @@ void pqPictureWidget::load()
                           .arg(file, reader.errorString()));
     return;
   }
-  this->setPicture(encoded(opaque(read), QFileInfo(file).fileName()));
+  QImage picture = opaque(read);
+  picture.setText(nameKey, QFileInfo(file).fileName());
+  this->setPicture(pqColorFilterPicture::encoded(picture));
+}
+
+//------------------------------------------------------------------------------
+void pqPictureWidget::save()
+{
+  pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Save Picture"), QString(),
+    tr("PNG files (*.png)"), false);
+  dialog.setObjectName("SavePictureDialog");
+  dialog.setFileMode(pqFileDialog::AnyFile);
+  if (dialog.exec() != QDialog::Accepted || dialog.getSelectedFiles().isEmpty())
+  {
+    return;
+  }
+  const QImage picture = pqColorFilterPicture::decoded(this->Picture);
+  QImageWriter writer(dialog.getSelectedFiles().first(), "PNG");
+  if (!writer.write(opaque(picture.isNull() ? pqColorFilterPicture::paintable(picture) : picture)))
+  {
+    this->Note->setText(tr("Cannot write '%1': %2. Choose another folder or name.")
+                          .arg(writer.fileName(), writer.errorString()));
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,6 @@
 
 class pqRenderView;
 
-/// Links the cameras of two views, as Tools > Add Camera Link does. Unlike that it can be undone, as a part
-/// of the undo set that is being made.
+/// Links the cameras of two views, as Tools > Add Camera Link does. Unlike that it can be undone, as the last
+/// part of the undo set that is being made.
 void linkCameras(pqRenderView* first, pqRenderView* second);

@@ -3,15 +3,14 @@
 #include "SchlierenFilters.h"
 
 #include "CameraOfView.h"
+#include "PicturesInViews.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
-#include "pqDataRepresentation.h"
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqPipelineSource.h"
 #include "pqRenderView.h"
-#include "pqRepresentation.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 #include "vtkSMPropertyHelper.h"
@@ -19,19 +18,10 @@
 #include "vtkSMTrace.h"
 #include "vtkSMViewLayoutProxy.h"
 
-#include <cstring>
-
-//------------------------------------------------------------------------------
-bool isSchlierenFilter(vtkSMProxy* proxy)
-{
-  return proxy && std::strcmp(proxy->GetXMLGroup(), "filters") == 0 &&
-    std::strcmp(proxy->GetXMLName(), "Schlieren") == 0;
-}
-
 //------------------------------------------------------------------------------
 pqPipelineSource* schlierenFilterOf(pqPipelineSource* source)
 {
-  if (!source || isSchlierenFilter(source->getProxy()))
+  if (!source || picturesInViews::isSchlieren(source))
   {
     return source;
   }
@@ -49,50 +39,18 @@ pqPipelineSource* schlierenFilterOf(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-pqPipelineSource* pictureIn(pqView* view)
-{
-  for (pqRepresentation* representation :
-    view ? view->getRepresentations() : QList<pqRepresentation*>())
-  {
-    auto* data = qobject_cast<pqDataRepresentation*>(representation);
-    if (data && data->isVisible() && data->getInput() &&
-      isSchlierenFilter(data->getInput()->getProxy()))
-    {
-      return data->getInput();
-    }
-  }
-  return nullptr;
-}
-
-//------------------------------------------------------------------------------
-pqRenderView* followedView(vtkSMProxy* filter)
-{
-  const QString name = vtkSMPropertyHelper(filter, "FollowedView").GetAsString();
-  auto* model = pqApplicationCore::instance()->getServerManagerModel();
-  for (pqRenderView* view :
-    model->findItems<pqRenderView*>(model->findServer(filter->GetSession())))
-  {
-    if (!name.isEmpty() && view->getSMName() == name)
-    {
-      return view;
-    }
-  }
-  return nullptr;
-}
-
-//------------------------------------------------------------------------------
 pqRenderView* sceneView(pqServer* server)
 {
   pqView* active = pqActiveObjects::instance().activeView();
   auto* scene = qobject_cast<pqRenderView*>(active);
   if (scene && scene->getServer() == server)
   {
-    pqPipelineSource* picture = pictureIn(scene);
-    if (!picture)
+    const QList<pqPipelineSource*> pictures = picturesInViews::picturesIn(scene);
+    if (pictures.empty())
     {
       return scene;
     }
-    if (pqRenderView* followed = followedView(picture->getProxy()))
+    if (pqRenderView* followed = picturesInViews::followed(pictures.front()))
     {
       return followed;
     }
@@ -101,7 +59,8 @@ pqRenderView* sceneView(pqServer* server)
   for (pqRenderView* view :
     pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>(server))
   {
-    if (layout && layout->ContainsView(view->getProxy()) && !pictureIn(view))
+    if (layout && layout->ContainsView(view->getProxy()) &&
+      picturesInViews::picturesIn(view).empty())
     {
       return view;
     }

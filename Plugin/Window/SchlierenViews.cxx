@@ -139,16 +139,22 @@ public:
         this->compare(views);
         break;
     }
+    pqPipelineSource* picture = this->Pictures[0];
     if (this->Medium && !isImage(this->Flow))
     {
-      showAsVolume(this->Medium, this->Scene, this->MediumDefaults, this->Pictures[0]);
+      showAsVolume(this->Medium, this->Scene, this->MediumDefaults, picture->getProxy(), picture);
     }
     else
     {
-      showAsVolume(this->Flow, this->Scene, this->Defaults, this->Pictures[0]);
+      pqPipelineSource* model = this->Medium ? this->Medium->getSource() : picture;
+      showAsVolume(this->Flow, this->Scene, this->Defaults, model->getProxy(), picture);
     }
     pqActiveObjects::instance().setActiveView(views[0]);
     pqActiveObjects::instance().setActiveSource(this->Pictures[0]);
+    if (arrangement == Arrangement::Comparison)
+    {
+      linkCameras(views[0], views[1]);
+    }
     return this->Pattern ? "Set as '" + this->Pattern->getSMName() + "' is."
                          : QString::fromStdString(this->Defaults.message);
   }
@@ -363,7 +369,6 @@ private:
         }
       }
     }
-    linkCameras(views[0], views[1]);
   }
 
   pqOutputPort* Flow;

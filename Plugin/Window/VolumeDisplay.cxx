@@ -32,21 +32,21 @@ namespace
 
 /// The array's value where its refractivity is that of the surroundings; NaN where that takes several
 /// arrays to know.
-double ambientValue(vtkSMProxy* filter, pqOutputPort* picture)
+double ambientValue(vtkSMProxy* model, pqOutputPort* picture)
 {
   const std::array<double, 2> ambient =
     rangeOfArray(picture, vtkDataObject::FIELD, "AmbientRefractivity");
   if (ambient[0] <= ambient[1])
   {
-    const char* gas = vtkSMPropertyHelper(filter, "Gas").GetAsString();
-    switch (vtkSMPropertyHelper(filter, "IndexModel").GetAsInt())
+    const char* gas = vtkSMPropertyHelper(model, "Gas").GetAsString();
+    switch (vtkSMPropertyHelper(model, "IndexModel").GetAsInt())
     {
       case FlowDefaults::GladstoneDale:
         if (!gas || !*gas || std::strcmp(gas, "Custom") == 0)
         {
           return ambient[0] /
-            (vtkSMPropertyHelper(filter, "GladstoneDaleConstant").GetAsDouble() *
-              vtkSMPropertyHelper(filter, "DensityScale").GetAsDouble());
+            (vtkSMPropertyHelper(model, "GladstoneDaleConstant").GetAsDouble() *
+              vtkSMPropertyHelper(model, "DensityScale").GetAsDouble());
         }
         break;
       case FlowDefaults::RefractiveIndex:
@@ -90,8 +90,8 @@ bool isImage(pqOutputPort* port)
 }
 
 //------------------------------------------------------------------------------
-void showAsVolume(
-  pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults, pqPipelineSource* picture)
+void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults,
+  vtkSMProxy* model, pqPipelineSource* picture)
 {
   if (!isImage(flow) || defaults.arrays.empty())
   {
@@ -121,7 +121,7 @@ void showAsVolume(
   {
     vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown, false, true);
     vtkSMProxy* opacity = vtkSMPropertyHelper(shown, "ScalarOpacityFunction").GetAsProxy();
-    double ambient = ambientValue(picture->getProxy(), picture->getOutputPort(0));
+    double ambient = ambientValue(model, picture->getOutputPort(0));
     if (!(range[0] <= ambient && ambient <= range[1]))
     {
       ambient = range[0];

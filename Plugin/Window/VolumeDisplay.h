@@ -5,12 +5,13 @@
 class pqOutputPort;
 class pqPipelineSource;
 class pqRenderView;
+class vtkSMProxy;
 struct FlowDefaults;
 
 bool isImage(pqOutputPort* port);
 
 /// Shows a flow as a volume, coloured by what its index is made of, where it was not shown or was an
-/// outline. Light that is like the surroundings' is clear: what the picture tells about the ambient
-/// refractivity is asked for. Does nothing to other data than images.
-void showAsVolume(
-  pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults, pqPipelineSource* picture);
+/// outline. What is like the surroundings is clear: `picture` tells their refractivity, `model` how
+/// the filter that the flow goes into finds it. Does nothing to other data than images.
+void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults,
+  vtkSMProxy* model, pqPipelineSource* picture);

@@ -3,7 +3,7 @@
 #include "pqPictureDisplayKeeper.h"
 
 #include "PictureDisplay.h"
-#include "SchlierenFilters.h"
+#include "PicturesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
@@ -33,7 +33,7 @@ pqPictureDisplayKeeper::~pqPictureDisplayKeeper() = default;
 //------------------------------------------------------------------------------
 void pqPictureDisplayKeeper::watch(pqPipelineSource* source)
 {
-  if (isSchlierenFilter(source->getProxy()))
+  if (picturesInViews::isSchlieren(source))
   {
     this->Events->Connect(
       source->getProxy(), vtkCommand::UpdateEvent, this, SLOT(onFilterChanged(vtkObject*)));

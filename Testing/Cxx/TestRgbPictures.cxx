@@ -178,12 +178,26 @@ TEST(RgbPictures, DamagedFilesDoNoHarm)
 
 TEST(RgbPictures, AreDecodedOnceForTheSameText)
 {
-  const std::vector<unsigned char> six(3 * 9, 6), seven(3 * 9, 7);
+  const std::string given = text(png(bytes(3, 3, six)));
   RgbPictureReader reader;
-  const auto first = reader.read("ColorFilterImage", text(png(bytes(3, 3, six))));
-  EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, six)))), first);
-  EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, seven))))->rgb, seven);
-  EXPECT_THROW(
-    reader.read("ColorFilterImage", "data:image/png;base64,nothing"), std::runtime_error);
-  EXPECT_EQ(reader.read("ColorFilterImage", text(png(bytes(3, 3, six))))->rgb, six);
+  const auto first = reader.read("ColorFilterImage", given);
+  EXPECT_EQ(reader.read("ColorFilterImage", given), first);
+  const Bytes others(six.rbegin(), six.rend());
+  EXPECT_EQ(
+    reader.read("ColorFilterImage", text(png(bytes(3, 3, others))))->rgb.size(), six.size());
+  EXPECT_THROW(reader.read("ColorFilterImage", "data:image/png;base64,none"), std::runtime_error);
+  EXPECT_EQ(reader.read("ColorFilterImage", given)->rgb, six);
+
+  // A file by what it holds now.
+  const std::string name = SCHLIEREN_TEST_OUTPUT "/changing.png";
+  const auto write = [&name](const Bytes& file)
+  {
+    std::ofstream(name, std::ios::binary)
+      .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+  };
+  write(png(bytes(3, 3, six)));
+  const auto ofFile = reader.read("ColorFilterImage", name);
+  EXPECT_EQ(reader.read("ColorFilterImage", name), ofFile);
+  write(png(bytes(3, 3, Bytes(six.size(), 200))));
+  EXPECT_EQ(reader.read("ColorFilterImage", name)->rgb, Bytes(six.size(), 200));
 }

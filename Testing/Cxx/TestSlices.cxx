@@ -41,7 +41,7 @@ int updateInSlices(vtkSchlierenFilter* filter, double seconds = shortest)
     const std::vector<double> before = valuesOf(filter, "Intensity");
     filter->Refine();
     filter->Update();
-    EXPECT_EQ(valuesOf(filter, "Intensity") != before, filter->GetPictureCount() != pictures);
+    EXPECT_TRUE(filter->GetPictureCount() > pictures || valuesOf(filter, "Intensity") == before);
   }
   EXPECT_TRUE(filter->GetFinished());
   filter->SetTimeLimit(0);
@@ -187,7 +187,7 @@ TEST(Slices, TheLimitIsNoModification)
 TEST(Slices, ANewFilterBeginsWithAHurriedPicture)
 {
   auto filter = smallBench(columnImage());
-  filter->SetImageSize(200, 150);
+  filter->SetImageSize(200, 160);
   filter->SetTimeLimit(shortest);
   filter->Update();
   EXPECT_FALSE(filter->GetFinished());
@@ -195,7 +195,7 @@ TEST(Slices, ANewFilterBeginsWithAHurriedPicture)
   vtkImageData* picture = filter->GetOutput();
   EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
     filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
-  EXPECT_EQ(picture->GetPointData()->GetScalars()->GetNumberOfTuples(), 200 * 150);
+  EXPECT_EQ(picture->GetPointData()->GetScalars()->GetNumberOfTuples(), 200 * 160);
   const std::vector<double> rough = valuesOf(filter, "Deflection");
   const Vec origin{ picture->GetOrigin()[0], picture->GetOrigin()[1], 0 };
 
@@ -294,6 +294,7 @@ TEST(Slices, AnotherPropertyInTheMidstMakesAnotherPicture)
     for (const bool isRefined : { false, true }) // the order does not matter
     {
       auto filter = smallBench(image);
+      filter->SetNumberOfThreads(1); // so that slices are alike
       filter->SetTimeLimit(shortest);
       filter->Update();
       for (int slice = 0; slice < 14; ++slice)
@@ -457,7 +458,8 @@ TEST(Slices, AWarningIsGivenOnce)
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   EXPECT_GT(updateInSlices(filter), 3);
   EXPECT_EQ(complaints->Warnings.size(), 1u);
-  filter->SetViewDirection(0.1, 0, -1);
+  filter->SetViewDirection(-0.1, 0, -1);
+  filter->SetParallelScale(0.1);
   updateInSlices(filter);
   EXPECT_EQ(complaints->Warnings.size(), 2u);
   filter->SetPreviewReduction(2); // the whole picture says it

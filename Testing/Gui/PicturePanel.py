@@ -80,9 +80,9 @@ user.save_state("cleared.pvsm")
 
 # A stroke of the brush, in the middle of the wheel: the colour of light that nothing deflects.
 user.event(f"{PROPERTIES}/{WIDGET}/Brush", "setChosenColor", "10,200,30")
-for event, buttons, x in (("mousePress", "1,1", 80), ("mouseMove", "0,1", 84),
-                          ("mouseRelease", "1,0", 84)):
-    user.event(f"{PROPERTIES}/{WIDGET}/Preview", event, f"{buttons},0,{x},82")
+for event, buttons, x in (("mousePress", "1,1", 111), ("mouseMove", "0,1", 115),
+                          ("mouseRelease", "1,0", 115)):
+    user.event(f"{PROPERTIES}/{WIDGET}/Preview", event, f"{buttons},0,{x},112")
 check("painted: 256 x 256 pixels", True)
 user.apply()
 user.save_state("painted.pvsm")

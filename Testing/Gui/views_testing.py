@@ -31,6 +31,20 @@ view.ResetCamera()
 SetActiveSource(jet)
 """
 
+# A mesh with a density, shown as a surface.
+MESH = """
+from paraview.simple import *
+wave = Wavelet(WholeExtent=3 * [-8, 8], registrationName="wave")
+rho = Calculator(Input=wave, Function="1e-3*RTData+1", ResultArrayName="rho",
+                 registrationName="density")
+mesh = AppendDatasets(Input=[rho], registrationName="mesh")
+mesh.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+Show(mesh, view)
+view.ResetCamera()
+SetActiveSource(mesh)
+"""
+
 # Writes the Python trace of what is done first, when the view shows it.
 TRACE_FIRST_STEP = f"""
 from paraview import smtrace

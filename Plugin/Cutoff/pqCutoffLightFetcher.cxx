@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqCutoffLightFetcher.h"
+
+#include "pqFetchedImage.h"
+#include "pqPictureRefiner.h"
+
+#include "vtkCommand.h"
+#include "vtkEventQtSlotConnect.h"
+#include "vtkImageData.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+
+#include <QEvent>
+#include <QWidget>
+
+namespace
+{
+
+constexpr int histogramPort = 1;
+constexpr int patience = 100; // milliseconds in which no other picture came
+
+int informationOf(vtkSMProxy* filter, const char* name)
+{
+  vtkSMProperty* property = filter->GetProperty(name);
+  filter->UpdatePropertyInformation(property);
+  return vtkSMPropertyHelper(property).GetAsInt();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqCutoffLightFetcher::pqCutoffLightFetcher(vtkSMProxy* filter, QWidget* widget)
+  : QObject(widget)
+  , Filter(filter)
+  , Widget(widget)
+{
+  this->Timer.setSingleShot(true);
+  this->Timer.setInterval(patience);
+  QObject::connect(&this->Timer, &QTimer::timeout, this, &pqCutoffLightFetcher::fetch);
+  this->Connection->Connect(filter, vtkCommand::UpdateDataEvent, this, SLOT(pictureUpdated()));
+  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::pictureChanged, this,
+    [this](vtkSMProxy* changed)
+    {
+      if (changed == this->Filter)
+      {
+        this->pictureUpdated();
+      }
+    });
+  widget->installEventFilter(this);
+}
+
+//------------------------------------------------------------------------------
+pqCutoffLightFetcher::~pqCutoffLightFetcher() = default;
+
+//------------------------------------------------------------------------------
+bool pqCutoffLightFetcher::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() == QEvent::Show)
+  {
+    this->pictureUpdated();
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffLightFetcher::setWaiting(bool waits)
+{
+  this->Waits = waits;
+  this->pictureUpdated();
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffLightFetcher::pictureUpdated()
+{
+  if (this->Filter && !this->Waits)
+  {
+    this->Timer.start();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqCutoffLightFetcher::fetch()
+{
+  if (!this->Filter || this->Waits || !this->Widget->isVisible())
+  {
+    return;
+  }
+  const int picture = informationOf(this->Filter, "PictureCount");
+  Q_EMIT this->pictureChanged();
+  // An unfinished picture would be finished, however long that takes.
+  if (picture != this->FetchedPicture && informationOf(this->Filter, "Finished") != 0)
+  {
+    this->FetchedPicture = picture;
+    this->Light = pqCutoffLight(fetchedImage(this->Filter, histogramPort, { "Rays" }));
+    Q_EMIT this->lightChanged();
+  }
+}

@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqPicturePainter.h"
+
+#include "pqApplicationCore.h"
+#include "pqColorFilterPicture.h"
+#include "pqDataRepresentation.h"
+#include "pqFetchedImage.h"
+#include "pqPipelineSource.h"
+#include "pqServerManagerModel.h"
+#include "pqView.h"
+
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkEventQtSlotConnect.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
+
+#include <QCoreApplication>
+#include <QKeyEvent>
+#include <QSet>
+#include <QWidget>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+constexpr int picturePort = 0;
+constexpr float beforeTheView = 10;  // priority: a view does not turn while one paints
+constexpr double finestPlace = 1024; // of the filter's side: what is told apart
+
+vtkSMRenderViewProxy* renderViewOf(pqView* view)
+{
+  return view ? vtkSMRenderViewProxy::SafeDownCast(view->getProxy()) : nullptr;
+}
+
+pqServerManagerModel* model() { return pqApplicationCore::instance()->getServerManagerModel(); }
+
+bool shows(pqView* view, vtkSMProxy* filter)
+{
+  auto* source = model()->findItem<pqPipelineSource*>(filter);
+  const QList<pqDataRepresentation*> pictures =
+    source ? source->getRepresentations(picturePort, view) : QList<pqDataRepresentation*>();
+  return std::any_of(pictures.begin(), pictures.end(),
+    [](pqDataRepresentation* picture) { return picture->isVisible(); });
+}
+
+/// Where the line of sight through a pixel of the window meets the picture's plane, z = 0.
+bool placeUnder(const int pixel[2], vtkRenderer* renderer, QPointF& place)
+{
+  double ends[2][4];
+  for (int end = 0; end < 2; ++end)
+  {
+    renderer->SetDisplayPoint(pixel[0], pixel[1], end);
+    renderer->DisplayToWorld();
+    renderer->GetWorldPoint(ends[end]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ends[end][axis] /= ends[end][3];
+    }
+  }
+  const double way = ends[0][2] / (ends[0][2] - ends[1][2]);
+  place = { ends[0][0] + way * (ends[1][0] - ends[0][0]),
+    ends[0][1] + way * (ends[1][1] - ends[0][1]) };
+  return std::isfinite(place.x()) && std::isfinite(place.y());
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqPicturePainter::pqPicturePainter(vtkSMProxy* filter, QObject* parentObject)
+  : QObject(parentObject)
+  , Filter(filter)
+{
+  QObject::connect(
+    model(), &pqServerManagerModel::preViewRemoved, this, &pqPicturePainter::viewRemoved);
+}
+
+//------------------------------------------------------------------------------
+pqPicturePainter::~pqPicturePainter() { this->stop(); }
+
+//------------------------------------------------------------------------------
+bool pqPicturePainter::start()
+{
+  for (pqView* view : model()->findItems<pqView*>())
+  {
+    vtkSMRenderViewProxy* proxy = renderViewOf(view);
+    if (!proxy || !proxy->GetInteractor() || !shows(view, this->Filter))
+    {
+      continue;
+    }
+    this->Views.append(view);
+    view->widget()->setCursor(Qt::CrossCursor);
+    for (const unsigned long event : { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent,
+           vtkCommand::LeftButtonReleaseEvent })
+    {
+      this->Connection->Connect(proxy->GetInteractor(), event, this,
+        SLOT(mouseEvent(vtkObject*, unsigned long, void*, void*, vtkCommand*)), view, beforeTheView,
+        Qt::DirectConnection);
+    }
+  }
+  if (this->isOn())
+  {
+    QCoreApplication::instance()->installEventFilter(this);
+  }
+  return this->isOn();
+}
+
+//------------------------------------------------------------------------------
+void pqPicturePainter::stop()
+{
+  if (!this->isOn())
+  {
+    return;
+  }
+  QCoreApplication::instance()->removeEventFilter(this);
+  this->Connection->Disconnect();
+  for (pqView* view : this->Views)
+  {
+    if (view && view->widget())
+    {
+      view->widget()->unsetCursor();
+    }
+  }
+  this->Views.clear();
+  this->Deflection = nullptr;
+  this->FetchedPicture = 0;
+  if (this->Pressed)
+  {
+    this->Pressed = nullptr;
+    Q_EMIT this->strokeEnded();
+  }
+  Q_EMIT this->stopped();
+}
+
+//------------------------------------------------------------------------------
+void pqPicturePainter::viewRemoved(pqView* view)
+{
+  if (this->Views.contains(view))
+  {
+    this->stop();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool pqPicturePainter::eventFilter(QObject* watched, QEvent* event)
+{
+  if ((event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
+    static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape)
+  {
+    event->accept();
+    this->stop();
+    return true;
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+//------------------------------------------------------------------------------
+bool pqPicturePainter::fetchDeflection()
+{
+  for (const char* name : { "PictureCount", "KScaleUsed" })
+  {
+    this->Filter->UpdatePropertyInformation(this->Filter->GetProperty(name));
+  }
+  const int picture = vtkSMPropertyHelper(this->Filter, "PictureCount").GetAsInt();
+  this->K = vtkSMPropertyHelper(this->Filter, "KScaleUsed").GetAsDouble();
+  if (picture != this->FetchedPicture)
+  {
+    this->Deflection = fetchedImage(this->Filter, picturePort, { "Deflection", "BlockedFraction" });
+    this->FetchedPicture = picture;
+  }
+  return this->Deflection && this->Deflection->GetPointData()->GetArray("Deflection") &&
+    this->K > 0;
+}
+
+//------------------------------------------------------------------------------
+void pqPicturePainter::mouseEvent(
+  vtkObject* caller, unsigned long event, void* client, void*, vtkCommand* command)
+{
+  auto* view = static_cast<pqView*>(client);
+  auto* interactor = vtkRenderWindowInteractor::SafeDownCast(caller);
+  if (!this->Filter || !interactor)
+  {
+    return;
+  }
+  if (event == vtkCommand::LeftButtonPressEvent && !this->Pressed && shows(view, this->Filter))
+  {
+    command->SetAbortFlag(1);
+    if (this->fetchDeflection())
+    {
+      this->Pressed = view;
+      this->HasLast = false;
+      Q_EMIT this->strokeBegan();
+      this->brush(interactor);
+    }
+  }
+  else if (this->Pressed == view)
+  {
+    command->SetAbortFlag(1);
+    if (event == vtkCommand::MouseMoveEvent)
+    {
+      this->brush(interactor);
+    }
+    else if (event == vtkCommand::LeftButtonReleaseEvent)
+    {
+      this->Pressed = nullptr;
+      Q_EMIT this->strokeEnded();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPicturePainter::brush(vtkRenderWindowInteractor* interactor)
+{
+  QPointF position;
+  if (!placeUnder(
+        interactor->GetEventPosition(), renderViewOf(this->Pressed)->GetRenderer(), position))
+  {
+    return;
+  }
+  const double* bounds = this->Deflection->GetBounds();
+  const double radius = this->BrushRadius * std::min(bounds[1] - bounds[0], bounds[3] - bounds[2]);
+  QVector<QPointF> places;
+  for (const QPointF& at : pqColorFilterPicture::stroke(
+         this->HasLast ? this->Last : position, position, std::max(radius, 1e-300)))
+  {
+    places += this->placesAround(at);
+  }
+  this->Last = position;
+  this->HasLast = true;
+  if (!places.isEmpty())
+  {
+    Q_EMIT this->brushed(places);
+  }
+}
+
+//------------------------------------------------------------------------------
+QVector<QPointF> pqPicturePainter::placesAround(const QPointF& position) const
+{
+  vtkDataArray* deflections = this->Deflection->GetPointData()->GetArray("Deflection");
+  vtkDataArray* blocked = this->Deflection->GetPointData()->GetArray("BlockedFraction");
+  const int* size = this->Deflection->GetDimensions();
+  const double* origin = this->Deflection->GetOrigin();
+  const double* spacing = this->Deflection->GetSpacing();
+  const int* extent = this->Deflection->GetExtent();
+  // In pixels from the centre of the first.
+  const double column = (position.x() - origin[0]) / spacing[0] - extent[0];
+  const double row = (position.y() - origin[1]) / spacing[1] - extent[2];
+  const double radius = this->BrushRadius * std::min(size[0], size[1]);
+  const auto first = [](double middle, double reach)
+  { return static_cast<int>(std::lround(std::max(0., middle - reach))); };
+  const auto last = [](double middle, double reach, int count)
+  { return static_cast<int>(std::lround(std::min(count - 1., middle + reach))); };
+  QVector<QPointF> places;
+  QSet<QPair<int, int>> known;
+  for (int y = first(row, radius); y <= last(row, radius, size[1]); ++y)
+  {
+    for (int x = first(column, radius); x <= last(column, radius, size[0]); ++x)
+    {
+      const bool isNearest = std::abs(x - column) <= 0.5 && std::abs(y - row) <= 0.5;
+      const vtkIdType pixel = x + static_cast<vtkIdType>(y) * size[0];
+      if ((!isNearest && std::hypot(x - column, y - row) > radius) ||
+        (blocked && blocked->GetTuple1(pixel) >= 1))
+      {
+        continue;
+      }
+      const double u = this->K * deflections->GetComponent(pixel, 0);
+      const double v = this->K * deflections->GetComponent(pixel, 1);
+      if (!std::isfinite(u) || !std::isfinite(v))
+      {
+        continue;
+      }
+      // Beyond the filter light has the colour of its edge.
+      const QPointF place(qBound(-1., u, 1.), qBound(-1., v, 1.));
+      const QPair<int, int> cell(static_cast<int>(std::lround(place.x() * finestPlace / 2)),
+        static_cast<int>(std::lround(place.y() * finestPlace / 2)));
+      if (!known.contains(cell))
+      {
+        known.insert(cell);
+        places.append(place);
+      }
+    }
+  }
+  return places;
+}

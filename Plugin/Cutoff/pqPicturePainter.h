@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <QObject>
+#include <QPointF>
+#include <QPointer>
+#include <QVector>
+
+class pqView;
+class vtkCommand;
+class vtkEventQtSlotConnect;
+class vtkImageData;
+class vtkObject;
+class vtkRenderWindowInteractor;
+class vtkSMProxy;
+
+/// Paints on a colour filter by brushing over its picture in the render views that show it: where the rays of the
+/// brushed pixels meet the cutoff plane, the filter is painted (Brownlee et al. 2011, fig. 9).
+class pqPicturePainter : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit pqPicturePainter(vtkSMProxy* filter, QObject* parent = nullptr);
+  ~pqPicturePainter() override;
+
+  /// Takes the left mouse button in the views. False where no view shows the picture.
+  bool start();
+  void stop();
+  bool isOn() const { return !this->Views.isEmpty(); }
+
+public Q_SLOTS:
+  /// As a share of the picture's shorter side.
+  void setBrushRadius(double radius) { this->BrushRadius = radius; }
+
+Q_SIGNALS:
+  void strokeBegan();
+  /// Places of the filter, each coordinate from -1 to 1, v upwards.
+  void brushed(const QVector<QPointF>& places);
+  void strokeEnded();
+  /// By Escape, or because the views are gone.
+  void stopped();
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private Q_SLOTS:
+  void mouseEvent(
+    vtkObject* caller, unsigned long event, void* client, void* data, vtkCommand* command);
+  void viewRemoved(pqView* view);
+
+private:
+  bool fetchDeflection();
+  void brush(vtkRenderWindowInteractor* interactor);
+  QVector<QPointF> placesAround(const QPointF& position) const;
+
+  vtkWeakPointer<vtkSMProxy> Filter;
+  QVector<QPointer<pqView>> Views;
+  pqView* Pressed = nullptr;
+  double BrushRadius = 0.04;
+  double K = 0;
+  int FetchedPicture = 0; ///< PictureCount
+  vtkSmartPointer<vtkImageData> Deflection;
+  QPointF Last; ///< place of the mouse in the picture
+  bool HasLast = false;
+  vtkNew<vtkEventQtSlotConnect> Connection;
+};
