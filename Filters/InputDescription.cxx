@@ -134,6 +134,11 @@ void requestWhole(vtkInformationVector** inputs, int ports)
     {
       inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
     }
+    else
+    {
+      // The pipeline has put the picture's there, which blocks would hand on to images upstream.
+      inInfo->Remove(Pipeline::UPDATE_EXTENT());
+    }
     inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);

@@ -116,9 +116,8 @@ void paint(
     dabs.addEllipse(QPointF((1 + place.x()) / 2 * width, (1 - place.y()) / 2 * height),
       brush.Radius * width, brush.Radius * height);
   }
-  QPainter painter(&picture);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
+  // Without antialiasing: the eraser leaves no rim.
+  QPainter(&picture).fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
 }
 
 //------------------------------------------------------------------------------

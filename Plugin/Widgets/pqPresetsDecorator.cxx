@@ -8,6 +8,7 @@
 
 #include "vtkSMUncheckedPropertyHelper.h"
 
+#include <QComboBox>
 #include <QMenu>
 #include <QToolButton>
 
@@ -49,6 +50,13 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
       });
   }
   button->setMenu(menu);
+  // Together no wider than ParaView's panel is without asking for room.
+  constexpr int fewestLetters = 8;
+  for (QComboBox* box : parentObject->findChildren<QComboBox*>())
+  {
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(fewestLetters);
+  }
   appendToRow(parentObject, button);
 }
 

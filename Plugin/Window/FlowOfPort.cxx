@@ -9,6 +9,7 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMSourceProxy.h"
 
 namespace
 {
@@ -27,6 +28,18 @@ void setStrings(vtkSMProxy* filter, const char* name, const std::vector<std::str
 } // namespace
 
 //------------------------------------------------------------------------------
+bool isApplied(pqPipelineSource* source)
+{
+  return source->modifiedState() != pqProxy::UNINITIALIZED;
+}
+
+//------------------------------------------------------------------------------
+QString notApplied(pqPipelineSource* source)
+{
+  return "'" + source->getSMName() + "' has not been applied yet. Press Apply first.";
+}
+
+//------------------------------------------------------------------------------
 QString problemOfFlow(pqOutputPort* port)
 {
   if (!port)
@@ -35,10 +48,11 @@ QString problemOfFlow(pqOutputPort* port)
            "Pipeline Browser.";
   }
   const QString name = "'" + port->getSource()->getSMName() + "'";
-  if (port->getSource()->modifiedState() == pqProxy::UNINITIALIZED)
+  if (!isApplied(port->getSource()))
   {
-    return name + " has not been applied yet. Press Apply first.";
+    return notApplied(port->getSource());
   }
+  port->getSourceProxy()->UpdatePipeline(); // made by a script, it may have no data yet
   vtkPVDataInformation* info = port->getDataInformation();
   if (info->IsNull() || info->GetNumberOfCells() < 1)
   {

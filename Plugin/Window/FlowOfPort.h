@@ -9,7 +9,12 @@
 #include <QString>
 
 class pqOutputPort;
+class pqPipelineSource;
 class vtkSMProxy;
+
+/// Whether a source has been made by Apply; and what to say where not.
+bool isApplied(pqPipelineSource* source);
+QString notApplied(pqPipelineSource* source);
 
 /// Why no picture can be made of these data and what to do about it; empty: it can.
 QString problemOfFlow(pqOutputPort* port);

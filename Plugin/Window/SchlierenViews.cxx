@@ -394,7 +394,8 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
     const auto inputs = qobject_cast<pqPipelineFilter*>(pattern)->getInputs("Input");
     flow = inputs.empty() ? nullptr : inputs.front();
   }
-  const QString problem = problemOfFlow(flow);
+  const QString problem =
+    pattern && !isApplied(pattern) ? notApplied(pattern) : problemOfFlow(flow);
   if (!problem.isEmpty())
   {
     return { false, problem };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqSchlierenToolBar.h"
 
+#include "FlowOfPort.h"
 #include "SchlierenFilters.h"
 #include "pqPictureDisplayKeeper.h"
 #include "pqPictureRefiner.h"
@@ -34,7 +35,7 @@ namespace
 vtkSMProxy* selectedFilter()
 {
   pqPipelineSource* source = schlierenFilterOf(pqActiveObjects::instance().activeSource());
-  return source && source->modifiedState() != pqProxy::UNINITIALIZED ? source->getProxy() : nullptr;
+  return source && isApplied(source) ? source->getProxy() : nullptr;
 }
 
 } // namespace
@@ -91,8 +92,7 @@ QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& tex
 void pqSchlierenToolBar::addToolAction(QAction* action, const char* name, const QString& hint)
 {
   action->setObjectName(QString("action%1").arg(name));
-  action->setToolTip(hint);
-  action->setStatusTip(hint);
+  action->setToolTip(hint); // no status tip: it would clear what is told below the window
   this->addAction(action);
   QWidget* button = this->widgetForAction(action);
   button->setObjectName(name);
@@ -108,7 +108,7 @@ void pqSchlierenToolBar::addMenu()
   {
     return;
   }
-  auto* menu = new QMenu("Schlie&ren", window);
+  auto* menu = new QMenu("Schlie&ren", window->menuBar());
   menu->setObjectName("menuSchlieren");
   menu->addActions(this->actions());
   const QList<QAction*> menus = window->menuBar()->actions();
@@ -120,11 +120,14 @@ void pqSchlierenToolBar::tell(const SchlierenViews::Result& result)
 {
   if (!result.isMade)
   {
-    auto* box = new QMessageBox(QMessageBox::Information, "Schlieren", result.message,
-      QMessageBox::Ok, pqCoreUtilities::mainWidget());
-    box->setObjectName("SchlierenMessage");
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->open();
+    if (!this->Message)
+    {
+      this->Message = new QMessageBox(QMessageBox::Information, "Schlieren", QString(),
+        QMessageBox::Ok, pqCoreUtilities::mainWidget());
+      this->Message->setObjectName("SchlierenMessage");
+    }
+    this->Message->setText(result.message);
+    this->Message->open();
   }
   else if (!result.message.isEmpty())
   {

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QPointer>
 #include <QToolBar>
 
 #include "SchlierenViews.h"
 #include "vtkNew.h"
 
 class QAction;
+class QMessageBox;
 class vtkEventQtSlotConnect;
 
 /// The toolbar Schlieren, and the menu of the same name with the same actions.
@@ -34,5 +36,6 @@ private:
 
   QList<QAction*> Arrangements;
   QAction* Follow;
+  QPointer<QMessageBox> Message;
   vtkNew<vtkEventQtSlotConnect> Events;
 };

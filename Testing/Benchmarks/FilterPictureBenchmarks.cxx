@@ -14,6 +14,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -131,6 +132,71 @@ BENCHMARK(filterHasNewCamera)
   ->ArgNames({ "samples", "threads" })
   ->Args({ 1, 2 })
   ->Iterations(5)
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+/// The same in pictures of fewer pixels.
+void filterHurries(benchmark::State& state)
+{
+  double angle = 0;
+  auto filter = filterOf(ball(256), state);
+  filter->SetPreviewReduction(static_cast<int>(state.range(2)));
+  updateAgain(state, filter,
+    [&angle](vtkSchlierenFilter* turned)
+    {
+      angle += 3 * std::acos(-1.) / 180;
+      turned->SetViewDirection(-std::sin(angle), -0.3, -std::cos(angle));
+    });
+}
+BENCHMARK(filterHurries)
+  ->ArgNames({ "samples", "threads", "reduction" })
+  ->ArgsProduct({ { 1 }, { 2 }, { 1, 2, 4, 8 } })
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Unit(benchmark::kMillisecond);
+
+/// A picture of so many samples per pixel in slices of so many microseconds; 0: in one go. Its rays are new.
+void filterRefines(benchmark::State& state)
+{
+  auto filter = filterOf(ball(256), state);
+  const int pixels = static_cast<int>(state.range(2));
+  filter->SetImageSize(pixels, pixels);
+  const double limit = 1e-6 * static_cast<double>(state.range(3));
+  double longest = 0;
+  double longestWait = 0; // for a new picture
+  double slices = 0;
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start)
+  { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  for (auto _ : state)
+  {
+    filter->SetTimeLimit(limit);
+    filter->SetSeed(filter->GetSeed() + 1);
+    Clock::time_point shown = Clock::now();
+    do
+    {
+      filter->Refine();
+      const vtkTypeInt64 pictures = filter->GetPictureCount();
+      const Clock::time_point start = Clock::now();
+      filter->Update();
+      longest = std::max(longest, since(start));
+      ++slices;
+      if (filter->GetPictureCount() != pictures)
+      {
+        longestWait = std::max(longestWait, since(shown));
+        shown = Clock::now();
+      }
+    } while (!filter->GetFinished());
+  }
+  state.counters["longest/ms"] = 1e3 * longest;
+  state.counters["wait/ms"] = 1e3 * longestWait;
+  state.counters["slices"] = slices / static_cast<double>(state.iterations());
+}
+BENCHMARK(filterRefines)
+  ->ArgNames({ "samples", "threads", "pixels", "limit/us" })
+  ->ArgsProduct({ { 16 }, { 2 }, { 512, 1024 }, { 0, 60000, 20000, 1 } })
+  ->Iterations(2)
   ->MeasureProcessCPUTime()
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);

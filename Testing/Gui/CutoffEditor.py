@@ -20,10 +20,25 @@ MIDDLE = np.array([20 + SIDE / 2, 2 + SIDE / 2])  # of the widget; pixels, give 
 PLANE = "SchlierenCutoff/Plane"
 SHIFT = 0x02000000
 TRACE, LOG = os.path.join(FOLDER, "trace.py"), os.path.join(FOLDER, "log.json")
-SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6}
+FOCAL_LENGTH = 1e-3 * K  # metres: of a source 1 mm wide k is K
+SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6, "FocalLength": FOCAL_LENGTH}
 
 user = Session()
 saved = {}
+
+
+def scripted(**properties):
+    """A filter that a script has set up."""
+    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow.UpdatePipeline()
+    bench = Schlieren(Input=flow, **SETTINGS, **properties)
+    bench.UpdatePipeline()
+    return bench
+
+
+def automatic_k(cutoff):
+    return scripted(Cutoff=cutoff).FieldData["KScale"].GetRange()[0]
+
 
 
 def drag(begin, *ways, modifiers=0):
@@ -97,11 +112,33 @@ user.check("ImageSize/LineEdit0", "text", "32")
 further = round(keyed + 1.02 * K * PIXEL * (np.rint(30 * along) @ along), 3)
 expect("waited", CutoffOffset=further)
 
-# A circle, whose sensitivity was automatic before its radius was dragged; and undone at one go.
+# A circle, whose sensitivity was automatic before its radius was dragged; undone at one go.
+automatic = automatic_k("Circular")
+circle = next(r for r in (0.001, 0.002, 0.005, 0.01) if r > 1.3 / automatic)
 user.choose("Cutoff/ComboBox", "Circular")
 user.click("AutoKScale/CheckBox")
 user.apply()
-user.save_state("circle.pvsm")
+user.check(PLANE, "range", circle)
+rim = round(1 / automatic / (2 * circle / SIDE))
+drag((0, rim), (0, -20))
+user.check("AutoKScale/CheckBox", "checked", "false")
+narrower = 1 / (1 / automatic - 20 * 2 * circle / SIDE)
+expect("circle", Cutoff="Circular", KScale=float(f"{narrower:.4g}"))
+user.menu("menu_Edit", "actionEditUndo")
+user.check("AutoKScale/CheckBox", "checked", "true")
+
+# Real optics: where the edge is in millimetres, and the width of the source, with the edge in its place.
+user.choose("Cutoff/ComboBox", "Knife Edge")
+user.click("KFromOptics/CheckBox")
+user.apply()
+user.check(PLANE, "range", RANGE)
+drag((0, 0), tuple(np.rint(25 * along)))
+position = 1e3 * FOCAL_LENGTH * PIXEL * (np.rint(25 * along) @ along)
+expect("optics", Cutoff="Knife Edge", AutoKScale=1, KScale=1.02 * K, KFromOptics=1, CutoffPosition=round(position, 3))
+full = position / 1e3 / FOCAL_LENGTH + 0.5 / K
+way = np.rint(40 * along)
+drag(np.rint(full / PIXEL * along), tuple(way))
+expect("source", SourceWidth=float(f"{1 + 2 * K * PIXEL * (way @ along):.4g}"))
 
 user.play(f"""
 from paraview.simple import *
@@ -125,21 +162,15 @@ bench.SMProxy.AddObserver("UpdateDataEvent", write)
 """)
 
 
-def scripted(properties):
-    """The picture of a filter that a script has set up."""
-    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
-    flow.UpdatePipeline()
-    return picture(Schlieren(Input=flow, **SETTINGS, **properties), "Intensity")
-
-
 for name, properties in saved.items():
     simple.ResetSession()
     simple.LoadState(os.path.join(FOLDER, name + ".pvsm"))
     bench = simple.FindSource("bench")
     for key, value in properties.items():
-        assert np.isclose(bench.GetPropertyValue(key), value, rtol=1e-12), (name, key)
+        held = bench.GetPropertyValue(key)
+        assert held == value or np.isclose(held, value, rtol=1e-12), (name, key, held, value)
     shown = picture(bench, "Intensity")
-    assert np.array_equal(shown, scripted(properties)), name
+    assert np.array_equal(shown, picture(scripted(**properties), "Intensity")), name
     assert shown.std() > 0.01
 
 # Pictures were made while the mouse was down: of the edge further out, and turned by multiples of 15.
@@ -151,5 +182,4 @@ assert [edge, 60, K] in made and [edge, 60, scaled] in made
 # The trace has each drag once.
 with open(TRACE, encoding="utf-8") as file:
     lines = [line.split(".", 1)[1] for line in file if line.startswith("bench.")]
-print(lines)
 assert lines[:3] == [f"CutoffOffset = {edge}\n", "KnifeEdgeAngle = 60.0\n", f"KScale = {scaled}\n"]

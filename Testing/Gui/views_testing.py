@@ -65,13 +65,12 @@ class ViewsSession(Session):
         self.event(TOOLBAR + name, "activate")
 
     def check_button(self, name, prop, value):
-        self.lines.append(f'<pqcheck object="{TOOLBAR}{name}" property="{prop}" '
-                          f'arguments="{value}"/>')
+        self.check_at(TOOLBAR + name, prop, value)
 
     def check_message(self, text):
         """The message that a mistake ends in; it is closed."""
         box = "pqClientMainWindow/SchlierenMessage"
-        self.lines.append(f'<pqcheck object="{box}" property="text" arguments="{text}"/>')
+        self.check_at(box, "text", text)
         self.event(box + "/qt_msgbox_buttonbox/1QPushButton0", "activate")
 
     def undo(self):
@@ -113,7 +112,9 @@ def filters():
 
 
 def shown(bench, view):
-    return simple.GetRepresentation(bench, view)
+    """How the view shows it; null where it does not."""
+    found = view.SMProxy.FindRepresentation(bench.SMProxy, 0)
+    return simple.servermanager._getPyProxy(found) if found else None  # pylint: disable=protected-access
 
 
 def check_display(representation, white=1):

@@ -47,6 +47,9 @@ class Session:
 
     def key(self, widget, name):
         """Presses a key where the widget has the focus."""
+        if name.startswith("Shift"):
+            self.event(f"{PROPERTIES}/{widget}", "keyEvent", {"ShiftLeft": "6:16777234:33554432::0:1"}[name])
+            return
         self.event(f"{PROPERTIES}/{widget}", "key",
                    {"Space": "32", "Return": "16777220", "Left": "16777234", "Up": "16777235",
                     "Right": "16777236", "Down": "16777237", "Home": "16777232",

@@ -1,0 +1,235 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Painting the colour filter, on itself and through the picture: the filter gets colour where the brush was or
+where the rays of the brushed pixels go, and the picture shows it without Apply."""
+
+import base64
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+from plugin_testing import simple  # noqa: E402
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
+from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session  # noqa: E402
+
+WIDGET, PREVIEW = "ColorFilterImage", "ColorFilterImage/Preview"
+MIDDLE, HALF = 113, 96  # of the filter in its widget, pixels; the middle give or take a font's height
+SIDE = 256              # of the painted filter
+PIXELS, K = 321, 300
+COLOR = (10, 200, 30)
+PIXEL = np.array([100, 205])  # of the picture: column, row; in the middle of the view
+SAVED = os.path.join(FOLDER, "saved.png")
+
+user = Session()
+
+
+def stroke(*places):
+    """On the filter; each coordinate is -1 to 1, v upwards."""
+    user.drag(PREVIEW, *[(round(MIDDLE + HALF * u), round(MIDDLE + HALF * -v)) for u, v in places])
+
+
+def look(name):
+    """Keeps what the filter is and what its picture is, in the window."""
+    user.check_at(PANEL + "/Accept", "enabled", "false")
+    user.python(f"""
+bench = FindSource("bench")
+until(lambda: finished(bench))
+arrays = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData()
+np.savez(os.path.join(FOLDER, {name!r}), text=bench.ColorFilterImage,
+         camera=GetActiveView().CameraPosition,
+         **{{name: vtk_to_numpy(arrays.GetArray(name)) for name in ("Color", "Deflection")}})
+""")
+
+
+look("wheel")
+user.check(WIDGET + "/Undo", "enabled", "false")
+user.event(f"{PROPERTIES}/{WIDGET}/Brush", "setChosenColor", ",".join(map(str, COLOR)))
+user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 12)
+line = ((-0.5, 0.25), (0.5, 0.25))
+stroke(*line)
+look("stroke")
+user.check(WIDGET + "/Undo", "enabled", "true")
+
+# A dab by keys: 8 * 2 steps of 1/64 to the left of where the mouse was, and 1 up.
+for name in ("ShiftLeft", "ShiftLeft", "Up", "Space"):
+    user.key(PREVIEW, name)
+look("keys")
+user.click(WIDGET + "/Undo")
+look("undone")
+
+# Erased with a larger brush, it is the wheel again; Edit > Undo brings the stroke back.
+user.click(WIDGET + "/Erase")
+user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 16)
+stroke(*line)
+look("erased")
+user.menu("menu_Edit", "actionEditUndo")
+look("back")
+user.click(WIDGET + "/Erase")
+
+user.click(WIDGET + "/Save")
+user.event("pqClientMainWindow/SavePictureDialog", "filesSelected", SAVED)
+user.click(WIDGET + "/Fill")
+look("filled")
+user.click(WIDGET + "/Load")
+user.event("pqClientMainWindow/LoadPictureDialog", "filesSelected", SAVED)
+user.apply()
+look("loaded")
+user.click(WIDGET + "/Clear")
+user.apply()
+look("cleared")
+
+# On the picture: beside it there is nothing to paint, and the view does not turn.
+user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 6)
+user.click(WIDGET + "/PaintOnPicture")
+user.check(WIDGET + "/PaintOnPicture", "checked", "true")
+user.drag_view(0, (0.02, 0.02), (0.03, 0.03))
+look("beside")
+user.drag_view(0, (0.5, 0.5), (0.5, 0.5))
+look("picture")
+user.save_state("picture.pvsm")
+user.event(VIEW.format(0), "keyEvent", "6:16777216:0::0:1")
+user.check(WIDGET + "/PaintOnPicture", "checked", "false")
+user.drag_view(0, (0.5, 0.5), (0.6, 0.5), button=3)
+user.click(WIDGET + "/Undo")
+look("taken")
+
+# It ends by itself with the view.
+user.click(WIDGET + "/PaintOnPicture")
+user.python("Delete(GetActiveView())")
+user.check(WIDGET + "/PaintOnPicture", "checked", "false")
+user.click(WIDGET + "/PaintOnPicture")
+user.check(WIDGET + "/PaintOnPicture", "checked", "false")
+
+user.play(f"""
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from paraview.simple import *
+flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench", ImageSize=2 * [{PIXELS}], Cutoff="Color Filter",
+                  AutoKScale=0, KScale={K}, GladstoneDaleConstant=2e-6)
+bench.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+Show(bench, view)
+ResetCamera(view)
+left, right, low, high = bench.GetDataInformation().GetBounds()[:4]
+x = left + {PIXEL[0]} * (right - left) / {PIXELS - 1}
+y = low + {PIXEL[1]} * (high - low) / {PIXELS - 1}
+view.CameraFocalPoint = [x, y, 0]
+view.CameraPosition = [x, y, view.CameraPosition[2]]
+Render()
+SetActiveSource(bench)
+""")
+
+
+def seen(name):
+    file = np.load(os.path.join(FOLDER, name + ".npz"))
+    return str(file["text"]), file["Color"].reshape(PIXELS, PIXELS, 3).astype(int)
+
+
+def read(path):
+    """A picture: rows x columns x 3, lowest row first."""
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    columns, rows, _ = reader.GetOutput().GetDimensions()
+    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+    return pixels.reshape(rows, columns, 3).astype(int)
+
+
+def held(text):
+    head = "data:image/png;base64,"
+    assert text.startswith(head), text[:40]
+    path = os.path.join(FOLDER, "held.png")
+    with open(path, "wb") as file:
+        file.write(base64.b64decode(text[len(head):]))
+    return read(path)
+
+
+# Places of the filter's pixels, from -1 to 1.
+centres = (np.arange(SIDE) + 0.5) / SIDE * 2 - 1
+u, v = np.meshgrid(centres, centres)
+# What the wheel is: a hue for the direction, red to the right, and saturated at 1.
+sector = np.arctan2(v, u) / (np.pi / 3)
+hue = np.stack([np.clip(2 - np.abs((sector - 2 * n + 3) % 6 - 3), 0, 1) for n in range(3)], axis=-1)
+WHEEL = 255 * (1 - np.minimum(1, np.hypot(u, v))[..., None] * (1 - hue))
+
+
+def check_painted(picture, inside, outside):
+    """The brush's colour inside, the wheel outside."""
+    assert inside.sum() > 100
+    assert (picture[inside] == COLOR).all()
+    assert np.abs(picture - WHEEL)[outside].max() <= 1
+
+
+def check_brushed(picture, distance):
+    """Painted where the brush of 12 % was, but for the pixels at its rim."""
+    check_painted(picture, distance < 0.12 - 2 / SIDE, distance > 0.12 + 2 / SIDE)
+
+
+text, before = seen("wheel")
+assert text == ""
+
+text, shown = seen("stroke")
+colored = (held(text) == COLOR).all(axis=2)
+shift = u[colored].mean(), v[colored].mean() - 0.25
+assert np.hypot(*shift) < 8 / HALF
+far = np.hypot(np.maximum(np.abs(u - shift[0]) - 0.5, 0), v - shift[1] - 0.25)
+check_brushed(held(text), far)
+assert np.abs(shown - before).max() > 100
+assert seen("undone")[0] == seen("back")[0] == text
+assert np.array_equal(seen("undone")[1], shown)
+by_keys = held(seen("keys")[0])
+by_key = np.hypot(u - shift[0] - (0.5 - 32 / 64), v - shift[1] - (0.25 + 2 / 64))
+check_brushed(by_keys, np.minimum(far, by_key))
+
+text_erased, shown_erased = seen("erased")
+assert np.abs(held(text_erased) - WHEEL).max() <= 1
+assert np.abs(shown_erased - before).max() <= 2  # a picture's wheel, not the formula's
+assert np.array_equal(read(SAVED), held(text))
+assert (held(seen("filled")[0]) == COLOR).all() and (seen("filled")[1] == COLOR).all()
+assert np.array_equal(held(seen("loaded")[0]), held(text))
+assert np.array_equal(seen("loaded")[1], shown)
+
+# On the picture: the rays of the pixels in the brush's circle, times k.
+assert seen("cleared")[0] == seen("beside")[0] == seen("taken")[0] == ""
+text, shown = seen("picture")
+deflection = np.load(os.path.join(FOLDER, "picture.npz"))["Deflection"].reshape(PIXELS, PIXELS, 2)
+rows, columns = np.mgrid[:PIXELS, :PIXELS]
+away = np.hypot(columns - PIXEL[0], rows - PIXEL[1]) - 0.03 * PIXELS
+places = np.clip(K * deflection, -1, 1)
+
+
+def distances(centres, points):
+    """The way from each of the first to all of the second."""
+    return np.stack([np.hypot(*(points - centre).transpose(2, 0, 1)) for centre in centres])
+
+
+# The mouse is in the middle of a pixel of the screen, so that those at the circle's rim may be in or out.
+surely, perhaps = places[away < -0.5], places[away < 0.5]
+on_filter = np.stack([u, v], axis=-1)
+check_painted(held(text), distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE,
+              distances(perhaps, on_filter).min(axis=0) > 0.06 + 2 / SIDE)
+
+
+# Whatever else goes there has that colour too, and only that has changed. Light between the rays of
+# neighbouring pixels meets the filter between them.
+def around(mask):
+    return np.all([np.roll(mask, (x, y), (-2, -1)) for x in (-1, 0, 1) for y in (-1, 0, 1)], axis=0)
+
+
+same = around(distances(surely, places) < 0.05).any(axis=0)
+other = around(distances(perhaps, places).min(axis=0) > 0.08)
+assert same[PIXEL[1], PIXEL[0]] and (same & (away > 1)).sum() > 100 and other.sum() > 1000
+assert np.abs(shown[same] - COLOR).max() <= 2  # light gathers and spreads a little
+assert np.abs(shown - before)[other].max() <= 2
+cameras = [np.load(os.path.join(FOLDER, name + ".npz"))["camera"] for name in ("cleared", "picture")]
+assert np.array_equal(*cameras)
+
+simple.ResetSession()
+simple.LoadState(os.path.join(FOLDER, "picture.pvsm"))
+assert simple.FindSource("bench").ColorFilterImage == text

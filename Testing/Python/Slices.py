@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures in slices of time, as a window asks for them through proxies: the jet, and what is told of it."""
+
+import os
+
+import numpy as np
+from paraview import simple
+from plugin_testing import Schlieren, picture
+
+jet = simple.OpenDataFile(
+    os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Data", "ladenburg_jet_3d.vti"))
+jet.UpdatePipeline()
+SETTINGS = {"Density": ["POINTS", "rho"], "ImageSize": [96, 64], "Quality": "Draft", "SamplesPerPixel": 3,
+            "ViewDirection": [-0.4, -0.2, -1], "NumberOfThreads": 1}
+
+
+def told(name):
+    bench.UpdatePropertyInformation()
+    return bench.GetProperty(name).GetData()
+
+
+whole = Schlieren(Input=jet, **SETTINGS)
+expected = picture(whole, "Intensity")
+assert np.ptp(expected) > 0.5, np.ptp(expected)
+
+bench = Schlieren(Input=jet, **SETTINGS)
+bench.TimeLimit = 1e-9
+bench.UpdatePipeline()
+assert told("Finished") == 0 and told("PictureCount") == 1, told("PictureCount")
+rough = picture(bench, "Intensity")  # something is there from the beginning, of the size that was promised
+assert rough.shape == expected.shape and np.ptp(rough) > 0.2
+
+slices, counts = 1, {1}
+while not told("Finished"):
+    bench.InvokeCommand("Refine")
+    bench.UpdatePipeline()
+    counts.add(told("PictureCount"))
+    slices += 1
+    assert slices < 10000
+assert slices > 10 and counts == {1, 2, 3, 4}, (slices, counts)
+assert np.array_equal(picture(bench, "Intensity"), expected)
+assert told("Status").startswith("3 samples per pixel, "), told("Status")
+assert told("MediumBuilds") == 1
+
+# Neither a limit nor Refine makes a finished picture anew.
+bench.TimeLimit = 0
+bench.InvokeCommand("Refine")
+bench.UpdatePipeline()
+assert told("PictureCount") == 4
+
+# A picture that is hurried, and then whole again without tracing all of it in between.
+bench.PreviewReduction = 4
+assert picture(bench, "Intensity").shape == (16, 24)
+bench.PreviewReduction = 1
+bench.TimeLimit = 1e-9
+assert picture(bench, "Intensity").shape == (64, 96)
+assert told("Finished") == 0
+bench.TimeLimit = 0
+bench.InvokeCommand("Refine")
+assert np.array_equal(picture(bench, "Intensity"), expected)
+assert told("Finished") == 1
