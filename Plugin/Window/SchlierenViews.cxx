@@ -21,7 +21,6 @@
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "pqWaitCursor.h"
-#include "vtkCamera.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
