@@ -5,12 +5,11 @@
 
 #include "Device/Parallel.h"
 #include "Film/GrowingPicture.h"
+#include "HeldRays.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
-#include "Optics/DeflectionHistogram.h"
-#include "Optics/Tint.h"
 #include "Rays/CudaTracer.h"
 #include "Rays/Tracer.h"
 #include "StageSettings.h"
@@ -19,7 +18,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <type_traits>
 #include <variant>
@@ -124,38 +122,16 @@ struct Bench::Stages
   std::optional<MediumKey> mediumKey;
   std::variant<std::monostate, MediumOnDevices<float>, MediumOnDevices<double>> medium;
 
-  std::optional<RaysKey> raysKey;
-  std::int64_t heldMargin = 0;
-  std::deque<TracedPass> passes; ///< from pass 0 on
-  std::deque<TracedPass> spare;  ///< whose memory serves again
-  TracedPass scratch;            ///< a pass that is being traced, or is not held
-  std::int64_t inScratch = -1;   ///< its number; -1: no rays are there
-  bool isScratchTraced = false;  ///< all of it
-  std::optional<double> strong;  ///< deflection of these rays, once automatic k has asked for it
-  std::optional<DeflectionHistogram> histogram; ///< of them, likewise
-  std::optional<double> tint; ///< the reference of what they have gathered, likewise
+  HeldRays rays;
   CutoffMaker cutoffs;
 
   template <class Real>
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
 
-  void prepareRays(RaysKey key, std::int64_t margin);
-
-  /// Makes scratch the place for the rays of a pass, where it is not that already.
-  void prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields);
-
-  /// The rays of a pass, held or traced now; null if aborted or paused.
+  /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
   template <class Real>
-  const TracedPass* raysOf(std::int64_t number, const Pass& pass, MediumOnDevices<Real>& held,
+  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, MediumOnDevices<Real>& held,
     const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked);
-
-  /// Learns from the rays of a pass what has not been asked of them before: how strongly they are bent, for
-  /// automatic k, and where they meet the cutoff plane. `noise`: see noiseFloor.
-  void ask(const TracedPass& traced, TracedRays rays, std::int64_t number, const Scene& scene,
-    double noise);
-
-  /// How fields tint the picture, by the rays of its first pass.
-  std::optional<Tint> tintOf(const TracedRays& rays, const Field& field, const Scene& scene);
 
   /// Goes on with a picture, until it is finished, aborted or paused.
   template <class Real>
@@ -180,9 +156,7 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
   {
     // Given up first: two media at once might not fit.
     mediumKey.reset();
-    raysKey.reset();
-    passes.clear();
-    spare.clear();
+    rays.clear();
     medium = std::monostate{};
     medium = MediumOnDevices<Real>(buildMedium<Real>(field, scene.interpolation, scene.threads));
     mediumKey = key;
@@ -191,153 +165,34 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
   return std::get<MediumOnDevices<Real>>(medium);
 }
 
-void Bench::Stages::prepareRays(RaysKey key, std::int64_t margin)
-{
-  if (raysKey && !key.gradients)
-  {
-    key.gradients = raysKey->gradients; // more was gathered than is asked for
-  }
-  if (!raysKey || raysKey->tie() != key.tie() || heldMargin < margin)
-  {
-    spare = std::move(passes);
-    passes.clear();
-    strong.reset();
-    histogram.reset();
-    tint.reset();
-    inScratch = -1;
-    raysKey = key;
-    heldMargin = margin;
-    ++work.raySets;
-  }
-}
-
-void Bench::Stages::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
-{
-  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-  if (inScratch == number && scratch.gathered.size() == rays * static_cast<std::size_t>(fields))
-  {
-    return;
-  }
-  if (scratch.bytes() == 0 && !spare.empty())
-  {
-    scratch = std::move(spare.back());
-    spare.pop_back();
-  }
-  const std::size_t room = scratch.onDevice ? scratch.onDevice->size() : scratch.exits.capacity();
-  if (room < rays || room / 2 > rays)
-  {
-    spare.clear(); // first: two sets of rays at once might not fit
-    scratch = {};
-  }
-  if (device == Device::Cpu)
-  {
-    scratch.resize(pass, fields);
-  }
-  inScratch = number;
-  isScratchTraced = false;
-}
-
 template <class Real>
-const TracedPass* Bench::Stages::raysOf(std::int64_t number, const Pass& pass,
+bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
   MediumOnDevices<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
 {
-  const Field& field = asked.field;
-  const Scene& scene = asked.scene;
-  if (static_cast<std::size_t>(number) < passes.size())
+  const auto start = std::chrono::steady_clock::now();
+  const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
+  bool isTraced = false;
+  if (asked.device == Device::Cuda)
   {
-    const TracedPass& kept = passes[static_cast<std::size_t>(number)];
-    if (field.gradients.count == 0 || !kept.gathered.empty())
+    if (!held.cuda)
     {
-      return &kept;
+      held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
-    passes.resize(static_cast<std::size_t>(number)); // traced while nothing was tinted
-    tint.reset();
+    using Exits = typename CudaTracer<Real>::Exits;
+    isTraced = held.cuda->trace(task, pass, { asked.field.gradients.version, held.mapTolerance },
+      isWantedOnHost ? Exits::OnHost : Exits::OnDevice, traced, monitor);
   }
-  prepareScratch(number, pass, asked.device, field.gradients.count);
-  if (!isScratchTraced)
+  else
   {
-    const auto start = std::chrono::steady_clock::now();
-    const std::int64_t countedBefore = scratch.tilesDone > 0 ? scratch.crossed : 0;
-    if (asked.device == Device::Cuda)
-    {
-      if (!held.cuda)
-      {
-        held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
-      }
-      using Tracer = CudaTracer<Real>;
-      // All passes of a picture in one place.
-      const bool isWantedHere =
-        field.gradients.count > 0 || (!passes.empty() && !passes.front().onDevice);
-      isScratchTraced = held.cuda->trace(task, pass, { field.gradients.version, held.mapTolerance },
-        isWantedHere ? Tracer::Exits::OnHost : Tracer::Exits::OnDevice, scratch, monitor);
-    }
-    else
-    {
-      isScratchTraced = traceOnCpu(task, pass, scratch, scene.threads, monitor);
-    }
-    asked.traceSeconds +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (isScratchTraced || asked.device == Device::Cpu)
-    {
-      work.raysTraced += scratch.crossed - countedBefore;
-    }
-    if (!isScratchTraced)
-    {
-      return nullptr;
-    }
+    isTraced = traceOnCpu(task, pass, traced, asked.scene.threads, monitor);
   }
-
-  if (static_cast<std::size_t>(number) == passes.size() &&
-    (passes.size() + 1) * scratch.bytes() <= scene.memoryBudget)
+  asked.traceSeconds +=
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (isTraced || asked.device == Device::Cpu)
   {
-    passes.push_back(std::move(scratch));
-    scratch = {};
-    inScratch = -1;
-    return &passes.back();
+    work.raysTraced += traced.crossed - countedBefore;
   }
-  return &scratch;
-}
-
-void Bench::Stages::ask(
-  const TracedPass& traced, TracedRays rays, std::int64_t number, const Scene& scene, double noise)
-{
-  if (number == 0 && scene.histogramSize > 0 &&
-    (!histogram || histogram->size() != scene.histogramSize ||
-      histogram->passes() > scene.samplesPerPixel))
-  {
-    histogram.emplace(scene.histogramSize);
-  }
-  const bool isKWanted = number == 0 && fullScaleOf(scene.cutoff) > 0 && !scene.kScale && !strong;
-  const bool isHistogramWanted = scene.histogramSize > 0 && histogram->passes() == number;
-  std::vector<RayExit> fetched;
-  if (traced.onDevice && (isKWanted || isHistogramWanted))
-  {
-    fetched = traced.onDevice->toHost();
-    rays.exits = fetched.data();
-  }
-  if (isKWanted)
-  {
-    strong = strongDeflection(rays, scene.view.width, scene.view.height, noise, scene.threads);
-  }
-  if (isHistogramWanted)
-  {
-    histogram->add(rays, scene.view.width, scene.view.height, scene.threads);
-  }
-}
-
-std::optional<Tint> Bench::Stages::tintOf(
-  const TracedRays& rays, const Field& field, const Scene& scene)
-{
-  if (field.gradients.count == 0)
-  {
-    return {};
-  }
-  if (!tint)
-  {
-    tint = tintReference(
-      rays, scene.fieldColors.size(), scene.view.width, scene.view.height, scene.threads);
-  }
-  return Tint{ scene.fieldColors, *tint };
+  return isTraced;
 }
 
 template <class Real>
@@ -385,9 +240,9 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   {
     key.gradients = field.gradients.version;
   }
-  prepareRays(key, margin);
-  Pass pass{ -heldMargin, -heldMargin, view.width + 2 * heldMargin, view.height + 2 * heldMargin,
-    { 0, 0 } };
+  work.raySets += rays.prepare(key, margin) ? 1 : 0;
+  const std::int64_t around = rays.margin();
+  Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
   const double noise = noiseFloor(held.medium, field, light);
   GrowingPicture& picture = asked.picture;
@@ -410,20 +265,27 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
       };
     }
     aimPass(pass, number, scene, light);
-    const TracedPass* traced = raysOf(number, pass, held, task, ofPass, asked);
-    if (traced == nullptr || watch.isAborted())
+    const double tracedBefore = asked.traceSeconds;
+    const TracedPass* traced =
+      rays.raysOf(number, pass, asked.device, field.gradients.count, scene.memoryBudget,
+        [&](TracedPass& place, bool isWantedOnHost)
+        { return trace(place, isWantedOnHost, pass, held, task, ofPass, asked); });
+    const bool hasTraced = asked.traceSeconds > tracedBefore;
+    if (traced == nullptr || watch.isAborted() || (hasTraced && watch.isPaused()))
     {
+      goesOn = false;
       break;
     }
     asked.momentumDrift = std::max(asked.momentumDrift, traced->worstDrift);
-    const TracedRays rays{ pass, traced->exits.data(), traced->gathered.data() };
-    ask(*traced, rays, number, scene, noise);
+    const TracedRays ofTraced{ pass, traced->exits.data(), traced->gathered.data() };
+    rays.ask(*traced, ofTraced, number, scene, noise);
     if (!picture.isBegun())
     {
       if (fullScaleOf(scene.cutoff) > 0)
       {
-        asked.kScale =
-          scene.kScale ? *scene.kScale : automaticK(*strong, fullScaleOf(scene.cutoff));
+        asked.kScale = scene.kScale
+          ? *scene.kScale
+          : automaticK(rays.strongDeflection(), fullScaleOf(scene.cutoff));
       }
       picture.begin(
         { cutoffs.cutoffOf(scene, asked.kScale, image.frame.pixelSize),
@@ -431,10 +293,10 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
           margin,
           (view.width + 2 * margin) * (view.height + 2 * margin) *
             passesToHold(scene.samplesPerPixel) },
-        tintOf(rays, field, scene));
+        rays.tintOf(ofTraced, field, scene));
     }
     ofPass.progress = {};
-    goesOn = picture.add(*traced, pass, traced == &scratch ? Rays::Go : Rays::Stay, ofPass) &&
+    goesOn = picture.add(*traced, pass, rays.holds(*traced) ? Rays::Stay : Rays::Go, ofPass) &&
       (!watch.mayPause() || picture.completeUndisturbed(ofPass));
     if (watch.isPaused())
     {
@@ -452,7 +314,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   asked.hasBeenSilent = !image.finished && !isNewPictureThere();
   if (scene.histogramSize > 0 && !asked.hasBeenSilent)
   {
-    image.histogram = histogram->histogram();
+    image.histogram = rays.histogram();
   }
   if (image.finished)
   {
@@ -460,9 +322,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     {
       return aborted;
     }
-    scratch = {};
-    inScratch = -1;
-    spare.clear();
+    rays.finish();
     return image;
   }
   if (!asked.hasBeenSilent)
@@ -476,11 +336,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
 
 void Bench::Stages::leaveDevice()
 {
-  raysKey.reset();
-  passes.clear();
-  spare.clear();
-  scratch = {};
-  inScratch = -1;
+  rays.clear();
   std::visit(
     [](auto& held)
     {

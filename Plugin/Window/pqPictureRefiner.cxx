@@ -388,8 +388,8 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   speed.IsRough = false;
   this->keep(filter, speed);
   // Until the first samples are there, the view would show the picture from before.
-  job.WantsRoughPicture =
-    job.IsFirstTurn && isUnfinished && !isShown && speed.RoughPicture != changeOf(filter);
+  job.WantsRoughPicture = job.Haste != Pace::Shading && job.IsFirstTurn && isUnfinished &&
+    !isShown && speed.RoughPicture != changeOf(filter);
   job.IsFirstTurn = false;
   return isUnfinished;
 }
