@@ -8,8 +8,9 @@
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
 #include "vtkImageData.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMProxy.h"
+#include "vtkSMSourceProxy.h"
 
 #include <QEvent>
 #include <QWidget>
@@ -17,7 +18,7 @@
 namespace
 {
 
-constexpr int histogramPort = 1;
+constexpr int picturePort = 0, histogramPort = 1;
 constexpr int patience = 100; // milliseconds in which no other picture came
 
 int informationOf(vtkSMProxy* filter, const char* name)
@@ -25,6 +26,17 @@ int informationOf(vtkSMProxy* filter, const char* name)
   vtkSMProperty* property = filter->GetProperty(name);
   filter->UpdatePropertyInformation(property);
   return vtkSMPropertyHelper(property).GetAsInt();
+}
+
+/// Whether the picture that there is has all pixels and rays. Another would be finished by being fetched, however
+/// long that takes.
+bool isWhole(vtkSMProxy* filter)
+{
+  auto* source = vtkSMSourceProxy::SafeDownCast(filter);
+  int extent[6];
+  source->GetDataInformation(picturePort)->GetExtent(extent);
+  const int width = vtkSMPropertyHelper(filter, "ImageSize").GetAsInt(0);
+  return extent[1] - extent[0] + 1 == width && informationOf(filter, "Finished") != 0;
 }
 
 } // namespace
@@ -88,8 +100,7 @@ void pqCutoffLightFetcher::fetch()
   }
   const int picture = informationOf(this->Filter, "PictureCount");
   Q_EMIT this->pictureChanged();
-  // An unfinished picture would be finished, however long that takes.
-  if (picture != this->FetchedPicture && informationOf(this->Filter, "Finished") != 0)
+  if (picture != this->FetchedPicture && isWhole(this->Filter))
   {
     this->FetchedPicture = picture;
     this->Light = pqCutoffLight(fetchedImage(this->Filter, histogramPort, { "Rays" }));

@@ -61,7 +61,6 @@ protected:
 
 private:
   pqCutoffPlane plane() const;
-  QPointF tickedAt(int key) const;
   void grab(pqCutoffPlane::Handle handle);
   void moveTo(const pqCutoff& cutoff);
   void release(bool keep);

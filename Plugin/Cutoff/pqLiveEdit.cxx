@@ -37,7 +37,7 @@ void pqLiveEdit::push(const QMap<QString, QVariant>& values)
 }
 
 //------------------------------------------------------------------------------
-void pqLiveEdit::show(const QMap<QString, QVariant>& values, pqPictureRefiner::Pace pace)
+void pqLiveEdit::show(const QMap<QString, QVariant>& values, Pace pace)
 {
   if (!this->Filter)
   {
@@ -56,6 +56,7 @@ void pqLiveEdit::show(const QMap<QString, QVariant>& values, pqPictureRefiner::P
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Now);
   }
+  this->ShowsShading = pace == Pace::Shading;
   pqPictureRefiner::instance()->refine(this->Filter, pace);
 }
 
@@ -76,7 +77,8 @@ void pqLiveEdit::finish()
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Filter);
     this->push(this->Now);
   }
-  pqPictureRefiner::instance()->refine(this->Filter, pqPictureRefiner::Pace::Thorough);
+  pqPictureRefiner::instance()->refine(
+    this->Filter, this->ShowsShading ? Pace::Shading : Pace::Thorough);
 }
 
 //------------------------------------------------------------------------------
@@ -86,6 +88,7 @@ void pqLiveEdit::cancel()
   {
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Before);
-    pqPictureRefiner::instance()->refine(this->Filter, pqPictureRefiner::Pace::Thorough);
+    pqPictureRefiner::instance()->refine(
+      this->Filter, this->ShowsShading ? Pace::Shading : Pace::Thorough);
   }
 }

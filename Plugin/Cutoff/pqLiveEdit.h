@@ -17,13 +17,15 @@ class vtkSMProxy;
 class pqLiveEdit
 {
 public:
+  using Pace = pqPictureRefiner::Pace;
+
   pqLiveEdit(vtkSMProxy* filter, const QString& label);
 
   /// Whether the filter is known to have made a picture (PictureCount): until then properties wait for Apply.
   static bool isPossible(vtkSMProxy* filter);
 
   /// Values of these properties, which are shown.
-  void show(const QMap<QString, QVariant>& values, pqPictureRefiner::Pace pace);
+  void show(const QMap<QString, QVariant>& values, Pace pace);
 
   /// Keeps the last values.
   void finish();
@@ -36,5 +38,6 @@ private:
 
   vtkWeakPointer<vtkSMProxy> Filter;
   QString Label;
+  bool ShowsShading = false;
   QMap<QString, QVariant> Before, Now;
 };

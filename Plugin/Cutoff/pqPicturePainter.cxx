@@ -20,7 +20,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QKeyEvent>
 #include <QSet>
 #include <QWidget>
@@ -107,7 +107,7 @@ bool pqPicturePainter::start()
   }
   if (this->isOn())
   {
-    QCoreApplication::instance()->installEventFilter(this);
+    QApplication::instance()->installEventFilter(this);
   }
   return this->isOn();
 }
@@ -119,7 +119,7 @@ void pqPicturePainter::stop()
   {
     return;
   }
-  QCoreApplication::instance()->removeEventFilter(this);
+  QApplication::instance()->removeEventFilter(this);
   this->Connection->Disconnect();
   for (pqView* view : this->Views)
   {
@@ -152,7 +152,7 @@ void pqPicturePainter::viewRemoved(pqView* view)
 bool pqPicturePainter::eventFilter(QObject* watched, QEvent* event)
 {
   if ((event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
-    static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape)
+    static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && !QApplication::activeModalWidget())
   {
     event->accept();
     this->stop();

@@ -72,8 +72,9 @@ void pqPictureView::setPicture(const QImage& picture)
   this->Shown = QImage();
   if (!this->IsColorFilter)
   {
-    this->setFixedSize(
-      picture.size().scaled(pictureSide, pictureSide, Qt::KeepAspectRatio).expandedTo(QSize(1, 1)));
+    this->setFixedSize(picture.isNull()
+        ? QSize(1, 1)
+        : picture.size().scaled(pictureSide, pictureSide, Qt::KeepAspectRatio));
   }
   this->update();
 }

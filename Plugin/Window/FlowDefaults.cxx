@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <initializer_list>
 #include <map>
 #include <set>
 
@@ -250,10 +249,10 @@ public:
       if (!helpers.count(array.name))
       {
         this->Result.arrays = { { "Density", array.name } };
-        this->Result.message = this->Note + "No array is known by its name: " + quoted(array.name) +
-          " is taken as the density in kg/m\xc2\xb3. Choose the right one, or another Index Model, "
-          "in the "
-          "properties panel.";
+        this->Result.isSure = false;
+        this->Result.message = this->Note + quoted(array.name) +
+          " is taken as the density in kg/m\xc2\xb3, for no array is known by its name. Choose "
+          "another one, or another Index Model, in the properties panel.";
         return true;
       }
     }
@@ -314,7 +313,7 @@ private:
     }
     this->Result.indexModel = FlowDefaults::Refractivity;
     this->Result.arrays = { { "IndexArray", array->name } };
-    this->Result.message = "The refractivity n - 1 is " + quoted(array->name) + ".";
+    this->Result.message = "Refractivity n - 1: " + quoted(array->name) + ".";
     return true;
   }
 
@@ -327,7 +326,7 @@ private:
     }
     this->Result.indexModel = FlowDefaults::RefractiveIndex;
     this->Result.arrays = { { "IndexArray", array->name } };
-    this->Result.message = "The refractive index n is " + quoted(array->name) + ".";
+    this->Result.message = "Refractive index n: " + quoted(array->name) + ".";
     return true;
   }
 
@@ -346,7 +345,7 @@ private:
         " is not known: set Density Scale, an advanced property. ";
     }
     this->Result.arrays = { { "Density", array->name } };
-    this->Result.message = "The density is " + quoted(array->name);
+    this->Result.message = "Density: " + quoted(array->name);
     if (scale == 1)
     {
       this->Result.message += " in kg/m\xc2\xb3";
@@ -357,9 +356,7 @@ private:
       this->Result.message += ", " + factor(scale) + " kg/m\xc2\xb3 each";
     }
     this->species();
-    this->Result.message += this->Result.fractions.empty()
-      ? ", of air: choose another Gas in the properties panel."
-      : "; air fills the rest (Background Gas).";
+    this->Result.message += this->Result.fractions.empty() ? "; gas: air." : "; the rest: air.";
     return true;
   }
 
@@ -394,9 +391,8 @@ private:
       }
     }
     this->Result.indexModel = FlowDefaults::Mixture;
-    this->Result.message += " of a mixture, ";
-    this->Result.message += this->Result.ofVolume ? "volume" : "mass";
-    this->Result.message += " fractions " + list;
+    this->Result.message += this->Result.ofVolume ? "; volume" : "; mass";
+    this->Result.message += " fractions: " + list;
   }
 
   bool moistAir()
@@ -440,8 +436,8 @@ private:
     }
     this->Result.indexModel = FlowDefaults::Ciddor;
     this->Result.arrays = { { "Temperature", temperature->name }, { "Pressure", pressure->name } };
-    this->Result.message = "Air by its temperature " + quoted(temperature->name) +
-      " in K and its pressure " + quoted(pressure->name);
+    this->Result.message = "Air; temperature: " + quoted(temperature->name) +
+      " in K; pressure: " + quoted(pressure->name);
     if (pascals == 1)
     {
       this->Result.message += " in Pa.";
@@ -468,6 +464,7 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
     if (chooser.choose())
     {
       chooser.Result.message = chooser.Note + chooser.Result.message;
+      chooser.Result.isSure = chooser.Note.empty();
       return chooser.Result;
     }
   }

@@ -51,8 +51,9 @@ struct FlowDefaults
   std::vector<std::string> gases;
   bool ofVolume = false;
 
-  /// What was chosen, and what was not understood, in words for the user.
+  /// What was chosen, and what was not understood, in words for the user; and whether all of it was.
   std::string message;
+  bool isSure = true;
 };
 
 FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays);

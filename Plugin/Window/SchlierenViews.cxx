@@ -21,11 +21,11 @@
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "pqWaitCursor.h"
-#include "vtkCamera.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyClipboard.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -111,7 +111,7 @@ public:
   {
   }
 
-  QString add(Arrangement arrangement)
+  SchlierenViews::Result add(Arrangement arrangement)
   {
     this->findScene();
     std::vector<pqRenderView*> views;
@@ -155,8 +155,11 @@ public:
     {
       linkCameras(views[0], views[1]);
     }
-    return this->Pattern ? "Set as '" + this->Pattern->getSMName() + "' is."
-                         : QString::fromStdString(this->Defaults.message);
+    if (this->Pattern)
+    {
+      return { true, true, "Set as '" + this->Pattern->getSMName() + "' is." };
+    }
+    return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
   /// Shows everything, and brings all pictures to the set quality.
@@ -194,9 +197,15 @@ private:
   /// with which it makes a square.
   std::vector<pqRenderView*> addViews(int number)
   {
+    // A script may have made a view without a place.
+    if (!vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy()))
+    {
+      this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
+    }
     const std::array<int, 2> before = sizeOf(this->Scene);
     vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
-    int left = layout->SplitHorizontal(layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
+    const int left =
+      layout->SplitHorizontal(layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
     std::vector<int> cells = { left + 1 };
     if (number > 1)
     {
@@ -283,7 +292,14 @@ private:
     vtkSMPropertyHelper input(filter, "Input");
     vtkSMProxy* flow = input.GetAsProxy();
     const unsigned int port = input.GetOutputPort();
-    filter->Copy(this->Pattern->getProxy());
+    vtkSMProxy* pattern = this->Pattern->getProxy();
+    // Pasting makes curves of its own, for filters of the same kind only.
+    vtkNew<vtkSMProxyClipboard> clipboard;
+    clipboard->Copy(pattern);
+    if (!clipboard->CanPaste(filter) || !clipboard->Paste(filter))
+    {
+      filter->Copy(pattern);
+    }
     input.Set(flow, port);
   }
 
@@ -398,15 +414,15 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
     pattern && !isApplied(pattern) ? notApplied(pattern) : problemOfFlow(flow);
   if (!problem.isEmpty())
   {
-    return { false, problem };
+    return { false, true, problem };
   }
   pqWaitCursor cursor;
   static const char* const names[] = { "Add Schlieren View", "Add Three Pictures",
     "Compare Light" };
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   Builder builder(flow, pattern);
-  const QString message = builder.add(arrangement);
+  const Result result = builder.add(arrangement);
   END_UNDO_SET();
   builder.render();
-  return { true, message };
+  return result;
 }

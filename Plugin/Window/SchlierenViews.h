@@ -22,6 +22,7 @@ enum class Arrangement
 struct Result
 {
   bool isMade;
+  bool isSure; ///< whether the user need not look after what was chosen
   QString message;
 };
 

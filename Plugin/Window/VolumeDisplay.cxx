@@ -93,7 +93,9 @@ bool isImage(pqOutputPort* port)
 void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults,
   vtkSMProxy* model, pqPipelineSource* picture)
 {
-  if (!isImage(flow) || defaults.arrays.empty())
+  const int* extent = flow->getDataInformation()->GetExtent();
+  const bool isFlat = extent[0] == extent[1] || extent[2] == extent[3] || extent[4] == extent[5];
+  if (!isImage(flow) || isFlat || defaults.arrays.empty())
   {
     return;
   }
@@ -103,19 +105,20 @@ void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& de
   {
     return;
   }
+  // Somebody's colours and opacities of this array stay.
+  const std::string& array = defaults.arrays.front().second;
+  const std::string name = array + ".PiecewiseFunction";
+  vtkSMSessionProxyManager* manager = flow->getServer()->proxyManager();
+  const bool isNew = !manager->GetProxy("piecewise_functions", name.c_str());
+
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
   vtkSMProxy* shown =
     controller->Show(flow->getSourceProxy(), flow->getPortNumber(), view->getRenderViewProxy());
-  const std::string& array = defaults.arrays.front().second;
   const std::array<double, 2> range = rangeOfArray(flow, defaults.association, array.c_str());
   if (!shown || !(range[0] < range[1]))
   {
     return;
   }
-  // Somebody's colours and opacities of this array stay.
-  const std::string name = array + ".PiecewiseFunction";
-  vtkSMSessionProxyManager* manager = flow->getServer()->proxyManager();
-  const bool isNew = !manager->GetProxy("piecewise_functions", name.c_str());
   vtkSMPVRepresentationProxy::SetScalarColoring(shown, array.c_str(), defaults.association);
   if (isNew)
   {

@@ -33,7 +33,7 @@ namespace
 // Seconds. A hurried picture leaves as much time for the view that is being turned: twelve a second.
 constexpr double hurriedTurn = 0.040;
 constexpr double thoroughTurn = 0.080;
-constexpr double shortestLimit = 0.010;
+constexpr double shortestLimit = 0.030;
 constexpr double longestLimit = 0.060;
 
 // A picture of fewer pixels shows nothing.
@@ -388,8 +388,8 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   speed.IsRough = false;
   this->keep(filter, speed);
   // Until the first samples are there, the view would show the picture from before.
-  job.WantsRoughPicture =
-    job.IsFirstTurn && isUnfinished && !isShown && speed.RoughPicture != changeOf(filter);
+  job.WantsRoughPicture = job.Haste != Pace::Shading && job.IsFirstTurn && isUnfinished &&
+    !isShown && speed.RoughPicture != changeOf(filter);
   job.IsFirstTurn = false;
   return isUnfinished;
 }

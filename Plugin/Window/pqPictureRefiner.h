@@ -37,7 +37,7 @@ public:
   enum class Pace
   {
     Hurried, ///< while the mouse is down: a rough picture, and more of them follow
-    Shading, ///< while the mouse is down and only optics change: rays are held, and the picture is whole
+    Shading, ///< like Thorough, where only optics have changed: rays are held, and no picture is rough
     Thorough ///< a first picture soon, then better ones up to the set quality
   };
 

@@ -13,6 +13,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 
+#include <QCoreApplication>
 #include <QEvent>
 #include <QLabel>
 
@@ -46,6 +47,18 @@ pqPictureStatus::pqPictureStatus(QObject* parentObject)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqPictureStatus::watch);
+  // A view that is being destroyed still sends signals, but can no longer be asked.
+  QObject::connect(model, &pqServerManagerModel::preViewRemoved, this,
+    [this](pqView* view) { view->disconnect(this); });
+  QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this,
+    [this, model]()
+    {
+      model->disconnect(this);
+      for (pqView* view : model->findItems<pqView*>())
+      {
+        view->disconnect(this);
+      }
+    });
   for (pqView* view : model->findItems<pqView*>())
   {
     this->watch(view);

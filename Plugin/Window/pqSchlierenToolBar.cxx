@@ -8,9 +8,11 @@
 #include "pqPictureRefiner.h"
 
 #include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
 #include "pqPipelineSource.h"
 #include "pqRenderView.h"
+#include "pqSettings.h"
 #include "pqUndoStack.h"
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
@@ -26,6 +28,7 @@
 #include <QMessageBox>
 #include <QSignalBlocker>
 #include <QStatusBar>
+#include <QTimer>
 
 namespace
 {
@@ -49,7 +52,7 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
 
   QAction* one = this->addArrangement("OnePicture", "&Add Schlieren View",
     "Show the selected flow as a schlieren picture beside its 3-D view", Arrangement::OnePicture);
-  one->setShortcut(QKeySequence("Ctrl+Alt+L"));
+  one->setShortcut(QKeySequence("Ctrl+Shift+L"));
   this->addArrangement("ThreePictures", "&Three Pictures",
     "Show the selected flow behind a knife edge, as a shadowgraph and as an interferogram",
     Arrangement::ThreePictures);
@@ -71,6 +74,8 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   this->connect(&active, SIGNAL(viewChanged(pqView*)), SLOT(updateActions()));
   this->watchSource();
   new pqPictureDisplayKeeper(this);
+  // When ParaView has put it somewhere.
+  QTimer::singleShot(0, this, [this]() { this->makeRoom(); });
 }
 
 //------------------------------------------------------------------------------
@@ -116,6 +121,23 @@ void pqSchlierenToolBar::addMenu()
 }
 
 //------------------------------------------------------------------------------
+void pqSchlierenToolBar::makeRoom()
+{
+  auto* window = qobject_cast<QMainWindow*>(this->parentWidget());
+  const QByteArray places =
+    pqApplicationCore::instance()->settings()->value("MainWindow/Layout").toByteArray();
+  QByteArray name; // as QMainWindow::saveState() writes it
+  for (const QChar letter : this->objectName())
+  {
+    name.append(static_cast<char>(letter.row())).append(static_cast<char>(letter.cell()));
+  }
+  if (window && !places.contains(name))
+  {
+    window->addToolBar(Qt::TopToolBarArea, this);
+  }
+}
+
+//------------------------------------------------------------------------------
 void pqSchlierenToolBar::tell(const SchlierenViews::Result& result)
 {
   if (!result.isMade)
@@ -131,12 +153,25 @@ void pqSchlierenToolBar::tell(const SchlierenViews::Result& result)
   }
   else if (!result.message.isEmpty())
   {
-    vtkOutputWindowDisplayText(("Schlieren: " + result.message + "\n").toUtf8().constData());
-    auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-    if (window)
+    const QByteArray line = ("Schlieren: " + result.message).toUtf8();
+    if (result.isSure)
     {
-      window->statusBar()->showMessage(result.message);
+      vtkOutputWindowDisplayText(line.constData());
     }
+    else
+    {
+      vtkOutputWindowDisplayWarningText(line.constData());
+    }
+    // Not at once: what the button still has to do would clear it.
+    QTimer::singleShot(1000, this,
+      [message = result.message]()
+      {
+        auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+        if (window)
+        {
+          window->statusBar()->showMessage(message);
+        }
+      });
   }
 }
 
@@ -185,7 +220,7 @@ void pqSchlierenToolBar::setFollowing(bool isFollowing)
   pqRenderView* view = isFollowing ? sceneView(server) : nullptr;
   if (isFollowing && !view)
   {
-    this->tell({ false,
+    this->tell({ false, true,
       "There is no 3-D view whose camera the picture could follow. Make one: split the view, "
       "choose "
       "Render View, and show the flow there." });

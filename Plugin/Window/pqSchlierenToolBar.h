@@ -32,6 +32,9 @@ private:
     SchlierenViews::Arrangement arrangement);
   void addToolAction(QAction* action, const char* name, const QString& hint);
   void addMenu();
+
+  /// Moves to the last row of toolbars, where there is room, unless the user has placed it before.
+  void makeRoom();
   void tell(const SchlierenViews::Result& result);
 
   QList<QAction*> Arrangements;

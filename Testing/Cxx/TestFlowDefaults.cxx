@@ -188,6 +188,9 @@ TEST(FlowDefaults, AGuessIsTold)
     { velocity, scalar("vtkGhostType", 0, 1), scalar("Mach", 0, 2), scalar("k", 0, 1) });
   EXPECT_EQ(chosen.arrays, (Arrays{ { "Density", "Mach" } }));
   EXPECT_NE(chosen.message.find("'Mach' is taken as the density"), std::string::npos);
+  EXPECT_FALSE(chosen.isSure);
+  EXPECT_TRUE(flowDefaults({ scalar("rho", 1, 2) }).isSure);
+  EXPECT_FALSE(flowDefaults({ scalar("rho [stone/acre]", 1, 2) }).isSure);
 }
 
 TEST(FlowDefaults, NothingToChooseFrom)

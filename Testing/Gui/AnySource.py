@@ -56,9 +56,12 @@ Delete(GetActiveView())
 user.press("OnePicture")
 user.save_state("blocks.pvsm")
 
-# With the picture selected, another one with its settings; from its menu entry and the keyboard.
+# With the picture selected, another one with its settings, from the menu.
 user.choose("Cutoff/ComboBox", "Shadowgraph")
 user.apply()
+user.python("""
+FindSource("Schlieren1").GradedFilter.Points = [0, 0.25, 0.5, 0, 1, 0.75, 0.5, 0]
+""")
 user.menu("menuSchlieren", "actionOnePicture")
 user.save_state("two.pvsm")
 user.choose("Cutoff/ComboBox", "Circular")
@@ -87,6 +90,9 @@ first, second = filters().values()
 ((_, scene),) = [(cell, view) for cell, view in views() if view.InteractionMode == "3D"]
 assert [cell for cell, _ in views()] == [2, 3, 4] and first.FollowedView == second.FollowedView
 assert first.Cutoff == second.Cutoff == "Shadowgraph" and first.Input == second.Input
+assert list(first.GradedFilter.Points) == list(second.GradedFilter.Points)
+assert first.GradedFilter.Points[1] == 0.25
+assert first.GradedFilter.SMProxy != second.GradedFilter.SMProxy, "A curve of both"
 for bench in (first, second):
     (view,) = [view for _, view in views() if shown(bench, view)]
     check_camera(bench, scene)

@@ -55,13 +55,24 @@ def expect(name, **properties):
     saved[name] = {**(list(saved.values()) or [{}])[-1], **properties}
 
 
+def settle():
+    """Until the light of another picture is shown, which waits a moment for yet another."""
+    user.python("bench = FindSource('bench')\nuntil(lambda: finished(bench))\npause(0.3)")
+
+
+settle()
 user.check(PLANE, "enabled", "true")
 user.check(PLANE, "side", SIDE)
 user.check(PLANE, "range", RANGE)
 
-# The edge: 21 pixels to the right, on the way there 40.
-drag((0, 30), (40, 0), (21, 0))
-edge = round(K * 21 * PIXEL, 3)
+# The edge: 21 pixels to the right. On the way there 40; the picture is there before the mouse is released.
+edge, on_the_way = round(K * 21 * PIXEL, 3), round(K * 40 * PIXEL, 3)
+x, y = (MIDDLE + (0, -30)).astype(int)
+user.event(f"{PROPERTIES}/{PLANE}", "mousePress", f"1,1,0,{x},{y}")
+user.event(f"{PROPERTIES}/{PLANE}", "mouseMove", f"0,1,0,{x + 40},{y}")
+user.python(f"until(lambda: '{on_the_way}' in open({LOG!r}).read())")
+user.event(f"{PROPERTIES}/{PLANE}", "mouseMove", f"0,1,0,{x + 21},{y}")
+user.event(f"{PROPERTIES}/{PLANE}", "mouseRelease", f"1,0,0,{x + 21},{y}")
 user.check("CutoffOffset/DoubleLineEdit0", "text", edge)
 expect("edge", CutoffOffset=edge, AutoKScale=0, KScale=K, KnifeEdgeAngle=0)
 
@@ -118,6 +129,7 @@ circle = next(r for r in (0.001, 0.002, 0.005, 0.01) if r > 1.3 / automatic)
 user.choose("Cutoff/ComboBox", "Circular")
 user.click("AutoKScale/CheckBox")
 user.apply()
+settle()
 user.check(PLANE, "range", circle)
 rim = round(1 / automatic / (2 * circle / SIDE))
 drag((0, rim), (0, -20))
@@ -131,6 +143,7 @@ user.check("AutoKScale/CheckBox", "checked", "true")
 user.choose("Cutoff/ComboBox", "Knife Edge")
 user.click("KFromOptics/CheckBox")
 user.apply()
+settle()
 user.check(PLANE, "range", RANGE)
 drag((0, 0), tuple(np.rint(25 * along)))
 position = 1e3 * FOCAL_LENGTH * PIXEL * (np.rint(25 * along) @ along)
@@ -141,6 +154,8 @@ drag(np.rint(full / PIXEL * along), tuple(way))
 expect("source", SourceWidth=float(f"{1 + 2 * K * PIXEL * (way @ along):.4g}"))
 
 user.play(f"""
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
 from paraview import smtrace
 import json
@@ -173,10 +188,10 @@ for name, properties in saved.items():
     assert np.array_equal(shown, picture(scripted(**properties), "Intensity")), name
     assert shown.std() > 0.01
 
-# Pictures were made while the mouse was down: of the edge further out, and turned by multiples of 15.
+# Pictures were made on the way and where the mouse was released.
 with open(LOG, encoding="utf-8") as file:
     made = json.load(file)
-assert [round(K * 40 * PIXEL, 3), 0, K] in made
+assert [on_the_way, 0, K] in made
 assert [edge, 60, K] in made and [edge, 60, scaled] in made
 
 # The trace has each drag once.

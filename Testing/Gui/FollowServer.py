@@ -3,9 +3,6 @@
 """Pictures follow a camera where a server makes them. Skipped without pvserver."""
 
 import os
-import re
-import shutil
-import subprocess
 import sys
 
 import numpy as np
@@ -14,6 +11,7 @@ sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "
 
 from follow_testing import SCENE, saved, scripted  # noqa: E402
 from plugin_testing import Schlieren, output, simple  # noqa: E402
+from server_testing import connect, start_server  # noqa: E402
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 from window_testing import Session  # noqa: E402
 
@@ -26,25 +24,7 @@ save("{0}", bench, turned, shown)
 save("{0}Shadows", shadows, turned, other)
 """
 
-pvserver = shutil.which("pvserver")
-if not pvserver:
-    print("Skipped: there is no pvserver.")
-    sys.exit(77)
-
-# It takes a port that is free and says which.
-for port in range(11200, 11300):
-    server = subprocess.Popen([pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    line = ""
-    while not re.search("Accepting|rror|failed", line):
-        line = server.stdout.readline()
-        if not line:
-            break
-    if "Accepting" in line:
-        break
-    server.kill()
-    server.wait()
-
+server, port = start_server()
 user = Session()
 user.drag_view(1, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))
 user.python(SAVE.format("turned"))
@@ -57,18 +37,12 @@ bench, turned = by_name("bench", "RenderView1")
 bench.SamplesPerPixel = 400
 turned.CameraPosition = [40, 20, 70]
 Render(turned)
-pause(0.2)
-assert not finished(bench), "It is too quick to be caught in the middle"
+until(lambda: not finished(bench), 20)
 Disconnect()
 pause(0.3)
 """)
 try:
-    user.play(f"""
-import os
-from paraview.simple import *
-Connect("localhost", {port})
-LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=globals())
-""" + SCENE)
+    user.play(connect(port) + SCENE)
 finally:
     server.kill()
 

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Turns a flow in ParaView's window and measures how well its schlieren picture keeps up: see README.md."""
+
+import os
+import sys
+import tempfile
+
+SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
+os.environ.setdefault("SCHLIEREN_TEST_OUTPUT", tempfile.mkdtemp(prefix="schlieren"))
+os.environ.setdefault("SCHLIEREN_PARAVIEW", "paraview")
+sys.path.insert(0, os.path.join(SOURCE, "Testing", "Gui"))
+
+from window_testing import Session  # noqa: E402
+
+SECONDS = float(sys.argv[1]) if len(sys.argv) > 1 else 10
+REPORT = os.path.join(os.environ["SCHLIEREN_TEST_OUTPUT"], "report.txt")
+
+SCENE = """
+import os, sys
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Gui"))
+from paraview.simple import *
+flow = Wavelet(WholeExtent=3 * [-128, 127], registrationName="flow")
+flow.UpdatePipeline()
+turned = GetActiveViewOrCreate("RenderView")
+Show(flow, turned).SetRepresentationType("Outline")
+ColorBy(GetDisplayProperties(flow, turned), ("POINTS", "RTData"))
+ResetCamera(turned)
+layout = GetLayout(turned)
+layout.SplitHorizontal(0, 0.5)
+view = CreateView("RenderView")
+AssignViewToLayout(view, layout, 2)
+SetActiveSource(flow)
+bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[512, 512],
+                  GladstoneDaleConstant=1e-6, FollowedView="RenderView1")
+shown = Show(bench, view)
+shown.SetRepresentationType("Slice")
+ColorBy(shown, ("POINTS", "Intensity"))
+view.InteractionMode = "2D"
+ResetCamera(view)
+Render(view)
+"""
+
+TURN = f"""
+import math
+import time
+flow, bench, turned, shown = by_name("flow", "bench", "RenderView1", "RenderView2")
+mouse = turned.GetInteractor()
+pictures = []
+
+def note(*_):
+    rows = bench.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
+    pictures.append((time.perf_counter(), rows))
+shown.SMProxy.AddObserver("EndEvent", note)
+
+def mouse_event(event, x, y):
+    width, height = mouse.GetSize()
+    mouse.SetEventInformation(int(x * width), int(y * height), 0, 0, chr(0), 0, None)
+    mouse.InvokeEvent(event)
+
+def turn(what):
+    "A circle with the mouse, sixty movements a second as far as there is time."
+    mouse_event("LeftButtonPressEvent", 0.7, 0.5)
+    pictures.clear()
+    begin = last = time.perf_counter()
+    frames = []
+    while last < begin + {SECONDS}:
+        last = time.perf_counter()
+        angle = last - begin
+        mouse_event("MouseMoveEvent", 0.5 + 0.2 * math.cos(angle), 0.5 + 0.2 * math.sin(angle))
+        frames.append(time.perf_counter() - last)
+        while True:
+            process_events()
+            if time.perf_counter() > last + 1 / 60:
+                break
+            time.sleep(1e-3)
+    seconds = time.perf_counter() - begin
+    hurried = list(pictures)
+    pictures.clear()
+    mouse_event("LeftButtonReleaseEvent", 0.5, 0.5)
+    released = time.perf_counter()
+    blocked = []
+    while True:
+        blocked.append(process_events())
+        if any(rows == 512 for _, rows in pictures) and finished(bench):
+            break
+    ended = time.perf_counter()
+    whole = [when for when, rows in pictures if rows == 512]
+    rows = sorted(rows for _, rows in hurried)
+    frames.sort()
+    blocked.sort()
+    with open({REPORT!r}, "a") as file:
+        file.write(
+            f"{{what:24}} {{len(hurried) / seconds:6.1f}} pictures/s of {{rows[len(rows) // 2]}} rows, "
+            f"{{len(frames) / seconds:5.1f}} frames/s of the 3-D view, {{1e3 * frames[len(frames) // 2]:.0f}} ms "
+            f"each; first whole picture {{1e3 * (whole[0] - released):.0f}} ms after release, "
+            f"last after {{ended - released:.2f}} s in {{len(whole)}} pictures; blocked "
+            f"{{1e3 * blocked[-1]:.0f}} ms at most, then {{1e3 * blocked[-2]:.0f}}\\n")
+    pause(1)
+
+for display in "Outline", "Volume":
+    GetDisplayProperties(flow, turned).SetRepresentationType(display)
+    Render(turned)
+    for quality in "Interactive", "Draft", "Publication":
+        bench.Quality = quality
+        Render(shown)
+        turn(f"{{display}}, {{quality}}")
+"""
+
+user = Session()
+user.python(TURN)
+user.play(SCENE, seconds=3600)
+with open(REPORT, encoding="utf-8") as file:
+    print(file.read())

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A server for the window."""
+
+import re
+import shutil
+import subprocess
+import sys
+
+
+def start_server():
+    """A pvserver and its port, one that is free; skips the test where there is none."""
+    pvserver = shutil.which("pvserver")
+    if not pvserver:
+        print("Skipped: there is no pvserver.")
+        sys.exit(77)
+    for port in range(11200, 11300):
+        server = subprocess.Popen([pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        line = " "
+        while line and not re.search("Accepting|rror|failed", line):
+            line = server.stdout.readline()
+        if "Accepting" in line:
+            return server, port
+        server.kill()
+        server.wait()
+    raise RuntimeError("No port is free.")
+
+
+def connect(port):
+    """The script that connects the window and loads the plugin on the server."""
+    return f"""
+import os
+from paraview.simple import *
+Connect("localhost", {port})
+LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=globals())
+"""
