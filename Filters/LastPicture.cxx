@@ -58,4 +58,5 @@ void LastPicture::Show(vtkImageData* output, const int promised[6])
   arrays->CopyAllocate(this->Picture->GetPointData(), pixels);
   arrays->SetNumberOfTuples(pixels);
   arrays->CopyData(this->Picture->GetPointData(), from, to);
+  this->Picture->ShallowCopy(output); // the next slice will want the same
 }

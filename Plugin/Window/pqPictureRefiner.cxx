@@ -7,6 +7,7 @@
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
+#include "pqProgressManager.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
@@ -38,6 +39,21 @@ constexpr double longestLimit = 0.060;
 
 // A picture of fewer pixels shows nothing.
 constexpr int largestReduction = 16;
+
+/// While there is one, the window's progress bar stands still: it paints the window each time it moves, which
+/// takes longer than a slice where OpenGL is done by software.
+class QuietProgress
+{
+public:
+  QuietProgress() { this->Manager->lockProgress(&this->Owner); }
+  ~QuietProgress() { this->Manager->unlockProgress(&this->Owner); }
+  QuietProgress(const QuietProgress&) = delete;
+  QuietProgress& operator=(const QuietProgress&) = delete;
+
+private:
+  pqProgressManager* Manager = pqApplicationCore::instance()->getProgressManager();
+  QObject Owner;
+};
 
 double secondsOf(const QElapsedTimer& timer) { return 1e-9 * double(timer.nsecsElapsed()); }
 
@@ -300,6 +316,7 @@ void pqPictureRefiner::takeTurn()
     this->Timer.start(10);
     return;
   }
+  const QuietProgress quiet;
   Job job = *next;
   this->Jobs.erase(next);
   this->IsBusy = true;
