@@ -31,6 +31,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -62,6 +63,8 @@ struct vtkSchlierenFilter::Internals
   vtkMTimeType FailedAt = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
+
+  std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
 
   void DropShown()
   {
@@ -382,11 +385,47 @@ vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMes
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::Refine()
 {
-  if (!this->GetFinished())
+  if (this->GetFinished() || (this->TimeLimit > 0 && !this->WorkOn()))
   {
-    this->Inside->RefineTime.Modified();
-    this->InvokeEvent(vtkCommand::ModifiedEvent);
+    return;
   }
+  this->Inside->RefineTime.Modified();
+  this->InvokeEvent(vtkCommand::ModifiedEvent);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::WorkOn()
+{
+  Internals& inside = *this->Inside;
+  if (inside.Ready)
+  {
+    return true;
+  }
+  if (inside.UnfinishedOf == this->GetTimeOfPicture())
+  {
+    try
+    {
+      schlieren::Image image = inside.Pictures.GoOn(this->TimeLimit, {});
+      if (!image.finished && image.intensity.empty())
+      {
+        return false;
+      }
+      inside.Ready = std::move(image);
+      return true;
+    }
+    catch (const std::exception&) // an update begins again, and says it
+    {
+      inside.Pictures.GiveUp();
+    }
+  }
+  inside.UnfinishedOf = 0; // there will be another picture
+  return true;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetPictureCount() const
+{
+  return this->PictureCount + (this->Inside->Ready ? 1 : 0);
 }
 
 //------------------------------------------------------------------------------
@@ -520,6 +559,12 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     monitor.progress = [this](double fraction)
     { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
   }
+  std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
+  if (goesOn && ready && (this->TimeLimit > 0 || ready->finished))
+  {
+    return this->Show(std::move(*ready), output, histogram);
+  }
+  ready.reset();
   if (goesOn)
   {
     return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
@@ -737,6 +782,7 @@ void vtkSchlierenFilter::ForgetPicture()
   Internals& inside = *this->Inside;
   inside.UnfinishedOf = 0;
   inside.Pictures.GiveUp();
+  inside.Ready.reset();
   inside.DropShown();
   this->KScaleUsed = 0;
   this->Sensitivity.clear();

@@ -757,7 +757,8 @@ public:
    * Seconds that an update may take for rays and light, about; 0 (the default): no limit. When they are over,
    * the output is the picture of the samples that are there, or, before the first of each pixel is, the
    * picture from before, stretched where it was of another size (of a new filter: a hurried one). Refine()
-   * then lets the next update go on where this one ended; GetFinished() tells whether there is anything left.
+   * then takes another slice and, if that has completed samples, lets the next update show them; without a limit it
+   * lets the next update finish the picture. GetFinished() tells whether there is anything left.
    * Each makes some progress, however short the limit, and the finished picture is the one made without a
    * limit, to the last bit. Another limit is no reason to make a picture again. What the medium takes does not
    * count, and progress is not reported.
@@ -769,10 +770,10 @@ public:
   ///@}
 
   /**
-   * How many different pictures this filter has made: unchanged where an update under a TimeLimit had nothing
-   * new to show.
+   * How many different pictures this filter has made, with the one that Refine() has made for the next update:
+   * unchanged where a slice had nothing new to show.
    */
-  vtkGetMacro(PictureCount, vtkTypeInt64);
+  vtkTypeInt64 GetPictureCount() const;
 
   /**
    * The last picture in words, in one line: samples per pixel; rays per second, when some were traced last;
@@ -825,6 +826,8 @@ private:
   vtkMTimeType GetTimeOfPicture();
   /// Whether an update has only to go on with the picture that is not finished.
   bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
+  /// Takes a slice of an unfinished picture besides updates. Whether an update has something to do now.
+  bool WorkOn();
   /// Makes the picture from the refractivity, or goes on with it. False if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
   /// Hands out what there is of a picture, where there is anything new. False if aborted.

@@ -138,6 +138,7 @@ struct pqPictureRefiner::Job
   Pace Haste;
   bool IsFirstTurn = true;
   bool WantsRoughPicture = false;
+  bool HasBegun = false; ///< the filter is at the picture of all pixels
 };
 
 /// What has been learnt about a filter.
@@ -362,6 +363,7 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
   speed.RoughPicture = changeOf(filter);
   speed.IsRough = true;
   job.WantsRoughPicture = false;
+  job.HasBegun = false;
 
   // A picture of all pixels has all their samples, too.
   const bool isOneSample = vtkSMPropertyHelper(filter, "SamplesPerPixel").GetAsInt() == 1;
@@ -390,14 +392,23 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   QElapsedTimer timer;
   timer.start();
   setTimeLimit(filter, speed.limit());
-  update(filter, views.front());
-  const bool isUnfinished = !isFinished(filter);
-  const bool isShown = this->show(filter, speed.ShownCount, views);
-  if (isUnfinished)
+  // An update costs as much as a slice, whether it has anything to show or not: ParaView looks at all arrays.
+  if (job.HasBegun)
   {
     askForMore(filter);
   }
+  if (!job.HasBegun || pictureCount(filter) != speed.ShownCount)
+  {
+    update(filter, views.front());
+  }
+  job.HasBegun = true;
+  const bool isUnfinished = !isFinished(filter);
+  const bool isShown = this->show(filter, speed.ShownCount, views);
   setTimeLimit(filter, 0);
+  if (isUnfinished)
+  {
+    askForMore(filter); // whoever else updates gets all of it
+  }
   if (isUnfinished)
   {
     speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.7 * speed.Overhead);
