@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PictureOutput.h"
 
+#include "ArrayRanges.h"
+
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -49,6 +51,7 @@ vtkSmartPointer<Array> newArray(
     array->SetComponentName(1, "v");
   }
   setUnit(array, unit);
+  tellRanges(array);
   return array;
 }
 

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Ranges that are told in advance are those that VTK finds.
+#include "ArrayRanges.h"
+#include "Fixtures.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+template <class Array>
+void fill(Array* array, int components, double extra)
+{
+  array->SetNumberOfComponents(components);
+  for (int tuple = 0; tuple < 50; ++tuple)
+  {
+    for (int component = 0; component < components; ++component)
+    {
+      array->InsertNextValue(static_cast<typename Array::ValueType>(
+        std::sin(1.7 * tuple + component) * (component + 1)));
+    }
+  }
+  array->SetComponent(7, components - 1, extra);
+}
+
+template <class Array>
+void expectTheSame(int components, double extra)
+{
+  vtkNew<Array> told, found;
+  fill(told.Get(), components, extra);
+  fill(found.Get(), components, extra);
+  tellRanges(told);
+  for (int component = -1; component < components; ++component)
+  {
+    double by[2], of[2];
+    told->GetRange(by, component);
+    found->GetRange(of, component);
+    EXPECT_DOUBLE_EQ(by[0], of[0]) << component;
+    EXPECT_DOUBLE_EQ(by[1], of[1]) << component;
+    told->GetFiniteRange(by, component);
+    found->GetFiniteRange(of, component);
+    EXPECT_DOUBLE_EQ(by[0], of[0]) << component;
+    EXPECT_DOUBLE_EQ(by[1], of[1]) << component;
+  }
+}
+
+} // namespace
+
+TEST(ArrayRanges, AreThoseThatVtkFinds)
+{
+  for (const double extra : { 9., -9., std::nan(""), std::numeric_limits<double>::infinity() })
+  {
+    for (const int components : { 1, 2, 3 })
+    {
+      expectTheSame<vtkFloatArray>(components, extra);
+      expectTheSame<vtkDoubleArray>(components, extra);
+    }
+  }
+}
+
+TEST(ArrayRanges, AreUsedAndGoWithTheValues)
+{
+  vtkNew<vtkFloatArray> array;
+  fill(array.Get(), 2, 0.25);
+  tellRanges(array);
+  // Behind its back, without Modified(): what was told counts.
+  array->GetPointer(0)[0] = 77;
+  EXPECT_LT(array->GetRange(0)[1], 2);
+  EXPECT_LT(array->GetRange(-1)[1], 4);
+  array->Modified();
+  EXPECT_EQ(array->GetRange(0)[1], 77);
+  EXPECT_GT(array->GetRange(-1)[1], 76);
+}
+
+TEST(ArrayRanges, AreLeftToVtkOtherwise)
+{
+  vtkNew<vtkFloatArray> empty;
+  tellRanges(empty);
+  vtkNew<vtkIntArray> whole;
+  whole->InsertNextValue(3);
+  tellRanges(whole);
+  EXPECT_EQ(whole->GetRange(0)[1], 3);
+}
