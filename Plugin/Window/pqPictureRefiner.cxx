@@ -33,8 +33,8 @@ namespace
 
 // Seconds. A hurried picture leaves as much time for the view that is being turned: twelve a second.
 constexpr double hurriedTurn = 0.040;
-constexpr double thoroughTurn = 0.080;
-constexpr double shortestLimit = 0.030;
+constexpr double thoroughTurn = 0.065;
+constexpr double shortestLimit = 0.010;
 constexpr double longestLimit = 0.060;
 
 // A picture of fewer pixels shows nothing.
@@ -136,8 +136,6 @@ struct pqPictureRefiner::Job
 {
   vtkWeakPointer<vtkSMSourceProxy> Filter;
   Pace Haste;
-  bool IsFirstTurn = true;
-  bool WantsRoughPicture = false;
   bool HasBegun = false; ///< the filter is at the picture of all pixels
 };
 
@@ -348,8 +346,12 @@ bool pqPictureRefiner::takeTurn(Job& job)
   {
     return false;
   }
-  return job.Haste == Pace::Hurried || job.WantsRoughPicture ? this->hurry(job, views)
-                                                             : this->goOn(job, views);
+  // Until the first samples are there, the view would show the picture from before.
+  const Speed speed = this->Speeds.value(job.Filter);
+  const bool wantsRoughPicture = job.Haste == Pace::Thorough && !job.HasBegun &&
+    speed.Reduction > 1 && speed.RoughPicture != changeOf(job.Filter);
+  return job.Haste == Pace::Hurried || wantsRoughPicture ? this->hurry(job, views)
+                                                         : this->goOn(job, views);
 }
 
 //------------------------------------------------------------------------------
@@ -362,7 +364,6 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
       [](const Job& other) { return other.Haste == Pace::Hurried; });
   speed.RoughPicture = changeOf(filter);
   speed.IsRough = true;
-  job.WantsRoughPicture = false;
   job.HasBegun = false;
 
   // A picture of all pixels has all their samples, too.
@@ -411,14 +412,11 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   }
   if (isUnfinished)
   {
-    speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.7 * speed.Overhead);
+    // Of turns that show something, which are few.
+    speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.97 * speed.Overhead);
   }
   speed.IsRough = false;
   this->keep(filter, speed);
-  // Until the first samples are there, the view would show the picture from before.
-  job.WantsRoughPicture = job.Haste != Pace::Shading && job.IsFirstTurn && isUnfinished &&
-    !isShown && speed.RoughPicture != changeOf(filter);
-  job.IsFirstTurn = false;
   return isUnfinished;
 }
 
