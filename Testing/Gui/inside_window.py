@@ -49,6 +49,11 @@ def finished(source):
     return information(source, "Finished") == 1
 
 
+def rows_of(source):
+    """Of the picture that a filter holds in this program."""
+    return source.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
+
+
 def save(name, source, *views):
     """Keeps the picture that a filter has, as it is, its properties and the cameras of views."""
     here = source.GetClientSideObject()
