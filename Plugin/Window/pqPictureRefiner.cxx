@@ -404,14 +404,11 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   }
   job.HasBegun = true;
   const bool isUnfinished = !isFinished(filter);
-  const bool isShown = this->show(filter, speed.ShownCount, views);
+  this->show(filter, speed.ShownCount, views);
   setTimeLimit(filter, 0);
   if (isUnfinished)
   {
     askForMore(filter); // whoever else updates gets all of it
-  }
-  if (isUnfinished)
-  {
     // Of turns that show something, which are few.
     speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.97 * speed.Overhead);
   }
@@ -421,14 +418,14 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
 }
 
 //------------------------------------------------------------------------------
-bool pqPictureRefiner::show(
+void pqPictureRefiner::show(
   vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views)
 {
   const vtkIdType count = pictureCount(filter);
   // Nothing is what is left of a picture that failed.
   if (count == shownCount && filter->GetDataInformation(0)->GetNumberOfPoints() > 0)
   {
-    return false;
+    return;
   }
   shownCount = count;
   for (const QPointer<pqView>& view : views)
@@ -439,7 +436,6 @@ bool pqPictureRefiner::show(
     }
   }
   Q_EMIT this->pictureChanged(filter);
-  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -69,7 +69,7 @@ private:
   bool hurry(Job& job, const QList<QPointer<pqView>>& views);
   bool goOn(Job& job, const QList<QPointer<pqView>>& views);
 
-  bool show(vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views);
+  void show(vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views);
   void keep(vtkSMProxy* filter, const Speed& speed);
   QList<Job>::iterator nextJob();
   bool hasJob(vtkSMSourceProxy* filter) const;
