@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ArrayRanges.h"
 
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
+#include "vtkArrayDispatch.h"
+#include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationInformationVectorKey.h"
@@ -30,29 +31,34 @@ struct Range
   }
 };
 
+struct Teller
+{
+  template <class Array>
+  void operator()(Array* array) const;
+};
+
 template <class Array>
-void tellRangesOf(Array* array)
+void Teller::operator()(Array* array) const
 {
   const int components = array->GetNumberOfComponents();
-  const vtkIdType values = array->GetNumberOfValues();
-  if (values == 0)
+  if (array->GetNumberOfValues() == 0)
   {
     return;
   }
   std::vector<Range> ranges(static_cast<std::size_t>(components));
   Range norm; // its square
-  const auto* value = array->GetPointer(0);
-  for (const auto* end = value + values; value != end; value += components)
+  const auto values = vtk::DataArrayValueRange(array);
+  for (auto value = values.cbegin(); value != values.cend();)
   {
     double square = 0;
-    for (int component = 0; component < components; ++component)
+    for (Range& range : ranges)
     {
-      const double here = value[component];
+      const auto here = static_cast<double>(*value++);
       if (!std::isfinite(here))
       {
         return;
       }
-      ranges[static_cast<std::size_t>(component)].add(here);
+      range.add(here);
       square += here * here;
     }
     norm.add(square);
@@ -83,14 +89,4 @@ void tellRangesOf(Array* array)
 } // namespace
 
 //------------------------------------------------------------------------------
-void tellRanges(vtkDataArray* array)
-{
-  if (auto* singles = vtkFloatArray::SafeDownCast(array))
-  {
-    tellRangesOf(singles);
-  }
-  else if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
-  {
-    tellRangesOf(doubles);
-  }
-}
+void tellRanges(vtkDataArray* array) { vtkArrayDispatch::Dispatch::Execute(array, Teller{}); }

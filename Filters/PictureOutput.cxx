@@ -55,12 +55,15 @@ vtkSmartPointer<Array> newArray(
   return array;
 }
 
+void tellRanges(vtkAbstractArray*) {} // of strings
+
 template <class Array, class Value>
 void addFieldValue(vtkImageData* output, const char* name, const Value& value)
 {
   vtkNew<Array> array;
   array->SetName(name);
   array->InsertNextValue(value);
+  tellRanges(array);
   output->GetFieldData()->AddArray(array);
 }
 
@@ -137,6 +140,7 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
       return static_cast<unsigned char>(
         (scale == ColorScale::Srgb ? srgbFromLinear(share) : share) * 255.f + 0.5f);
     });
+  tellRanges(array);
   output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
   output->GetPointData()->SetActiveScalars("Color");
 }
@@ -177,5 +181,6 @@ void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
   rays->SetNumberOfValues(static_cast<vtkIdType>(histogram.rays.size()));
   std::copy(histogram.rays.begin(), histogram.rays.end(), rays->GetPointer(0));
   setUnit(rays, "1");
+  tellRanges(rays);
   output->GetPointData()->SetScalars(rays);
 }
