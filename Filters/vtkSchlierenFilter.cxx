@@ -58,9 +58,10 @@ struct vtkSchlierenFilter::Internals
   // Of the fields that tint, on the grid of Refractivity; empty where not needed.
   std::vector<float> FieldGradients;
 
-  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, and when the
-  // picture that is not finished was begun (0: there is none).
+  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the picture
+  // at the outputs was begun, and the one that is not finished (0: there is none).
   vtkMTimeType FailedAt = 0;
+  vtkMTimeType ShownOf = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
 
@@ -385,27 +386,32 @@ vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMes
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::Refine()
 {
-  if (this->GetFinished() || (this->TimeLimit > 0 && !this->WorkOn()))
+  if (this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished())
   {
-    return;
+    this->Inside->RefineTime.Modified();
+    this->InvokeEvent(vtkCommand::ModifiedEvent);
   }
-  this->Inside->RefineTime.Modified();
-  this->InvokeEvent(vtkCommand::ModifiedEvent);
 }
 
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::WorkOn()
 {
   Internals& inside = *this->Inside;
-  if (inside.Ready)
+  this->PassToMedium();
+  const vtkMTimeType now = this->GetTimeOfPicture();
+  const bool goesOn = inside.UnfinishedOf == now;
+  if (goesOn && inside.Ready)
   {
     return true;
   }
-  if (inside.UnfinishedOf == this->GetTimeOfPicture())
+  if (goesOn || this->CanBegin(now))
   {
     try
     {
-      schlieren::Image image = inside.Pictures.GoOn(this->TimeLimit, {});
+      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, {})
+                                      : this->Begin(false, this->TimeLimit, {});
+      inside.UnfinishedOf = now;
+      inside.Ready.reset();
       if (!image.finished && image.intensity.empty())
       {
         return false;
@@ -416,10 +422,23 @@ bool vtkSchlierenFilter::WorkOn()
     catch (const std::exception&) // an update begins again, and says it
     {
       inside.Pictures.GiveUp();
+      inside.UnfinishedOf = 0;
+      return true;
     }
   }
-  inside.UnfinishedOf = 0; // there will be another picture
-  return true;
+  return std::exchange(inside.UnfinishedOf, 0) != 0; // then there will be another picture
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
+{
+  Internals& inside = *this->Inside;
+  return inside.ShownOf != 0 && inside.ShownOf != now && inside.FailedAt != now &&
+    inside.Shown[PICTURE_PORT].IsThere() &&
+    (!this->ColorByField || !inside.FieldGradients.empty()) &&
+    inside.holdsRefractivityOf(describeInputs(this, this->GetInputDataObject(0, 0),
+                                 this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0)),
+      this->Medium);
 }
 
 //------------------------------------------------------------------------------
@@ -570,6 +589,22 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
   }
 
+  if (this->TimeLimit > 0 && !inside.Shown[PICTURE_PORT].IsThere())
+  {
+    // Something to show if time is over before the first sample of each pixel is there.
+    if (!this->Show(this->Begin(true, 0, monitor), output, histogram))
+    {
+      return false;
+    }
+  }
+  return this->Show(this->Begin(false, this->TimeLimit, monitor), output, histogram);
+}
+
+//------------------------------------------------------------------------------
+schlieren::Image vtkSchlierenFilter::Begin(
+  bool isHurried, double seconds, const schlieren::Monitor& monitor)
+{
+  Internals& inside = *this->Inside;
   schlieren::Field field = fieldFrom(inside.Refractivity);
   if (!this->AutoAmbientRefractivity)
   {
@@ -583,18 +618,11 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     scene.fieldColors = fieldColors(this->FieldColors, fields);
     field.gradients = { static_cast<int>(fields), inside.FieldGradients.data(), field.version };
   }
-  if (this->TimeLimit > 0 && !inside.Shown[PICTURE_PORT].IsThere())
+  if (isHurried)
   {
-    // Something to show if time is over before the first sample of each pixel is there.
-    schlieren::Scene hurried = scene;
-    hurry(hurried, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
-    if (!this->Show(inside.Pictures.Begin(field, hurried, 0, monitor), output, histogram))
-    {
-      return false;
-    }
+    hurry(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
-  return this->Show(
-    inside.Pictures.Begin(field, scene, this->TimeLimit, monitor), output, histogram);
+  return inside.Pictures.Begin(field, scene, seconds, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -607,6 +635,7 @@ bool vtkSchlierenFilter::Show(
   {
     return false;
   }
+  inside.ShownOf = this->GetTimeOfPicture();
   if (image.intensity.empty()) // no more samples than before
   {
     return true;

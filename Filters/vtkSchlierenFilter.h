@@ -65,6 +65,7 @@ class vtkPiecewiseFunction;
 namespace schlieren
 {
 struct Image;
+struct Monitor;
 } // namespace schlieren
 
 /// A property that belongs to the inner vtkRefractiveIndex.
@@ -757,8 +758,9 @@ public:
    * Seconds that an update may take for rays and light, about; 0 (the default): no limit. When they are over,
    * the output is the picture of the samples that are there, or, before the first of each pixel is, the
    * picture from before, stretched where it was of another size (of a new filter: a hurried one). Refine()
-   * then takes another slice and, if that has completed samples, lets the next update show them; without a limit it
-   * lets the next update finish the picture. GetFinished() tells whether there is anything left.
+   * then takes another slice and, if that has completed samples, lets the next update show them; where nothing but
+   * properties of this filter has changed since, it takes the first one, too. Without a limit it lets the next
+   * update finish the picture. GetFinished() tells whether there is anything left.
    * Each makes some progress, however short the limit, and the finished picture is the one made without a
    * limit, to the last bit. Another limit is no reason to make a picture again. What the medium takes does not
    * count, and progress is not reported.
@@ -826,8 +828,11 @@ private:
   vtkMTimeType GetTimeOfPicture();
   /// Whether an update has only to go on with the picture that is not finished.
   bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
-  /// Takes a slice of an unfinished picture besides updates. Whether an update has something to do now.
+  /// Takes a slice of a picture besides updates. Whether an update has something to do now.
   bool WorkOn();
+  /// Whether a new picture can be begun besides updates, `now` being GetTimeOfPicture().
+  bool CanBegin(vtkMTimeType now);
+  schlieren::Image Begin(bool isHurried, double seconds, const schlieren::Monitor& monitor);
   /// Makes the picture from the refractivity, or goes on with it. False if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
   /// Hands out what there is of a picture, where there is anything new. False if aborted.
