@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqNoteWidget.h"
 
+#include "pqApplicationCore.h"
+#include "pqPipelineSource.h"
+#include "pqServerManagerModel.h"
+
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
 #include "vtkSMProperty.h"
@@ -25,8 +29,14 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   box->setMargin(0);
   box->addWidget(this->Label);
   this->Connection->Connect(smProperty, vtkCommand::ModifiedEvent, this, SLOT(showText()));
-  // ParaView itself asks when the output's extent is asked for, before the filter has run.
-  this->Connection->Connect(smProxy, vtkCommand::UpdateDataEvent, this, SLOT(ask()));
+  this->Source =
+    pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(smProxy);
+  if (this->Source)
+  {
+    // ParaView itself asks when the output's extent is asked for, before the filter has run.
+    QObject::connect(this->Source.data(),
+      QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this, &pqNoteWidget::ask);
+  }
   this->showText();
 }
 
@@ -39,6 +49,12 @@ void pqNoteWidget::ask() { this->proxy()->UpdatePropertyInformation(this->proper
 //------------------------------------------------------------------------------
 void pqNoteWidget::showText()
 {
+  // As long as it does not tell the window of its updates, there are more to come soon. Each new text makes the
+  // panel arrange all its rows again.
+  if (this->Source && this->Source->signalsBlocked())
+  {
+    return;
+  }
   const QString text = QString::fromUtf8(vtkSMPropertyHelper(this->property(), true).GetAsString());
   this->Label->setText(text.isEmpty() ? tr("known after Apply") : text);
 }

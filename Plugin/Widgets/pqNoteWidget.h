@@ -6,7 +6,10 @@
 
 #include "vtkNew.h"
 
+#include <QPointer>
+
 class QLabel;
+class pqPipelineSource;
 class vtkEventQtSlotConnect;
 
 /// Shows what a filter tells in a text property, to be read and copied but not changed: ParaView would
@@ -25,5 +28,6 @@ private Q_SLOTS:
 
 private:
   QLabel* Label;
+  QPointer<pqPipelineSource> Source; // what it is a note of
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -93,6 +93,7 @@ void flatten(vtkSMProxy* view)
   setInt(view, "CameraParallelProjection", 1);
   setInt(view, "OrientationAxesVisibility", 0);
   setInt(view, "CenterAxesVisibility", 0);
+  setInt(view, "UseFXAA", 0); // it would smear the picture's own edges
   setInt(view, "UseColorPaletteForBackground", 0);
   const double darkGrey[3] = { 0.2, 0.2, 0.2 };
   vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);

@@ -113,7 +113,11 @@ void pqCameraFollower::onCamera(vtkObject*, unsigned long, void* view)
       {
         this->Changed << filter;
       }
-      if (!this->Timer.isActive())
+      if (isMoving)
+      {
+        this->catchUpSoon();
+      }
+      else if (!this->Timer.isActive())
       {
         this->Timer.start(0);
       }
@@ -194,8 +198,20 @@ void pqCameraFollower::onReleased()
 }
 
 //------------------------------------------------------------------------------
+void pqCameraFollower::catchUpSoon()
+{
+  // Between the frame of the view that moves and the painting of the window, which then has both to show.
+  if (!this->IsCatchingUp)
+  {
+    this->IsCatchingUp = true;
+    QMetaObject::invokeMethod(this, &pqCameraFollower::catchUp, Qt::QueuedConnection);
+  }
+}
+
+//------------------------------------------------------------------------------
 void pqCameraFollower::catchUp()
 {
+  this->IsCatchingUp = false;
   const bool isMoving = pqInteraction::instance()->isOn();
   const QList<QPointer<pqPipelineSource>> filters = this->Changed;
   if (!isMoving)

@@ -43,6 +43,7 @@ private Q_SLOTS:
   void catchUp();
 
 private:
+  void catchUpSoon();
   bool push(pqPipelineSource* filter, pqRenderView* view);
 
   // Filters whose cameras have changed: not to be told until the mouse rests, or told and to be refined.
@@ -50,5 +51,6 @@ private:
   QHash<QObject*, QPointer<pqRenderView>> Followed; // to notice that a view gets another name
   QTimer Timer;
   bool IsPushing = false;
+  bool IsCatchingUp = false;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -27,35 +27,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace
 {
 
-// Seconds. A hurried picture leaves as much time for the view that is being turned: twelve a second.
+// Seconds. Of hurried pictures there are eleven a second, where light has a quarter of hurriedTurn then.
+constexpr double hurriedPeriod = 0.090;
 constexpr double hurriedTurn = 0.040;
 constexpr double thoroughTurn = 0.065;
 constexpr double shortestLimit = 0.010;
 constexpr double longestLimit = 0.060;
 
+// What a longer slice has brought is shown in a turn of its own.
+constexpr double shortSlice = 0.015;
+
 // A picture of fewer pixels shows nothing.
 constexpr int largestReduction = 16;
-
-/// While there is one, the window's progress bar stands still: it paints the window each time it moves, which
-/// takes longer than a slice where OpenGL is done by software.
-class QuietProgress
-{
-public:
-  QuietProgress() { this->Manager->lockProgress(&this->Owner); }
-  ~QuietProgress() { this->Manager->unlockProgress(&this->Owner); }
-  QuietProgress(const QuietProgress&) = delete;
-  QuietProgress& operator=(const QuietProgress&) = delete;
-
-private:
-  pqProgressManager* Manager = pqApplicationCore::instance()->getProgressManager();
-  QObject Owner;
-};
-
-double secondsOf(const QElapsedTimer& timer) { return 1e-9 * double(timer.nsecsElapsed()); }
 
 pqPipelineSource* sourceOf(vtkSMProxy* filter)
 {
@@ -63,10 +51,44 @@ pqPipelineSource* sourceOf(vtkSMProxy* filter)
     filter);
 }
 
+/// While there is one, the window shows a filter's picture and does nothing else with its updates. Its progress
+/// bar stands still, which paints the window each time it moves; its menus and panels do not hear of them until
+/// tellUpdates(): they look at the data again and draw their icons anew. Either would take longer than a slice.
+class QuietWindow
+{
+public:
+  explicit QuietWindow(pqPipelineSource* source)
+    : Source(source)
+  {
+    this->Manager->lockProgress(&this->Owner);
+    if (this->Source)
+    {
+      this->Source->blockSignals(true);
+    }
+  }
+  ~QuietWindow()
+  {
+    if (this->Source)
+    {
+      this->Source->blockSignals(false);
+    }
+    this->Manager->unlockProgress(&this->Owner);
+  }
+  QuietWindow(const QuietWindow&) = delete;
+  QuietWindow& operator=(const QuietWindow&) = delete;
+
+private:
+  QPointer<pqPipelineSource> Source; // may end meanwhile
+  pqProgressManager* Manager = pqApplicationCore::instance()->getProgressManager();
+  QObject Owner;
+};
+
 void update(vtkSMSourceProxy* filter, pqView* view)
 {
   filter->UpdatePipeline(vtkSMPropertyHelper(view->getProxy(), "ViewTime").GetAsDouble());
 }
+
+double secondsOf(const QElapsedTimer& timer) { return 1e-9 * double(timer.nsecsElapsed()); }
 
 vtkIdType pictureCount(vtkSMSourceProxy* filter)
 {
@@ -137,6 +159,7 @@ struct pqPictureRefiner::Job
   vtkWeakPointer<vtkSMSourceProxy> Filter;
   Pace Haste;
   bool HasBegun = false; ///< the filter is at the picture of all pixels
+  bool IsPutOff = false; ///< it has one to be shown
 };
 
 /// What has been learnt about a filter.
@@ -148,6 +171,8 @@ struct pqPictureRefiner::Speed
   double PerPixel = 0;
   double LastShare = 0;
   double LastSeconds = 0;
+  QElapsedTimer SinceHurried; // since the last one was begun
+  double Others = 0;          // seconds of a period that are not for hurried pictures' updates
 
   double Overhead = 0.02;        // seconds of a turn that its TimeLimit does not count
   vtkMTimeType RoughPicture = 0; // changeOf the last hurried picture
@@ -157,6 +182,20 @@ struct pqPictureRefiner::Speed
   double limit() const
   {
     return std::clamp(thoroughTurn - this->Overhead, shortestLimit, longestLimit);
+  }
+
+  /// How long updates may take for there to be as many pictures as wanted; to be asked when one begins.
+  double available(int sharers)
+  {
+    constexpr double longestPeriod = 0.5; // then the mouse has rested
+    const double period = this->SinceHurried.isValid() ? secondsOf(this->SinceHurried) : 1;
+    this->SinceHurried.start();
+    if (period < longestPeriod)
+    {
+      const double others = std::max(0., period - sharers * this->LastSeconds);
+      this->Others += 0.3 * (others - this->Others);
+    }
+    return std::min(hurriedTurn, hurriedPeriod - this->Others) / sharers;
   }
 
   /// Takes a hurried picture's time into account, and chooses the next one's pixels.
@@ -272,7 +311,14 @@ void pqPictureRefiner::refine(vtkSMProxy* proxy, Pace pace)
   {
     *job = Job{ filter, pace };
   }
-  this->wakeUp();
+  if (pace == Pace::Hurried)
+  {
+    this->takeTurn();
+  }
+  else
+  {
+    this->wakeUp();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -294,9 +340,23 @@ QList<pqPictureRefiner::Job>::iterator pqPictureRefiner::nextJob()
 //------------------------------------------------------------------------------
 void pqPictureRefiner::wakeUp()
 {
-  if (!this->Timer.isActive() && this->nextJob() != this->Jobs.end())
+  const bool hasToTell = !this->Untold.isEmpty() && !pqInteraction::instance()->isOn();
+  if (!this->Timer.isActive() && (hasToTell || this->nextJob() != this->Jobs.end()))
   {
     this->Timer.start(0);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::tellUpdates()
+{
+  const QList<vtkWeakPointer<vtkSMSourceProxy>> untold = std::exchange(this->Untold, {});
+  for (const vtkWeakPointer<vtkSMSourceProxy>& filter : untold)
+  {
+    if (pqPipelineSource* source = sourceOf(filter))
+    {
+      Q_EMIT source->dataUpdated(source);
+    }
   }
 }
 
@@ -306,6 +366,7 @@ void pqPictureRefiner::takeTurn()
   const auto next = this->nextJob();
   if (next == this->Jobs.end())
   {
+    this->tellUpdates();
     return;
   }
   pqPipelineSource* source = sourceOf(next->Filter);
@@ -315,7 +376,7 @@ void pqPictureRefiner::takeTurn()
     this->Timer.start(10);
     return;
   }
-  const QuietProgress quiet;
+  const QuietWindow quiet(source);
   Job job = *next;
   this->Jobs.erase(next);
   this->IsBusy = true;
@@ -359,9 +420,9 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
 {
   const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
   Speed speed = this->Speeds.value(filter);
-  const auto sharers = 1 +
-    std::count_if(this->Jobs.begin(), this->Jobs.end(),
-      [](const Job& other) { return other.Haste == Pace::Hurried; });
+  const auto others = std::count_if(this->Jobs.begin(), this->Jobs.end(),
+    [](const Job& other) { return other.Haste == Pace::Hurried; });
+  const double available = speed.available(1 + int(others));
   speed.RoughPicture = changeOf(filter);
   speed.IsRough = true;
   job.HasBegun = false;
@@ -374,12 +435,9 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
   timer.start();
   setReduction(filter, speed.Reduction);
   update(filter, views.front());
-  const double updating = secondsOf(timer);
+  speed.learn(secondsOf(timer), available);
   this->show(filter, speed.ShownCount, views);
   setReduction(filter, 1);
-  const double rendering = secondsOf(timer) - updating;
-
-  speed.learn(updating, hurriedTurn / double(sharers) - rendering);
   this->keep(filter, speed);
   return job.Haste == Pace::Thorough;
 }
@@ -393,26 +451,29 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   QElapsedTimer timer;
   timer.start();
   setTimeLimit(filter, speed.limit());
-  // An update costs as much as a slice, whether it has anything to show or not: ParaView looks at all arrays.
-  if (job.HasBegun)
-  {
-    askForMore(filter);
-  }
-  if (!job.HasBegun || pictureCount(filter) != speed.ShownCount)
+  // An update takes as long as a slice, whether there is anything to show or not.
+  askForMore(filter);
+  const bool hasNews = pictureCount(filter) != speed.ShownCount || isFinished(filter);
+  const bool isPutOff = hasNews && !job.IsPutOff && secondsOf(timer) > shortSlice;
+  job.IsPutOff = isPutOff;
+  if (hasNews && !isPutOff)
   {
     update(filter, views.front());
+    this->show(filter, speed.ShownCount, views);
+    speed.IsRough = false;
   }
   job.HasBegun = true;
-  const bool isUnfinished = !isFinished(filter);
-  this->show(filter, speed.ShownCount, views);
+  const bool isUnfinished = isPutOff || !isFinished(filter);
   setTimeLimit(filter, 0);
-  if (isUnfinished)
+  if (!isUnfinished)
+  {
+    this->Untold << job.Filter;
+  }
+  else
   {
     askForMore(filter); // whoever else updates gets all of it
-    // Of turns that show something, which are few.
     speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.97 * speed.Overhead);
   }
-  speed.IsRough = false;
   this->keep(filter, speed);
   return isUnfinished;
 }

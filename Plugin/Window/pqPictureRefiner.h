@@ -71,11 +71,14 @@ private:
 
   void show(vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views);
   void keep(vtkSMProxy* filter, const Speed& speed);
+  void tellUpdates();
   QList<Job>::iterator nextJob();
   bool hasJob(vtkSMSourceProxy* filter) const;
 
   QList<Job> Jobs; // the next one first
   QHash<vtkSMProxy*, Speed> Speeds;
+  QList<vtkWeakPointer<vtkSMSourceProxy>>
+    Untold; // updated, and the window's panels do not know it yet
   QTimer Timer;
   bool IsBusy = false;
   QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user

@@ -28,7 +28,7 @@ ColorBy(GetDisplayProperties(flow, turned), ("POINTS", "RTData"))
 ResetCamera(turned)
 layout = GetLayout(turned)
 layout.SplitHorizontal(0, 0.5)
-view = CreateView("RenderView")
+view = CreateView("RenderView", UseFXAA=0, OrientationAxesVisibility=0, CenterAxesVisibility=0)
 AssignViewToLayout(view, layout, 2)
 SetActiveSource(flow)
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[512, 512],
