@@ -315,6 +315,116 @@ TEST(Slices, AnotherPropertyInTheMidstMakesAnotherPicture)
   }
 }
 
+TEST(Slices, RefineBeginsAfterAnotherProperty)
+{
+  const auto image = columnImage();
+  const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
+    { "cutoff", [](vtkSchlierenFilter* filter) { filter->SetKnifeEdgeAngle(60); } },
+    { "view", [](vtkSchlierenFilter* filter) { filter->SetViewDirection(1, 0.2, 0); } },
+    { "size", [](vtkSchlierenFilter* filter) { filter->SetImageSize(31, 20); } },
+    { "ambient", [](vtkSchlierenFilter* filter) { filter->SetAmbientRefractivity(1e-5); } }
+  };
+  for (const auto& [what, change] : changes)
+  {
+    SCOPED_TRACE(what);
+    auto fresh = smallBench(image);
+    change(fresh);
+    fresh->Update();
+
+    auto filter = smallBench(image);
+    filter->Update();
+    const vtkMTimeType shown = filter->GetOutput()->GetMTime();
+    const vtkTypeInt64 pictures = filter->GetPictureCount();
+    change(filter);
+    EXPECT_TRUE(filter->GetFinished()); // nothing has been begun
+    filter->SetTimeLimit(shortest);
+    int slices = 0;
+    for (; filter->GetPictureCount() == pictures && slices < 10000; ++slices)
+    {
+      filter->Refine();
+      EXPECT_FALSE(filter->GetFinished());
+      EXPECT_EQ(filter->GetOutput()->GetMTime(), shown);
+    }
+    EXPECT_GT(slices, what == std::string("cutoff") ? 0 : 1);
+    EXPECT_EQ(filter->GetPictureCount(), pictures + 1);
+    updateInSlices(filter);
+    expectSamePicture(filter, fresh);
+    EXPECT_EQ(
+      filter->GetMediumBuilds(), fresh->GetMediumBuilds() + (what == std::string("ambient")));
+
+    // Whoever updates without a limit gets all of it.
+    filter->SetSeed(4);
+    filter->SetTimeLimit(shortest);
+    filter->Refine();
+    EXPECT_FALSE(filter->GetFinished());
+    filter->SetTimeLimit(0);
+    filter->Update();
+    fresh->SetSeed(4);
+    fresh->Update();
+    expectSamePicture(filter, fresh);
+  }
+}
+
+TEST(Slices, RefineLeavesTheMediumToUpdates)
+{
+  const auto image = columnImage();
+  addPointArray(image, "f", [](const Vec& x) { return x[0] + x[1] * x[1]; });
+  const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
+    { "nothing", [](vtkSchlierenFilter*) {} },
+    { "input",
+      [](vtkSchlierenFilter* filter)
+      {
+        auto* data = vtkImageData::SafeDownCast(filter->GetInputDataObject(0, 0));
+        data->GetPointData()->GetArray("N")->SetComponent(2345, 0, 3e-4);
+        data->GetPointData()->GetArray("N")->Modified();
+      } },
+    { "model", [](vtkSchlierenFilter* filter) { filter->SetSamplingDimensions(9, 9, 9); } },
+    { "a field that tints", [](vtkSchlierenFilter* filter) { filter->ColorByFieldOn(); } }
+  };
+  for (const auto& [what, change] : changes)
+  {
+    SCOPED_TRACE(what);
+    auto filter = smallBench(image);
+    filter->AddField("f");
+    filter->Update();
+    const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
+    change(filter);
+    filter->SetTimeLimit(shortest);
+    filter->Refine();
+    EXPECT_TRUE(filter->GetFinished());
+    EXPECT_EQ(filter->GetTotalRaysTraced(), rays);
+    updateInSlices(filter);
+    auto fresh = smallBench(image);
+    fresh->AddField("f");
+    change(fresh);
+    fresh->Update();
+    expectSamePicture(filter, fresh);
+  }
+  auto fresh = smallBench(image);
+  fresh->SetTimeLimit(shortest);
+  fresh->Refine(); // nothing has been shown yet
+  EXPECT_TRUE(fresh->GetFinished());
+  EXPECT_EQ(fresh->GetPictureCount(), 0);
+}
+
+TEST(Slices, AMistakeBeforeRefineIsLeftToTheUpdate)
+{
+  auto filter = smallBench(columnImage());
+  filter->Update();
+  filter->SetTimeLimit(shortest);
+  expectOneMessage(
+    filter.Get(),
+    [](vtkSchlierenFilter* wrong)
+    {
+      wrong->SetStepSize(-1);
+      wrong->Refine();
+      wrong->Refine();
+      EXPECT_TRUE(wrong->GetFinished());
+    },
+    { "StepSize" }, [](vtkSchlierenFilter* right) { right->SetStepSize(1); });
+  updateInSlices(filter);
+}
+
 TEST(Slices, AnotherInputInTheMidstMakesAnotherPicture)
 {
   auto image = columnImage();
