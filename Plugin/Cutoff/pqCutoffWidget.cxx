@@ -13,6 +13,7 @@
 #include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSchlierenFilter.h"
 
 #include <QLabel>
 #include <QVBoxLayout>
@@ -22,8 +23,14 @@
 namespace
 {
 
-constexpr int discSource = 2;
-constexpr int pointSource = 0;
+using Filter = vtkSchlierenFilter;
+
+static_assert(int(pqCutoff::KnifeEdge) == Filter::KNIFE_EDGE &&
+  int(pqCutoff::Circular) == Filter::CIRCULAR &&
+  int(pqCutoff::CircularComplement) == Filter::CIRCULAR_COMPLEMENT &&
+  int(pqCutoff::GradedFilter) == Filter::GRADED_FILTER &&
+  int(pqCutoff::ColorFilter) == Filter::COLOR_FILTER);
+
 constexpr int digits = 4; // of numbers that a mouse sets
 
 double valueOf(vtkSMProxy* proxy, const char* property)
@@ -57,7 +64,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   }
   cutoff.Angle = valueOf(proxy, "KnifeEdgeAngle");
   cutoff.Inverted = valueOf(proxy, "InvertCutoff") != 0;
-  cutoff.IsOfDisc = valueOf(proxy, "SourceShape") == discSource;
+  cutoff.IsOfDisc = valueOf(proxy, "SourceShape") == Filter::DISC;
   cutoff.IsSquare = *vtkSMPropertyHelper(proxy, "ColorFilterImage").GetAsString() != '\0';
   if (valueOf(proxy, "KFromOptics") != 0)
   {
@@ -209,7 +216,7 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
 void pqCutoffWidget::dragged()
 {
   // A source with a size lies along the edge and is seen by the rays, which then are traced again.
-  const bool raysAreHeld = valueOf(this->proxy(), "SourceShape") == pointSource;
+  const bool raysAreHeld = valueOf(this->proxy(), "SourceShape") == Filter::POINT;
   this->Edit->show(this->changes(),
     raysAreHeld ? pqPictureRefiner::Pace::Shading : pqPictureRefiner::Pace::Hurried);
   this->showNumbers();

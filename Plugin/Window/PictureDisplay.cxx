@@ -7,21 +7,14 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionProxy.h"
+#include "vtkSchlierenFilter.h"
 
 #include <string>
 
 namespace
 {
 
-/// Values of the properties Cutoff and BackgroundPattern.
-enum
-{
-  Shadowgraph = 1,
-  ColorFilter = 5,
-  Interferogram = 6,
-  BackgroundOriented = 7,
-  PatternPicture = 2
-};
+using Filter = vtkSchlierenFilter;
 
 int valueOf(vtkSMProxy* proxy, const char* name)
 {
@@ -31,12 +24,16 @@ int valueOf(vtkSMProxy* proxy, const char* name)
 bool hasColors(vtkSMProxy* filter)
 {
   const int cutoff = valueOf(filter, "Cutoff");
-  return cutoff == ColorFilter || valueOf(filter, "ColorByField") != 0 ||
-    (cutoff == Interferogram && valueOf(filter, "WhiteLight") != 0) ||
-    (cutoff == BackgroundOriented && valueOf(filter, "BackgroundPattern") == PatternPicture);
+  return cutoff == Filter::COLOR_FILTER || valueOf(filter, "ColorByField") != 0 ||
+    (cutoff == Filter::INTERFEROGRAM && valueOf(filter, "WhiteLight") != 0) ||
+    (cutoff == Filter::BACKGROUND_ORIENTED &&
+      valueOf(filter, "BackgroundPattern") == Filter::PICTURE);
 }
 
-double white(vtkSMProxy* filter) { return valueOf(filter, "Cutoff") == Shadowgraph ? 2 : 1; }
+double white(vtkSMProxy* filter)
+{
+  return valueOf(filter, "Cutoff") == Filter::SHADOWGRAPH ? 2 : 1;
+}
 
 std::string shownArray(vtkSMProxy* representation)
 {

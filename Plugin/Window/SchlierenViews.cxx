@@ -23,6 +23,7 @@
 #include "pqWaitCursor.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
+#include "vtkPVRenderView.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyClipboard.h"
@@ -31,6 +32,7 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMViewLayoutProxy.h"
+#include "vtkSchlierenFilter.h"
 #include "vtkSmartPointer.h"
 
 #include <QCoreApplication>
@@ -46,18 +48,7 @@ namespace
 {
 
 using SchlierenViews::Arrangement;
-
-/// Values of properties.
-enum
-{
-  KnifeEdge = 0,
-  Shadowgraph = 1,
-  Interferogram = 6,
-  BackgroundOriented = 7,
-  StraightRays = 1,
-  RefractedRays = 2,
-  Mode2D = 1
-};
+using Filter = vtkSchlierenFilter;
 
 void setInt(vtkSMProxy* proxy, const char* name, int value)
 {
@@ -89,7 +80,7 @@ std::array<int, 2> pictureSizeFor(pqView* view)
 /// Makes a view one for pictures.
 void flatten(vtkSMProxy* view)
 {
-  setInt(view, "InteractionMode", Mode2D);
+  setInt(view, "InteractionMode", vtkPVRenderView::INTERACTION_MODE_2D);
   setInt(view, "CameraParallelProjection", 1);
   setInt(view, "OrientationAxesVisibility", 0);
   setInt(view, "CenterAxesVisibility", 0);
@@ -125,11 +116,12 @@ public:
       case Arrangement::ThreePictures:
         views = this->addViews(3);
         this->resample();
-        this->addPicture(views[0], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", KnifeEdge); });
         this->addPicture(
-          views[1], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Shadowgraph); });
+          views[0], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::KNIFE_EDGE); });
         this->addPicture(
-          views[2], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Interferogram); });
+          views[1], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::SHADOWGRAPH); });
+        this->addPicture(
+          views[2], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
         views = this->addViews(2);
@@ -362,13 +354,13 @@ private:
   void compare(const std::vector<pqRenderView*>& views)
   {
     pqPipelineSource* straight = this->addPicture(
-      views[0], [](vtkSMProxy* filter) { setInt(filter, "PathModel", StraightRays); });
+      views[0], [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::STRAIGHT); });
     pqPipelineSource* bent = this->addPicture(
-      views[1], [](vtkSMProxy* filter) { setInt(filter, "PathModel", RefractedRays); });
+      views[1], [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::REFRACTED); });
     vtkSMProxy* filter = bent->getProxy();
     const int cutoff = vtkSMPropertyHelper(filter, "Cutoff").GetAsInt();
-    const bool hasK =
-      cutoff != Shadowgraph && cutoff != Interferogram && cutoff != BackgroundOriented;
+    const bool hasK = cutoff != Filter::SHADOWGRAPH && cutoff != Filter::INTERFEROGRAM &&
+      cutoff != Filter::BACKGROUND_ORIENTED;
     if (hasK && vtkSMPropertyHelper(filter, "KFromOptics").GetAsInt() == 0 &&
       vtkSMPropertyHelper(filter, "AutoKScale").GetAsInt() != 0)
     {
