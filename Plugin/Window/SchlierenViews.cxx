@@ -111,17 +111,17 @@ public:
     {
       case Arrangement::OnePicture:
         views = this->addViews(1);
-        this->addPicture(views[0], [](vtkSMProxy*) {});
+        this->addPicture(views[0], "Schlieren", [](vtkSMProxy*) {});
         break;
       case Arrangement::ThreePictures:
         views = this->addViews(3);
         this->resample();
-        this->addPicture(
-          views[0], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::KNIFE_EDGE); });
-        this->addPicture(
-          views[1], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::SHADOWGRAPH); });
-        this->addPicture(
-          views[2], [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::INTERFEROGRAM); });
+        this->addPicture(views[0], "KnifeEdge",
+          [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::KNIFE_EDGE); });
+        this->addPicture(views[1], "Shadowgraph",
+          [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::SHADOWGRAPH); });
+        this->addPicture(views[2], "Interferogram",
+          [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
         views = this->addViews(2);
@@ -255,16 +255,19 @@ private:
     }
   }
 
-  pqPipelineSource* addFilter(
-    const char* name, pqOutputPort* input, const std::function<void(vtkSMProxy*)>& set)
+  /// `label`: what the pipeline browser calls it, with a number.
+  pqPipelineSource* addFilter(const char* name, const char* label, pqOutputPort* input,
+    const std::function<void(vtkSMProxy*)>& set)
   {
+    vtkSMSessionProxyManager* proxies = this->Server->proxyManager();
     vtkSmartPointer<vtkSMProxy> filter;
-    filter.TakeReference(this->Server->proxyManager()->NewProxy("filters", name));
+    filter.TakeReference(proxies->NewProxy("filters", name));
     this->Controller->PreInitializeProxy(filter);
     vtkSMPropertyHelper(filter, "Input")
       .Set(input->getSource()->getProxy(), static_cast<unsigned int>(input->getPortNumber()));
     this->Controller->PostInitializeProxy(filter);
-    this->Controller->RegisterPipelineProxy(filter);
+    this->Controller->RegisterPipelineProxy(
+      filter, proxies->GetUniqueProxyName("sources", label).c_str());
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
       set(filter);
@@ -301,8 +304,8 @@ private:
   {
     if (this->Defaults.indexModel != FlowDefaults::Refractivity || !isImage(this->Flow))
     {
-      pqPipelineSource* index = this->addFilter(
-        "RefractiveIndex", this->Flow, [this](vtkSMProxy* filter) { this->setMedium(filter); });
+      pqPipelineSource* index = this->addFilter("RefractiveIndex", "RefractiveIndex", this->Flow,
+        [this](vtkSMProxy* filter) { this->setMedium(filter); });
       vtkSMSourceProxy::SafeDownCast(index->getProxy())->UpdatePipeline();
       this->Medium = index->getOutputPort(0);
       this->MediumDefaults = flowDefaults(arraysOfFlow(this->Medium));
@@ -310,7 +313,8 @@ private:
   }
 
   /// A filter that looks as the 3-D view does, and its picture in a 2-D view.
-  pqPipelineSource* addPicture(pqRenderView* view, const std::function<void(vtkSMProxy*)>& set)
+  pqPipelineSource* addPicture(
+    pqRenderView* view, const char* label, const std::function<void(vtkSMProxy*)>& set)
   {
     const auto setAll = [&](vtkSMProxy* filter)
     {
@@ -324,7 +328,7 @@ private:
       set(filter);
     };
     pqPipelineSource* source =
-      this->addFilter("Schlieren", this->Medium ? this->Medium : this->Flow, setAll);
+      this->addFilter("Schlieren", label, this->Medium ? this->Medium : this->Flow, setAll);
     follow(source->getProxy(), this->Scene);
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
     vtkSMProxy* representation =
@@ -353,10 +357,10 @@ private:
   /// The same light straight and bent, at one sensitivity.
   void compare(const std::vector<pqRenderView*>& views)
   {
-    pqPipelineSource* straight = this->addPicture(
-      views[0], [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::STRAIGHT); });
-    pqPipelineSource* bent = this->addPicture(
-      views[1], [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::REFRACTED); });
+    pqPipelineSource* straight = this->addPicture(views[0], "StraightRays",
+      [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::STRAIGHT); });
+    pqPipelineSource* bent = this->addPicture(views[1], "RefractedRays",
+      [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::REFRACTED); });
     vtkSMProxy* filter = bent->getProxy();
     const int cutoff = vtkSMPropertyHelper(filter, "Cutoff").GetAsInt();
     const bool hasK = cutoff != Filter::SHADOWGRAPH && cutoff != Filter::INTERFEROGRAM &&

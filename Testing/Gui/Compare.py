@@ -24,7 +24,7 @@ user.play(MESH)
 
 def check_session():
     benches = filters()
-    (straight, bent) = benches.values()
+    straight, bent = benches["StraightRays1"], benches["RefractedRays1"]
     (_, scene), (_, upper), (_, lower) = views()
     assert (straight.PathModel, bent.PathModel) == ("Straight", "Refracted")
     assert straight.Input == bent.Input

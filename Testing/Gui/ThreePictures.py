@@ -41,13 +41,19 @@ user.save_state("undone.pvsm")
 user.play(OPEN_JET + TRACE_FIRST_STEP)
 
 
+def pictures():
+    """The filters in the order in which they are made."""
+    found = filters()
+    assert len(found) == 3
+    return {name: found[name] for name in ("KnifeEdge1", "Shadowgraph1", "Interferogram1")}
+
+
 def check_session():
-    benches = filters()
-    assert list(benches) == ["Schlieren1", "Schlieren2", "Schlieren3"]
+    benches = pictures()
     cells = views()
     assert [cell for cell, _ in cells] == [3, 4, 5, 6]
     scene, (left, top, right) = cells[0][1], [cells[i][1] for i in (1, 2, 3)]
-    medium = benches["Schlieren1"].Input
+    medium = benches["KnifeEdge1"].Input
     assert medium.GetXMLName() == "RefractiveIndex" and medium.Density == ["POINTS", "rho"]
     assert medium.Input == simple.FindSource("jet")
     for (name, bench), cutoff, view, white in zip(
@@ -85,23 +91,23 @@ assert check_session()[1] == made
 for state, array, white in (("colored", "Color", 1), ("shadow", "Intensity", 2),
                             ("grey", "Intensity", 1)):
     load(state + ".pvsm")
-    benches = filters()
+    benches = pictures()
     (_, left), (_, top), (_, right) = views()[1:]
-    display = shown(benches["Schlieren1"], top)
+    display = shown(benches["KnifeEdge1"], top)
     if array == "Color":
         assert list(display.ColorArrayName)[:2] == ["POINTS", "Color"] and display.MapScalars == 0
     else:
         check_display(display, white)
-    check_display(shown(benches["Schlieren2"], left), 2)
-    check_display(shown(benches["Schlieren3"], right), 1)
+    check_display(shown(benches["Shadowgraph1"], left), 2)
+    check_display(shown(benches["Interferogram1"], right), 1)
     for bench, view in zip(benches.values(), (top, left, right)):
         assert not [name for name in simple.GetRepresentations() if "ScalarBar" in name[0]]
 
 load("still.pvsm")
-benches = filters()
-assert benches["Schlieren1"].FollowedView == "" and benches["Schlieren2"].FollowedView != ""
+benches = pictures()
+assert benches["KnifeEdge1"].FollowedView == "" and benches["Shadowgraph1"].FollowedView != ""
 load("following.pvsm")
-assert filters()["Schlieren1"].FollowedView == filters()["Schlieren2"].FollowedView != ""
+assert filters()["KnifeEdge1"].FollowedView == filters()["Shadowgraph1"].FollowedView != ""
 
 load("undone.pvsm")
 assert list(simple.GetSources().values()) == [simple.FindSource("jet")] and len(views()) == 1
