@@ -53,7 +53,7 @@ pqPipelineSource* sourceOf(vtkSMProxy* filter)
 
 /// While there is one, the window shows a filter's picture and does nothing else with its updates. Its progress
 /// bar stands still, which paints the window each time it moves; its menus and panels do not hear of them until
-/// tellUpdates(): they look at the data again and draw their icons anew. Either would take longer than a slice.
+/// tellUpdate(): they look at the data again and draw their icons anew. Either would take longer than a slice.
 class QuietWindow
 {
 public:
@@ -172,7 +172,7 @@ struct pqPictureRefiner::Speed
   double LastShare = 0;
   double LastSeconds = 0;
   QElapsedTimer SinceHurried; // since the last one was begun
-  double Others = 0;          // seconds of a period that are not for hurried pictures' updates
+  double Others = 0;          // seconds of a period that are for anything but its updates
 
   double Overhead = 0.02;        // seconds of a turn that its TimeLimit does not count
   vtkMTimeType RoughPicture = 0; // changeOf the last hurried picture
@@ -184,18 +184,18 @@ struct pqPictureRefiner::Speed
     return std::clamp(thoroughTurn - this->Overhead, shortestLimit, longestLimit);
   }
 
-  /// How long updates may take for there to be as many pictures as wanted; to be asked when one begins.
-  double available(int sharers)
+  /// How long an update may take for there to be as many pictures as wanted; to be asked when one begins.
+  double available()
   {
     constexpr double longestPeriod = 0.5; // then the mouse has rested
     const double period = this->SinceHurried.isValid() ? secondsOf(this->SinceHurried) : 1;
     this->SinceHurried.start();
     if (period < longestPeriod)
     {
-      const double others = std::max(0., period - sharers * this->LastSeconds);
+      const double others = std::max(0., period - this->LastSeconds);
       this->Others += 0.3 * (others - this->Others);
     }
-    return std::min(hurriedTurn, hurriedPeriod - this->Others) / sharers;
+    return std::min(hurriedTurn, hurriedPeriod - this->Others);
   }
 
   /// Takes a hurried picture's time into account, and chooses the next one's pixels.
@@ -348,32 +348,34 @@ void pqPictureRefiner::wakeUp()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::tellUpdates()
+void pqPictureRefiner::tellUpdate(pqPipelineSource* source)
 {
-  const QList<vtkWeakPointer<vtkSMSourceProxy>> untold = std::exchange(this->Untold, {});
-  for (const vtkWeakPointer<vtkSMSourceProxy>& filter : untold)
+  if (!this->Untold.isEmpty())
   {
-    if (pqPipelineSource* source = sourceOf(filter))
-    {
-      Q_EMIT source->dataUpdated(source);
-    }
+    this->Untold.removeFirst();
   }
+  if (source)
+  {
+    Q_EMIT source->dataUpdated(source);
+  }
+  this->wakeUp();
 }
 
 //------------------------------------------------------------------------------
 void pqPictureRefiner::takeTurn()
 {
   const auto next = this->nextJob();
-  if (next == this->Jobs.end())
-  {
-    this->tellUpdates();
-    return;
-  }
-  pqPipelineSource* source = sourceOf(next->Filter);
+  const bool isJob = next != this->Jobs.end();
+  pqPipelineSource* source = sourceOf(isJob ? next->Filter : this->Untold.value(0));
   if (this->IsBusy || (source && source->getServer()->isProcessingPending()))
   {
     // This is an event loop within someone's update or rendering.
     this->Timer.start(10);
+    return;
+  }
+  if (!isJob)
+  {
+    this->tellUpdate(source);
     return;
   }
   const QuietWindow quiet(source);
@@ -382,6 +384,10 @@ void pqPictureRefiner::takeTurn()
   this->IsBusy = true;
   const bool isUnfinished = this->takeTurn(job);
   this->IsBusy = false;
+  if (!isUnfinished && job.Haste != Pace::Hurried && !this->Untold.contains(job.Filter))
+  {
+    this->Untold << job.Filter;
+  }
   // Another job for this filter, or its end, may have come in meanwhile.
   if (isUnfinished && sourceOf(job.Filter) && !this->hasJob(job.Filter))
   {
@@ -420,9 +426,7 @@ bool pqPictureRefiner::hurry(Job& job, const QList<QPointer<pqView>>& views)
 {
   const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
   Speed speed = this->Speeds.value(filter);
-  const auto others = std::count_if(this->Jobs.begin(), this->Jobs.end(),
-    [](const Job& other) { return other.Haste == Pace::Hurried; });
-  const double available = speed.available(1 + int(others));
+  const double available = speed.available();
   speed.RoughPicture = changeOf(filter);
   speed.IsRough = true;
   job.HasBegun = false;
@@ -465,11 +469,7 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
   job.HasBegun = true;
   const bool isUnfinished = isPutOff || !isFinished(filter);
   setTimeLimit(filter, 0);
-  if (!isUnfinished)
-  {
-    this->Untold << job.Filter;
-  }
-  else
+  if (isUnfinished)
   {
     askForMore(filter); // whoever else updates gets all of it
     speed.Overhead = std::max(secondsOf(timer) - speed.limit(), 0.97 * speed.Overhead);

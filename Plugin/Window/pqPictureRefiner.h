@@ -71,7 +71,7 @@ private:
 
   void show(vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views);
   void keep(vtkSMProxy* filter, const Speed& speed);
-  void tellUpdates();
+  void tellUpdate(pqPipelineSource* source);
   QList<Job>::iterator nextJob();
   bool hasJob(vtkSMSourceProxy* filter) const;
 
