@@ -3,12 +3,10 @@
 """One click on the toolbar: the picture of a flow beside its volume, with all that is chosen for the user;
 undone and redone in one step, kept in state files and in the Python trace."""
 
-import os
-
 import numpy as np
-from views_testing import (OPEN_JET, SOURCE, TRACE_FIRST_STEP, ViewsSession, check_camera, check_display,
-                           check_picture_view, filters, load, picture, play_trace, png, screenshot,
-                           shown, simple, values, views)
+from views_testing import (OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_camera,
+                           check_display, check_picture_view, filters, frame, load, picture, play_trace,
+                           screenshot, shown, simple, values, views)
 from plugin_testing import Schlieren
 
 user = ViewsSession()
@@ -74,12 +72,8 @@ difference = np.abs(seen[..., 0] / 255 - np.clip(intensity, 0, 1))[inside]
 assert difference.mean() < 0.01, difference.mean()
 
 # At a size of its own, so that no window's size matters.
-bench.ImageSize = [360, 270]
-bench.ParallelScale = flat.CameraParallelScale = 0.015
-bench.UpdatePipeline()
-made = screenshot(flat, "AddView.png", [360, 270])
-kept = png(os.path.join(SOURCE, "Testing", "Baseline", "WindowAddView.png"))
-assert made.shape == kept.shape and np.abs(made - kept).mean() < 0.5
+frame(bench, flat, [360, 270], 0.015)
+check_baseline(flat, "WindowAddView.png", [360, 270])
 
 # All of it is undone, also what is shown in the 3-D view and how.
 load("before.pvsm")

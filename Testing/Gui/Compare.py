@@ -6,8 +6,8 @@ cameras; of a mesh, and with the settings of a filter that is selected."""
 import os
 
 import numpy as np
-from views_testing import (FOLDER, MESH, ViewsSession, check_camera, check_display,
-                           check_picture_view, filters, load, picture, shown, simple, views)
+from views_testing import (FOLDER, MESH, ViewsSession, check_baseline, check_camera, check_display,
+                           check_picture_view, filters, frame, load, picture, shown, simple, views)
 from plugin_testing import Schlieren
 
 user = ViewsSession()
@@ -19,7 +19,8 @@ user.redo()
 user.save_state("redone.pvsm")
 user.undo()
 user.redo()
-user.play(MESH)
+# Dense enough for bent light to make another picture.
+user.play(MESH.replace("1e-3*RTData", "0.3*RTData"))
 
 
 def check_session():
@@ -58,6 +59,15 @@ alone.UpdatePipeline()
 k = alone.FieldData["KScale"].GetRange()[0]
 assert np.isclose(bent.KScale, k, rtol=1e-9), (bent.KScale, k)
 assert np.ptp(picture(bent, "Intensity")) > 0.2
+simple.Delete(alone)
+
+# Straight and bent light side by side, at a k that no window's size changes.
+assert abs(bent.KScale - 9.7) < 1, bent.KScale
+(_, upper), (_, lower) = views()[1:]
+for bench, view in ((straight, upper), (bent, lower)):
+    bench.KScale = 9.7
+    frame(bench, view, [270, 270], 15)
+check_baseline([upper, lower], "WindowCompare.png", [270, 270])
 
 load("undone.pvsm")
 assert len(views()) == 1 and not filters()

@@ -5,14 +5,11 @@ is at once in the picture; undone, traced and kept like anything else."""
 
 import json
 import os
-import sys
 
 import numpy as np
-
-sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
-
-from plugin_testing import Schlieren, picture, simple  # noqa: E402
-from window_testing import FOLDER, PANEL, PROPERTIES, Session  # noqa: E402
+from views_testing import check_baseline, frame, load, picture, show_grey, simple, views
+from plugin_testing import Schlieren
+from window_testing import FOLDER, PANEL, PROPERTIES, Session
 
 SIDE, RANGE, K = 280, 0.005, 200  # pixels, radians
 PIXEL = 2 * RANGE / SIDE
@@ -187,6 +184,14 @@ for name, properties in saved.items():
     shown = picture(bench, "Intensity")
     assert np.array_equal(shown, picture(scripted(**properties), "Intensity")), name
     assert shown.std() > 0.01
+
+# The edge where it was dragged to, then turned.
+for name in ("edge", "turned"):
+    load(name + ".pvsm")
+    bench, ((_, view),) = simple.FindSource("bench"), views()
+    show_grey(bench, view)
+    frame(bench, view, [270, 270], 10)
+    check_baseline(view, f"WindowCutoff{name.capitalize()}.png", [270, 270])
 
 # Pictures were made on the way and where the mouse was released.
 with open(LOG, encoding="utf-8") as file:

@@ -5,16 +5,10 @@ where the rays of the brushed pixels go, and the picture shows it without Apply.
 
 import base64
 import os
-import sys
 
 import numpy as np
-
-sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
-
-from plugin_testing import simple  # noqa: E402
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
-from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session  # noqa: E402
+from views_testing import check_baseline, frame, load, png, simple, views, write_png
+from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session
 
 WIDGET, PREVIEW = "ColorFilterImage", "ColorFilterImage/Preview"
 MIDDLE, HALF = 113, 96  # of the filter in its widget, pixels; the middle give or take a font's height
@@ -52,6 +46,7 @@ user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 12)
 line = ((-0.5, 0.25), (0.5, 0.25))
 stroke(*line)
 look("stroke")
+user.save_state("stroke.pvsm")
 user.check(WIDGET + "/Undo", "enabled", "true")
 
 # A dab by keys: 8 * 2 steps of 1/64 to the left of where the mouse was, and 1 up.
@@ -114,7 +109,7 @@ bench = Schlieren(Input=flow, registrationName="bench", ImageSize=2 * [{PIXELS}]
                   AutoKScale=0, KScale={K}, GladstoneDaleConstant=2e-6)
 bench.UpdatePipeline()
 view = GetActiveViewOrCreate("RenderView")
-Show(bench, view)
+Show(bench, view).MapScalars = 0
 ResetCamera(view)
 left, right, low, high = bench.GetDataInformation().GetBounds()[:4]
 x = left + {PIXEL[0]} * (right - left) / {PIXELS - 1}
@@ -131,23 +126,13 @@ def seen(name):
     return str(file["text"]), file["Color"].reshape(PIXELS, PIXELS, 3).astype(int)
 
 
-def read(path):
-    """A picture: rows x columns x 3, lowest row first."""
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    columns, rows, _ = reader.GetOutput().GetDimensions()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    return pixels.reshape(rows, columns, 3).astype(int)
-
-
 def held(text):
     head = "data:image/png;base64,"
     assert text.startswith(head), text[:40]
     path = os.path.join(FOLDER, "held.png")
     with open(path, "wb") as file:
         file.write(base64.b64decode(text[len(head):]))
-    return read(path)
+    return png(path)
 
 
 # Places of the filter's pixels, from -1 to 1.
@@ -190,7 +175,7 @@ check_brushed(by_keys, np.minimum(far, by_key))
 text_erased, shown_erased = seen("erased")
 assert np.abs(held(text_erased) - WHEEL).max() <= 1
 assert np.abs(shown_erased - before).max() <= 2  # a picture's wheel, not the formula's
-assert np.array_equal(read(SAVED), held(text))
+assert np.array_equal(png(SAVED), held(text))
 assert (held(seen("filled")[0]) == COLOR).all() and (seen("filled")[1] == COLOR).all()
 assert np.array_equal(held(seen("loaded")[0]), held(text))
 assert np.array_equal(seen("loaded")[1], shown)
@@ -230,6 +215,28 @@ assert np.abs(shown - before)[other].max() <= 2
 cameras = [np.load(os.path.join(FOLDER, name + ".npz"))["camera"] for name in ("cleared", "picture")]
 assert np.array_equal(*cameras)
 
-simple.ResetSession()
-simple.LoadState(os.path.join(FOLDER, "picture.pvsm"))
+load("picture.pvsm")
 assert simple.FindSource("bench").ColorFilterImage == text
+
+
+def check_shown(name):
+    """The picture, as the view shows it."""
+    bench, ((_, view),) = simple.FindSource("bench"), views()
+    frame(bench, view, [270, 270], 10)
+    check_baseline(view, name, [270, 270])
+
+
+check_shown("WindowPaintOnPicture.png")
+
+# The stroke on the filter, moved back by the pixels that the widget's middle depends on the font: all else of
+# the filter is the wheel, see above.
+load("stroke.pvsm")
+bench = simple.FindSource("bench")
+assert bench.ColorFilterImage == seen("stroke")[0]
+back = [-round(away * SIDE / 2) for away in shift]
+exact = held(bench.ColorFilterImage)
+exact[colored] = np.rint(WHEEL)[colored]
+exact[np.roll(colored, (back[1], back[0]), (0, 1))] = COLOR
+bench.ColorFilterImage = os.path.join(FOLDER, "exact.png")
+write_png(exact, bench.ColorFilterImage)
+check_shown("WindowPaintColorFilter.png")

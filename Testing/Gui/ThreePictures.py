@@ -4,9 +4,9 @@
 following is switched off and on."""
 
 import numpy as np
-from views_testing import (OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_camera, check_display,
-                           check_picture_view, filters, load, picture, play_trace, shown, simple,
-                           values, views)
+from views_testing import (OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_camera,
+                           check_display, check_picture_view, filters, frame, load, picture, play_trace,
+                           shown, simple, values, views)
 from plugin_testing import Schlieren
 
 user = ViewsSession()
@@ -82,6 +82,12 @@ for bench in benches.values():
     assert np.abs(picture(bench, "Intensity") - picture(by_script, "Intensity")).max() < 1e-4
     assert np.ptp(picture(bench, "Intensity")) > 0.1
     simple.Delete(by_script)
+
+# Knife edge, shadowgraph and interferogram side by side.
+(_, left), (_, top), (_, right) = views()[1:]
+for bench, view in zip(benches.values(), (top, left, right)):
+    frame(bench, view, [240, 180], 0.015)
+check_baseline([top, left, right], "WindowThreePictures.png", [240, 180])
 
 play_trace("traced.pvsm", OPEN_JET)
 load("traced.pvsm")

@@ -12,8 +12,9 @@ SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
 sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
 
 from plugin_testing import picture, simple  # noqa: E402, F401
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
 from window_testing import FOLDER, Session  # noqa: E402
 
 JET = os.path.join(SOURCE, "Testing", "Data", "ladenburg_jet_3d.vti")
@@ -157,6 +158,56 @@ def screenshot(view, name, size):
     path = os.path.join(FOLDER, name)
     simple.SaveScreenshot(path, view, ImageResolution=size)
     return png(path)
+
+
+def frame(bench, view, size, scale):
+    """Makes the picture of so many pixels, 2 * scale high, and lets it fill its view, pixel on pixel: no
+    window's size matters then."""
+    bench.ImageSize = size
+    bench.ParallelScale = view.CameraParallelScale = scale
+    bench.UpdatePipeline()
+    low, high = np.reshape(bench.GetDataInformation().GetBounds(), (3, 2))[:2].T
+    middle = list((low + high) / 2)
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint, view.CameraPosition = middle + [0], middle + [10 * scale]
+    view.CameraViewUp = [0, 1, 0]
+    view.OrientationAxesVisibility = 0
+    view.UseFXAA = 0  # would mix neighbouring pixels where they differ much
+
+
+def show_grey(bench, view):
+    """As the toolbar's pictures are shown: black is 0, white is 1."""
+    simple.ColorBy(shown(bench, view), ("POINTS", "Intensity"))
+    colors = simple.GetColorTransferFunction("Intensity")
+    colors.AutomaticRescaleRangeMode = "Never"
+    colors.ColorSpace = "RGB"
+    colors.RGBPoints = [0, 0, 0, 0, 1, 1, 1, 1]
+    shown(bench, view).SetScalarBarVisibility(view, False)
+
+
+def check_baseline(view, name, size):
+    """What the view shows, or several views side by side, is the kept picture of that name."""
+    several = view if isinstance(view, list) else [view]
+    made = np.concatenate([screenshot(one, f"{place}{name}", size) for place, one in enumerate(several)],
+                          axis=1)
+    write_png(made, os.path.join(FOLDER, name))
+    kept = png(os.path.join(SOURCE, "Testing", "Baseline", name))
+    assert made.shape == kept.shape, (name, made.shape, kept.shape)
+    difference = np.abs(made - kept)
+    # The first is seen everywhere, the second in a small place: a line that has moved.
+    assert difference.mean() < 0.2, (name, difference.mean())
+    assert (difference.max(axis=2) > 40).mean() < 0.002, (name, (difference.max(axis=2) > 40).mean())
+
+
+def write_png(pixels, path):
+    """RGB, rows x columns, lowest row first."""
+    image = vtkImageData()
+    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3).astype(np.uint8), deep=True))
+    writer = vtkPNGWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(image)
+    writer.Write()
 
 
 def png(path):
