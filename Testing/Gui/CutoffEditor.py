@@ -144,7 +144,8 @@ settle()
 user.check(PLANE, "range", RANGE)
 drag((0, 0), tuple(np.rint(25 * along)))
 position = 1e3 * FOCAL_LENGTH * PIXEL * (np.rint(25 * along) @ along)
-expect("optics", Cutoff="Knife Edge", AutoKScale=1, KScale=1.02 * K, KFromOptics=1, CutoffPosition=round(position, 3))
+expect("optics", Cutoff="Knife Edge", AutoKScale=1, KScale=1.02 * K, KFromOptics=1,
+       CutoffPosition=round(position, 3))
 full = position / 1e3 / FOCAL_LENGTH + 0.5 / K
 way = np.rint(40 * along)
 drag(np.rint(full / PIXEL * along), tuple(way))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Painting the colour filter, on itself and through the picture: the filter gets colour where the brush was or
-where the rays of the brushed pixels go, and the picture shows it without Apply."""
+"""Painting the colour filter, on itself and through the picture: the filter gets colour where the brush was
+or where the rays of the brushed pixels go, and the picture shows it without Apply."""
 
 import base64
 import os

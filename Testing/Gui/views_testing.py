@@ -21,6 +21,12 @@ JET = os.path.join(SOURCE, "Testing", "Data", "ladenburg_jet_3d.vti")
 TOOLBAR = "pqClientMainWindow/SchlierenToolBar/"
 TRACE = os.path.join(FOLDER, "trace.py")
 
+# Lets a session's scripts import inside_window.py.
+INSIDE = f"""
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+"""
+
 # Opened and applied: images are shown as outlines.
 OPEN_JET = f"""
 from paraview.simple import *
