@@ -18,17 +18,17 @@ user.press("OnePicture")
 STEPS = f"""
 import re
 bench, scene, flat = by_name("Schlieren1", "RenderView1", "RenderView2")
-view = Widget("Frame.2", "Viewport")
+view = widget("Frame.2", "Viewport")
 def line(frame=2):
-    return Widget(f"Frame.{{frame}}", "Viewport", "SchlierenStatus", kind="QLabel")
+    return widget(f"Frame.{{frame}}", "Viewport", "SchlierenStatus")
 def is_shown(frame=2):
-    return line(frame).exists() and line(frame).is_so("visible")
+    return line(frame) is not None and line(frame).isVisible()
 def check_place():
     "In the corner, with as much room on the left as below, and inside the view."
-    left, top, width, height = [line().number(name) for name in ("x", "y", "width", "height")]
-    below = view.number("height") - top - height
+    left, top, width, height = line().geometry().getRect()
+    below = view.height() - top - height
     assert 0 < left == below < 20, (left, below)
-    assert top >= 0 and left + width <= view.number("width") - left, (top, left, width)
+    assert top >= 0 and left + width <= view.width() - left, (top, left, width)
     return width, height
 def report(text):
     with open({REPORT!r}, "a") as file:
@@ -59,11 +59,11 @@ report("refined")
 wide, low = check_place()
 layout = GetLayout(flat)
 layout.SetSplitFraction(0, 0.8)
-until(lambda: view.number("width") < 0.6 * wide)
+until(lambda: view.width() < 0.6 * wide)
 narrow, high = check_place()
 assert narrow < wide and high > 1.5 * low, (wide, low, narrow, high)
 layout.SetSplitFraction(0, 0.5)
-until(lambda: view.number("width") > wide)
+until(lambda: view.width() > wide)
 assert check_place() == (wide, low)
 report("narrow")
 
