@@ -49,6 +49,9 @@ def session(name, before):
     user.check(PLANE, "range", 0.005)
     x, y = 20 + SIDE // 2, 2 + SIDE // 2 - 30
     user.drag(PLANE, (x, y), (x + 40, y), (x + 21, y))
+    user.menu("menu_Edit", "actionEditUndo")
+    user.check("CutoffOffset/DoubleLineEdit0", "text", 0)
+    user.menu("menu_Edit", "actionEditRedo")
     keep("dragged")
     user.choose("CutoffOffset/DoubleLineEdit0", "0")
     user.choose("Cutoff/ComboBox", "Color Filter")
