@@ -60,6 +60,18 @@ double ambientValue(vtkSMProxy* model, pqOutputPort* picture)
   return std::nan("");
 }
 
+/// The value, or an end of the range where it is beyond: the nearer one where they are the same but for
+/// rounding, so that two nodes of a function do not lie where a table cannot part them.
+double withinRange(double value, const std::array<double, 2>& range)
+{
+  const double margin = 1e-3 * (range[1] - range[0]);
+  if (std::abs(value - range[1]) < margin)
+  {
+    return range[1];
+  }
+  return value > range[0] + margin && value < range[1] ? value : range[0];
+}
+
 /// Clear at the ambient value, dim where the field is furthest from it.
 void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double ambient)
 {
@@ -124,14 +136,10 @@ void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& de
   {
     vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown, false, true);
     vtkSMProxy* opacity = vtkSMPropertyHelper(shown, "ScalarOpacityFunction").GetAsProxy();
-    double ambient = ambientValue(model, picture->getOutputPort(0));
-    if (!(range[0] <= ambient && ambient <= range[1]))
-    {
-      ambient = range[0];
-    }
     if (opacity)
     {
-      setOpacity(opacity, range, ambient);
+      setOpacity(
+        opacity, range, withinRange(ambientValue(model, picture->getOutputPort(0)), range));
     }
   }
   vtkSMRepresentationProxy::SetRepresentationType(shown, "Volume");

@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The knife dragged, the colour filter painted, and the menu's Disconnect in the middle of a refinement, with a
+server and without: the same pictures, and afterwards one click makes another. Skipped without pvserver."""
+
+import numpy as np
+from server_testing import connect, start_server
+from follow_testing import saved
+from views_testing import ViewsSession, check_camera, filters, load, picture, values, views
+
+K = 200
+SETTINGS = {"ImageSize": [96, 96], "GladstoneDaleConstant": 2e-6, "AutoKScale": 0, "KScale": K}
+SIDE = 280  # pixels of the cutoff plane, where all of it is from -0.005 to 0.005 both ways
+PLANE, PREVIEW = "SchlierenCutoff/Plane", "ColorFilterImage/Preview"
+SETTLE = """
+(bench,) = [source for source in GetSources().values() if source.GetXMLName() == "Schlieren"]
+until(lambda: finished(bench))
+pause(0.3)
+until(lambda: finished(bench))
+"""
+FLOW = """
+from paraview.simple import *
+flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+"""
+SCENE = FLOW + f"""
+import os, sys
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Gui"))
+bench = Schlieren(Input=flow, registrationName="bench", **{SETTINGS})
+view = GetActiveViewOrCreate("RenderView")
+Show(bench, view)
+ResetCamera(view)
+Render()
+SetActiveSource(bench)
+"""
+
+
+def session(name, before):
+    """Plays it after a script, for states of this name."""
+    user = ViewsSession()
+
+    def keep(step):
+        user.python(SETTLE + f"save({name + step!r}, bench)")
+        user.save_state(name + step + ".pvsm")
+
+    keep("first")
+    user.check(PLANE, "enabled", "true")
+    user.check(PLANE, "side", SIDE)
+    user.check(PLANE, "range", 0.005)
+    x, y = 20 + SIDE // 2, 2 + SIDE // 2 - 30
+    user.drag(PLANE, (x, y), (x + 40, y), (x + 21, y))
+    user.menu("menu_Edit", "actionEditUndo")
+    user.check("CutoffOffset/DoubleLineEdit0", "text", 0)
+    user.menu("menu_Edit", "actionEditRedo")
+    keep("dragged")
+    user.choose("CutoffOffset/DoubleLineEdit0", "0")
+    user.choose("Cutoff/ComboBox", "Color Filter")
+    user.apply()
+    user.python(SETTLE)
+    user.drag(PREVIEW, (80, 90), (150, 90))
+    keep("painted")
+    user.click("ColorFilterImage/PaintOnPicture")
+    user.drag_view(0, (0.5, 0.5), (0.55, 0.55))
+    keep("brushed")
+    user.click("ColorFilterImage/PaintOnPicture")
+
+    if name:
+        user.python(SETTLE + """
+turned = CreateView("RenderView", registrationName="turned")
+AssignViewToLayout(turned)
+Show(bench.Input, turned)
+bench.FollowedView = "turned"
+bench.SamplesPerPixel = 400
+turned.CameraPosition = [40, 20, 70]
+Render(turned)
+until(lambda: not finished(bench), 20)
+""")
+        user.menu("menu_File", "actionServerDisconnect")
+        user.event("pqClientMainWindow/1QMessageBox0/qt_msgbox_buttonbox/1QPushButton0", "activate")
+        user.python("pause(0.3)\nassert not GetSources()\n" + FLOW + """
+view = GetActiveViewOrCreate("RenderView")
+Show(flow, view)
+ResetCamera(view)
+SetActiveSource(flow)
+""")
+        user.press("OnePicture")
+        user.python(SETTLE + "save('afterwards', bench)")
+        user.save_state("afterwards.pvsm")
+    user.play(before + SCENE)
+
+
+session("", "")
+server, port = start_server()
+try:
+    session("served ", connect(port))
+finally:
+    server.kill()
+
+
+def held(state):
+    """What is set on its filter, the picture that the window had, and the one of the state."""
+    load(state + ".pvsm")
+    (bench,) = filters().values()
+    shown = saved(state)["intensity"]
+    assert np.ptp(shown) > 0.2
+    assert np.abs(shown - picture(bench, "Intensity").ravel()).max() < 1e-5, state
+    return values(bench), shown
+
+
+steps = [[held(name + step) for step in ("first", "dragged", "painted", "brushed")]
+         for name in ("", "served ")]
+for (here, picture_here), (there, picture_there) in zip(*steps):
+    assert here == there, [(name, here[name], there[name]) for name in here if here[name] != there[name]]
+    assert np.abs(picture_here - picture_there).max() < 1e-5
+(first, dragged, painted, brushed) = steps[1]
+assert float(first[0]["CutoffOffset"]) == 0
+assert float(dragged[0]["CutoffOffset"]) == round(K * 21 * 0.01 / SIDE, 3)
+assert painted[0]["ColorFilterImage"].startswith("data:image/png")
+assert brushed[0]["ColorFilterImage"] not in ("", painted[0]["ColorFilterImage"])
+for (_, before), (_, after) in zip(steps[1], steps[1][1:]):
+    assert np.abs(before - after).max() > 0.01
+
+load("afterwards.pvsm")
+(bench,) = filters().values()
+((_, scene),) = [(cell, view) for cell, view in views() if view.InteractionMode == "3D"]
+check_camera(bench, scene)
+assert saved("afterwards")["reduction"] == 1 and np.ptp(saved("afterwards")["intensity"]) > 0.2
+assert np.abs(saved("afterwards")["intensity"] - picture(bench, "Intensity").ravel()).max() < 1e-5

@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A flow that changes with time: the picture of one click goes with it when the animation is played, stepped
+and saved, and is each time the whole one of a script."""
+
+import json
+import os
+
+import numpy as np
+from views_testing import FOLDER, ViewsSession, filters, load, png, simple, views
+from plugin_testing import Schlieren
+from follow_testing import saved
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+TIMES = [0, 0.1, 0.3, 0.7]
+SIZE = [240, 180]  # of the saved animation
+AIR = 1.0  # its refractivity in single precision is a little higher
+SERIES, LOG = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "shown.txt")
+
+
+def write_series(points=25):
+    """A warm blob that moves to the right and grows."""
+    x = np.linspace(-1, 1, points)
+    z, y, x = np.meshgrid(x, x, x, indexing="ij")
+    entries = []
+    for step, time in enumerate(TIMES):
+        square = (x + 0.35 - time)**2 + y**2 + z**2
+        blob = (0.1 + 0.2 * time) * np.maximum(0, 1 - square / 0.6**2)**2
+        values = numpy_to_vtk((AIR - blob).ravel(), deep=True)
+        values.SetName("rho")
+        image = vtkImageData()
+        image.SetDimensions(3 * [points])
+        image.SetOrigin(-1, -1, -1)
+        image.SetSpacing(3 * [2 / (points - 1)])
+        image.GetPointData().AddArray(values)
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(os.path.join(FOLDER, f"flow{step}.vti"))
+        writer.SetDataModeToBinary()
+        writer.SetInputData(image)
+        assert writer.Write() == 1
+        entries.append(f'<DataSet timestep="{time}" file="flow{step}.vti"/>')
+    with open(SERIES, "w", encoding="utf-8") as file:
+        file.write("\n".join(['<VTKFile type="Collection" version="0.1">', "<Collection>", *entries,
+                              "</Collection>", "</VTKFile>", ""]))
+
+
+FIND = """
+bench, shown = FindSource("Schlieren1"), FindView("RenderView2")
+"""
+SETTLE = FIND + """
+until(lambda: finished(bench) and rows_of(bench) == bench.ImageSize[1])
+pause(0.3)
+until(lambda: finished(bench))
+"""
+# What is shown from here on goes into a log.
+NOTE = f"""
+import json
+def note(*_):
+    image = bench.GetClientSideObject().GetOutputDataObject(0)
+    path = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference"))
+    row = {{"time": shown.ViewTime, "least": float(path.min()), "rows": image.GetDimensions()[1],
+           "finished": information(bench, "Finished")}}
+    with open({LOG!r}, "a") as file:
+        file.write(json.dumps(row) + "\\n")
+shown.SMProxy.AddObserver("EndEvent", note)
+"""
+
+
+def begin(name):
+    """The script that begins a part of the log."""
+    return f"with open({LOG!r}, 'a') as file: file.write('= {name}\\n')\n"
+
+
+write_series()
+open(LOG, "w", encoding="utf-8").close()
+user = ViewsSession()
+
+
+def vcr(name):
+    user.event("pqClientMainWindow/VCRToolbar/actionVCR" + name, "activate")
+
+
+user.press("OnePicture")
+user.python(SETTLE + NOTE + begin("played"))
+vcr("Play")
+user.python(SETTLE + "save('played', bench)\n" + begin("stepped"))
+user.save_state("played.pvsm")
+vcr("FirstFrame")
+user.python(SETTLE + "save('first', bench)\n")
+vcr("NextFrame")
+user.python(SETTLE + "save('next', bench)\n")
+
+# Played and saved from the middle of a refinement.
+BEGIN = FIND + f"""
+bench.ImageSize, bench.SamplesPerPixel = {SIZE}, 400
+turned = FindView("RenderView1")
+turned.CameraPosition = [1 + turned.CameraPosition[2] / 3, 0.5, turned.CameraPosition[2]]
+Render(turned)
+until(lambda: not finished(bench), 20)
+bench.SamplesPerPixel = 16
+"""
+user.python(BEGIN + begin("again") + "GetAnimationScene().GoToFirst()")
+vcr("Play")
+user.python(SETTLE + "save('again', bench)\n" + begin("begun"))
+user.python(BEGIN + begin("saved") + f"""
+shown.CameraParallelScale = bench.ParallelScale
+SaveAnimation(os.path.join(FOLDER, "saved.png"), shown, FrameWindow=[0, 3], ImageResolution={SIZE})
+""" + SETTLE + "save('saved', bench)\n")
+user.save_state("saved.pvsm")
+
+user.play(f"""
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from paraview.simple import *
+flow = OpenDataFile({SERIES!r}, registrationName="flow")
+flow.UpdatePipeline()
+GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+view = GetActiveViewOrCreate("RenderView")
+Show(flow, view)
+view.ResetCamera()
+SetActiveSource(flow)
+""")
+flow = simple.PVDReader(FileName=SERIES)
+made = {}
+SAMPLES = {name: {"SamplesPerPixel": 16} for name in ("again", "saved")}
+
+
+def scripted(name, time):
+    """The picture of a script, as a kept one is set, at a time: intensity and optical path."""
+    kept = saved(name)
+    size = [int(pixels) for pixels in kept["dimensions"][:2]]
+    key = (time, *size, *kept["direction"], float(kept["scale"]))
+    if key not in made:
+        flow.UpdatePipeline(time)
+        bench = Schlieren(
+            Input=flow, Density=["POINTS", "rho"], ImageSize=size, ViewDirection=list(kept["direction"]),
+            ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
+            **SAMPLES.get(name, {}))
+        bench.UpdatePipeline(time)
+        arrays = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData()
+        made[key] = [vtk_to_numpy(arrays.GetArray(name)).copy()
+                     for name in ("Intensity", "OpticalPathDifference")]
+        simple.Delete(bench)
+    return made[key]
+
+
+for name, time in (("played", TIMES[-1]), ("first", TIMES[0]), ("next", TIMES[1]), ("again", TIMES[-1]),
+                   ("saved", TIMES[-1])):
+    assert saved(name)["reduction"] == 1 and saved(name)["limit"] == 0
+    expected, _ = scripted(name, time)
+    assert np.ptp(expected) > 0.5
+    assert np.abs(saved(name)["intensity"] - expected).max() < 1e-5, (name, time)
+assert np.abs(scripted("played", 0)[0] - scripted("played", 0.7)[0]).max() > 0.5
+
+# Each time has been shown, in this order, and each time the whole picture of that time.
+for name in ("played", "again", "saved"):
+    with open(LOG, encoding="utf-8") as file:
+        part = file.read().split(f"= {name}\n")[1].split("=")[0]
+    log = [json.loads(line) for line in part.splitlines()]
+    rows = saved(name)["dimensions"][1]
+    assert sorted({row["time"] for row in log}) == TIMES
+    assert [row["time"] for row in log] == sorted(row["time"] for row in log), log
+    for row in log:
+        path = scripted(name, row["time"])[1]
+        assert row["finished"] == 1 and row["rows"] == rows, row
+        assert np.isclose(row["least"], path.min(), rtol=1e-6), (row, path.min())
+    assert len({row["least"] for row in log}) == len(TIMES)
+
+# The saved frames are these pictures, pixel by pixel; not at the rim, where the view sees half of each.
+for step, time in enumerate(TIMES):
+    frame = png(os.path.join(FOLDER, f"saved.{step:04}.png"))[..., 0] / 255
+    intensity = scripted("saved", time)[0].reshape(SIZE[::-1])
+    difference = np.abs(frame - np.clip(intensity, 0, 1))[2:-2, 2:-2]
+    assert difference.max() < 1.5 / 255, (time, difference.max())
+
+load("played.pvsm")
+(_, scene), _ = views()
+(bench,) = filters().values()
+# The air around the blob is clear, though not a value is above its density.
+volume = simple.GetRepresentation(bench.Input, scene)
+assert volume.Representation == "Volume"
+points = np.reshape(volume.ScalarOpacityFunction.Points, (-1, 4))
+assert np.allclose(points[:, :2], [[AIR - 0.1, 0.5], [AIR, 0]], atol=2e-3), points
