@@ -10,10 +10,42 @@
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
 #include "pqServerManagerModel.h"
+#include "pqUndoStack.h"
+#include "pqView.h"
+
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
+#include "vtkPVXMLElement.h"
+#include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMProxyLocator.h"
 #include "vtkSMTrace.h"
+
+#include <cstring>
+#include <sstream>
+
+namespace
+{
+
+/// Sets a property to the value that is kept in a proxy's part of a state file.
+void setFromState(vtkSMProxy* proxy, const char* name, vtkPVXMLElement* state)
+{
+  for (unsigned int i = 0; i < state->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* property = state->GetNestedElement(i);
+    vtkPVXMLElement* element = property->FindNestedElementByName("Element");
+    const char* itsName = property->GetAttribute("name");
+    int value = 0;
+    if (element && itsName && std::strcmp(itsName, name) == 0 &&
+      element->GetScalarAttribute("value", &value))
+    {
+      vtkSMPropertyHelper(proxy, name).Set(value);
+      proxy->UpdateVTKObjects();
+    }
+  }
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 pqPictureDisplayKeeper::pqPictureDisplayKeeper(QObject* parentObject)
@@ -25,6 +57,8 @@ pqPictureDisplayKeeper::pqPictureDisplayKeeper(QObject* parentObject)
   {
     this->watch(source);
   }
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, this,
+    &pqPictureDisplayKeeper::onStateLoaded);
 }
 
 //------------------------------------------------------------------------------
@@ -58,6 +92,30 @@ void pqPictureDisplayKeeper::onFilterChanged(vtkObject* filter)
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
       PictureDisplay::apply(representation, proxy);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLocator* locator)
+{
+  vtkPVXMLElement* nested = root->FindNestedElementByName("ServerManagerState");
+  vtkPVXMLElement* state = nested ? nested : root;
+  auto* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (unsigned int i = 0; i < state->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* element = state->GetNestedElement(i);
+    const char* group = element->GetAttribute("group");
+    vtkTypeUInt32 id = 0;
+    std::istringstream(element->GetAttributeOrDefault("id", "0")) >> id;
+    vtkSMProxy* proxy =
+      group && std::strcmp(group, "views") == 0 ? locator->LocateProxy(id) : nullptr;
+    auto* view = model->findItem<pqView*>(proxy);
+    if (view && picturesInViews::isFlat(view) && !picturesInViews::picturesIn(view).isEmpty())
+    {
+      SCOPED_UNDO_EXCLUDE();
+      setFromState(proxy, "UseFXAA", element);
+      view->render();
     }
   }
 }

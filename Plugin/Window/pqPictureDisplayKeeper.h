@@ -9,9 +9,12 @@
 class pqPipelineSource;
 class vtkEventQtSlotConnect;
 class vtkObject;
+class vtkPVXMLElement;
+class vtkSMProxyLocator;
 
 /// Keeps pictures displayed as their filters' cutoffs want it, whoever changes a cutoff: grey, twice as
-/// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else.
+/// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else. Views of pictures get
+/// their FXAA back from state files: ParaView itself takes that of its settings then.
 class pqPictureDisplayKeeper : public QObject
 {
   Q_OBJECT
@@ -23,6 +26,7 @@ public:
 private Q_SLOTS:
   void watch(pqPipelineSource* source);
   void onFilterChanged(vtkObject* filter);
+  void onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLocator* locator);
 
 private:
   vtkNew<vtkEventQtSlotConnect> Events;

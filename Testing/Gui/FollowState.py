@@ -28,6 +28,7 @@ bench, shadows, turned, shown, other = parts()
 KEEP = FIND + """
 bench.SamplesPerPixel = shadows.SamplesPerPixel = 2
 Render(shown)
+Render(other)
 until(whole)
 pause(0.3)
 until(whole)
@@ -47,6 +48,7 @@ def keep(step):
     user.python(KEEP.format(step))
 
 
+user.python(FIND + "shown.UseFXAA = 0")
 keep("first")
 user.save_state("first.pvsm")
 
@@ -61,6 +63,7 @@ until(lambda: not finished(bench), 20)
 load_state("first.pvsm")
 keep("loaded")
 user.python(FIND + """
+assert (shown.UseFXAA, other.UseFXAA, turned.UseFXAA) == (0, 1, 1)
 closed = FindSource("closed bench")
 assert closed.SamplesPerPixel == 400 and closed.FollowedView == "RenderView1"
 closed.SamplesPerPixel = 2
