@@ -102,8 +102,9 @@ _metacall = _function(
     _pointer)
 _active_window = _function("libQt5Widgets.so.5", "_ZN12QApplication12activeWindowEv", _pointer)
 _active_popup = _function("libQt5Widgets.so.5", "_ZN12QApplication17activePopupWidgetEv", _pointer)
-_activate_window = _function("libQt5Widgets.so.5", "_ZN7QWidget14activateWindowEv", None, _pointer)
-_focus_window = _function("libQt5Gui.so.5", "_ZN15QGuiApplication11focusWindowEv", _pointer)
+_set_active_window = _function(
+    "libQt5Widgets.so.5", "_ZN12QApplication15setActiveWindowEP7QWidget", None, _pointer)
+_handle_of = _function("libQt5Widgets.so.5", "_ZNK7QWidget12windowHandleEv", _pointer, _pointer)
 _set_focus = _function("libQt5Widgets.so.5", "_ZN7QWidget8setFocusEN2Qt11FocusReasonE", None, _pointer, _int)
 _handle_key = _function(
     "libQt5Gui.so.5",
@@ -166,9 +167,13 @@ class Widget:
 
 def press_key(key, modifiers=0, release=True):
     """What the keyboard does: to shortcuts, else to the widget that has the focus."""
-    if not _active_window():
-        _activate_window(_main_window())
-    # The menu of macros may still be open.
-    until(lambda: _active_window() and not _active_popup())
+    # The menu that this script comes from still closes, and then a display without a window manager takes the
+    # focus from the window.
+    since = time.monotonic()
+    while time.monotonic() < since + 1:
+        process_events()
+        if _active_popup() or not _active_window():
+            _set_active_window(_main_window())
+            since = time.monotonic()
     for event in (_KEY_PRESS, _KEY_RELEASE) if release else (_KEY_PRESS,):
-        _handle_key(_focus_window(), event, key, modifiers, ctypes.byref(_string("")), False, 1)
+        _handle_key(_handle_of(_main_window()), event, key, modifiers, ctypes.byref(_string("")), False, 1)
