@@ -8,7 +8,9 @@ import time
 
 import numpy as np
 from paraview import servermanager, simple
-from PyQt5 import QtWidgets
+from PyQt5.QtCore import Qt
+from PyQt5.QtTest import QTest
+from PyQt5.QtWidgets import QApplication, QWidget
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
@@ -80,8 +82,24 @@ def by_name(*names):
 
 def widget(*names):
     """The widget of this name inside those of the names before it; None where it is not."""
-    (found,) = [window for window in QtWidgets.QApplication.topLevelWidgets()
+    (found,) = [window for window in QApplication.topLevelWidgets()
                 if window.objectName() == "pqClientMainWindow"]
     for name in names:
-        found = found and found.findChild(QtWidgets.QWidget, name)
+        found = found and found.findChild(QWidget, name)
     return found
+
+
+def press_key(key, modifiers=0, release=True):
+    """What the keyboard does: to shortcuts, else to the widget that has the focus."""
+    # The menu that this script comes from still closes, and then a display without a window manager takes the
+    # focus from the window.
+    since = time.monotonic()
+    while time.monotonic() < since + 1:
+        process_events()
+        if QApplication.activePopupWidget() or not QApplication.activeWindow():
+            QApplication.setActiveWindow(widget())
+            since = time.monotonic()
+    focus = QApplication.focusWidget() or widget()
+    QTest.keyPress(focus, key, Qt.KeyboardModifiers(modifiers))
+    if release:
+        QTest.keyRelease(focus, key, Qt.KeyboardModifiers(modifiers))
