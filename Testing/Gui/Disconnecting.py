@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The knife dragged, the colour filter painted, and the menu's Disconnect in the middle of a refinement, with a
-server and without: the same pictures, and afterwards one click makes another. Skipped without pvserver."""
+"""The knife dragged, the colour filter painted, and the menu's Disconnect in the middle of a refinement, with
+a server and without: the same pictures, and afterwards one click makes another. Skipped without pvserver."""
 
 import numpy as np
 from server_testing import connect, start_server

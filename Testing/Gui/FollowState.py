@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A state file is loaded while pictures are being refined, and while a mouse button is down: those of the file
-and those before are right, and follow the new view of that name. And a followed view that is not there."""
+"""A state file is loaded while pictures are being refined, and while a mouse button is down: those of the
+file and those before are right, and follow the new view of that name. And a followed view that is not there."""
 
 import os
 
