@@ -25,6 +25,7 @@ namespace
 const QString labelName = "SchlierenStatus";
 constexpr int margin = 6; // pixels
 
+/// At the lower left, where there is room for it: not over most of a picture.
 void place(QLabel* label, QWidget* view)
 {
   label->setWordWrap(false);
@@ -32,6 +33,7 @@ void place(QLabel* label, QWidget* view)
   label->setWordWrap(true);
   label->resize(width, label->heightForWidth(width));
   label->move(margin, view->height() - label->height() - margin);
+  label->setVisible(!label->text().isEmpty() && 2 * label->height() < view->height());
 }
 
 QLabel* labelOf(QWidget* view)
@@ -110,7 +112,6 @@ void pqPictureStatus::show(pqRenderView* view)
   if (label)
   {
     label->setText(lines.join('\n'));
-    label->setVisible(!lines.isEmpty());
     place(label, widget);
   }
 }
