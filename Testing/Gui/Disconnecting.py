@@ -14,9 +14,7 @@ SIDE = 280  # pixels of the cutoff plane, where all of it is from -0.005 to 0.00
 PLANE, PREVIEW = "SchlierenCutoff/Plane", "ColorFilterImage/Preview"
 SETTLE = """
 (bench,) = [source for source in GetSources().values() if source.GetXMLName() == "Schlieren"]
-until(lambda: finished(bench))
-pause(0.3)
-until(lambda: finished(bench))
+settle(bench)
 """
 FLOW = """
 from paraview.simple import *
@@ -70,7 +68,9 @@ turned = CreateView("RenderView", registrationName="turned")
 AssignViewToLayout(turned)
 Show(bench.Input, turned)
 bench.FollowedView = "turned"
-bench.SamplesPerPixel = 400
+Render(turned)
+settle(bench)  # the layout has its places now
+bench.SamplesPerPixel = 4000
 turned.CameraPosition = [40, 20, 70]
 Render(turned)
 until(lambda: not finished(bench), 20)

@@ -17,12 +17,10 @@ SAVE = """
 bench, shadows, turned, shown, other = by_name(
     "bench", "shadows", "RenderView1", "RenderView2", "RenderView3")
 pause(0.3)
-# Rough pictures have fewer rows, and are finished too.
-until(lambda: all(finished(filter) and rows_of(filter) == SIZE for filter in (bench, shadows)))
-pause(0.3)
+settle(bench, shadows)
 save("{0}", bench, turned, shown)
 save("{0}Shadows", shadows, turned, other)
-""".replace("SIZE", str(SIZE))
+"""
 
 user = Session()
 user.python(SAVE.format("first"))

@@ -6,7 +6,7 @@ file and those before are right, and follow the new view of that name. And a fol
 import os
 
 import numpy as np
-from follow_testing import SCENE, SIZE, saved, scripted
+from follow_testing import SCENE, saved, scripted
 from views_testing import FOLDER, ViewsSession, simple
 from plugin_testing import Schlieren, output
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -21,17 +21,13 @@ def parts():
         return view
     (turned,) = [view for view in GetRenderViews() if view.InteractionMode == "3D"]
     return bench, shadows, turned, view_of(bench), view_of(shadows)
-def whole():
-    return all(finished(filter) and rows_of(filter) == SIZE for filter in (bench, shadows))
 bench, shadows, turned, shown, other = parts()
-""".replace("SIZE", str(SIZE))
+"""
 KEEP = FIND + """
 bench.SamplesPerPixel = shadows.SamplesPerPixel = 2
 Render(shown)
 Render(other)
-until(whole)
-pause(0.3)
-until(whole)
+settle(bench, shadows)
 save({0!r}, bench, turned, shown)
 save({0!r} + "Shadows", shadows, turned, other)
 """

@@ -50,9 +50,7 @@ FIND = """
 bench, shown = FindSource("Schlieren1"), FindView("RenderView2")
 """
 SETTLE = FIND + """
-until(lambda: finished(bench) and rows_of(bench) == bench.ImageSize[1])
-pause(0.3)
-until(lambda: finished(bench))
+settle(bench)
 """
 # What is shown from here on goes into a log.
 NOTE = f"""

@@ -12,9 +12,7 @@ from views_testing import (FOLDER, OPEN_JET, TRACE, ViewsSession, check_camera, 
 SIDE = 240  # pixels of the cutoff plane
 MIDDLE = 20 + SIDE // 2, 2 + SIDE // 2  # of the widget; give or take a few
 SETTLE = """
-for bench in [source for source in GetSources().values() if source.GetXMLName() == "Schlieren"]:
-    until(lambda: finished(bench) and rows_of(bench) == bench.ImageSize[1])
-pause(0.3)
+settle(*[source for source in GetSources().values() if source.GetXMLName() == "Schlieren"])
 """
 
 user = ViewsSession()

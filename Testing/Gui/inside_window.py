@@ -57,6 +57,17 @@ def rows_of(source):
     return source.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
 
 
+def settle(*filters):
+    """Until their pictures are whole and nothing changes them any more. Rough ones are finished, too, but have
+    fewer rows; with a server only that one knows how many."""
+    def whole():
+        return all(finished(one) and (one.GetClientSideObject() is None or rows_of(one) == one.ImageSize[1])
+                   for one in filters)
+    until(whole)
+    pause(0.3)
+    until(whole)
+
+
 def save(name, source, *views):
     """Keeps the picture that a filter has, as it is, its properties and the cameras of views."""
     here = source.GetClientSideObject()
