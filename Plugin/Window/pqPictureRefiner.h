@@ -77,8 +77,7 @@ private:
 
   QList<Job> Jobs; // the next one first
   QHash<vtkSMProxy*, Speed> Speeds;
-  QList<vtkWeakPointer<vtkSMSourceProxy>>
-    Untold; // updated, and the window's panels do not know it yet
+  QList<vtkWeakPointer<vtkSMSourceProxy>> Untold; // updated, and panels do not know it yet
   QTimer Timer;
   bool IsBusy = false;
   QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user
