@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Schlieren of a jet with a horizontal knife edge, as a grey picture and as numbers.
 
-    xvfb-run -a pvpython Examples/jet.py        (writes jet.png)
+    Utilities/with-display pvpython Examples/jet.py        (writes jet.png)
 """
 
 import os

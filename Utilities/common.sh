@@ -14,7 +14,7 @@
 #                            configures and builds a CMake preset (release), all of it or one target,
 #                            telling how far it is; sets and exports SCHLIEREN_PLUGIN, the file that pvpython's LoadPlugin
 #                            takes
-#   with_display COMMAND...  runs COMMAND where it can render: on a virtual display
+#   with_display COMMAND...  runs COMMAND where it can render (Utilities/with-display)
 #
 #   SCHLIEREN_ROOT           the top folder of the sources
 #   SCHLIEREN_JOBS           how many jobs to build and test with; default: the processors we may use
@@ -96,5 +96,5 @@ build_plugin()
 
 with_display()
 {
-  xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+  "$SCHLIEREN_ROOT/Utilities/with-display" "$@"
 }
