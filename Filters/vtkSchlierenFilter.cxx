@@ -416,7 +416,7 @@ bool vtkSchlierenFilter::WorkOn()
       {
         return false;
       }
-      inside.Ready = std::move(image);
+      inside.Ready.emplace(std::move(image));
       return true;
     }
     catch (const std::exception&) // an update begins again, and says it

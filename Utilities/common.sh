@@ -17,9 +17,11 @@
 #   with_display COMMAND...  runs COMMAND where it can render (Utilities/with-display)
 #
 #   SCHLIEREN_ROOT           the top folder of the sources
+#   SCHLIEREN_CMAKE          more options for the configuration of build_plugin, an array
 #   SCHLIEREN_JOBS           how many jobs to build and test with; default: the processors we may use
 
 SCHLIEREN_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+SCHLIEREN_CMAKE=()
 SCHLIEREN_JOBS=${SCHLIEREN_JOBS:-$(nproc)}
 
 say()
@@ -77,7 +79,7 @@ build_plugin()
   mkdir -p "$build"
   say "Configuring (preset $preset)"
   log=$build/configure.log
-  (cd "$SCHLIEREN_ROOT" && quietly "$log" cmake --preset "$preset") || return 1
+  (cd "$SCHLIEREN_ROOT" && quietly "$log" cmake --preset "$preset" "${SCHLIEREN_CMAKE[@]}") || return 1
   say "Building with $SCHLIEREN_JOBS jobs"
   log=$build/build.log
   if ! _with_progress "$log" cmake --build "$build" --target "$target" --parallel "$SCHLIEREN_JOBS"; then

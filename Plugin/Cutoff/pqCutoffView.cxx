@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCutoffView.h"
 
+#include "MousePlace.h"
 #include "pqColorFilterPicture.h"
 
 #include <QFontMetrics>
@@ -340,10 +341,10 @@ void pqCutoffView::mousePressEvent(QMouseEvent* event)
   {
     return;
   }
-  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, event->localPos());
+  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, mousePlace(event));
   if (handle != pqCutoffPlane::NoHandle)
   {
-    this->GrabbedAt = event->localPos();
+    this->GrabbedAt = mousePlace(event);
     this->grab(handle);
   }
 }
@@ -354,10 +355,10 @@ void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
   if (this->isGrabbed() && !this->ByKeys)
   {
     this->moveTo(this->plane().dragged(this->Before, this->Grabbed, this->GrabbedAt,
-      event->localPos(), event->modifiers() & Qt::ShiftModifier));
+      mousePlace(event), event->modifiers() & Qt::ShiftModifier));
     return;
   }
-  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, event->localPos());
+  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, mousePlace(event));
   if (handle != this->Hovered)
   {
     this->Hovered = handle;

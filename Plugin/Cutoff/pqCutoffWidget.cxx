@@ -107,7 +107,7 @@ pqCutoffWidget::pqCutoffWidget(
   this->Numbers->setTextFormat(Qt::PlainText);
   this->Numbers->setWordWrap(true);
   auto* column = new QVBoxLayout(this);
-  column->setMargin(0);
+  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(pqProxyWidget::newGroupLabelWidget(group->GetXMLLabel(), this));
   column->addWidget(this->View);
   column->addWidget(this->Numbers);

@@ -26,7 +26,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   this->Label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   this->Label->setWordWrap(true);
   auto* box = new QHBoxLayout(this);
-  box->setMargin(0);
+  box->setContentsMargins(0, 0, 0, 0);
   box->addWidget(this->Label);
   this->Connection->Connect(smProperty, vtkCommand::ModifiedEvent, this, SLOT(showText()));
   this->Source =

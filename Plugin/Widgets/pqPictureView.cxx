@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureView.h"
 
+#include "MousePlace.h"
 #include "pqColorFilterPicture.h"
 
 #include <QFontMetrics>
@@ -190,7 +191,7 @@ void pqPictureView::mousePressEvent(QMouseEvent* event)
 {
   if (this->IsColorFilter && event->button() == Qt::LeftButton)
   {
-    this->Brush = this->placeAt(event->localPos());
+    this->Brush = this->placeAt(mousePlace(event));
     this->IsDown = true;
     Q_EMIT this->strokeBegan();
     Q_EMIT this->brushed({ this->Brush });
@@ -203,7 +204,7 @@ void pqPictureView::mouseMoveEvent(QMouseEvent* event)
   if (this->IsColorFilter)
   {
     const QPointF before = this->Brush;
-    this->Brush = this->placeAt(event->localPos());
+    this->Brush = this->placeAt(mousePlace(event));
     this->IsBrushShown = true;
     if (this->IsDown)
     {

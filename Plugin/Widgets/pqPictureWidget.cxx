@@ -74,7 +74,7 @@ pqPictureWidget::pqPictureWidget(
   this->Note->setTextFormat(Qt::PlainText);
   this->Note->setWordWrap(true);
   auto* column = new QVBoxLayout(this);
-  column->setMargin(0);
+  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(this->View);
   column->addWidget(this->Note);
   auto* grid = new QGridLayout;

@@ -26,7 +26,7 @@ pqViewChoiceWidget::pqViewChoiceWidget(
   this->Choice->setObjectName("Choice");
   this->Choice->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   auto* column = new QVBoxLayout(this);
-  column->setMargin(0);
+  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(this->Choice);
   this->fill();
   QObject::connect(this->Choice, QOverload<int>::of(&QComboBox::currentIndexChanged), this,

@@ -76,8 +76,10 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
   const bool isColored = hasColors(filter);
   setValue(representation, "UseSeparateColorMap", 1);
-  vtkSMPVRepresentationProxy::SetScalarColoring(
-    representation, isColored ? "Color" : "Intensity", vtkDataObject::POINT);
+  if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
+  {
+    colored->SetScalarColoring(isColored ? "Color" : "Intensity", vtkDataObject::POINT);
+  }
   {
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
     setValue(representation, "MapScalars", isColored ? 0 : 1);

@@ -20,7 +20,6 @@
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
-#include "pqWaitCursor.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
@@ -35,7 +34,7 @@
 #include "vtkSchlierenFilter.h"
 #include "vtkSmartPointer.h"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QWidget>
 
 #include <algorithm>
@@ -413,7 +412,7 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   {
     return { false, true, problem };
   }
-  pqWaitCursor cursor;
+  QApplication::setOverrideCursor(Qt::WaitCursor);
   static const char* const names[] = { "Add Schlieren View", "Add Three Pictures",
     "Compare Light" };
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
@@ -421,5 +420,6 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   const Result result = builder.add(arrangement);
   END_UNDO_SET();
   builder.render();
+  QApplication::restoreOverrideCursor();
   return result;
 }

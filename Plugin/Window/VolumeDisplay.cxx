@@ -124,17 +124,17 @@ void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& de
   const bool isNew = !manager->GetProxy("piecewise_functions", name.c_str());
 
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  vtkSMProxy* shown =
-    controller->Show(flow->getSourceProxy(), flow->getPortNumber(), view->getRenderViewProxy());
+  auto* shown = vtkSMPVRepresentationProxy::SafeDownCast(
+    controller->Show(flow->getSourceProxy(), flow->getPortNumber(), view->getRenderViewProxy()));
   const std::array<double, 2> range = rangeOfArray(flow, defaults.association, array.c_str());
   if (!shown || !(range[0] < range[1]))
   {
     return;
   }
-  vtkSMPVRepresentationProxy::SetScalarColoring(shown, array.c_str(), defaults.association);
+  shown->SetScalarColoring(array.c_str(), defaults.association);
   if (isNew)
   {
-    vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown, false, true);
+    shown->RescaleTransferFunctionToDataRange(false, true);
     vtkSMProxy* opacity = vtkSMPropertyHelper(shown, "ScalarOpacityFunction").GetAsProxy();
     if (opacity)
     {

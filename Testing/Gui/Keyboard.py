@@ -16,7 +16,7 @@ SIDE, TOP = 280, 50  # pixels: of the plane; of what is free of other handles
 user = ViewsSession()
 user.python("""
 assert not FindSource("Schlieren1")
-press_key(Qt.Key_L, Qt.ControlModifier | Qt.ShiftModifier)
+press_key(Qt.Key.Key_L, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
 until(lambda: FindSource("Schlieren1"))
 until(lambda: finished(FindSource("Schlieren1")))
 pause(0.3)
@@ -55,7 +55,7 @@ user.python(LOOK + "np.save(path('before'), picture())\n"
 mouse("mousePress", "1,1", x, y)
 mouse("mouseMove", "0,1", x + 20, y)
 mouse("mouseMove", "0,1", x + 40, y)
-user.python(LOOK + "until(lambda: bench.CutoffOffset > 0.01 and not same())\npress_key(Qt.Key_Escape)\n"
+user.python(LOOK + "until(lambda: bench.CutoffOffset > 0.01 and not same())\npress_key(Qt.Key.Key_Escape)\n"
             "check_given_up('dragged')")
 user.check("CutoffOffset/DoubleLineEdit0", "text", 0)
 
@@ -66,9 +66,9 @@ user.python(LOOK + "pause(0.3)\ncheck_given_up('released')")
 
 # By a key that is still down.
 user.python(LOOK + """
-press_key(Qt.Key_Right, release=False)
+press_key(Qt.Key.Key_Right, release=False)
 until(lambda: bench.CutoffOffset > 0 and not same())
-press_key(Qt.Key_Escape)
+press_key(Qt.Key.Key_Escape)
 check_given_up('key')
 """)
 user.check("CutoffOffset/DoubleLineEdit0", "text", 0)

@@ -5,19 +5,25 @@
 import ctypes
 import os
 import time
+from importlib import import_module
 
 import numpy as np
 from paraview import servermanager, simple
-from PyQt5.QtCore import Qt
-from PyQt5.QtTest import QTest
-from PyQt5.QtWidgets import QApplication, QWidget
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 
-# Not CDLL, which lets go of the interpreter's lock: VTK's observers in Python do not ask for it.
+# The Qt that the window uses: 5 or 6.
+with open("/proc/self/maps", encoding="utf-8") as _maps:
+    QT = 6 if "/libQt6Core.so" in _maps.read() else 5
+Qt = import_module(f"PyQt{QT}.QtCore").Qt
+QTest = import_module(f"PyQt{QT}.QtTest").QTest
+QApplication, QWidget = (getattr(import_module(f"PyQt{QT}.QtWidgets"), name)
+                         for name in ("QApplication", "QWidget"))
+
+# Neither PyQt nor CDLL, which let go of the interpreter's lock: VTK's observers in Python do not ask for it.
 _process_events = ctypes.PyDLL(
-    "libQt5Core.so.5")["_ZN16QCoreApplication13processEventsE6QFlagsIN10QEventLoop17ProcessEventsFlagEE"]
+    f"libQt{QT}Core.so.{QT}")["_ZN16QCoreApplication13processEventsE6QFlagsIN10QEventLoop17ProcessEventsFlagEE"]
 
 
 def process_events():
@@ -100,7 +106,7 @@ def widget(*names):
     return found
 
 
-def press_key(key, modifiers=0, release=True):
+def press_key(key, modifiers=Qt.KeyboardModifier.NoModifier, release=True):
     """What the keyboard does: to shortcuts, else to the widget that has the focus."""
     # The menu that this script comes from still closes, and then a display without a window manager takes the
     # focus from the window.
@@ -111,6 +117,6 @@ def press_key(key, modifiers=0, release=True):
             QApplication.setActiveWindow(widget())
             since = time.monotonic()
     focus = QApplication.focusWidget() or widget()
-    QTest.keyPress(focus, key, Qt.KeyboardModifiers(modifiers))
+    QTest.keyPress(focus, key, modifiers)
     if release:
-        QTest.keyRelease(focus, key, Qt.KeyboardModifiers(modifiers))
+        QTest.keyRelease(focus, key, modifiers)

@@ -8,6 +8,7 @@ import subprocess
 from xml.sax.saxutils import quoteattr
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
+SETTINGS = os.path.join(FOLDER, "window")  # of ParaView, the test's own
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
         "/MultiViewWidget1/Container/Frame.{}/CentralWidgetFrame/Viewport")
@@ -81,7 +82,7 @@ class Session:
 
     def python(self, script):
         """Runs a Python script within the window, as a macro; see inside_window.py."""
-        folder = os.path.join(self.no_welcome(), "ParaView", "Macros")
+        folder = os.path.join(SETTINGS, "ParaView", "Macros")
         os.makedirs(folder, exist_ok=True)
         self.scripts += 1
         with open(os.path.join(folder, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
@@ -106,7 +107,7 @@ class Session:
             file.write("\n".join(["<pqevents>"] + self.lines + ["</pqevents>", ""]))
         with open(before, "w", encoding="utf-8") as file:
             file.write(script)
-        environment = dict(os.environ, XDG_CONFIG_HOME=self.no_welcome(),
+        environment = dict(os.environ, XDG_CONFIG_HOME=SETTINGS,
                            PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
         done = subprocess.run(
             [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
@@ -116,16 +117,3 @@ class Session:
         print(done.stdout)
         assert done.returncode == 0, f"paraview ended with {done.returncode}"
         assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", done.stdout)
-
-    @staticmethod
-    def no_welcome():
-        """A folder of settings of the test's own, without the dialog that greets new users."""
-        settings = os.path.join(FOLDER, "window")
-        os.makedirs(os.path.join(settings, "ParaView"), exist_ok=True)
-        for name, text in (
-                ("ParaView-UserSettings.json",
-                 '{"settings": {"GeneralSettings": {"ShowWelcomeDialog": 0}}}'),
-                ("ParaView5.11.0.ini", "[General]\nGeneralSettings.ShowWelcomeDialog=false\n")):
-            with open(os.path.join(settings, "ParaView", name), "w", encoding="utf-8") as file:
-                file.write(text)
-        return settings
