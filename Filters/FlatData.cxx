@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlatData.h"
 
+#include "CellTypes.h"
+
 #include "vtkBoundingBox.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
@@ -55,7 +56,7 @@ int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
   const auto type = static_cast<unsigned char>(data->GetCellType(cell));
   if (known[type] == 0)
   {
-    known[type] = 1 + vtkCellTypes::GetDimension(type);
+    known[type] = 1 + vtkCellTypeUtilities::GetDimension(type);
   }
   return known[type] - 1;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputDescription.h"
 
+#include "CellTypes.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
@@ -63,7 +65,7 @@ void describe(vtkDataSet* data, std::vector<double>& description)
   {
     addTime(unstructured->GetPoints());
     addTime(unstructured->GetCells());
-    addTime(unstructured->GetCellTypesArray());
+    addTime(cellTypesOf(unstructured));
   }
   else if (auto* surface = vtkPolyData::SafeDownCast(data))
   {

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshSampler.h"
 
+#include "CellTypes.h"
 #include "FlatData.h"
 #include "MeshCell.h"
 #include "RefractivityValues.h"
 
-#include "vtkCellTypes.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
@@ -111,7 +111,7 @@ std::array<MeshSampler::Range, 3> MeshSampler::pointsWithin(vtkDataSet* data, vt
   double bounds[6];
   data->GetCellBounds(cell, bounds);
   const bool isCurved =
-    !vtkCellTypes::IsLinear(static_cast<unsigned char>(data->GetCellType(cell)));
+    !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(data->GetCellType(cell)));
   std::array<Range, 3> ranges;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

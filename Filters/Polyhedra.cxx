@@ -48,9 +48,8 @@ vtkIdType addMiddle(
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
 {
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
-  vtkUnsignedCharArray* types = mesh ? mesh->GetCellTypesArray() : nullptr;
-  const unsigned char* end = types ? types->GetPointer(0) + types->GetNumberOfValues() : nullptr;
-  if (!types || std::find<const unsigned char*>(types->GetPointer(0), end, VTK_POLYHEDRON) == end)
+  vtkUnsignedCharArray* types = mesh ? mesh->GetDistinctCellTypesArray() : nullptr;
+  if (!types || types->LookupValue(static_cast<unsigned char>(VTK_POLYHEDRON)) < 0)
   {
     return data;
   }

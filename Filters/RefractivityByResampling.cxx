@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityByResampling.h"
 
+#include "CellTypes.h"
 #include "FlatData.h"
 #include "Polyhedra.h"
 #include "RefractivityOutside.h"
@@ -11,7 +12,6 @@
 #include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCellDataToPointData.h"
-#include "vtkCellTypes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -55,7 +55,7 @@ bool hasCells(vtkDataSet* data, int dimension)
 /// Into how many parts a cell's points divide its edges: 1 but for cells of higher order.
 int orderOf(vtkDataSet* data, vtkIdType cell)
 {
-  if (vtkCellTypes::IsLinear(static_cast<unsigned char>(data->GetCellType(cell))))
+  if (vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(data->GetCellType(cell))))
   {
     return 1;
   }

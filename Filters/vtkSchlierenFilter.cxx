@@ -411,12 +411,12 @@ bool vtkSchlierenFilter::WorkOn()
       schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, {})
                                       : this->Begin(false, this->TimeLimit, {});
       inside.UnfinishedOf = now;
-      inside.Ready.reset();
       if (!image.finished && image.intensity.empty())
       {
+        inside.Ready.reset();
         return false;
       }
-      inside.Ready.emplace(std::move(image));
+      inside.Ready = std::move(image);
       return true;
     }
     catch (const std::exception&) // an update begins again, and says it
