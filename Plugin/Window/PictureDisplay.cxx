@@ -69,6 +69,23 @@ void setValue(vtkSMProxy* proxy, const char* name, int value)
   }
 }
 
+/// ParaView's editor of colour maps, where it is open, fits the map to the data whenever MapScalars changes, and
+/// warns where these do not have the array yet. Coloured by no array, it finds nothing to do; also when this is
+/// undone, because each step is an update of its own.
+void setMapScalars(vtkSMProxy* representation, int value)
+{
+  if (valueOf(representation, "MapScalars") == value)
+  {
+    return;
+  }
+  vtkSMPropertyHelper(representation, "ColorArrayName")
+    .SetInputArrayToProcess(vtkDataObject::POINT, "");
+  representation->UpdateVTKObjects();
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
+  vtkSMPropertyHelper(representation, "MapScalars").Set(value);
+  representation->UpdateVTKObjects();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -76,13 +93,10 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
   const bool isColored = hasColors(filter);
   setValue(representation, "UseSeparateColorMap", 1);
+  setMapScalars(representation, isColored ? 0 : 1);
   if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
   {
     colored->SetScalarColoring(isColored ? "Color" : "Intensity", vtkDataObject::POINT);
-  }
-  {
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
-    setValue(representation, "MapScalars", isColored ? 0 : 1);
   }
   representation->UpdateVTKObjects();
   vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();

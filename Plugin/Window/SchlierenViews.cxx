@@ -19,6 +19,7 @@
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
+#include "pqServerResource.h"
 #include "pqUndoStack.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
@@ -35,6 +36,7 @@
 #include "vtkSmartPointer.h"
 
 #include <QApplication>
+#include <QScopeGuard>
 #include <QWidget>
 
 #include <algorithm>
@@ -88,6 +90,19 @@ void flatten(vtkSMProxy* view)
   const double darkGrey[3] = { 0.2, 0.2, 0.2 };
   vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);
   view->UpdateVTKObjects();
+}
+
+/// Why the server cannot make images; empty where it can.
+QString problemOfServer(pqServer* server)
+{
+  if (server->proxyManager()->HasDefinition("filters", "Schlieren"))
+  {
+    return QString();
+  }
+  const pqServerResource resource = server->getResource();
+  return "The server " + resource.host() + ":" + QString::number(resource.port()) +
+    " has not loaded the plugin Schlieren, so no image can be made there. Choose Tools > Manage "
+    "Plugins, and load Schlieren.so under Remote Plugins.";
 }
 
 /// Makes the pictures of one flow and everything around them.
@@ -400,6 +415,11 @@ private:
 SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
 {
   pqOutputPort* flow = pqActiveObjects::instance().activePort();
+  const QString missing = flow ? problemOfServer(flow->getServer()) : QString();
+  if (!missing.isEmpty())
+  {
+    return { false, true, missing };
+  }
   pqPipelineSource* pattern = schlierenFilterOf(flow ? flow->getSource() : nullptr);
   if (pattern)
   {
@@ -413,6 +433,7 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
     return { false, true, problem };
   }
   QApplication::setOverrideCursor(Qt::WaitCursor);
+  const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
   static const char* const names[] = { "Add Schlieren View", "Add Three Pictures",
     "Compare Light" };
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
@@ -420,6 +441,5 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   const Result result = builder.add(arrangement);
   END_UNDO_SET();
   builder.render();
-  QApplication::restoreOverrideCursor();
   return result;
 }

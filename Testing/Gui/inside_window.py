@@ -20,6 +20,7 @@ Qt = import_module(f"PyQt{QT}.QtCore").Qt
 QTest = import_module(f"PyQt{QT}.QtTest").QTest
 QApplication, QWidget = (getattr(import_module(f"PyQt{QT}.QtWidgets"), name)
                          for name in ("QApplication", "QWidget"))
+QAction = import_module("PyQt6.QtGui" if QT == 6 else "PyQt5.QtWidgets").QAction
 
 # Neither PyQt nor CDLL, which let go of the interpreter's lock: VTK's observers in Python do not ask for it.
 _process_events = ctypes.PyDLL(

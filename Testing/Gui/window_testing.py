@@ -117,3 +117,5 @@ class Session:
         print(done.stdout)
         assert done.returncode == 0, f"paraview ended with {done.returncode}"
         assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", done.stdout)
+        # What ParaView warns of where an image is shown by an array that it does not have.
+        assert not re.search("Could not determine array range|Failed to locate selected", done.stdout)
