@@ -40,7 +40,8 @@ Change colored(const RgbPicture& picture)
 }
 
 /// Of an interferogram with finite fringes.
-Change fringes(const std::function<void(Scene&)>& change)
+template <typename OfScene>
+Change fringes(const OfScene& change)
 {
   return [change](Field&, Scene& scene)
   {
