@@ -58,6 +58,24 @@ double distanceOfData(vtkSMProxy* filter, vtkCamera* camera)
   return camera->GetDistance();
 }
 
+/// As placeOfPicture, of the picture that the filter has made.
+bool placeOfOutput(vtkSMProxy* filter, double center[2], double& halfHeight)
+{
+  auto* source = vtkSMSourceProxy::SafeDownCast(filter);
+  vtkPVDataInformation* picture = source->GetDataInformation(0);
+  const int* extent = picture->GetExtent();
+  const double* bounds = picture->GetBounds();
+  const int rows = extent[3] - extent[2] + 1;
+  if (picture->GetNumberOfPoints() < 1 || rows < 2)
+  {
+    return false;
+  }
+  center[0] = 0.5 * (bounds[0] + bounds[1]);
+  center[1] = 0.5 * (bounds[2] + bounds[3]);
+  halfHeight = 0.5 * (bounds[3] - bounds[2]) * rows / (rows - 1);
+  return true;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -117,7 +135,7 @@ bool fitViewToPicture(vtkSMRenderViewProxy* view, vtkSMProxy* filter)
 {
   double center[2];
   double scale = 0;
-  if (!placeOfPicture(filter, center, scale))
+  if (!placeOfPicture(filter, center, scale) && !placeOfOutput(filter, center, scale))
   {
     return false;
   }

@@ -169,6 +169,17 @@ public:
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
+  /// Shows the picture of a filter that is there already.
+  void add(pqPipelineSource* source)
+  {
+    this->Scene = sceneView(this->Server);
+    pqRenderView* view = this->Scene
+      ? this->addViews(1).front()
+      : this->addView(pqActiveObjects::instance().activeLayout(), -1);
+    this->showPicture(view, source);
+    pqActiveObjects::instance().setActiveView(view);
+  }
+
   /// Shows everything, and brings all pictures to the set quality.
   void render()
   {
@@ -233,11 +244,19 @@ private:
     return views;
   }
 
+  /// `cell`: -1 for any.
   pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell)
   {
     auto* builder = pqApplicationCore::instance()->getObjectBuilder();
     auto* view = qobject_cast<pqRenderView*>(builder->createView("RenderView", this->Server));
-    layout->AssignView(cell, view->getViewProxy());
+    if (cell < 0)
+    {
+      this->Controller->AssignViewToLayout(view->getViewProxy(), layout, 0);
+    }
+    else
+    {
+      layout->AssignView(cell, view->getViewProxy());
+    }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", view->getProxy());
     flatten(view->getProxy());
     return view;
@@ -344,7 +363,15 @@ private:
     pqPipelineSource* source =
       this->addFilter("Schlieren", label, this->Medium ? this->Medium : this->Flow, setAll);
     follow(source->getProxy(), this->Scene);
+    this->showPicture(view, source);
+    return source;
+  }
+
+  /// Fills a 2-D view with the picture of a filter.
+  void showPicture(pqRenderView* view, pqPipelineSource* source)
+  {
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
+    const pqPictureRefiner::ShortUpdates shortly;
     vtkSMProxy* representation =
       this->Controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, window);
     if (representation)
@@ -365,7 +392,6 @@ private:
     };
     addUndoStep([]() {}, redo);
     this->Pictures.push_back(source);
-    return source;
   }
 
   /// The same light straight and bent, at one sensitivity.
@@ -442,4 +468,14 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   END_UNDO_SET();
   builder.render();
   return result;
+}
+
+//------------------------------------------------------------------------------
+void SchlierenViews::show(pqPipelineSource* filter)
+{
+  const auto inputs = qobject_cast<pqPipelineFilter*>(filter)->getInputs("Input");
+  if (!inputs.empty())
+  {
+    Builder(inputs.front(), filter).add(filter);
+  }
 }

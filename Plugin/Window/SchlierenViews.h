@@ -6,7 +6,7 @@
 
 #include <QString>
 
-class pqOutputPort;
+class pqPipelineSource;
 
 namespace SchlierenViews
 {
@@ -29,5 +29,8 @@ struct Result
 /// Makes filters, views and what they show: one undo step. Where a Schlieren filter or what is made from
 /// its picture is selected, it is that filter's flow and settings that are used.
 Result add(Arrangement arrangement);
+
+/// Shows the image of a Schlieren filter as add() does, in a view of its own beside the 3-D view.
+void show(pqPipelineSource* filter);
 
 } // namespace SchlierenViews

@@ -4,6 +4,7 @@
 
 #include "CameraOfView.h"
 #include "PicturesInViews.h"
+#include "pqApplyHooks.h"
 #include "pqInteraction.h"
 #include "pqPictureCameras.h"
 #include "pqPictureRefiner.h"
@@ -66,6 +67,10 @@ void pqCameraFollower::startup()
   }
   new pqPictureCameras(this);
   new pqPictureStatus(this);
+  // ParaView's window may come after its plugins.
+  auto* hooks = new pqApplyHooks(this);
+  QObject::connect(
+    model, &pqServerManagerModel::sourceAdded, hooks, [hooks](pqPipelineSource*) { hooks->setUp(); });
 }
 
 //------------------------------------------------------------------------------

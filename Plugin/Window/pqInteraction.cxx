@@ -54,6 +54,11 @@ void pqInteraction::watch(pqView* view)
       this->Connection->Connect(
         interactor, event, this, SLOT(onEvent(vtkObject*, unsigned long, void*)), proxy, 1);
     }
+    // ParaView's timer renders some time after the last of these, and after another rendering.
+    this->Connection->Connect(
+      interactor, vtkCommand::TimerEvent, this, SLOT(onEvent(vtkObject*, unsigned long, void*)), proxy, 1);
+    this->Connection->Connect(interactor, vtkCommand::TimerEvent, this,
+      SLOT(onTimerOver(vtkObject*, unsigned long, void*)), proxy, -1);
   }
 }
 
@@ -80,4 +85,10 @@ void pqInteraction::onEvent(vtkObject*, unsigned long event, void* view)
   {
     Q_EMIT this->ended();
   }
+}
+
+//------------------------------------------------------------------------------
+void pqInteraction::onTimerOver(vtkObject*, unsigned long, void* view)
+{
+  this->Moved.remove(view);
 }

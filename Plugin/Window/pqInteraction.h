@@ -34,6 +34,7 @@ private Q_SLOTS:
   void watch(pqView* view);
   void forget(pqView* view);
   void onEvent(vtkObject* interactor, unsigned long event, void* view);
+  void onTimerOver(vtkObject* interactor, unsigned long event, void* view);
 
 private:
   explicit pqInteraction(QObject* parent);

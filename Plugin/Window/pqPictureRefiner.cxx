@@ -20,9 +20,11 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMPropertyIterator.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMViewProxy.h"
 #include "vtkSmartPointer.h"
 
 #include <QElapsedTimer>
+#include <QScopedValueRollback>
 
 #include <algorithm>
 #include <cmath>
@@ -381,9 +383,11 @@ void pqPictureRefiner::takeTurn()
   const QuietWindow quiet(source);
   Job job = *next;
   this->Jobs.erase(next);
-  this->IsBusy = true;
-  const bool isUnfinished = this->takeTurn(job);
-  this->IsBusy = false;
+  bool isUnfinished = false;
+  {
+    const QScopedValueRollback<bool> busy(this->IsBusy, true);
+    isUnfinished = this->takeTurn(job);
+  }
   if (!isUnfinished && job.Haste != Pace::Hurried && !this->Untold.contains(job.Filter))
   {
     this->Untold << job.Filter;
@@ -508,24 +512,40 @@ void pqPictureRefiner::onStartRender(vtkObject* proxy, unsigned long, void*, voi
   const bool isForUser = *static_cast<int*>(isInteractive) != 0 ||
     interaction->isAnsweredBy(proxy) || (view && isRenderingLater(view));
   interaction->setAnswered(proxy);
-  if (this->IsBusy || !view || !isForUser)
+  if (this->IsBusy || this->NumberOfShortUpdates > 0 || !view || !isForUser)
   {
     return;
   }
   for (pqPipelineSource* source : picturesInViews::filters())
   {
     vtkSMSourceProxy* filter = source->getSourceProxy();
-    const Speed speed = this->Speeds.value(filter);
-    if ((speed.IsRough || this->hasJob(filter)) && picturesInViews::showing(source).contains(view))
+    const bool isUnfinished = this->Speeds.value(filter).IsRough || this->hasJob(filter);
+    if ((isUnfinished || view->getViewProxy()->GetNeedsUpdate()) &&
+      picturesInViews::showing(source).contains(view))
     {
-      setTimeLimit(filter, speed.limit());
-      this->Limited << filter;
+      this->limit(filter);
     }
   }
 }
 
 //------------------------------------------------------------------------------
 void pqPictureRefiner::onEndRender(vtkObject*)
+{
+  if (this->NumberOfShortUpdates == 0)
+  {
+    this->unlimit();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::limit(vtkSMSourceProxy* filter)
+{
+  setTimeLimit(filter, this->Speeds.value(filter).limit());
+  this->Limited << filter;
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::unlimit()
 {
   for (const vtkWeakPointer<vtkSMSourceProxy>& filter : this->Limited)
   {
@@ -544,4 +564,28 @@ void pqPictureRefiner::onEndRender(vtkObject*)
     setTimeLimit(filter, 0);
   }
   this->Limited.clear();
+}
+
+//------------------------------------------------------------------------------
+pqPictureRefiner::ShortUpdates::ShortUpdates()
+{
+  pqPictureRefiner* refiner = pqPictureRefiner::instance();
+  if (refiner->NumberOfShortUpdates++ == 0)
+  {
+    refiner->unlimit();
+    for (pqPipelineSource* source : picturesInViews::filters())
+    {
+      refiner->limit(source->getSourceProxy());
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+pqPictureRefiner::ShortUpdates::~ShortUpdates()
+{
+  pqPictureRefiner* refiner = pqPictureRefiner::instance();
+  if (--refiner->NumberOfShortUpdates == 0)
+  {
+    refiner->unlimit();
+  }
 }

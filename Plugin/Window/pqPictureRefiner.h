@@ -45,6 +45,17 @@ public:
   /// views that show it. What has been begun for this filter before is given up.
   void refine(vtkSMProxy* filter, Pace pace);
 
+  /// While there is one, updates of all filters are as short as turns, and what they leave unfinished is
+  /// refined afterwards. Filters' properties are not to be pushed meanwhile: the undo stack would keep the limit.
+  class ShortUpdates
+  {
+  public:
+    ShortUpdates();
+    ~ShortUpdates();
+    ShortUpdates(const ShortUpdates&) = delete;
+    ShortUpdates& operator=(const ShortUpdates&) = delete;
+  };
+
 Q_SIGNALS:
   /// Views now show another picture of the filter.
   void pictureChanged(vtkSMProxy* filter);
@@ -69,6 +80,8 @@ private:
   bool hurry(Job& job, const QList<QPointer<pqView>>& views);
   bool goOn(Job& job, const QList<QPointer<pqView>>& views);
 
+  void limit(vtkSMSourceProxy* filter);
+  void unlimit();
   void show(vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views);
   void keep(vtkSMProxy* filter, const Speed& speed);
   void tellUpdate(pqPipelineSource* source);
@@ -80,6 +93,7 @@ private:
   QList<vtkWeakPointer<vtkSMSourceProxy>> Untold; // updated, and panels do not know it yet
   QTimer Timer;
   bool IsBusy = false;
-  QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user
+  QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user, and by ShortUpdates
+  int NumberOfShortUpdates = 0;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqApplyHooks.h"
+
+#include "PicturesInViews.h"
+#include "SchlierenViews.h"
+
+#include "pqApplyBehavior.h"
+#include "pqCoreUtilities.h"
+#include "pqPipelineSource.h"
+#include "pqPropertiesPanel.h"
+#include "pqProxyModifiedStateUndoElement.h"
+#include "pqServer.h"
+#include "pqUndoStack.h"
+#include "vtkNew.h"
+
+#include <QWidget>
+
+//------------------------------------------------------------------------------
+pqApplyHooks::pqApplyHooks(QObject* parentObject)
+  : QObject(parentObject)
+{
+}
+
+//------------------------------------------------------------------------------
+void pqApplyHooks::setUp()
+{
+  QWidget* window = pqCoreUtilities::mainWidget();
+  if (this->IsSetUp || !window)
+  {
+    return;
+  }
+  this->IsSetUp = true;
+  const auto oneApplied = QOverload<pqProxy*>::of(&pqPropertiesPanel::applied);
+  const auto allApplied = QOverload<>::of(&pqPropertiesPanel::applied);
+  for (pqApplyBehavior* behavior : window->findChildren<pqApplyBehavior*>())
+  {
+    for (pqPropertiesPanel* panel : window->findChildren<pqPropertiesPanel*>())
+    {
+      // Slots are called in the order in which they have been connected; unregistering leaves them connected.
+      if (!QObject::disconnect(panel, nullptr, behavior, nullptr))
+      {
+        continue;
+      }
+      behavior->unregisterPanel(panel);
+      QObject::connect(panel, oneApplied, this, &pqApplyHooks::before);
+      QObject::connect(panel, allApplied, this, [this]() { this->before(nullptr); });
+      behavior->registerPanel(panel);
+      QObject::connect(panel, oneApplied, this, &pqApplyHooks::after);
+      QObject::connect(panel, allApplied, this, &pqApplyHooks::after);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqApplyHooks::before(pqProxy* proxy)
+{
+  this->Shortly.emplace();
+  auto* source = qobject_cast<pqPipelineSource*>(proxy);
+  if (picturesInViews::isSchlieren(source) && source->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    SchlierenViews::show(source);
+    // ParaView has nothing to show any more.
+    vtkNew<pqProxyModifiedStateUndoElement> shown;
+    shown->SetSession(source->getServer()->session());
+    shown->MadeUnmodified(source);
+    ADD_UNDO_ELEM(shown);
+    source->setModifiedState(pqProxy::UNMODIFIED);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqApplyHooks::after() { this->Shortly.reset(); }

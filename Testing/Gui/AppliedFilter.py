@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The filter from the menu, which follows no view: Apply gives it a grey image in a 2-D view of its own beside the
+3-D view, undone and redone in one step and traced; a slow image is coarse at first, and becomes better while the
+window answers."""
+
+import numpy as np
+from views_testing import (INSIDE, OPEN_JET, TRACE, ViewsSession, check_display, filters, load, picture,
+                           play_trace, shown, simple, values, views)
+
+user = ViewsSession()
+user.python("from paraview import smtrace\nsmtrace.start_trace()")
+user.menu("menuFilters", "Schlieren")
+user.menu("menuFilters/Schlieren", "Schlieren")
+user.save_state("before.pvsm")
+user.apply()
+user.python(f"""
+from paraview import smtrace
+with open({TRACE!r}, "w") as file:
+    file.write(smtrace.get_current_trace_output())
+smtrace.stop_trace()
+""")
+user.save_state("applied.pvsm")
+user.undo()
+user.save_state("undone.pvsm")
+user.redo()
+user.save_state("redone.pvsm")
+
+# Two minutes and more on two cores.
+user.choose("Quality/ComboBox", "Reference")
+user.python("""
+import inside_window, time
+bench, flat = by_name("Schlieren1", "RenderView2")
+until(lambda: finished(bench))
+pause(0.3)
+inside_window.begun = time.monotonic()
+""")
+user.apply()
+user.python("""
+import inside_window, time
+bench, flat = by_name("Schlieren1", "RenderView2")
+assert not finished(bench), "Apply waited for the whole image"
+assert time.monotonic() - inside_window.begun < 30, "Apply took long"
+def intensity():
+    return vtk_to_numpy(
+        bench.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity"))
+# A coarse image at first, then one of all pixels.
+seen = set()
+longest = 0
+def is_better():
+    global longest
+    longest = max(longest, process_events())
+    seen.add(rows_of(bench))
+    return bench.ImageSize[1] in seen and information(bench, "Status").startswith("1 of 64 ")
+until(is_better)
+assert not finished(bench)
+assert longest < 5, longest
+assert np.ptp(intensity()) > 0.2 and bench.TimeLimit == 0
+# Another size of the view does not wait for it, either.
+begun = time.monotonic()
+GetLayout(flat).SetSplitFraction(0, 0.4)
+pause(1)
+assert not finished(bench) and time.monotonic() - begun < 30
+""")
+user.delete()
+user.play(INSIDE + OPEN_JET)
+
+for state in ("before", "undone"):
+    load(state + ".pvsm")
+    ((cell, view),) = views()
+    assert cell == 0
+    assert simple.GetRepresentation(simple.FindSource("jet"), view).Visibility == 1
+    (bench,) = filters().values()
+    assert not shown(bench, view)
+    camera = np.array(view.CameraPosition)
+    if state == "before":
+        first = camera
+    assert np.allclose(camera, first)
+
+
+def check(state):
+    load(state)
+    (left, scene), (right, flat) = views()
+    assert (left, right) == (1, 2)
+    (bench,) = filters().values()
+    assert bench.FollowedView == "" and bench.TimeLimit == 0
+    assert not shown(bench, scene) and simple.GetRepresentation(simple.FindSource("jet"), scene).Visibility == 1
+    check_display(shown(bench, flat))
+    assert flat.InteractionMode == "2D" and flat.CameraParallelProjection == 1
+    bench.UpdatePipeline()
+    low, high = np.reshape(bench.GetDataInformation().GetBounds(), (3, 2))[:2].T
+    assert np.allclose(flat.CameraFocalPoint[:2], (low + high) / 2, atol=0.01 * (high - low)[0])
+    # All of it is seen, in a view that is higher than wide, with no more room around it than that needs.
+    assert 1 < flat.CameraParallelScale / ((high - low)[1] / 2) < 2
+    return values(bench), picture(bench, "Intensity")
+
+
+made, intensity = check("applied.pvsm")
+assert np.ptp(intensity) > 0.2
+play_trace("traced.pvsm", OPEN_JET)
+for state in ("redone.pvsm", "traced.pvsm"):
+    again, same = check(state)
+    assert again == made, [(name, made[name], again[name]) for name in made if made[name] != again[name]]
+    assert np.abs(same - intensity).max() < 1e-5
