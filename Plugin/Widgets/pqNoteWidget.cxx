@@ -12,6 +12,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 
@@ -26,7 +27,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   this->Label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   this->Label->setWordWrap(true);
   auto* box = new QHBoxLayout(this);
-  box->setMargin(0);
+  box->setContentsMargins(0, 0, 0, 0);
   box->addWidget(this->Label);
   this->Connection->Connect(smProperty, vtkCommand::ModifiedEvent, this, SLOT(showText()));
   this->Source =
@@ -42,6 +43,17 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
 
 //------------------------------------------------------------------------------
 pqNoteWidget::~pqNoteWidget() = default;
+
+//------------------------------------------------------------------------------
+void pqNoteWidget::changeEvent(QEvent* event)
+{
+  // ParaView disables what cannot be changed, and paints it like a line for typing then.
+  if (event->type() == QEvent::EnabledChange && this->testAttribute(Qt::WA_ForceDisabled))
+  {
+    this->setEnabled(true);
+  }
+  pqPropertyWidget::changeEvent(event);
+}
 
 //------------------------------------------------------------------------------
 void pqNoteWidget::ask() { this->proxy()->UpdatePropertyInformation(this->property()); }
