@@ -4,7 +4,6 @@
 
 #include "Schlieren.h"
 
-#include <cmath>
 #include <cstdio>
 
 namespace
@@ -44,17 +43,21 @@ std::string deviceInWords(const schlieren::Image& image)
     : "CPU (" + std::to_string(image.threads) + (image.threads == 1 ? " thread)" : " threads)");
 }
 
-/// Straight rays leave the data beside where refracted ones do; those are as exact as their steps, which keep
-/// |p| = n only nearly.
+/// What straight rays leave out: a bound on how far refracted ones are beside them where they leave the data. It is
+/// left out where it is too large to say anything, and so is MomentumDrift: |p| may be right where the direction
+/// of p is not.
 std::string accuracyInWords(const schlieren::Image& image)
 {
   if (image.pathModel == schlieren::PathModel::Refracted)
   {
-    return "refracted rays, |p| = n within " + textOf(image.momentumDrift);
+    return "refracted rays";
   }
+  constexpr double least = 0.01; // pixels
+  constexpr double most = 10;
   const double pixels = image.displacementBound / image.frame.pixelSize;
-  return std::isfinite(pixels) ? "straight rays, within " + textOf(pixels) + " pixels of refracted"
-                               : "straight rays, of unknown error";
+  return pixels < least ? "straight rays, displaced by less than " + textOf(least) + " pixels"
+    : !(pixels <= most) ? "straight rays, bending left out"
+                        : "straight rays, displaced by up to " + textOf(pixels) + " pixels";
 }
 
 } // namespace

@@ -84,6 +84,13 @@ void setSensitivity(vtkSchlierenFilter* self, schlieren::Scene& scene)
 //------------------------------------------------------------------------------
 std::string sensitivityInWords(vtkSchlierenFilter* self, double k)
 {
+  if (self->GetCutoff() == Filter::INTERFEROGRAM)
+  {
+    return self->GetWhiteLight()
+      ? "white light: a fringe of each colour is its wavelength of optical path"
+      : "a fringe is " + textOf(self->GetWavelength()) +
+        " nm of optical path: Wavelength, which stands under Medium";
+  }
   if (!usesK(self) || !(k > 0))
   {
     return "";
@@ -92,8 +99,8 @@ std::string sensitivityInWords(vtkSchlierenFilter* self, double k)
   // From the light that nothing bends to the brightest or the darkest.
   const bool isHalf =
     self->GetCutoff() == Filter::KNIFE_EDGE || self->GetCutoff() == Filter::GRADED_FILTER;
-  std::string words =
-    "k = " + textOf(k) + ": full scale is " + textOf(1e3 * (isHalf ? 0.5 : 1) / k) + " mrad";
+  std::string words = "k = " + textOf(k) + ": full scale is a deflection of " +
+    textOf(1e3 * (isHalf ? 0.5 : 1) / k) + " mrad";
   if (focalLength > 0)
   {
     words += "; optics: " + textOf(focalLength) + " m focal length, source " +

@@ -430,8 +430,8 @@ public:
   ///@}
 
   /**
-   * The last picture's sensitivity in words: k, the deflection that is full scale, and what optics have
-   * it. Empty where there is none.
+   * The last image's sensitivity in words: k, the deflection that is full scale, and what optics have it; of an
+   * interferogram, its wavelength. Empty where there is none.
    */
   const char* GetSensitivity() const { return this->Sensitivity.c_str(); }
 
@@ -779,9 +779,8 @@ public:
 
   /**
    * The last picture in words, in one line: samples per pixel; rays per second, when some were traced last;
-   * device; and how exact its rays are: straight ones are shifted by no more than so many pixels from where
-   * refracted ones leave the data, refracted ones keep |p| = n within MomentumDrift. Empty where there is
-   * none.
+   * device; whether rays bend, and where they do not, by how many pixels refracted ones may leave the data beside
+   * them (DisplacementBound), if that bound says anything. Empty where there is none.
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 

@@ -23,3 +23,26 @@ inline void appendToRow(QWidget* row, QWidget* added)
     added->hide();
   }
 }
+
+/// Puts a widget below the others of a property's row.
+inline void appendBelow(QWidget* row, QWidget* added)
+{
+  QLayout* layout = row->layout();
+  if (auto* grid = qobject_cast<QGridLayout*>(layout))
+  {
+    grid->addWidget(added, grid->rowCount(), 0, 1, -1);
+  }
+  else if (auto* box = qobject_cast<QBoxLayout*>(layout))
+  {
+    if (box->direction() == QBoxLayout::LeftToRight || box->direction() == QBoxLayout::RightToLeft)
+    {
+      // No row has more than this one line.
+      box->setDirection(QBoxLayout::TopToBottom);
+    }
+    box->addWidget(added);
+  }
+  else
+  {
+    added->hide();
+  }
+}

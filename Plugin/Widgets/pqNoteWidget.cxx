@@ -12,6 +12,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 
@@ -42,6 +43,17 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
 
 //------------------------------------------------------------------------------
 pqNoteWidget::~pqNoteWidget() = default;
+
+//------------------------------------------------------------------------------
+void pqNoteWidget::changeEvent(QEvent* event)
+{
+  // ParaView disables what cannot be changed, and paints it like a line for typing then.
+  if (event->type() == QEvent::EnabledChange && this->testAttribute(Qt::WA_ForceDisabled))
+  {
+    this->setEnabled(true);
+  }
+  pqPropertyWidget::changeEvent(event);
+}
 
 //------------------------------------------------------------------------------
 void pqNoteWidget::ask() { this->proxy()->UpdatePropertyInformation(this->property()); }

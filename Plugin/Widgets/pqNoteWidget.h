@@ -22,6 +22,9 @@ public:
   pqNoteWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
   ~pqNoteWidget() override;
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 private Q_SLOTS:
   void ask();
   void showText();

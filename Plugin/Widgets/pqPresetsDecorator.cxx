@@ -4,13 +4,66 @@
 
 #include "BenchPresets.h"
 #include "WidgetRows.h"
+#include "pqLiveEdit.h"
 #include "pqPropertyWidget.h"
+#include "pqSMAdaptor.h"
 
+#include "vtkSMProperty.h"
+#include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
 #include <QComboBox>
 #include <QMenu>
 #include <QToolButton>
+
+namespace
+{
+
+QMap<QString, QVariant> valuesOf(const BenchPreset& preset)
+{
+  QMap<QString, QVariant> values;
+  for (const PresetSetting& setting : preset.settings)
+  {
+    values[setting.property] = setting.text ? QVariant(setting.text) : QVariant(setting.number);
+  }
+  return values;
+}
+
+/// As one step of the cutoff plane below: in the image at once, and whatever else waits for Apply waits on.
+void applyPreset(vtkSMProxy* filter, const BenchPreset& preset)
+{
+  pqLiveEdit edit(filter, QObject::tr("Bench: %1").arg(preset.name));
+  edit.show(valuesOf(preset), pqLiveEdit::Pace::Thorough);
+  edit.finish();
+  for (const PresetSetting& setting : preset.settings)
+  {
+    vtkSMProperty* property = filter->GetProperty(setting.property);
+    if (pqSMAdaptor::getElementProperty(property, pqSMAdaptor::UNCHECKED) !=
+      pqSMAdaptor::getElementProperty(property))
+    {
+      property->ClearUncheckedElements(); // typed before, not applied
+    }
+  }
+}
+
+/// To be seen in the panel, and to be applied.
+void showPreset(vtkSMProxy* filter, const BenchPreset& preset)
+{
+  for (const PresetSetting& setting : preset.settings)
+  {
+    vtkSMUncheckedPropertyHelper value(filter, setting.property);
+    if (setting.text)
+    {
+      value.Set(setting.text);
+    }
+    else
+    {
+      value.Set(setting.number);
+    }
+  }
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
@@ -32,18 +85,14 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
     QObject::connect(action, &QAction::triggered, this,
       [this, &preset]()
       {
-        for (const PresetSetting& setting : preset.settings)
+        vtkSMProxy* filter = this->parentWidget()->proxy();
+        filter->UpdatePropertyInformation(filter->GetProperty("PictureCount"));
+        if (pqLiveEdit::isPossible(filter))
         {
-          vtkSMUncheckedPropertyHelper value(this->parentWidget()->proxy(), setting.property);
-          if (setting.text)
-          {
-            value.Set(setting.text);
-          }
-          else
-          {
-            value.Set(setting.number);
-          }
+          applyPreset(filter, preset);
+          return;
         }
+        showPreset(filter, preset);
         // The panel listens to its widgets only: now there is something to apply.
         Q_EMIT this->parentWidget()->changeAvailable();
         Q_EMIT this->parentWidget()->changeFinished();

@@ -4,7 +4,8 @@
 
 #include "pqPropertyWidgetDecorator.h"
 
-/// Puts a button behind a property whose menu sets up a bench of BenchPresets.h; Apply then makes its picture.
+/// Puts a button behind a property whose menu sets up a bench of BenchPresets.h, which is in the image at once; before
+/// the first image it waits for Apply.
 class pqPresetsDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

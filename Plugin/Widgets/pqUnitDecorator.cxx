@@ -7,18 +7,68 @@
 
 #include "vtkPVXMLElement.h"
 
+#include <QEvent>
 #include <QLabel>
+
+namespace
+{
+
+/// The label that the panel has put before a property's widget, or above it; null where there is none.
+QLabel* labelOf(QWidget* property)
+{
+  QWidget* panel = property->parentWidget();
+  auto* grid = qobject_cast<QGridLayout*>(panel ? panel->layout() : nullptr);
+  const int index = grid ? grid->indexOf(property) : -1;
+  if (index < 0)
+  {
+    return nullptr;
+  }
+  int row = 0;
+  int column = 0;
+  int rows = 0;
+  int columns = 0;
+  grid->getItemPosition(index, &row, &column, &rows, &columns);
+  QLayoutItem* item = grid->itemAtPosition(column > 0 ? row : row - 1, 0);
+  return item ? qobject_cast<QLabel*>(item->widget()) : nullptr;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 pqUnitDecorator::pqUnitDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
+  , Unit(QString::fromUtf8(element->GetAttributeOrEmpty("unit")))
 {
-  const QString unit = QString::fromUtf8(element->GetAttributeOrEmpty("unit"));
-  auto* label = new QLabel(unit, parentObject);
-  label->setObjectName("Unit");
-  label->setTextFormat(Qt::PlainText);
-  appendToRow(parentObject, label);
+  parentObject->installEventFilter(this); // the label is not there yet
 }
 
 //------------------------------------------------------------------------------
 pqUnitDecorator::~pqUnitDecorator() = default;
+
+//------------------------------------------------------------------------------
+bool pqUnitDecorator::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() == QEvent::Show)
+  {
+    watched->removeEventFilter(this);
+    this->writeUnit();
+  }
+  return pqPropertyWidgetDecorator::eventFilter(watched, event);
+}
+
+//------------------------------------------------------------------------------
+void pqUnitDecorator::writeUnit()
+{
+  QLabel* label = labelOf(this->parentWidget());
+  if (!label)
+  {
+    label = new QLabel(this->parentWidget());
+    appendToRow(this->parentWidget(), label);
+    label->show();
+  }
+  label->setObjectName(this->parentWidget()->objectName() + "Label");
+  QString text = label->text();
+  const QString unit = text.isEmpty() ? this->Unit : " (" + this->Unit + ")";
+  const int end = text.lastIndexOf("</p>");
+  label->setText(end < 0 ? text + unit : text.insert(end, unit));
+}

@@ -4,8 +4,11 @@
 
 #include "pqPropertyWidgetDecorator.h"
 
-/// Writes a property's unit behind what is entered: `<PropertyWidgetDecorator type="SchlierenUnit" unit="mm"/>`.
-/// Not in its label, from which Python takes the property's name.
+#include <QString>
+
+/// Writes a property's unit behind its name in the panel: `<PropertyWidgetDecorator type="SchlierenUnit"
+/// unit="mm"/>`. Behind the value it would be out of sight, because ParaView's panel is often wider than its
+/// dock; in the XML label Python would take it for a part of the property's name.
 class pqUnitDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT
@@ -13,4 +16,12 @@ class pqUnitDecorator : public pqPropertyWidgetDecorator
 public:
   pqUnitDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent);
   ~pqUnitDecorator() override;
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  void writeUnit();
+
+  QString Unit;
 };

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bench chosen from the presets: shown, applied, given up, taken back; and the units behind the entries."""
+"""A bench chosen from the presets: shown and applied before the first image, at once in the image after it, undone;
+and what was typed but not applied waits on."""
 
 import os
 import sys
@@ -10,18 +11,15 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 from plugin_testing import Schlieren, picture, simple  # noqa: E402
-from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
+from window_testing import FOLDER, PANEL, PROPERTIES, Session  # noqa: E402
 
+TRACE = os.path.join(FOLDER, "trace.py")
 user = Session()
 
 
 def choose_preset(name):
     user.event(f"{PROPERTIES}/Cutoff/Presets/PresetsMenu", "activate", name)
 
-
-user.check("Wavelength/Unit", "text", "nm")
-user.check("ImageSize/Unit", "text", "px")
-user.check("KnifeEdgeAngle/Unit", "text", "°")
 
 # What was set before leaves no trace: the same bench as by a script.
 user.click("InvertCutoff/CheckBox")
@@ -32,23 +30,47 @@ user.check("InvertCutoff/CheckBox", "checked", "false")
 user.check("SourceLength", "visible", "true")
 user.apply()
 user.save_state("toepler.pvsm")
+
+# Once there is an image, at once.
+user.python("Show(FindSource('bench'))\nRender()\nsettle(FindSource('bench'))")
 choose_preset("Dark field")
+user.check_at(PANEL + "/Accept", "enabled", "false")
 user.check("Cutoff/ComboBox", "currentText", "Circular Complement")
-user.reset()
-user.check("Cutoff/ComboBox", "currentText", "Knife Edge")
-user.check("KFromOptics/CheckBox", "checked", "true")
-choose_preset("Interferogram, finite fringes")
-user.apply()
-user.save_state("fringes.pvsm")
+user.check("KFromOptics/CheckBox", "checked", "false")
+user.save_state("dark.pvsm")
 user.menu("menu_Edit", "actionEditUndo")
 user.check("Cutoff/ComboBox", "currentText", "Knife Edge")
+user.check("KFromOptics/CheckBox", "checked", "true")
 user.save_state("undone.pvsm")
-user.play("""
+
+# What is typed but not applied: of the bench it is gone, anything else waits on.
+user.choose("CutoffPosition/DoubleLineEdit0", "0.3")
+user.choose("ImageSize/LineEdit0", "40")
+choose_preset("Interferogram, finite fringes")
+user.check("Cutoff/ComboBox", "currentText", "Interferogram")
+user.check("CutoffPosition/DoubleLineEdit0", "text", "0")
+user.check("ImageSize/LineEdit0", "text", "40")
+user.check_at(PANEL + "/Accept", "enabled", "true")
+user.reset()
+user.check("ImageSize/LineEdit0", "text", "32")
+user.save_state("fringes.pvsm")
+user.play(f"""
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
 flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[32, 32])
 bench.GladstoneDaleConstant = 1e-6
+SetActiveSource(bench)
+
+# What is traced whenever something is applied.
+from paraview import servermanager, smtrace
+smtrace.start_trace()
+def write(*_):
+    with open({TRACE!r}, "w") as file:
+        file.write(smtrace.get_current_trace_output())
+bench.SMProxy.AddObserver("UpdateEvent", write)
 """)
 
 
@@ -69,6 +91,15 @@ toepler = shown("toepler")
 assert np.ptp(toepler) > 0
 assert np.array_equal(toepler, scripted(KFromOptics=1, SourceShape="Slit"))
 assert np.array_equal(toepler, shown("undone"))
+assert np.array_equal(shown("dark"), scripted(Cutoff="Circular Complement"))
 fringes = shown("fringes")
 assert np.array_equal(fringes, scripted(Cutoff="Interferogram", FringeMode="Finite", FringeAngle=90))
 assert np.ptp(fringes) > 0.5
+
+# Each preset is one entry of the trace.
+with open(TRACE, encoding="utf-8") as file:
+    script = file.read()
+lines = [line.split(".", 1)[1].strip() for line in script.splitlines() if line.startswith("bench.")]
+dark = lines.index("Cutoff = 'Circular Complement'")
+assert set(lines[dark:dark + 3]) == {"Cutoff = 'Circular Complement'", "KFromOptics = 0",
+                                     "SourceShape = 'Point'"}, lines

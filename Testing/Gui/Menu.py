@@ -25,7 +25,7 @@ user.save_state("menu.pvsm")
 user.event(f"{PROPERTIES}/KFromOptics/CheckBox", "set_boolean", "true")
 user.type("FocalLength/DoubleLineEdit0", "2")
 user.apply()
-user.check("Sensitivity/Note", "text", "k = 2000: full scale is 0.25 mrad; optics: 2 m focal length, "
+user.check("Sensitivity/Note", "text", "k = 2000: full scale is a deflection of 0.25 mrad; optics: 2 m focal length, "
            "source 1 mm wide, the edge 0 mm in (offset 0)")
 user.play("""
 from paraview.simple import *

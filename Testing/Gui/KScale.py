@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Automatic k switched off in the properties panel: K Scale begins with the k in use, so that the image stays as it
+is; before Apply, given up, undone, traced and kept. A script that switches it off sets nothing else."""
+
+import os
+
+import numpy as np
+from views_testing import picture, simple
+from plugin_testing import Schlieren
+from window_testing import FOLDER, Session
+
+TRACE = os.path.join(FOLDER, "trace.py")
+SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6}
+
+
+def scripted(**properties):
+    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow.UpdatePipeline()
+    return Schlieren(Input=flow, **SETTINGS, **properties)
+
+
+automatic = scripted()
+picture_of_automatic = picture(automatic, "Intensity")
+k = automatic.FieldData["KScale"].GetRange()[0]
+assert k > 0 and abs(k - 1000) > 100
+
+user = Session()
+KSCALE, AUTO = "KScale/DoubleLineEdit0", "AutoKScale/CheckBox"
+user.check("KScale", "visible", "false")
+for keeps in (False, True):
+    user.click(AUTO)
+    user.check("KScale", "visible", "true")
+    user.check(KSCALE, "text", k)
+    if not keeps:
+        user.reset()
+        user.check(AUTO, "checked", "true")
+        user.check(KSCALE, "text", "1000")
+user.save_state("before.pvsm")
+user.apply()
+user.save_state("off.pvsm")
+user.menu("menu_Edit", "actionEditUndo")
+user.check(AUTO, "checked", "true")
+user.check(KSCALE, "text", "1000")
+user.save_state("undone.pvsm")
+user.menu("menu_Edit", "actionEditRedo")
+user.check(AUTO, "checked", "false")
+user.save_state("redone.pvsm")
+
+# Another k, then automatic and off again: the k in use is the automatic one then.
+user.choose(KSCALE, "500")
+user.apply()
+user.click(AUTO)
+user.click(AUTO)
+user.check(KSCALE, "text", "500")
+user.click(AUTO)
+user.apply()
+user.click(AUTO)
+user.check(KSCALE, "text", k)
+
+# A script in the window gets what it sets.
+user.reset()
+user.python("FindSource('bench').AutoKScale = 0\nRender()")
+user.check(AUTO, "checked", "false")
+user.check(KSCALE, "text", "500")
+
+user.play(f"""
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from paraview.simple import *
+flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow.UpdatePipeline()
+bench = Schlieren(Input=flow, registrationName="bench", **{SETTINGS})
+Show(bench, GetActiveViewOrCreate("RenderView"))
+Render()
+SetActiveSource(bench)
+
+# What is traced whenever something is applied.
+from paraview import servermanager, smtrace
+smtrace.start_trace()
+def write(*_):
+    with open({TRACE!r}, "a") as file:
+        file.write(smtrace.get_current_trace_output() + "\\n# next\\n")
+bench.SMProxy.AddObserver("UpdateEvent", write)
+""")
+
+for state, is_automatic, value in (("before", 1, 1000), ("off", 0, k), ("undone", 1, 1000), ("redone", 0, k)):
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
+    bench = simple.FindSource("bench")
+    assert (bench.AutoKScale, bench.KScale) == (is_automatic, value), (state, bench.AutoKScale, bench.KScale)
+    assert np.abs(picture(bench, "Intensity") - picture_of_automatic).max() < 1e-6, state
+
+with open(TRACE, encoding="utf-8") as file:
+    text = file.read()
+assert "bench.AutoKScale = 0\nbench.KScale = " in text, text
+assert float(text.split("bench.KScale = ")[1].split("\n")[0]) == k
+
+# A script of its own, too.
+bench = scripted(AutoKScale=0)
+bench.UpdatePipeline()
+assert bench.KScale == 1000 and bench.FieldData["KScale"].GetRange()[0] == 1000

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The properties panel as it is read: units behind names, what is there without asking for advanced properties, which
+gas a constant is of, the point at the image's centre, which presets are faster, and notes that look like notes."""
+
+import os
+
+from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession, simple
+from window_testing import PANEL
+
+REPORT = os.path.join(FOLDER, "report.txt")
+with open(REPORT, "w", encoding="utf-8"):
+    pass
+
+user = ViewsSession()
+user.press("OnePicture")
+
+
+def check_label(name, text):
+    user.check(name + "Label", "text", f"<p>{text}</p>")
+
+
+# Data that are not in SI need these. Units stand where they are seen however wide the panel is.
+for name, text in (("LengthScale", "Length Scale (m per data unit)"), ("DensityScale", "Density Scale (kg/m³)"),
+                   ("GladstoneDaleConstant", "Gladstone Dale Constant (m³/kg)"), ("ImageSize", "Image Size (px)"),
+                   ("KnifeEdgeAngle", "Knife Edge Angle (°)")):
+    user.check(name, "visible", "true")
+    check_label(name, text)
+user.check("FocalPoint", "visible", "false")
+
+# What Custom is, before it is applied.
+user.check("Gas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
+user.choose("GladstoneDaleConstant/DoubleLineEdit0", "2.38e-4")
+user.check("Gas/Note", "text", "Custom: 0.000238 m³/kg")
+user.choose("Gas/ComboBox", "helium")
+user.check("Gas/Note", "text", "helium: 0.0001954 m³/kg at 632.8 nm")
+check_label("Wavelength", "Wavelength (nm)")
+user.choose("Wavelength/DoubleLineEdit0", "500")
+user.check("Gas/Note", "text", "helium: 0.0001961 m³/kg at 500 nm")
+user.choose("IndexModel/ComboBox", "Gladstone-Dale Mixture")
+user.check("BackgroundGas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
+user.reset()
+user.check("Gas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
+
+# An interferogram's wavelength, in the panel and among what its cutoff is sensitive to.
+user.check("Wavelength", "visible", "false")
+user.choose("Cutoff/ComboBox", "Interferogram")
+user.check("Wavelength", "visible", "true")
+user.apply()
+user.python("settle(FindSource('Schlieren1'))")
+user.check("Sensitivity/Note", "text",
+           "a fringe is 632.8 nm of optical path: Wavelength, which stands under Medium")
+
+# The centre of the image: none, three numbers, none again.
+user.python("""
+bench = FindSource("Schlieren1")
+bench.FollowedView = ""
+bench.FocalPoint = []
+Render()
+settle(bench)
+""")
+user.event(PANEL + "/SearchBox/AdvancedButton", "set_boolean", "true")
+check_label("FocalPoint", "Focal Point (data units)")
+POINT = "FocalPoint/Coordinate{}"
+for axis in range(3):
+    user.check(POINT.format(axis), "text", "")
+user.check("FocalPoint/Clear", "enabled", "false")
+user.type(POINT.format(1), "0.0025")
+for axis, value in enumerate(("0", "0.0025", "0")):
+    user.check(POINT.format(axis), "text", value)
+user.type(POINT.format(0), "0.01")
+user.apply()
+user.save_state("point.pvsm")
+user.click("FocalPoint/Clear")
+user.check(POINT.format(0), "text", "")
+user.apply()
+user.save_state("none.pvsm")
+user.menu("menu_Edit", "actionEditUndo")
+user.check(POINT.format(0), "text", "0.01")
+
+# From fast to fine; and notes can be read and copied like any text that stands in a window.
+user.python(f"""
+from PyQt5.QtCore import QLocale
+from PyQt5.QtGui import QPalette
+from PyQt5.QtWidgets import QComboBox, QLabel
+quality = widget("propertiesPanel", "Quality").findChild(QComboBox)
+names = [quality.itemText(i) for i in range(quality.count())]
+with open({REPORT!r}, "w", encoding="utf-8") as file:
+    for name in names:
+        file.write(quality.itemDelegate().displayText(name, QLocale()) + "\\n")
+    for name in ("Grid", "Status"):
+        note = widget("propertiesPanel", name, "Note")
+        around = widget("propertiesPanel", "ProxyPanel").grab().toImage().pixelColor(0, 0)
+        behind = note.grab().toImage().pixelColor(note.width() - 1, 0)
+        file.write(f"{{name}} {{note.isEnabled()}} {{behind == around}}\\n")
+""")
+user.play(INSIDE + OPEN_JET)
+
+with open(REPORT, encoding="utf-8") as file:
+    lines = file.read().splitlines()
+assert lines == ["Interactive – fastest; 1 ray per pixel, steps of 2 voxels",
+                 "Draft – 1 ray per pixel, steps of 1 voxel",
+                 "Publication – 16 rays per pixel, steps of 1 voxel",
+                 "Reference – finest; 64 rays per pixel, steps of 1 voxel", "Custom – as set below",
+                 "Grid True True", "Status True True"], lines
+
+for state, point in (("point", [0.01, 0.0025, 0]), ("none", [])):
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
+    assert list(simple.FindSource("Schlieren1").FocalPoint) == point, state
