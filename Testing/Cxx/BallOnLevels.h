@@ -8,7 +8,10 @@
 #include "vtkAMRGaussianPulseSource.h"
 #include "vtkAMRUtilities.h"
 #include "vtkOverlappingAMR.h"
+#include "vtkStructuredData.h"
 #include "vtkUniformGrid.h"
+#include "vtkUniformGridAMR.h"
+#include "vtkVersion.h"
 
 #include <array>
 
@@ -42,6 +45,38 @@ struct MeanOfBall
   }
 };
 
+/// VTK 9.6 deprecates the names that earlier versions have for these.
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+inline void initialize(vtkUniformGridAMR* amr, const std::vector<unsigned int>& blocks)
+{
+  amr->Initialize(blocks);
+}
+inline vtkImageData* blockOf(vtkUniformGridAMR* amr, unsigned int level, unsigned int i)
+{
+  return amr->GetDataSetAsImageData(level, i);
+}
+inline unsigned int blocksOf(vtkUniformGridAMR* amr, unsigned int level)
+{
+  return amr->GetNumberOfBlocks(level);
+}
+constexpr int xyzGrid = vtkStructuredData::VTK_STRUCTURED_XYZ_GRID;
+#else
+inline void initialize(vtkUniformGridAMR* amr, const std::vector<unsigned int>& blocks)
+{
+  const std::vector<int> counts(blocks.begin(), blocks.end());
+  amr->Initialize(static_cast<int>(counts.size()), counts.data());
+}
+inline vtkUniformGrid* blockOf(vtkUniformGridAMR* amr, unsigned int level, unsigned int i)
+{
+  return amr->GetDataSet(level, i);
+}
+inline unsigned int blocksOf(vtkUniformGridAMR* amr, unsigned int level)
+{
+  return amr->GetNumberOfDataSets(level);
+}
+constexpr int xyzGrid = VTK_XYZ_GRID;
+#endif
+
 /// A region of a level, in cells of that level, as one block or as eight.
 struct AmrRegion
 {
@@ -65,13 +100,13 @@ inline vtkSmartPointer<vtkOverlappingAMR> ballOnLevels(
   int cells, const std::vector<AmrRegion>& regions)
 {
   auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
-  std::vector<int> blocks;
+  std::vector<unsigned int> blocks;
   for (const AmrRegion& region : regions)
   {
-    blocks.push_back(region.inEight ? 8 : 1);
+    blocks.push_back(region.inEight ? 8u : 1u);
   }
-  amr->Initialize(static_cast<int>(blocks.size()), blocks.data());
-  amr->SetGridDescription(VTK_XYZ_GRID);
+  initialize(amr, blocks);
+  amr->SetGridDescription(xyzGrid);
   const double origin[3] = { -1, -1, -1 };
   amr->SetOrigin(origin);
   for (unsigned int level = 0; level < regions.size(); ++level)
@@ -96,9 +131,9 @@ inline vtkSmartPointer<vtkOverlappingAMR> ballOnLevels(
   vtkAMRUtilities::BlankCells(amr);
   for (unsigned int level = 0; level + 1 < regions.size(); ++level)
   {
-    for (unsigned int i = 0; i < amr->GetNumberOfDataSets(level); ++i)
+    for (unsigned int i = 0; i < blocksOf(amr, level); ++i)
     {
-      vtkUniformGrid* grid = amr->GetDataSet(level, i);
+      vtkImageData* grid = blockOf(amr, level, i);
       vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
       for (vtkIdType cell = 0; ghosts && cell < grid->GetNumberOfCells(); ++cell)
       {

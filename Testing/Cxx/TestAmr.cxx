@@ -117,12 +117,11 @@ TEST(Amr, BlocksOfAnyCompositeAreTheSame)
   auto expected = bench(amr);
   expected->Update();
   vtkNew<vtkNonOverlappingAMR> leaves;
-  const int counts[2] = { 8, 8 };
-  leaves->Initialize(2, counts);
+  initialize(leaves, { 8, 8 });
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (unsigned int i = 0; i < 16; ++i)
   {
-    vtkUniformGrid* grid = amr->GetDataSet(i / 8, i % 8);
+    auto* grid = blockOf(amr, i / 8, i % 8);
     leaves->SetDataSet(i / 8, i % 8, grid);
     blocks->SetBlock(15 - i, grid);
   }
@@ -141,13 +140,13 @@ TEST(Amr, SolidsBlockLightAndBendNone)
   auto amr = ballOnLevels(16, { { 0, 16, true }, { 8, 16 } });
   for (unsigned int level = 0; level < 2; ++level)
   {
-    for (unsigned int i = 0; i < amr->GetNumberOfDataSets(level); ++i)
+    for (unsigned int i = 0; i < blocksOf(amr, level); ++i)
     {
-      addCellArray(amr->GetDataSet(level, i), "N", [](const Vec&) { return 3e-4; });
+      addCellArray(blockOf(amr, level, i), "N", [](const Vec&) { return 3e-4; });
     }
   }
-  amr->GetDataSet(0, 0)->GetCellData()->GetArray("N")->SetComponent(0, 0, std::nan(""));
-  amr->GetDataSet(1, 0)->BlankCell(0);
+  blockOf(amr, 0, 0)->GetCellData()->GetArray("N")->SetComponent(0, 0, std::nan(""));
+  blockOf(amr, 1, 0)->BlankCell(0);
   auto filter = bench(amr);
   filter->SetAutoAmbientRefractivity(true);
   filter->Update();

@@ -8,7 +8,7 @@ import subprocess
 from xml.sax.saxutils import quoteattr
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
-SETTINGS = os.path.join(FOLDER, "window")  # of ParaView, the test's own
+MACROS = os.path.join(FOLDER, "scripts")
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
         "/MultiViewWidget1/Container/Frame.{}/CentralWidgetFrame/Viewport")
@@ -82,10 +82,9 @@ class Session:
 
     def python(self, script):
         """Runs a Python script within the window, as a macro; see inside_window.py."""
-        folder = os.path.join(SETTINGS, "ParaView", "Macros")
-        os.makedirs(folder, exist_ok=True)
+        os.makedirs(MACROS, exist_ok=True)
         self.scripts += 1
-        with open(os.path.join(folder, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
+        with open(os.path.join(MACROS, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
             file.write("from paraview.simple import *\nfrom inside_window import *\n" + script)
         self.menu("menu_Macros", f"step{self.scripts}")
 
@@ -107,7 +106,8 @@ class Session:
             file.write("\n".join(["<pqevents>"] + self.lines + ["</pqevents>", ""]))
         with open(before, "w", encoding="utf-8") as file:
             file.write(script)
-        environment = dict(os.environ, XDG_CONFIG_HOME=SETTINGS,
+        environment = dict(os.environ, XDG_CONFIG_HOME=os.path.join(FOLDER, "window"),
+                           PV_MACRO_PATH=MACROS,
                            PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
         done = subprocess.run(
             [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
