@@ -60,6 +60,12 @@ bool usesK(vtkSchlierenFilter* self)
 }
 
 //------------------------------------------------------------------------------
+bool choosesK(vtkSchlierenFilter* self)
+{
+  return usesK(self) && !self->GetKFromOptics() && self->GetAutoKScale();
+}
+
+//------------------------------------------------------------------------------
 void setSensitivity(vtkSchlierenFilter* self, schlieren::Scene& scene)
 {
   scene.cutoffOffset = self->GetCutoffOffset();
@@ -82,7 +88,13 @@ void setSensitivity(vtkSchlierenFilter* self, schlieren::Scene& scene)
 }
 
 //------------------------------------------------------------------------------
-std::string sensitivityInWords(vtkSchlierenFilter* self, double k)
+std::string kInWords(double k, bool isKept)
+{
+  return (isKept ? "k locked at " : "k = ") + textOf(k);
+}
+
+//------------------------------------------------------------------------------
+std::string sensitivityInWords(vtkSchlierenFilter* self, double k, bool isKept)
 {
   if (self->GetCutoff() == Filter::INTERFEROGRAM)
   {
@@ -99,7 +111,7 @@ std::string sensitivityInWords(vtkSchlierenFilter* self, double k)
   // From the light that nothing bends to the brightest or the darkest.
   const bool isHalf =
     self->GetCutoff() == Filter::KNIFE_EDGE || self->GetCutoff() == Filter::GRADED_FILTER;
-  std::string words = "k = " + textOf(k) + ": full scale is a deflection of " +
+  std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
     textOf(1e3 * (isHalf ? 0.5 : 1) / k) + " mrad";
   if (focalLength > 0)
   {

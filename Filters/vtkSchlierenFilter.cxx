@@ -15,6 +15,7 @@
 #include "RealOptics.h"
 #include "RgbPictures.h"
 #include "SceneFromFilter.h"
+#include "SensitivityLock.h"
 
 #include "vtkCommand.h"
 #include "vtkImageData.h"
@@ -64,6 +65,20 @@ struct vtkSchlierenFilter::Internals
   vtkMTimeType ShownOf = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
+
+  SensitivityLock KLock;
+  std::optional<double> Time; // last asked for
+
+  // Of Medium, the last time that Precision changed it, and before that.
+  vtkMTimeType PrecisionTime = 0;
+  vtkMTimeType TimeBeforePrecision = 0;
+
+  /// When anything but Precision has last changed Medium.
+  vtkMTimeType settingsTimeOf(vtkRefractiveIndex* medium) const
+  {
+    const vtkMTimeType time = medium->GetMTime();
+    return time == this->PrecisionTime ? this->TimeBeforePrecision : time;
+  }
 
   std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
 
@@ -186,6 +201,8 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CutoffOffset: " << this->CutoffOffset << "\n";
   os << indent << "InvertCutoff: " << this->InvertCutoff << "\n";
   os << indent << "AutoKScale: " << this->AutoKScale << "\n";
+  os << indent << "LockK: " << this->LockK << "\n";
+  os << indent << "LockedK: " << this->GetLockedK() << "\n";
   os << indent << "KScale: " << this->KScale << "\n";
   os << indent << "KFromOptics: " << this->KFromOptics << "\n";
   os << indent << "FocalLength: " << this->FocalLength << "\n";
@@ -363,7 +380,9 @@ void vtkSchlierenFilter::SetPrecision(int precision)
   if (this->Precision != precision)
   {
     this->Precision = precision;
+    this->Inside->TimeBeforePrecision = this->Inside->settingsTimeOf(this->Medium);
     this->Medium->SetDoublePrecision(precision == DOUBLE);
+    this->Inside->PrecisionTime = this->Medium->GetMTime();
     this->Modified();
   }
 }
@@ -601,6 +620,36 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetLockedK(double k)
+{
+  if (k != this->GetLockedK())
+  {
+    this->Inside->KLock.Give(k);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetLockedK() const { return this->Inside->KLock.GetKept(); }
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::KeptK()
+{
+  Internals& inside = *this->Inside;
+  if (!choosesK(this))
+  {
+    inside.KLock.Drop();
+    return 0;
+  }
+  return inside.KLock.For(this->LockK,
+    { inside.Time, inside.Input,
+      { static_cast<double>(this->Cutoff), static_cast<double>(inside.settingsTimeOf(this->Medium)),
+        static_cast<double>(this->AutoAmbientRefractivity),
+        this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity },
+      settingsOfRays(this) });
+}
+
+//------------------------------------------------------------------------------
 schlieren::Image vtkSchlierenFilter::Begin(
   bool isHurried, double seconds, const schlieren::Monitor& monitor)
 {
@@ -612,6 +661,10 @@ schlieren::Image vtkSchlierenFilter::Begin(
   }
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid, inside.RgbPictures);
+  if (const double k = this->KeptK(); k > 0)
+  {
+    scene.kScale = k;
+  }
   if (this->ColorByField)
   {
     const std::size_t fields = this->Medium->GetFields().size();
@@ -649,9 +702,15 @@ bool vtkSchlierenFilter::Show(
       vtkWarningMacro(<< warning);
     }
   }
-  this->Status = inside.Pictures.GetStatus(image);
+  if (isWhole && !scene.kScale && image.kScale > 0)
+  {
+    inside.KLock.Found(image.kScale);
+  }
+  const bool isKept = this->GetLockedK() > 0;
+  this->Status =
+    inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
-  this->Sensitivity = sensitivityInWords(this, image.kScale);
+  this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
   ++this->PictureCount;
   output->Initialize();
   histogram->Initialize();
@@ -731,8 +790,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
 }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkSchlierenFilter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   Internals& inside = *this->Inside;
   vtkImageData* output = vtkImageData::GetData(outputVector, PICTURE_PORT);
@@ -756,6 +815,14 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   if (inside.FailedAt == now)
   {
     return 1;
+  }
+
+  const int askedPort =
+    std::max(0, request->Get(vtkStreamingDemandDrivenPipeline::FROM_OUTPUT_PORT()));
+  if (vtkInformation* asked = outputVector->GetInformationObject(askedPort);
+      asked->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    inside.Time = asked->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
   }
 
   this->SetAbortExecute(0); // it stays set after an abort

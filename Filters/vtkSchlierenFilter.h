@@ -92,6 +92,13 @@ public:
     BACKGROUND_ORIENTED = 7
   };
 
+  enum LockModes
+  {
+    LOCK_OFF = 0,
+    LOCK_OVER_TIME = 1,
+    LOCK_ALWAYS = 2
+  };
+
   enum FringeModes
   {
     INFINITE_FRINGES = 0,
@@ -367,6 +374,30 @@ public:
   vtkSetMacro(AutoKScale, bool);
   vtkGetMacro(AutoKScale, bool);
   vtkBooleanMacro(AutoKScale, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How long an automatic k is kept, one of LockModes. It is found for the first image and then
+   * - LOCK_OFF: for each image anew;
+   * - LOCK_OVER_TIME (the default): kept while only the time changes; and whatever else changes together with the
+   *   time, as the camera of an animation does. Found anew where camera, light, quality or data change and the time
+   *   does not;
+   * - LOCK_ALWAYS: kept where camera, light and quality change, too.
+   * In each case it is found anew where the settings of the medium, the kind of cutoff, or, at the same time, the data
+   * change, and where k is not automatic for an image in between.
+   */
+  vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
+  vtkGetMacro(LockK, int);
+  ///@}
+
+  ///@{
+  /**
+   * The k of the last image where LockK has kept it from an earlier one, else 0. Setting it (state files do) gives the
+   * next image this k, from which on LockK holds; 0 lets it be found.
+   */
+  void SetLockedK(double k);
+  double GetLockedK() const;
   ///@}
 
   ///@{
@@ -831,6 +862,8 @@ private:
   bool WorkOn();
   /// Whether a new picture can be begun besides updates, `now` being GetTimeOfPicture().
   bool CanBegin(vtkMTimeType now);
+  /// The automatic k that is kept from an earlier image; 0 where there is none, or none counts.
+  double KeptK();
   schlieren::Image Begin(bool isHurried, double seconds, const schlieren::Monitor& monitor);
   /// Makes the picture from the refractivity, or goes on with it. False if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
@@ -857,6 +890,7 @@ private:
   bool InvertCutoff = false;
   bool AutoKScale = true;
   double KScale = 1000;
+  int LockK = LOCK_OVER_TIME;
   bool KFromOptics = false;
   double FocalLength = 1;
   double SourceWidth = 1;

@@ -25,7 +25,7 @@ namespace
 const QString labelName = "SchlierenStatus";
 constexpr int margin = 6; // pixels
 
-/// At the lower left, where there is room for it: not over most of a picture.
+/// At the lower left, where there is room for it: for each word, and not over most of an image.
 void place(QLabel* label, QWidget* view)
 {
   label->setWordWrap(false);
@@ -33,7 +33,8 @@ void place(QLabel* label, QWidget* view)
   label->setWordWrap(true);
   label->resize(width, label->heightForWidth(width));
   label->move(margin, view->height() - label->height() - margin);
-  label->setVisible(!label->text().isEmpty() && 2 * label->height() < view->height());
+  label->setVisible(!label->text().isEmpty() && width >= label->minimumSizeHint().width() &&
+    2 * label->height() < view->height());
 }
 
 QLabel* labelOf(QWidget* view)

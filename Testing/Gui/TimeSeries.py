@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A flow that changes with time: the picture of one click goes with it when the animation is played, stepped
-and saved, and is each time the whole one of a script."""
+"""A flow that changes with time: the image of one click goes with it when the animation is played, stepped and saved,
+and is each time the whole one of a script, at one k."""
 
 import json
 import os
@@ -59,7 +59,7 @@ def note(*_):
     image = bench.GetClientSideObject().GetOutputDataObject(0)
     path = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference"))
     row = {{"time": shown.ViewTime, "least": float(path.min()), "rows": image.GetDimensions()[1],
-           "finished": information(bench, "Finished")}}
+           "finished": information(bench, "Finished"), "k": information(bench, "KScaleUsed")}}
     with open({LOG!r}, "a") as file:
         file.write(json.dumps(row) + "\\n")
 shown.SMProxy.AddObserver("EndEvent", note)
@@ -126,16 +126,17 @@ SAMPLES = {name: {"SamplesPerPixel": 16} for name in ("again", "saved")}
 
 
 def scripted(name, time):
-    """The picture of a script, as a kept one is set, at a time: intensity and optical path."""
+    """The image of a script, as a kept one is set and at its k, at a time: intensity and optical path."""
     kept = saved(name)
+    k = float(kept["k"])
     size = [int(pixels) for pixels in kept["dimensions"][:2]]
-    key = (time, *size, *kept["direction"], float(kept["scale"]))
+    key = (time, k, *size, *kept["direction"], float(kept["scale"]))
     if key not in made:
         flow.UpdatePipeline(time)
         bench = Schlieren(
             Input=flow, Density=["POINTS", "rho"], ImageSize=size, ViewDirection=list(kept["direction"]),
             ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
-            **SAMPLES.get(name, {}))
+            AutoKScale=0, KScale=k, **SAMPLES.get(name, {}))
         bench.UpdatePipeline(time)
         arrays = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData()
         made[key] = [vtk_to_numpy(arrays.GetArray(name)).copy()
@@ -150,6 +151,19 @@ for name, time in (("played", TIMES[-1]), ("first", TIMES[0]), ("next", TIMES[1]
     expected, _ = scripted(name, time)
     assert np.ptp(expected) > 0.5
     assert np.abs(saved(name)["intensity"] - expected).max() < 1e-5, (name, time)
+
+# k is that of the first image, and would be another one at another time.
+assert saved("played")["k"] == saved("first")["k"] == saved("next")["k"]
+for time in (TIMES[0], TIMES[-1]):
+    kept = saved("first")
+    flow.UpdatePipeline(time)
+    own = Schlieren(Input=flow, Density=["POINTS", "rho"], ViewDirection=list(kept["direction"]),
+                    ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
+                    ImageSize=[int(pixels) for pixels in kept["dimensions"][:2]])
+    own.UpdatePipeline(time)
+    k = own.FieldData["KScale"].GetRange()[0]
+    simple.Delete(own)
+    assert np.isclose(k, kept["k"], rtol=1e-9) == (time == TIMES[0]), (time, k, kept["k"])
 assert np.abs(scripted("played", 0)[0] - scripted("played", 0.7)[0]).max() > 0.5
 
 # Each time has been shown, in this order, and each time the whole picture of that time.
@@ -165,6 +179,7 @@ for name in ("played", "again", "saved"):
         assert row["finished"] == 1 and row["rows"] == rows, row
         assert np.isclose(row["least"], path.min(), rtol=1e-6), (row, path.min())
     assert len({row["least"] for row in log}) == len(TIMES)
+    assert {row["k"] for row in log} == {float(saved(name)["k"])}, log
 
 # The saved frames are these pictures, pixel by pixel; not at the rim, where the view sees half of each.
 for step, time in enumerate(TIMES):
@@ -173,9 +188,23 @@ for step, time in enumerate(TIMES):
     difference = np.abs(frame - np.clip(intensity, 0, 1))[2:-2, 2:-2]
     assert difference.max() < 1.5 / 255, (time, difference.max())
 
+# A script that loads the state saves the same frames.
+load("saved.pvsm")
+(bench,) = filters().values()
+assert bench.LockK == "Over Time"
+(_, flat), = [pair for pair in views() if pair[1].InteractionMode == "2D"]
+flat.UseFXAA = 0  # ParaView brings it back with a state
+simple.SaveAnimation(os.path.join(FOLDER, "script.png"), flat, FrameWindow=[0, 3], ImageResolution=SIZE)
+for step in range(len(TIMES)):
+    difference = png(os.path.join(FOLDER, f"script.{step:04}.png")) - png(os.path.join(FOLDER, f"saved.{step:04}.png"))
+    assert np.abs(difference)[2:-2, 2:-2].max() <= 1, (step, np.abs(difference).max())
+
 load("played.pvsm")
 (_, scene), _ = views()
 (bench,) = filters().values()
+bench.UpdatePipeline(TIMES[-1])
+intensity = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")
+assert np.abs(vtk_to_numpy(intensity) - saved("played")["intensity"]).max() < 1e-5
 # The air around the blob is clear, though not a value is above its density.
 volume = simple.GetRepresentation(bench.Input, scene)
 assert volume.Representation == "Volume"

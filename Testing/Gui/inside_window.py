@@ -87,6 +87,7 @@ def save(name, source, *views):
         reduction=source.PreviewReduction, limit=source.TimeLimit, status=information(source, "Status"),
         direction=source.ViewDirection, up=source.ViewUp, focus=source.FocalPoint,
         scale=source.ParallelScale, count=information(source, "PictureCount"),
+        k=information(source, "KScaleUsed"),
         **{f"{key}{index}": value for index, camera in enumerate(cameras) for key, value in (
             ("position", camera.GetPosition()), ("focal_point", camera.GetFocalPoint()),
             ("view_up", camera.GetViewUp()), ("angle", camera.GetViewAngle()),

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SensitivityLock.h"
+
+#include "QualityPresets.h"
+
+#include "vtkSchlierenFilter.h"
+
+#include <tuple>
+
+namespace
+{
+
+using Filter = vtkSchlierenFilter;
+
+/// Whether the k of an image holds for another one. Where the time differs, everything may: an animation can move the
+/// camera, too.
+bool holdsFor(int mode, const ImageCircumstances& before, const ImageCircumstances& now)
+{
+  const bool isOtherTime = before.time && now.time && *before.time != *now.time;
+  return before.medium == now.medium &&
+    (isOtherTime ||
+      (before.data == now.data && (mode == Filter::LOCK_ALWAYS || before.rays == now.rays)));
+}
+
+/// Whether they are the same, whenever they were asked for.
+bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
+{
+  return std::tie(a.data, a.medium, a.rays) == std::tie(b.data, b.medium, b.rays);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<double> settingsOfRays(vtkSchlierenFilter* self)
+{
+  std::vector<double> settings(self->GetViewDirection(), self->GetViewDirection() + 3);
+  settings.insert(settings.end(), self->GetViewUp(), self->GetViewUp() + 3);
+  settings.push_back(self->GetHasFocalPoint());
+  settings.insert(settings.end(), self->GetFocalPoint(), self->GetFocalPoint() + 3);
+  settings.push_back(self->GetParallelScale());
+  settings.insert(settings.end(), self->GetImageSize(), self->GetImageSize() + 2);
+  for (const QualitySetting& setting : qualitySettings)
+  {
+    settings.push_back(setting.Get(self));
+  }
+  for (const double value :
+    { double(self->GetLightSource()), self->GetSourceDistance(), double(self->GetSourceShape()),
+      double(self->GetColorByField()), double(self->GetDevice()) })
+  {
+    settings.push_back(value);
+  }
+  if (self->GetSourceShape() != Filter::POINT)
+  {
+    for (const double value : { self->GetSourceWidth(), self->GetSourceLength(),
+           self->GetFocalLength(), self->GetKnifeEdgeAngle() })
+    {
+      settings.push_back(value);
+    }
+  }
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+double SensitivityLock::For(int mode, const ImageCircumstances& now)
+{
+  if (mode == Filter::LOCK_OFF || (this->Last && !holdsFor(mode, *this->Last, now)))
+  {
+    this->Drop();
+  }
+  this->Last = now;
+  return this->K;
+}
+
+//------------------------------------------------------------------------------
+void SensitivityLock::Found(double k)
+{
+  this->K = k;
+  this->FoundAt = this->Last;
+}
+
+//------------------------------------------------------------------------------
+void SensitivityLock::Give(double k)
+{
+  this->K = k > 0 ? k : 0;
+  this->FoundAt.reset();
+  this->Last.reset();
+}
+
+//------------------------------------------------------------------------------
+double SensitivityLock::GetKept() const
+{
+  return this->FoundAt && this->Last && isSame(*this->FoundAt, *this->Last) ? 0 : this->K;
+}

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+class vtkSchlierenFilter;
+
+/// What an automatic k belongs to.
+struct ImageCircumstances
+{
+  std::optional<double> time; ///< asked for; unset: nobody did
+  std::vector<double> data;   ///< describeInputs
+  std::vector<double> medium; ///< and the kind of cutoff: its settings
+  std::vector<double> rays;   ///< camera, quality, light
+};
+
+/// Camera, quality and light: all of the filter that an automatic k depends on, but the medium and the cutoff.
+std::vector<double> settingsOfRays(vtkSchlierenFilter* self);
+
+/// Keeps an automatic k, found for one image, for later ones, as vtkSchlierenFilter::LockK says.
+class SensitivityLock
+{
+public:
+  /// The k of an image that is about to be made; 0: it has to be found. Drops the k of before where that does not
+  /// hold any more.
+  double For(int mode, const ImageCircumstances& now);
+
+  /// The k that was found for the last image asked for.
+  void Found(double k);
+
+  /// A k from elsewhere, which holds for the next image whatever it is of; 0: none.
+  void Give(double k);
+  void Drop() { this->Give(0); }
+
+  /// The k of the last image where it was not found for that one, else 0.
+  double GetKept() const;
+
+private:
+  double K = 0;
+  std::optional<ImageCircumstances> FoundAt;
+  std::optional<ImageCircumstances> Last;
+};

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which images have a k of their own, and which keep the one of an earlier image.
+#include "Fixtures.h"
+
+#include "vtkImageAlgorithm.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <map>
+
+namespace
+{
+
+using Filter = vtkSchlierenFilter;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/// A column that is 1, 2 and 3 times as strong at the times 0, 1 and 2.
+class Series : public vtkImageAlgorithm
+{
+public:
+  static Series* New();
+  vtkTypeMacro(Series, vtkImageAlgorithm);
+
+protected:
+  Series() { this->SetNumberOfInputPorts(0); }
+
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    vtkInformation* info = outputs->GetInformationObject(0);
+    const double times[] = { 0, 1, 2 };
+    info->Set(Pipeline::TIME_STEPS(), times, 3);
+    const double range[] = { 0, 2 };
+    info->Set(Pipeline::TIME_RANGE(), range, 2);
+    auto image = cube(points);
+    info->Set(Pipeline::WHOLE_EXTENT(), image->GetExtent(), 6);
+    info->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
+    info->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
+    return 1;
+  }
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    vtkInformation* info = outputs->GetInformationObject(0);
+    const double time =
+      info->Has(Pipeline::UPDATE_TIME_STEP()) ? info->Get(Pipeline::UPDATE_TIME_STEP()) : 0;
+    auto image = cube(points);
+    addPointArray(image, "N",
+      [time, column = GaussianColumn()](const Vec& x) { return (1 + time) * column(x); });
+    vtkImageData::GetData(outputs)->ShallowCopy(image);
+    return 1;
+  }
+
+private:
+  static constexpr int points = 24;
+};
+
+vtkStandardNewMacro(Series);
+
+class LockK : public testing::Test
+{
+protected:
+  LockK()
+    : filter(bench(nullptr, 24))
+  {
+    this->filter->SetInputConnection(this->series->GetOutputPort());
+    for (const double time : { 0., 1., 2. })
+    {
+      auto fresh = bench(nullptr, 24);
+      fresh->SetInputConnection(this->series->GetOutputPort());
+      fresh->UpdateTimeStep(time);
+      this->own[time] = fieldValue(fresh, "KScale");
+    }
+    EXPECT_NEAR(this->own[1], this->own[0] / 2, 1e-3 * this->own[0]);
+  }
+
+  /// Of an image at this time.
+  double kAt(double time)
+  {
+    this->filter->UpdateTimeStep(time);
+    const double k = fieldValue(this->filter, "KScale");
+    EXPECT_EQ(this->filter->GetKScaleUsed(), k);
+    return k;
+  }
+
+  bool saysLocked() const
+  {
+    const bool says =
+      std::string(this->filter->GetStatus()).find("k locked at ") != std::string::npos;
+    EXPECT_EQ(says, std::string(this->filter->GetSensitivity()).find("k locked at ") == 0);
+    EXPECT_EQ(says, this->filter->GetLockedK() == this->filter->GetKScaleUsed());
+    return says;
+  }
+
+  vtkNew<Series> series;
+  vtkSmartPointer<Filter> filter;
+  std::map<double, double> own; ///< the automatic k of an image at this time
+};
+
+} // namespace
+
+TEST_F(LockK, OverTimeIsTheDefault)
+{
+  vtkNew<Filter> fresh;
+  EXPECT_EQ(fresh->GetLockK(), Filter::LOCK_OVER_TIME);
+  EXPECT_EQ(fresh->GetLockedK(), 0);
+}
+
+TEST_F(LockK, OffFindsItForEachImage)
+{
+  this->filter->SetLockK(Filter::LOCK_OFF);
+  for (const double time : { 0., 2., 1., 0. })
+  {
+    EXPECT_DOUBLE_EQ(this->kAt(time), this->own[time]);
+    EXPECT_FALSE(this->saysLocked());
+  }
+}
+
+TEST_F(LockK, OverTimeKeepsThatOfTheFirstImage)
+{
+  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+  EXPECT_FALSE(this->saysLocked());
+  EXPECT_EQ(this->filter->GetLockedK(), 0);
+  for (const double time : { 2., 0. })
+  {
+    EXPECT_EQ(this->kAt(time), this->own[1]);
+    EXPECT_TRUE(this->saysLocked());
+  }
+  // What leaves the rays as they are leaves k.
+  this->filter->SetKnifeEdgeAngle(45);
+  this->filter->SetNoiseFilter(Filter::MEAN);
+  EXPECT_EQ(this->kAt(0), this->own[1]);
+  // Another view at the same time has its own, which is kept from there on.
+  this->filter->SetParallelScale(0.1);
+  const double ofView = this->kAt(0);
+  EXPECT_NE(ofView, this->own[1]);
+  EXPECT_FALSE(this->saysLocked());
+  EXPECT_EQ(this->kAt(2), ofView);
+  // A camera that moves with the time keeps it.
+  this->filter->SetParallelScale(0.2);
+  EXPECT_EQ(this->kAt(1), ofView);
+  EXPECT_TRUE(this->saysLocked());
+  // Another quality at the same time.
+  this->filter->SetParallelScale(0);
+  this->filter->SetStepSize(0.5);
+  EXPECT_NEAR(this->kAt(1), this->own[1], 1e-2 * this->own[1]);
+  EXPECT_FALSE(this->saysLocked());
+}
+
+TEST_F(LockK, AlwaysKeepsItForAnotherCameraAndQualityToo)
+{
+  this->filter->SetLockK(Filter::LOCK_ALWAYS);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+  this->filter->SetParallelScale(0.1);
+  EXPECT_EQ(this->kAt(1), this->own[1]);
+  EXPECT_TRUE(this->saysLocked());
+  this->filter->SetQuality(Filter::REFERENCE); // double precision, which makes another medium
+  this->filter->SetSamplesPerPixel(1);
+  EXPECT_EQ(this->kAt(1), this->own[1]);
+  EXPECT_EQ(this->kAt(2), this->own[1]);
+}
+
+TEST_F(LockK, AnotherMediumCutoffOrDataHasItsOwn)
+{
+  this->filter->SetLockK(Filter::LOCK_ALWAYS);
+  EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
+  EXPECT_EQ(this->kAt(1), this->own[0]);
+  this->filter->SetCutoff(Filter::CIRCULAR); // whose full scale is twice as far
+  EXPECT_NEAR(this->kAt(1), 2 * this->own[1], 1e-6 * this->own[1]);
+  EXPECT_FALSE(this->saysLocked());
+  this->filter->SetCutoff(Filter::KNIFE_EDGE);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+  EXPECT_EQ(this->kAt(0), this->own[1]);
+  this->filter->SetOutsideBlocksLight(false);
+  EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
+  EXPECT_EQ(this->kAt(2), this->own[0]);
+  this->series->Modified(); // other data at the same time
+  EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
+}
+
+TEST_F(LockK, IsFoundAnewAfterAnImageWithoutIt)
+{
+  this->filter->SetLockK(Filter::LOCK_ALWAYS);
+  this->kAt(0);
+  EXPECT_EQ(this->kAt(2), this->own[0]);
+  this->filter->SetAutoKScale(false);
+  EXPECT_EQ(this->kAt(2), 1000);
+  EXPECT_FALSE(this->saysLocked());
+  this->filter->SetAutoKScale(true);
+  EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
+  EXPECT_EQ(this->kAt(0), this->own[2]);
+  this->filter->SetLockK(Filter::LOCK_OFF);
+  EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
+  // Switched on, it keeps the k in use.
+  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[0]);
+}
+
+TEST_F(LockK, CanBeGiven)
+{
+  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
+  this->filter->SetLockedK(123);
+  for (const double time : { 2., 1. })
+  {
+    EXPECT_EQ(this->kAt(time), 123);
+    EXPECT_TRUE(this->saysLocked());
+  }
+  const vtkMTimeType before = this->filter->GetMTime();
+  this->filter->SetLockedK(123); // what it is already
+  EXPECT_EQ(this->filter->GetMTime(), before);
+  this->filter->SetLockedK(0);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+}
+
+// A preview has fewer rays: it neither keeps its k nor the one of another view.
+TEST_F(LockK, IsThatOfAWholeImage)
+{
+  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
+  this->filter->SetPreviewReduction(4);
+  EXPECT_NE(this->kAt(0), this->own[0]);
+  this->filter->SetPreviewReduction(1);
+  EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
+  this->filter->SetParallelScale(0.1);
+  this->filter->SetPreviewReduction(4);
+  this->kAt(0);
+  this->filter->SetPreviewReduction(1);
+  this->filter->SetParallelScale(0);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+}
