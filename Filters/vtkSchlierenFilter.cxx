@@ -10,8 +10,8 @@
 #include "LastPicture.h"
 #include "PictureInSlices.h"
 #include "PictureOutput.h"
-#include "Processes.h"
 #include "QualityPresets.h"
+#include "Ranks.h"
 #include "RealOptics.h"
 #include "RgbPictures.h"
 #include "SceneFromFilter.h"
@@ -41,6 +41,7 @@ vtkStandardNewMacro(vtkSchlierenFilter);
 
 struct vtkSchlierenFilter::Internals
 {
+  InputOnRank0 Ranks;
   PictureInSlices Pictures;
   LastPicture Shown[2]; // at each output
   RgbPictureReader RgbPictures;
@@ -471,6 +472,17 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfPicture()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeBool vtkSchlierenFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    this->Inside->Ranks.CountChanges(this);
+  }
+  return this->Superclass::ProcessRequest(request, input, output);
+}
+
+//------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
@@ -726,7 +738,10 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  requestWhole(inputVector, this->GetNumberOfInputPorts());
+  if (this->Inside->Ranks.Request(this, inputVector))
+  {
+    this->Inside->FailedAt = 0; // of another time step, perhaps
+  }
   return 1;
 }
 
@@ -739,16 +754,14 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
   histogram->Initialize();
+  setComplete(outputVector);
 
-  const ProcessRole role = roleOfProcess();
-  if (role == ProcessRole::Other)
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+  const std::string& missing = inside.Ranks.FindMissing(input, bodies);
+  if (!isRank0())
   {
     return 1;
-  }
-  if (role == ProcessRole::First && !this->HasWarnedOfProcesses)
-  {
-    vtkWarningMacro(<< warningOfFirstProcess("picture"));
-    this->HasWarnedOfProcesses = true;
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
@@ -761,8 +774,10 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+    if (!missing.empty())
+    {
+      throw std::runtime_error(missing);
+    }
     this->PassToMedium();
     const bool goesOn = this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;

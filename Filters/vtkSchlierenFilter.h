@@ -797,6 +797,9 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
 protected:
   vtkSchlierenFilter();
   ~vtkSchlierenFilter() override;
@@ -907,8 +910,6 @@ private:
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
   std::string FollowedView;
-
-  bool HasWarnedOfProcesses = false;
 };
 
 #undef vtkSchlierenMediumMacro
