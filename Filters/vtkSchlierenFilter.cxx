@@ -81,6 +81,9 @@ namespace
 /// Share of the progress bar that belongs to finding the refractivity.
 constexpr double mediumShare = 0.2;
 
+/// The direction of both outputs, which since VTK 9.3 would else be the input's.
+constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+
 /// Whether two array selections say the same.
 bool sameSelection(vtkInformation* a, vtkInformation* b)
 {
@@ -717,6 +720,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
+  outInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
   const bool isColored = this->ColorByField || seesColor(this);
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
     isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
@@ -728,6 +732,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   const int bins[6] = { 0, this->HistogramSize - 1, 0, this->HistogramSize - 1, 0,
     std::min(this->HistogramSize, 1) - 1 };
   histogramInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), bins, 6);
+  histogramInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
   vtkDataObject::SetActiveAttribute(
     histogramInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Rays", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(histogramInfo, VTK_TYPE_INT64, 1);
