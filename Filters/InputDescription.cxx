@@ -11,14 +11,11 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkImageData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -120,29 +117,4 @@ std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTim
     }
   }
   return description;
-}
-
-void requestWhole(vtkInformationVector** inputs, int ports)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < ports; ++port)
-  {
-    vtkInformation* inInfo = inputs[port]->GetInformationObject(0);
-    if (!inInfo)
-    {
-      continue;
-    }
-    if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
-    }
-    else
-    {
-      // The pipeline has put the picture's there, which blocks would hand on to images upstream.
-      inInfo->Remove(Pipeline::UPDATE_EXTENT());
-    }
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
 }

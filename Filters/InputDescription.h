@@ -8,7 +8,6 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
-class vtkInformationVector;
 
 /// The newest time of everything that the input of a port comes from; 0 where there is none.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
@@ -20,7 +19,3 @@ std::vector<vtkDataObject*> leavesOf(vtkDataObject* data);
 /// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the
 /// dataset's own time, which is a new one whenever a filter upstream hands the same arrays on.
 std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime);
-
-/// Asks for all of the inputs, those there are, on every process: light crosses what several processes would
-/// share.
-void requestWhole(vtkInformationVector** inputs, int ports);

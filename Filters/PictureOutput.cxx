@@ -73,6 +73,14 @@ void addFieldValue(vtkImageData* output, const char* name, double value, const c
   setUnit(output->GetFieldData()->GetArray(name), unit);
 }
 
+/// Where the points of an image in the plane z = 0 lie. Since VTK 9.3 it would be turned with the input.
+void place(vtkImageData* output, double x, double y, double spacing)
+{
+  output->SetOrigin(x, y, 0);
+  output->SetSpacing(spacing, spacing, spacing);
+  output->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
+}
+
 /// The sRGB curve, IEC 61966-2-1.
 float srgbFromLinear(float light)
 {
@@ -85,8 +93,7 @@ float srgbFromLinear(float light)
 void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
-  output->SetOrigin(image.frame.origin[0], image.frame.origin[1], 0);
-  output->SetSpacing(image.frame.pixelSize, image.frame.pixelSize, image.frame.pixelSize);
+  place(output, image.frame.origin[0], image.frame.origin[1], image.frame.pixelSize);
 
   vtkPointData* arrays = output->GetPointData();
   arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1, "1"));
@@ -174,8 +181,7 @@ void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
   const double width = 2 * histogram.range / histogram.size;
   const double first = -histogram.range + width / 2;
   output->SetDimensions(histogram.size, histogram.size, 1);
-  output->SetOrigin(first, first, 0);
-  output->SetSpacing(width, width, width);
+  place(output, first, first, width);
   vtkNew<vtkTypeInt64Array> rays;
   rays->SetName("Rays");
   rays->SetNumberOfValues(static_cast<vtkIdType>(histogram.rays.size()));

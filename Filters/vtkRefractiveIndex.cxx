@@ -6,7 +6,7 @@
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "MeshSearch.h"
-#include "Processes.h"
+#include "Ranks.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfAmr.h"
 #include "RefractivityOfBodies.h"
@@ -74,6 +74,7 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
 //------------------------------------------------------------------------------
 vtkRefractiveIndex::vtkRefractiveIndex()
   : Search(std::make_shared<MeshSearch>())
+  , Ranks(std::make_shared<InputOnRank0>())
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -255,6 +256,17 @@ bool vtkRefractiveIndex::HasHumidityArray()
 {
   const char* name = this->GetInputArrayInformation(HUMIDITY)->Get(vtkDataObject::FIELD_NAME());
   return name && *name && std::string(name) != "None";
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkRefractiveIndex::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    this->Ranks->CountChanges(this);
+  }
+  return this->Superclass::ProcessRequest(request, input, output);
 }
 
 //------------------------------------------------------------------------------
@@ -453,7 +465,10 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  requestWhole(inputVector, this->GetNumberOfInputPorts());
+  if (this->Ranks->Request(this, inputVector))
+  {
+    this->FailedAt = 0; // of another time step, perhaps
+  }
   return 1;
 }
 
@@ -464,16 +479,15 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
   vtkImageData* output = vtkImageData::GetData(outInfo);
 
-  const ProcessRole role = roleOfProcess();
-  if (role == ProcessRole::Other)
+  output->Initialize();
+  setComplete(outputVector);
+
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* bodies = vtkDataObject::GetData(inputVector[BODIES]);
+  const std::string& missing = this->Ranks->FindMissing(input, bodies);
+  if (!isRank0())
   {
-    output->Initialize();
     return 1;
-  }
-  if (role == ProcessRole::First && !this->HasWarnedOfProcesses)
-  {
-    vtkWarningMacro(<< warningOfFirstProcess("refractivity"));
-    this->HasWarnedOfProcesses = true;
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
@@ -481,15 +495,17 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
   if (this->FailedAt == now)
   {
-    output->Initialize();
     return 1;
   }
 
   try
   {
+    if (!missing.empty())
+    {
+      throw std::runtime_error(missing);
+    }
     this->SetAbortExecute(0); // it stays set after an abort
-    const std::string warning = this->Convert(
-      vtkDataObject::GetData(inputVector[0]), output, vtkDataObject::GetData(inputVector[BODIES]));
+    const std::string warning = this->Convert(input, output, bodies);
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);
@@ -499,6 +515,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
       // Where RequestInformation could not tell it. Without the second, VTK would crop the output.
       tellGrid(output, outInfo);
       outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
+      setComplete(outputVector);
     }
     return 1;
   }

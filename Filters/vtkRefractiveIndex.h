@@ -49,10 +49,11 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for TransferFunctions
 
-#include <memory> // for Search
+#include <memory> // for Search, Ranks
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class InputOnRank0;
 class vtkPiecewiseFunction;
 
 namespace refractivity
@@ -394,6 +395,9 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
 protected:
   vtkRefractiveIndex();
   ~vtkRefractiveIndex() override = default;
@@ -419,7 +423,7 @@ private:
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;
 
-  bool HasWarnedOfProcesses = false;
+  std::shared_ptr<InputOnRank0> Ranks;
 
   int IndexModel = GLADSTONE_DALE;
   std::string Gas = "Custom";

@@ -10,8 +10,8 @@
 #include "LastPicture.h"
 #include "PictureInSlices.h"
 #include "PictureOutput.h"
-#include "Processes.h"
 #include "QualityPresets.h"
+#include "Ranks.h"
 #include "RealOptics.h"
 #include "RgbPictures.h"
 #include "SceneFromFilter.h"
@@ -42,6 +42,7 @@ vtkStandardNewMacro(vtkSchlierenFilter);
 
 struct vtkSchlierenFilter::Internals
 {
+  InputOnRank0 Ranks;
   PictureInSlices Pictures;
   LastPicture Shown[2]; // at each output
   RgbPictureReader RgbPictures;
@@ -94,6 +95,9 @@ namespace
 
 /// Share of the progress bar that belongs to finding the refractivity.
 constexpr double mediumShare = 0.2;
+
+/// The direction of both outputs, which since VTK 9.3 would else be the input's.
+constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 /// Whether two array selections say the same.
 bool sameSelection(vtkInformation* a, vtkInformation* b)
@@ -490,6 +494,17 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfPicture()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeBool vtkSchlierenFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    this->Inside->Ranks.CountChanges(this);
+  }
+  return this->Superclass::ProcessRequest(request, input, output);
+}
+
+//------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
@@ -764,6 +779,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
+  outInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
   const bool isColored = this->ColorByField || seesColor(this);
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
     isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
@@ -775,6 +791,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   const int bins[6] = { 0, this->HistogramSize - 1, 0, this->HistogramSize - 1, 0,
     std::min(this->HistogramSize, 1) - 1 };
   histogramInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), bins, 6);
+  histogramInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
   vtkDataObject::SetActiveAttribute(
     histogramInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Rays", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(histogramInfo, VTK_TYPE_INT64, 1);
@@ -785,7 +802,10 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  requestWhole(inputVector, this->GetNumberOfInputPorts());
+  if (this->Inside->Ranks.Request(this, inputVector))
+  {
+    this->Inside->FailedAt = 0; // of another time step, perhaps
+  }
   return 1;
 }
 
@@ -798,16 +818,14 @@ int vtkSchlierenFilter::RequestData(
   vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
   histogram->Initialize();
+  setComplete(outputVector);
 
-  const ProcessRole role = roleOfProcess();
-  if (role == ProcessRole::Other)
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+  const std::string& missing = inside.Ranks.FindMissing(input, bodies);
+  if (!isRank0())
   {
     return 1;
-  }
-  if (role == ProcessRole::First && !this->HasWarnedOfProcesses)
-  {
-    vtkWarningMacro(<< warningOfFirstProcess("picture"));
-    this->HasWarnedOfProcesses = true;
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
@@ -828,8 +846,10 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+    if (!missing.empty())
+    {
+      throw std::runtime_error(missing);
+    }
     this->PassToMedium();
     const bool goesOn = this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;

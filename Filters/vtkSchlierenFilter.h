@@ -827,6 +827,9 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
 protected:
   vtkSchlierenFilter();
   ~vtkSchlierenFilter() override;
@@ -940,8 +943,6 @@ private:
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
   std::string FollowedView;
-
-  bool HasWarnedOfProcesses = false;
 };
 
 #undef vtkSchlierenMediumMacro

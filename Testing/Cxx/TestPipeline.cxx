@@ -5,6 +5,7 @@
 #include "vtkCallbackCommand.h"
 #include "vtkGasTable.h"
 #include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
 #include "vtkPassThrough.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
@@ -123,6 +124,31 @@ TEST(Pipeline, TheHistogramIsASecondOutput)
   EXPECT_EQ(histogram->GetNumberOfPoints(), 0);
   EXPECT_EQ(histogram->GetPointData()->GetNumberOfArrays(), 0);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 20 * 20);
+}
+
+TEST(Pipeline, OutputsAreNotTurnedWithTheInput)
+{
+  const double turned[9] = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  const double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  auto input = columnImage(32);
+  input->SetDirectionMatrix(turned);
+  auto filter = bench(input, 20);
+  filter->Update();
+  for (int port : { vtkSchlierenFilter::PICTURE_PORT, vtkSchlierenFilter::HISTOGRAM_PORT })
+  {
+    auto* output = vtkImageData::SafeDownCast(filter->GetOutputDataObject(port));
+    vtkInformation* info = filter->GetOutputInformation(port);
+    // As VTK does it since 9.3, before RequestInformation and before RequestData.
+    info->Set(vtkDataObject::DIRECTION(), turned, 9);
+    filter->Modified();
+    filter->UpdateInformation();
+    EXPECT_TRUE(std::equal(unturned, unturned + 9, info->Get(vtkDataObject::DIRECTION()))) << port;
+    info->Set(vtkDataObject::DIRECTION(), turned, 9);
+    output->SetDirectionMatrix(turned);
+    filter->Update(port);
+    EXPECT_TRUE(std::equal(unturned, unturned + 9, output->GetDirectionMatrix()->GetData()))
+      << port;
+  }
 }
 
 TEST(Pipeline, NothingIsDoneTwice)
