@@ -65,6 +65,9 @@ struct vtkSchlierenFilter::Internals
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
 
+  vtkMTimeType StoppedOf = 0; // the one that Stop(), or an abort within a limit, has left; 0: none
+  double Done = 0;            // share of the picture that was begun last
+
   std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
 
   void DropShown()
@@ -386,11 +389,50 @@ vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMes
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::Refine()
 {
+  Internals& inside = *this->Inside;
+  if (this->GetStopped())
+  {
+    const vtkMTimeType stopped = std::exchange(inside.StoppedOf, 0);
+    if (inside.FailedAt == stopped) // there is nothing to go on with
+    {
+      inside.FailedAt = 0;
+    }
+    else
+    {
+      inside.UnfinishedOf = stopped;
+    }
+    inside.RefineTime.Modified();
+    this->InvokeEvent(vtkCommand::ModifiedEvent);
+    return;
+  }
   if (this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished())
   {
     this->Inside->RefineTime.Modified();
     this->InvokeEvent(vtkCommand::ModifiedEvent);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Stop()
+{
+  Internals& inside = *this->Inside;
+  if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfPicture())
+  {
+    inside.StoppedOf = std::exchange(inside.UnfinishedOf, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GetStopped()
+{
+  return this->Inside->StoppedOf != 0 && this->Inside->StoppedOf == this->GetTimeOfPicture();
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::GetPercentDone()
+{
+  const int percent = static_cast<int>(100 * this->Inside->Done);
+  return this->GetFinished() && !this->GetStopped() ? 100 : std::min(percent, 99);
 }
 
 //------------------------------------------------------------------------------
@@ -408,8 +450,10 @@ bool vtkSchlierenFilter::WorkOn()
   {
     try
     {
-      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, {})
-                                      : this->Begin(false, this->TimeLimit, {});
+      schlieren::Monitor monitor;
+      monitor.progress = [&inside](double done) { inside.Done = done; };
+      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, monitor)
+                                      : this->Begin(false, this->TimeLimit, monitor);
       inside.UnfinishedOf = now;
       inside.Ready.reset();
       if (!image.finished && image.intensity.empty())
@@ -573,11 +617,14 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   Internals& inside = *this->Inside;
   schlieren::Monitor monitor;
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
-  if (!(this->TimeLimit > 0)) // else it would flicker
+  monitor.progress = [this](double fraction)
   {
-    monitor.progress = [this](double fraction)
-    { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
-  }
+    this->Inside->Done = fraction;
+    if (!(this->TimeLimit > 0)) // else it would flicker
+    {
+      this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction);
+    }
+  };
   std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
   if (goesOn && ready && (this->TimeLimit > 0 || ready->finished))
   {
@@ -589,7 +636,9 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
   }
 
-  if (this->TimeLimit > 0 && !inside.Shown[PICTURE_PORT].IsThere())
+  const LastPicture& shown = inside.Shown[PICTURE_PORT];
+  const bool isColored = this->ColorByField || seesColor(this);
+  if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
   {
     // Something to show if time is over before the first sample of each pixel is there.
     if (!this->Show(this->Begin(true, 0, monitor), output, histogram))
@@ -605,6 +654,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   bool isHurried, double seconds, const schlieren::Monitor& monitor)
 {
   Internals& inside = *this->Inside;
+  inside.Done = 0;
   schlieren::Field field = fieldFrom(inside.Refractivity);
   if (!this->AutoAmbientRefractivity)
   {
@@ -757,6 +807,21 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
   {
     return 1;
   }
+  const auto showLast = [&]()
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      inside.Shown[port].Show(vtkImageData::GetData(outputVector, port),
+        outputVector->GetInformationObject(port)->Get(
+          vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
+    }
+    tellPlaces(outputVector);
+  };
+  if (this->GetStopped())
+  {
+    showLast();
+    return 1;
+  }
 
   this->SetAbortExecute(0); // it stays set after an abort
   try
@@ -778,13 +843,7 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
     isMade = isMade && this->Render(output, histogram, goesOn);
     if (isMade)
     {
-      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-      {
-        inside.Shown[port].Show(vtkImageData::GetData(outputVector, port),
-          outputVector->GetInformationObject(port)->Get(
-            vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
-      }
-      tellPlaces(outputVector);
+      showLast();
       return 1;
     }
   }
@@ -799,9 +858,15 @@ int vtkSchlierenFilter::RequestData(vtkInformation* vtkNotUsed(request),
     inside.FailedAt = now;
     vtkErrorMacro(<< problem.what());
   }
+  const bool isStopped = this->TimeLimit > 0 && this->GetAbortExecute() && inside.FailedAt != now;
   this->ForgetPicture();
   output->Initialize();
   histogram->Initialize();
+  if (isStopped)
+  {
+    inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
+    this->Status = "No image: stopped before the refractive index was known";
+  }
   return 1;
 }
 
