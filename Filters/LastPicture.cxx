@@ -16,6 +16,9 @@
 bool LastPicture::IsThere() const { return this->Picture->GetNumberOfPoints() > 0; }
 
 //------------------------------------------------------------------------------
+bool LastPicture::HasColor() const { return this->Picture->GetPointData()->HasArray("Color") != 0; }
+
+//------------------------------------------------------------------------------
 void LastPicture::Keep(vtkImageData* output) { this->Picture->ShallowCopy(output); }
 
 //------------------------------------------------------------------------------

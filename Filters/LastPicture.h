@@ -10,6 +10,7 @@ class LastPicture
 {
 public:
   bool IsThere() const;
+  bool HasColor() const;
 
   /// Takes no memory of its own as long as `output` lives.
   void Keep(vtkImageData* output);

@@ -81,6 +81,9 @@ struct vtkSchlierenFilter::Internals
     return time == this->PrecisionTime ? this->TimeBeforePrecision : time;
   }
 
+  vtkMTimeType StoppedOf = 0; // the one that Stop(), or an abort within a limit, has left; 0: none
+  double Done = 0;            // share of the picture that was begun last
+
   std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
 
   void DropShown()
@@ -409,11 +412,50 @@ vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMes
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::Refine()
 {
+  Internals& inside = *this->Inside;
+  if (this->GetStopped())
+  {
+    const vtkMTimeType stopped = std::exchange(inside.StoppedOf, 0);
+    if (inside.FailedAt == stopped) // there is nothing to go on with
+    {
+      inside.FailedAt = 0;
+    }
+    else
+    {
+      inside.UnfinishedOf = stopped;
+    }
+    inside.RefineTime.Modified();
+    this->InvokeEvent(vtkCommand::ModifiedEvent);
+    return;
+  }
   if (this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished())
   {
     this->Inside->RefineTime.Modified();
     this->InvokeEvent(vtkCommand::ModifiedEvent);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Stop()
+{
+  Internals& inside = *this->Inside;
+  if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfPicture())
+  {
+    inside.StoppedOf = std::exchange(inside.UnfinishedOf, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GetStopped()
+{
+  return this->Inside->StoppedOf != 0 && this->Inside->StoppedOf == this->GetTimeOfPicture();
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::GetPercentDone()
+{
+  const int percent = static_cast<int>(100 * this->Inside->Done);
+  return this->GetFinished() && !this->GetStopped() ? 100 : std::min(percent, 99);
 }
 
 //------------------------------------------------------------------------------
@@ -431,8 +473,10 @@ bool vtkSchlierenFilter::WorkOn()
   {
     try
     {
-      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, {})
-                                      : this->Begin(false, this->TimeLimit, {});
+      schlieren::Monitor monitor;
+      monitor.progress = [&inside](double done) { inside.Done = done; };
+      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, monitor)
+                                      : this->Begin(false, this->TimeLimit, monitor);
       inside.UnfinishedOf = now;
       if (!image.finished && image.intensity.empty())
       {
@@ -607,11 +651,14 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   Internals& inside = *this->Inside;
   schlieren::Monitor monitor;
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
-  if (!(this->TimeLimit > 0)) // else it would flicker
+  monitor.progress = [this](double fraction)
   {
-    monitor.progress = [this](double fraction)
-    { this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction); };
-  }
+    this->Inside->Done = fraction;
+    if (!(this->TimeLimit > 0)) // else it would flicker
+    {
+      this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction);
+    }
+  };
   std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
   if (goesOn && ready && (this->TimeLimit > 0 || ready->finished))
   {
@@ -623,7 +670,9 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
   }
 
-  if (this->TimeLimit > 0 && !inside.Shown[PICTURE_PORT].IsThere())
+  const LastPicture& shown = inside.Shown[PICTURE_PORT];
+  const bool isColored = this->ColorByField || seesColor(this);
+  if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
   {
     // Something to show if time is over before the first sample of each pixel is there.
     if (!this->Show(this->Begin(true, 0, monitor), output, histogram))
@@ -669,6 +718,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   bool isHurried, double seconds, const schlieren::Monitor& monitor)
 {
   Internals& inside = *this->Inside;
+  inside.Done = 0;
   schlieren::Field field = fieldFrom(inside.Refractivity);
   if (!this->AutoAmbientRefractivity)
   {
@@ -804,7 +854,7 @@ int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
 {
   if (this->Inside->Ranks.Request(this, inputVector))
   {
-    this->Inside->FailedAt = 0; // of another time step, perhaps
+    this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
   return 1;
 }
@@ -832,6 +882,21 @@ int vtkSchlierenFilter::RequestData(
   const vtkMTimeType now = this->GetTimeOfPicture();
   if (inside.FailedAt == now)
   {
+    return 1;
+  }
+  const auto showLast = [&]()
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      inside.Shown[port].Show(vtkImageData::GetData(outputVector, port),
+        outputVector->GetInformationObject(port)->Get(
+          vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
+    }
+    tellPlaces(outputVector);
+  };
+  if (this->GetStopped())
+  {
+    showLast();
     return 1;
   }
 
@@ -865,13 +930,7 @@ int vtkSchlierenFilter::RequestData(
     isMade = isMade && this->Render(output, histogram, goesOn);
     if (isMade)
     {
-      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-      {
-        inside.Shown[port].Show(vtkImageData::GetData(outputVector, port),
-          outputVector->GetInformationObject(port)->Get(
-            vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
-      }
-      tellPlaces(outputVector);
+      showLast();
       return 1;
     }
   }
@@ -886,9 +945,15 @@ int vtkSchlierenFilter::RequestData(
     inside.FailedAt = now;
     vtkErrorMacro(<< problem.what());
   }
+  const bool isStopped = this->TimeLimit > 0 && this->GetAbortExecute() && inside.FailedAt != now;
   this->ForgetPicture();
   output->Initialize();
   histogram->Initialize();
+  if (isStopped)
+  {
+    inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
+    this->Status = "No image: stopped before the refractive index was known";
+  }
   return 1;
 }
 

@@ -802,6 +802,21 @@ public:
   bool GetFinished();
   ///@}
 
+  ///@{
+  /**
+   * Leaves an unfinished picture as it is: it counts as finished then, until Refine() lets the next update go on
+   * with it, or something else changes the picture. So is an update with a TimeLimit left that is aborted while
+   * the refractivity is found; the output is empty then. GetStopped() tells whether that is so.
+   */
+  void Stop();
+  bool GetStopped();
+  ///@}
+
+  /**
+   * How much of the rays and the light of the picture there is, in per cent; 100 only for a finished one.
+   */
+  int GetPercentDone();
+
   /**
    * How many different pictures this filter has made, with the one that Refine() has made for the next update:
    * unchanged where a slice had nothing new to show.

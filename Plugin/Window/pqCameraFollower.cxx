@@ -5,6 +5,7 @@
 #include "CameraOfView.h"
 #include "PicturesInViews.h"
 #include "pqApplyHooks.h"
+#include "pqImageProgress.h"
 #include "pqInteraction.h"
 #include "pqPictureCameras.h"
 #include "pqPictureRefiner.h"
@@ -67,6 +68,7 @@ void pqCameraFollower::startup()
   }
   new pqPictureCameras(this);
   new pqPictureStatus(this);
+  new pqImageProgress(this);
   // ParaView's window may come after its plugins.
   auto* hooks = new pqApplyHooks(this);
   QObject::connect(

@@ -44,6 +44,10 @@ constexpr double longestLimit = 0.060;
 // What a longer slice has brought is shown in a turn of its own.
 constexpr double shortSlice = 0.015;
 
+// Milliseconds. What is over before is not reported, and no report comes sooner after another.
+constexpr qint64 unreported = 500;
+constexpr qint64 reportPeriod = 250;
+
 // A picture of fewer pixels shows nothing.
 constexpr int largestReduction = 16;
 
@@ -102,6 +106,18 @@ bool isFinished(vtkSMSourceProxy* filter)
 {
   filter->UpdatePropertyInformation(filter->GetProperty("Finished"));
   return vtkSMPropertyHelper(filter, "Finished").GetAsInt() != 0;
+}
+
+bool isLeft(vtkSMSourceProxy* filter)
+{
+  filter->UpdatePropertyInformation(filter->GetProperty("Stopped"));
+  return vtkSMPropertyHelper(filter, "Stopped").GetAsInt() != 0;
+}
+
+int percentDone(vtkSMSourceProxy* filter)
+{
+  filter->UpdatePropertyInformation(filter->GetProperty("PercentDone"));
+  return vtkSMPropertyHelper(filter, "PercentDone").GetAsInt();
 }
 
 /// When the properties that make the picture were last changed.
@@ -163,6 +179,9 @@ struct pqPictureRefiner::Job
   Pace Haste;
   bool HasBegun = false; ///< the filter is at the picture of all pixels
   bool IsPutOff = false; ///< it has one to be shown
+  bool HasShown = false; ///< one of all pixels
+  bool IsTold = false;   ///< panels know of that
+  QElapsedTimer Since{};
 };
 
 /// What has been learnt about a filter.
@@ -281,9 +300,11 @@ void pqPictureRefiner::watch(pqView* view)
 void pqPictureRefiner::forget(pqPipelineSource* source)
 {
   this->Speeds.remove(source->getProxy());
+  this->Stopped.remove(source->getProxy());
   this->Jobs.erase(std::remove_if(this->Jobs.begin(), this->Jobs.end(),
                      [source](const Job& job) { return job.Filter == source->getProxy(); }),
     this->Jobs.end());
+  this->report();
 }
 
 //------------------------------------------------------------------------------
@@ -304,15 +325,18 @@ void pqPictureRefiner::refine(vtkSMProxy* proxy, Pace pace)
   {
     return;
   }
+  this->setStopped(filter, false);
   const auto job = std::find_if(this->Jobs.begin(), this->Jobs.end(),
     [filter](const Job& other) { return other.Filter == filter; });
+  Job begun{ filter, pace };
+  begun.Since.start();
   if (job == this->Jobs.end())
   {
-    this->Jobs << Job{ filter, pace };
+    this->Jobs << begun;
   }
   else
   {
-    *job = Job{ filter, pace };
+    *job = begun;
   }
   if (pace == Pace::Hurried)
   {
@@ -381,15 +405,20 @@ void pqPictureRefiner::takeTurn()
     this->tellUpdate(source);
     return;
   }
-  const QuietWindow quiet(source);
   // Nobody's changes are made here; since ParaView 5.13 a rendering may leave some.
   SCOPED_UNDO_EXCLUDE();
   Job job = *next;
   this->Jobs.erase(next);
   bool isUnfinished = false;
   {
+    const QuietWindow quiet(source);
     const QScopedValueRollback<bool> busy(this->IsBusy, true);
     isUnfinished = this->takeTurn(job);
+  }
+  if (isUnfinished && job.HasShown && !job.IsTold && sourceOf(job.Filter))
+  {
+    job.IsTold = true; // what panels say of the picture is nearly right from the first samples on
+    Q_EMIT source->dataUpdated(source);
   }
   if (!isUnfinished && job.Haste != Pace::Hurried && !this->Untold.contains(job.Filter))
   {
@@ -400,7 +429,118 @@ void pqPictureRefiner::takeTurn()
   {
     this->Jobs << job;
   }
+  this->report();
   this->wakeUp();
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::report()
+{
+  QString what;
+  int jobs = 0;
+  int percent = 0;
+  const bool isTime = !this->SinceReport.isValid() || this->SinceReport.elapsed() >= reportPeriod;
+  for (const Job& job : this->Jobs)
+  {
+    pqPipelineSource* source = sourceOf(job.Filter);
+    if (source && job.Haste != Pace::Hurried && job.Since.elapsed() >= unreported)
+    {
+      what = ++jobs == 1 ? source->getSMName() : QString("%1 images").arg(jobs);
+      percent += isTime ? percentDone(job.Filter) : 0;
+    }
+  }
+  if (jobs > 0 && isTime)
+  {
+    this->SinceReport.start();
+    Q_EMIT this->progressed(what, percent / jobs);
+  }
+  else if (jobs == 0 && this->SinceReport.isValid())
+  {
+    this->SinceReport.invalidate();
+    Q_EMIT this->progressed(QString(), 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool pqPictureRefiner::isStopped(vtkSMProxy* filter) const
+{
+  return this->Stopped.contains(filter);
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::setStopped(vtkSMProxy* filter, bool isStopped)
+{
+  if (this->Stopped.contains(filter) != isStopped)
+  {
+    isStopped ? void(this->Stopped.insert(filter)) : void(this->Stopped.remove(filter));
+    Q_EMIT this->stoppedChanged(filter);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::stop()
+{
+  if (this->IsBusy || this->isShort())
+  {
+    QTimer::singleShot(0, this, &pqPictureRefiner::stop);
+    return;
+  }
+  const QScopedValueRollback<bool> busy(this->IsBusy, true);
+  for (const Job& job : std::exchange(this->Jobs, {}))
+  {
+    const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
+    pqPipelineSource* source = sourceOf(filter);
+    if (!source)
+    {
+      continue;
+    }
+    const QuietWindow quiet(source);
+    QList<QPointer<pqView>> views;
+    for (pqView* view : picturesInViews::showing(source))
+    {
+      views << view;
+    }
+    // What is there is made the filter's output, so that rendering does not ask for more.
+    Speed speed = this->Speeds.value(filter);
+    setTimeLimit(filter, shortestLimit);
+    if (!views.isEmpty())
+    {
+      update(filter, views.front());
+    }
+    {
+      SCOPED_UNDO_EXCLUDE();
+      filter->InvokeCommand("Stop");
+    }
+    setTimeLimit(filter, 0);
+    speed.IsRough = false;
+    this->show(filter, speed.ShownCount, views);
+    this->keep(filter, speed);
+    if (sourceOf(filter) && isLeft(filter))
+    {
+      this->setStopped(filter, true);
+    }
+    this->Untold << filter.GetPointer();
+  }
+  this->report();
+  this->wakeUp();
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::resume(vtkSMProxy* proxy)
+{
+  auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
+  pqPipelineSource* source = sourceOf(filter);
+  if (!source || !this->isStopped(filter))
+  {
+    return;
+  }
+  this->setStopped(filter, false);
+  const ShortUpdates shortly;
+  askForMore(filter);
+  for (pqView* view : picturesInViews::showing(source))
+  {
+    view->forceRender();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -472,6 +612,7 @@ bool pqPictureRefiner::goOn(Job& job, const QList<QPointer<pqView>>& views)
     update(filter, views.front());
     this->show(filter, speed.ShownCount, views);
     speed.IsRough = false;
+    job.HasShown = true;
   }
   job.HasBegun = true;
   const bool isUnfinished = isPutOff || !isFinished(filter);
@@ -565,6 +706,7 @@ void pqPictureRefiner::unlimit()
       }
     }
     setTimeLimit(filter, 0);
+    this->setStopped(filter, isLeft(filter));
   }
   this->Limited.clear();
 }

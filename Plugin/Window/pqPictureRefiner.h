@@ -6,10 +6,12 @@
 #include "vtkType.h" // for vtkIdType
 #include "vtkWeakPointer.h"
 
+#include <QElapsedTimer>
 #include <QHash>
 #include <QList>
 #include <QObject>
 #include <QPointer>
+#include <QSet>
 #include <QTimer>
 
 class pqPipelineSource;
@@ -45,6 +47,16 @@ public:
   /// views that show it. What has been begun for this filter before is given up.
   void refine(vtkSMProxy* filter, Pace pace);
 
+  /// Leaves all images as they are that are being refined.
+  void stop();
+
+  /// Whether a filter's image has been left unfinished by the user, and going on with it.
+  bool isStopped(vtkSMProxy* filter) const;
+  void resume(vtkSMProxy* filter);
+
+  /// Whether there are ShortUpdates.
+  bool isShort() const { return this->NumberOfShortUpdates > 0; }
+
   /// While there is one, updates of all filters are as short as turns, and what they leave unfinished is
   /// refined afterwards. Filters' properties are not to be pushed meanwhile: the undo stack would keep the limit.
   class ShortUpdates
@@ -59,6 +71,12 @@ public:
 Q_SIGNALS:
   /// Views now show another picture of the filter.
   void pictureChanged(vtkSMProxy* filter);
+
+  /// What is being refined for some time now, and how much of it is there; nothing any more: empty.
+  void progressed(const QString& what, int percent);
+
+  /// isStopped() has changed.
+  void stoppedChanged(vtkSMProxy* filter);
 
 private Q_SLOTS:
   void takeTurn();
@@ -82,6 +100,8 @@ private:
 
   void limit(vtkSMSourceProxy* filter);
   void unlimit();
+  void report();
+  void setStopped(vtkSMProxy* filter, bool isStopped);
   void show(vtkSMSourceProxy* filter, vtkIdType& shownCount, const QList<QPointer<pqView>>& views);
   void keep(vtkSMProxy* filter, const Speed& speed);
   void tellUpdate(pqPipelineSource* source);
@@ -95,5 +115,7 @@ private:
   bool IsBusy = false;
   QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user, and by ShortUpdates
   int NumberOfShortUpdates = 0;
+  QSet<vtkSMProxy*> Stopped;
+  QElapsedTimer SinceReport; // valid while something is reported
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -3,6 +3,7 @@
 #include "pqPictureStatus.h"
 
 #include "PicturesInViews.h"
+#include "pqPictureRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -16,6 +17,7 @@
 #include <QCoreApplication>
 #include <QEvent>
 #include <QLabel>
+#include <QPushButton>
 
 #include <algorithm>
 
@@ -23,6 +25,7 @@ namespace
 {
 
 const QString labelName = "SchlierenStatus";
+const QString buttonName = "SchlierenContinue";
 constexpr int margin = 6; // pixels
 
 /// At the lower left, where there is room for it: for each word, and not over most of an image.
@@ -40,6 +43,23 @@ void place(QLabel* label, QWidget* view)
 QLabel* labelOf(QWidget* view)
 {
   return view->findChild<QLabel*>(labelName, Qt::FindDirectChildrenOnly);
+}
+
+QPushButton* buttonOf(QWidget* view)
+{
+  return view->findChild<QPushButton*>(buttonName, Qt::FindDirectChildrenOnly);
+}
+
+/// Above the line.
+void place(QPushButton* button, const QLabel* label)
+{
+  button->resize(button->sizeHint());
+  button->move(label->x(), label->y() - button->height() - margin);
+}
+
+bool isStopped(pqPipelineSource* filter)
+{
+  return pqPictureRefiner::instance()->isStopped(filter->getProxy());
 }
 
 } // namespace
@@ -60,6 +80,18 @@ pqPictureStatus::pqPictureStatus(QObject* parentObject)
       for (pqView* view : model->findItems<pqView*>())
       {
         view->disconnect(this);
+      }
+    });
+  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::stoppedChanged, this,
+    [this, model](vtkSMProxy* filter)
+    {
+      auto* source = model->findItem<pqPipelineSource*>(filter);
+      for (pqView* view : source ? picturesInViews::showing(source) : QList<pqView*>())
+      {
+        if (auto* flat = qobject_cast<pqRenderView*>(view))
+        {
+          this->show(flat);
+        }
       }
     });
   for (pqView* view : model->findItems<pqView*>())
@@ -95,7 +127,9 @@ void pqPictureStatus::show(pqRenderView* view)
     {
       vtkSMProxy* proxy = filter->getProxy();
       proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));
-      lines << QString::fromUtf8(vtkSMPropertyHelper(proxy, "Status").GetAsString());
+      const QString status =
+        QString::fromUtf8(vtkSMPropertyHelper(proxy, "Status").GetAsString());
+      lines << (isStopped(filter) ? "Stopped: " + status : status);
     }
     lines.removeAll(QString());
   }
@@ -114,6 +148,35 @@ void pqPictureStatus::show(pqRenderView* view)
   {
     label->setText(lines.join('\n'));
     place(label, widget);
+    this->showButton(view, label);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureStatus::showButton(pqRenderView* view, const QLabel* label)
+{
+  const QList<pqPipelineSource*> filters = picturesInViews::picturesIn(view);
+  const bool isWanted =
+    picturesInViews::isFlat(view) && std::any_of(filters.begin(), filters.end(), isStopped);
+  QPushButton* button = buttonOf(view->widget());
+  if (!button && isWanted)
+  {
+    button = new QPushButton("Continue", view->widget());
+    button->setObjectName(buttonName);
+    button->setToolTip("Go on with the image that has been stopped");
+    QObject::connect(button, &QPushButton::clicked, this,
+      [view]()
+      {
+        for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
+        {
+          pqPictureRefiner::instance()->resume(filter->getProxy());
+        }
+      });
+  }
+  if (button)
+  {
+    place(button, label);
+    button->setVisible(isWanted);
   }
 }
 
@@ -125,6 +188,10 @@ bool pqPictureStatus::eventFilter(QObject* object, QEvent* event)
   if (label)
   {
     place(label, widget);
+    if (QPushButton* button = buttonOf(widget))
+    {
+      place(button, label);
+    }
   }
   return QObject::eventFilter(object, event);
 }

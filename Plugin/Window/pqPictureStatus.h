@@ -4,11 +4,12 @@
 
 #include <QObject>
 
+class QLabel;
 class pqRenderView;
 class pqView;
 
 /// Writes into 2-D views, at the lower left, how far the pictures are that they show: the filters' Status.
-/// Not part of what is saved.
+/// Below *Continue*, where the user has stopped one. Not part of what is saved.
 class pqPictureStatus : public QObject
 {
   Q_OBJECT
@@ -23,4 +24,5 @@ protected:
 private:
   void watch(pqView* view);
   void show(pqRenderView* view);
+  void showButton(pqRenderView* view, const QLabel* label);
 };

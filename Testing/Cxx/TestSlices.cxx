@@ -527,13 +527,83 @@ TEST(Slices, AbortLeavesNothing)
     filter->Update();
     EXPECT_TRUE(isEmpty(filter)) << limit;
     EXPECT_TRUE(filter->GetFinished()) << limit;
-    EXPECT_STREQ(filter->GetStatus(), "") << limit;
+    EXPECT_EQ(filter->GetStopped(), limit > 0) << limit;
+    EXPECT_EQ(*filter->GetStatus() != 0, limit > 0) << limit; // what there is not, and why
     filter->RemoveObserver(tag);
+    if (limit > 0)
+    {
+      filter->Update(); // whoever asks again need not wait again
+      EXPECT_TRUE(isEmpty(filter));
+      filter->Refine();
+      EXPECT_FALSE(filter->GetStopped());
+    }
     updateInSlices(filter);
     auto fresh = smallBench(image);
     fresh->Update();
     expectSamePicture(filter, fresh);
   }
+}
+
+TEST(Slices, StopLeavesWhatIsThere)
+{
+  auto image = columnImage();
+  auto fresh = smallBench(image);
+  fresh->Update();
+  auto filter = smallBench(image);
+  filter->Stop(); // nothing has been begun
+  EXPECT_FALSE(filter->GetStopped());
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  while (std::string(filter->GetStatus()).find("2 of 3 samples") != 0)
+  {
+    EXPECT_LT(filter->GetPercentDone(), 100);
+    filter->Refine();
+    filter->Update();
+    ASSERT_FALSE(filter->GetFinished());
+  }
+  EXPECT_GE(filter->GetPercentDone(), 33);
+  const std::vector<double> left = valuesOf(filter, "Intensity");
+  filter->Stop();
+  EXPECT_TRUE(filter->GetStopped());
+  EXPECT_TRUE(filter->GetFinished());
+  EXPECT_LT(filter->GetPercentDone(), 100);
+  filter->SetTimeLimit(0);
+  filter->Update();
+  EXPECT_EQ(valuesOf(filter, "Intensity"), left);
+
+  // It goes on where it was, with a limit or without, and something else begins anew.
+  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
+  filter->Refine();
+  EXPECT_FALSE(filter->GetStopped());
+  EXPECT_FALSE(filter->GetFinished());
+  updateInSlices(filter);
+  expectSamePicture(filter, fresh);
+  EXPECT_EQ(filter->GetPercentDone(), 100);
+  EXPECT_LT(filter->GetTotalRaysTraced() - rays, fresh->GetTotalRaysTraced());
+
+  filter->SetSeed(2);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  filter->Stop();
+  EXPECT_TRUE(filter->GetStopped());
+  filter->SetTimeLimit(0);
+  filter->SetSeed(1);
+  EXPECT_FALSE(filter->GetStopped());
+  filter->Update();
+  expectSamePicture(filter, fresh);
+}
+
+// An array that the picture from before does not have.
+TEST(Slices, ColouredPictureHasColourAtOnce)
+{
+  auto filter = smallBench(columnImage());
+  filter->Update();
+  filter->SetCutoff(vtkSchlierenFilter::COLOR_FILTER);
+  filter->SetStepSize(0.5);
+  filter->SetTimeLimit(shortest);
+  filter->Update();
+  EXPECT_FALSE(filter->GetFinished());
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("Color"));
 }
 
 TEST(Slices, NoLimitFinishesWhatWasBegun)

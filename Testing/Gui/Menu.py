@@ -11,6 +11,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 from plugin_testing import picture, simple  # noqa: E402
+from views_testing import INSIDE  # noqa: E402
 from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 user = Session()
@@ -25,9 +26,10 @@ user.save_state("menu.pvsm")
 user.event(f"{PROPERTIES}/KFromOptics/CheckBox", "set_boolean", "true")
 user.type("FocalLength/DoubleLineEdit0", "2")
 user.apply()
+user.python('settle(FindSource("Schlieren1"))')
 user.check("Sensitivity/Note", "text", "k = 2000: full scale is a deflection of 0.25 mrad; optics: 2 m focal length, "
            "source 1 mm wide, the edge 0 mm in (offset 0)")
-user.play("""
+user.play(INSIDE + """
 from paraview.simple import *
 Sphere(Radius=3, registrationName="ball").UpdatePipeline()
 flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")

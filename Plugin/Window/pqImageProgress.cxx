@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqImageProgress.h"
+
+#include "pqPictureRefiner.h"
+
+#include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
+#include "pqPipelineSource.h"
+#include "pqProgressManager.h"
+#include "pqProgressWidget.h"
+#include "pqServerManagerModel.h"
+#include "vtkAlgorithm.h"
+#include "vtkCommand.h"
+#include "vtkEventQtSlotConnect.h"
+#include "vtkSMSourceProxy.h"
+
+#include <QCoreApplication>
+#include <QEvent>
+#include <QScopedValueRollback>
+#include <QToolButton>
+#include <QWidget>
+
+#include <cstring>
+
+namespace
+{
+
+constexpr qint64 eventPeriod = 50; // milliseconds
+
+pqProgressManager* manager() { return pqApplicationCore::instance()->getProgressManager(); }
+
+pqProgressWidget* progressBar()
+{
+  QWidget* window = pqCoreUtilities::mainWidget();
+  return window ? window->findChild<pqProgressWidget*>() : nullptr;
+}
+
+/// What the user does, or what may render: a pipeline that is being updated must not be updated.
+bool isForLater(QObject* receiver, QEvent* event)
+{
+  switch (event->type())
+  {
+    case QEvent::Shortcut:
+      return true;
+    case QEvent::Paint:
+      return receiver->inherits("QOpenGLWidget");
+    case QEvent::Close:
+    case QEvent::ContextMenu:
+    case QEvent::DragEnter:
+    case QEvent::Drop:
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+    case QEvent::MouseButtonDblClick:
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseMove:
+    case QEvent::ShortcutOverride:
+    case QEvent::TouchBegin:
+    case QEvent::Wheel:
+      return receiver->isWidgetType(); // those of a window are sent on to its widgets
+    default:
+      return false;
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqImageProgress::pqImageProgress(QObject* parentObject)
+  : QObject(parentObject)
+{
+  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::progressed, this,
+    &pqImageProgress::show);
+  QObject::connect(manager(), &pqProgressManager::abort, this, &pqImageProgress::abort);
+  QObject::connect(manager(), &pqProgressManager::progressEndEvent, this,
+    [this]()
+    {
+      pqProgressWidget* bar = this->SinceEvents.isValid() ? progressBar() : nullptr;
+      if (bar)
+      {
+        this->SinceEvents.invalidate();
+        bar->enableAbort(this->IsRefining);
+      }
+    });
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::sourceAdded, this, &pqImageProgress::watch);
+  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
+  {
+    this->watch(source);
+  }
+}
+
+//------------------------------------------------------------------------------
+pqImageProgress::~pqImageProgress() = default;
+
+//------------------------------------------------------------------------------
+void pqImageProgress::watch(pqPipelineSource* source)
+{
+  const char* name = source->getProxy()->GetXMLName();
+  auto* filter = vtkAlgorithm::SafeDownCast(source->getProxy()->GetClientSideObject());
+  if (filter && name &&
+    (std::strcmp(name, "Schlieren") == 0 || std::strcmp(name, "RefractiveIndex") == 0))
+  {
+    this->Connection->Connect(
+      filter, vtkCommand::ProgressEvent, this, SLOT(onProgress(vtkObject*)));
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::show(const QString& what, int percent)
+{
+  this->IsRefining = !what.isEmpty();
+  if (pqProgressWidget* bar = progressBar())
+  {
+    bar->enableProgress(this->IsRefining);
+    bar->setProgress(what, percent);
+    bar->enableAbort(this->IsRefining);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::abort()
+{
+  if (this->Executing)
+  {
+    this->Executing->SetAbortExecute(1);
+  }
+  else
+  {
+    pqPictureRefiner::instance()->stop();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::onProgress(vtkObject* filter)
+{
+  pqProgressWidget* bar = progressBar();
+  if (!pqPictureRefiner::instance()->isShort() || this->Executing || !bar ||
+    (this->SinceEvents.isValid() && this->SinceEvents.elapsed() < eventPeriod))
+  {
+    return;
+  }
+  bar->enableAbort(true);
+  const QScopedValueRollback<vtkAlgorithm*> executing(
+    this->Executing, vtkAlgorithm::SafeDownCast(filter));
+  // ParaView lets nothing be pressed meanwhile, the window that the button is in included.
+  const bool wasUnblocked = manager()->unblockEvents(true);
+  QCoreApplication::instance()->installEventFilter(this);
+  QCoreApplication::processEvents(
+    QEventLoop::ExcludeSocketNotifiers | QEventLoop::X11ExcludeTimers);
+  QCoreApplication::instance()->removeEventFilter(this);
+  manager()->unblockEvents(wasUnblocked);
+  this->SinceEvents.start();
+}
+
+//------------------------------------------------------------------------------
+bool pqImageProgress::eventFilter(QObject* receiver, QEvent* event)
+{
+  pqProgressWidget* bar = progressBar();
+  if ((bar && receiver == bar->abortButton()) || !isForLater(receiver, event))
+  {
+    return QObject::eventFilter(receiver, event);
+  }
+  event->ignore();
+  return true;
+}

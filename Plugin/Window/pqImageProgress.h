@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkNew.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+
+class pqPipelineSource;
+class pqProgressWidget;
+class vtkAlgorithm;
+class vtkEventQtSlotConnect;
+class vtkObject;
+
+/// ParaView's progress bar and its abort button, while images are refined and, with the builtin server, while
+/// Apply waits for a refractive index.
+class pqImageProgress : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit pqImageProgress(QObject* parent);
+  ~pqImageProgress() override;
+
+protected:
+  /// While Apply waits: nothing but the abort button answers.
+  bool eventFilter(QObject* receiver, QEvent* event) override;
+
+private Q_SLOTS:
+  void onProgress(vtkObject* filter);
+
+private:
+  void watch(pqPipelineSource* source);
+  void show(const QString& what, int percent);
+  void abort();
+
+  bool IsRefining = false;
+  vtkAlgorithm* Executing = nullptr; ///< while its progress is shown
+  QElapsedTimer SinceEvents;
+  vtkNew<vtkEventQtSlotConnect> Connection;
+};
