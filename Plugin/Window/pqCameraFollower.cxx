@@ -71,8 +71,8 @@ void pqCameraFollower::startup()
   new pqImageProgress(this);
   // ParaView's window may come after its plugins.
   auto* hooks = new pqApplyHooks(this);
-  QObject::connect(
-    model, &pqServerManagerModel::sourceAdded, hooks, [hooks](pqPipelineSource*) { hooks->setUp(); });
+  QObject::connect(model, &pqServerManagerModel::sourceAdded, hooks,
+    [hooks](pqPipelineSource*) { hooks->setUp(); });
 }
 
 //------------------------------------------------------------------------------

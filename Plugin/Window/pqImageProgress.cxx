@@ -70,8 +70,8 @@ bool isForLater(QObject* receiver, QEvent* event)
 pqImageProgress::pqImageProgress(QObject* parentObject)
   : QObject(parentObject)
 {
-  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::progressed, this,
-    &pqImageProgress::show);
+  QObject::connect(
+    pqPictureRefiner::instance(), &pqPictureRefiner::progressed, this, &pqImageProgress::show);
   QObject::connect(manager(), &pqProgressManager::abort, this, &pqImageProgress::abort);
   QObject::connect(manager(), &pqProgressManager::progressEndEvent, this,
     [this]()

@@ -55,8 +55,8 @@ void pqInteraction::watch(pqView* view)
         interactor, event, this, SLOT(onEvent(vtkObject*, unsigned long, void*)), proxy, 1);
     }
     // ParaView's timer renders some time after the last of these, and after another rendering.
-    this->Connection->Connect(
-      interactor, vtkCommand::TimerEvent, this, SLOT(onEvent(vtkObject*, unsigned long, void*)), proxy, 1);
+    this->Connection->Connect(interactor, vtkCommand::TimerEvent, this,
+      SLOT(onEvent(vtkObject*, unsigned long, void*)), proxy, 1);
     this->Connection->Connect(interactor, vtkCommand::TimerEvent, this,
       SLOT(onTimerOver(vtkObject*, unsigned long, void*)), proxy, -1);
   }
@@ -88,7 +88,4 @@ void pqInteraction::onEvent(vtkObject*, unsigned long event, void* view)
 }
 
 //------------------------------------------------------------------------------
-void pqInteraction::onTimerOver(vtkObject*, unsigned long, void* view)
-{
-  this->Moved.remove(view);
-}
+void pqInteraction::onTimerOver(vtkObject*, unsigned long, void* view) { this->Moved.remove(view); }

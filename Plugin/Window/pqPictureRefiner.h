@@ -113,7 +113,8 @@ private:
   QList<vtkWeakPointer<vtkSMSourceProxy>> Untold; // updated, and panels do not know it yet
   QTimer Timer;
   bool IsBusy = false;
-  QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view answers the user, and by ShortUpdates
+  QList<vtkWeakPointer<vtkSMSourceProxy>>
+    Limited; // while a view answers the user, and by ShortUpdates
   int NumberOfShortUpdates = 0;
   QSet<vtkSMProxy*> Stopped;
   QElapsedTimer SinceReport; // valid while something is reported

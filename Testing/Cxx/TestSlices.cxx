@@ -3,6 +3,7 @@
 //
 // Pictures that are made in slices of time, and what is shown in between.
 #include "Fixtures.h"
+#include "Series.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
@@ -590,6 +591,30 @@ TEST(Slices, StopLeavesWhatIsThere)
   filter->SetSeed(1);
   EXPECT_FALSE(filter->GetStopped());
   filter->Update();
+  expectSamePicture(filter, fresh);
+}
+
+// Another time of the same source changes none of the filter's or the source's own times.
+TEST(Slices, WhatIsStoppedIsOneTimeStep)
+{
+  vtkNew<Series> series;
+  const auto atTime = [&series](vtkSchlierenFilter* filter, double time)
+  {
+    filter->SetInputConnection(series->GetOutputPort());
+    filter->UpdateTimeStep(time);
+  };
+  auto filter = smallBench(nullptr);
+  filter->SetAutoKScale(false);
+  filter->SetTimeLimit(shortest);
+  atTime(filter, 0);
+  filter->Stop();
+  ASSERT_TRUE(filter->GetStopped());
+  filter->SetTimeLimit(0);
+  atTime(filter, 2);
+  EXPECT_FALSE(filter->GetStopped());
+  auto fresh = smallBench(nullptr);
+  fresh->SetAutoKScale(false);
+  atTime(fresh, 2);
   expectSamePicture(filter, fresh);
 }
 
