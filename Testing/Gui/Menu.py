@@ -14,8 +14,7 @@ from plugin_testing import picture, simple  # noqa: E402
 from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 user = Session()
-user.menu("menuFilters", "Schlieren")
-user.menu("menuFilters/Schlieren", "Schlieren")
+user.choose_filter("Schlieren")
 user.check("Grid/Note", "text", "known after Apply")
 user.apply()
 user.check("Grid/Note", "text", "17 x 17 x 17 points: the data's own")
