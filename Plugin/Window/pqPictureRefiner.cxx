@@ -405,8 +405,6 @@ void pqPictureRefiner::takeTurn()
     this->tellUpdate(source);
     return;
   }
-  // Nobody's changes are made here; since ParaView 5.13 a rendering may leave some.
-  SCOPED_UNDO_EXCLUDE();
   Job job = *next;
   this->Jobs.erase(next);
   bool isUnfinished = false;

@@ -34,8 +34,7 @@ user.check_message("'nothing' has no cells to send light through. Select data th
 
 # Made from the menu and not applied yet.
 user.python('SetActiveSource(FindSource("mesh"))')
-user.menu("menuFilters", "Schlieren")
-user.menu("menuFilters/Schlieren", "Schlieren")
+user.choose_filter("Schlieren")
 user.press("OnePicture")
 user.check_message("'Schlieren1' has not been applied yet. Press Apply first.")
 user.delete()

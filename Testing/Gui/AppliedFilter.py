@@ -10,8 +10,7 @@ from views_testing import (INSIDE, OPEN_JET, TRACE, ViewsSession, check_display,
 
 user = ViewsSession()
 user.python("from paraview import smtrace\nsmtrace.start_trace()")
-user.menu("menuFilters", "Schlieren")
-user.menu("menuFilters/Schlieren", "Schlieren")
+user.choose_filter("Schlieren")
 user.save_state("before.pvsm")
 user.apply()
 user.python(f"""

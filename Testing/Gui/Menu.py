@@ -15,8 +15,7 @@ from views_testing import INSIDE  # noqa: E402
 from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
 user = Session()
-user.menu("menuFilters", "Schlieren")
-user.menu("menuFilters/Schlieren", "Schlieren")
+user.choose_filter("Schlieren")
 user.check("Grid/Note", "text", "known after Apply")
 user.apply()
 user.check("Grid/Note", "text", "17 x 17 x 17 points: the data's own")

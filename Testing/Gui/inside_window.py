@@ -5,6 +5,7 @@
 import ctypes
 import os
 import time
+import traceback
 from importlib import import_module
 
 import numpy as np
@@ -18,8 +19,8 @@ with open("/proc/self/maps", encoding="utf-8") as _maps:
     QT = 6 if "/libQt6Core.so" in _maps.read() else 5
 Qt = import_module(f"PyQt{QT}.QtCore").Qt
 QTest = import_module(f"PyQt{QT}.QtTest").QTest
-QApplication, QWidget = (getattr(import_module(f"PyQt{QT}.QtWidgets"), name)
-                         for name in ("QApplication", "QWidget"))
+QApplication, QPushButton, QWidget = (getattr(import_module(f"PyQt{QT}.QtWidgets"), name)
+                                      for name in ("QApplication", "QPushButton", "QWidget"))
 QAction = import_module("PyQt6.QtGui" if QT == 6 else "PyQt5.QtWidgets").QAction
 
 # Neither PyQt nor CDLL, which let go of the interpreter's lock: VTK's observers in Python do not ask for it.
@@ -106,6 +107,38 @@ def widget(*names):
     for name in names:
         found = found and found.findChild(QWidget, name)
     return found
+
+
+def save_state(name):
+    """As File > Save State does. But since ParaView 5.13, whatever writes a file leaves a step to undo; so
+    this is what the program prints."""
+    state = servermanager.ProxyManager().SMProxyManager.SaveXMLState()
+    with open(name, "wb") as file:
+        output = os.dup(1)
+        os.dup2(file.fileno(), 1)
+        state.PrintXML()
+        ctypes.CDLL(None).fflush(None)
+        os.dup2(output, 1)
+        os.close(output)
+
+
+def add_steps(count):
+    """Buttons out of sight that run the scripts of Session.python."""
+    steps = QWidget(widget())
+    steps.setObjectName("Steps")
+    for number in range(1, count + 1):
+        button = QPushButton(steps)
+        button.setObjectName(f"step{number}")
+        button.clicked.connect(lambda _, number=number: _run_step(number))
+
+
+def _run_step(number):
+    name = os.path.join(FOLDER, f"step{number}.py")
+    try:
+        with open(name, encoding="utf-8") as file:
+            exec(compile(file.read(), name, "exec"), {"__name__": "__main__"})
+    except Exception:  # PyQt would end the window
+        traceback.print_exc()
 
 
 def press_key(key, modifiers=Qt.KeyboardModifier.NoModifier, release=True):

@@ -8,7 +8,7 @@ import subprocess
 from xml.sax.saxutils import quoteattr
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
-MACROS = os.path.join(FOLDER, "scripts")
+HERE = os.path.dirname(os.path.abspath(__file__))
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
         "/MultiViewWidget1/Container/Frame.{}/CentralWidgetFrame/Viewport")
@@ -75,18 +75,22 @@ class Session:
     def menu(self, menu, action):
         self.event(f"pqClientMainWindow/menubar/{menu}", "activate", action)
 
+    def choose_filter(self, name):
+        """Of the menu Filters > Schlieren."""
+        self.event("pqClientMainWindow/menubar", "activate", "menuFilters")  # opens it, which fills it
+        self.menu("menuFilters", "Schlieren")
+        self.menu("menuFilters/Schlieren", name)
+
     def save_state(self, name):
-        self.menu("menu_File", "actionFileSaveServerState")
-        self.event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected",
-                   os.path.join(FOLDER, name))
+        self.python(f"save_state({os.path.join(FOLDER, name)!r})\n")
 
     def python(self, script):
-        """Runs a Python script within the window, as a macro; see inside_window.py."""
-        os.makedirs(MACROS, exist_ok=True)
+        """Runs a Python script within the window; see inside_window.py. As a macro, it would leave a step to
+        undo since ParaView 5.13."""
         self.scripts += 1
-        with open(os.path.join(MACROS, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
+        with open(os.path.join(FOLDER, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
             file.write("from paraview.simple import *\nfrom inside_window import *\n" + script)
-        self.menu("menu_Macros", f"step{self.scripts}")
+        self.event(f"pqClientMainWindow/Steps/step{self.scripts}", "activate")
 
     def drag_view(self, frame, *places, button=1):
         """Drags with a button (1 left, 2 right) from place to place in the view of a frame, whose sides are
@@ -105,9 +109,9 @@ class Session:
         with open(events, "w", encoding="utf-8") as file:
             file.write("\n".join(["<pqevents>"] + self.lines + ["</pqevents>", ""]))
         with open(before, "w", encoding="utf-8") as file:
-            file.write(script)
+            file.write(f"import sys\nsys.path.insert(0, {HERE!r})\n"
+                       f"from inside_window import add_steps\nadd_steps({self.scripts})\n{script}")
         environment = dict(os.environ, XDG_CONFIG_HOME=os.path.join(FOLDER, "window"),
-                           PV_MACRO_PATH=MACROS,
                            PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
         done = subprocess.run(
             [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
