@@ -702,8 +702,7 @@ double vtkSchlierenFilter::KeptK()
   Internals& inside = *this->Inside;
   if (!choosesK(this))
   {
-    inside.KLock.Drop();
-    return 0;
+    return 0; // what is kept waits: the change may be undone
   }
   return inside.KLock.For(this->LockK,
     { inside.Time, inside.Input,
@@ -771,7 +770,7 @@ bool vtkSchlierenFilter::Show(
   {
     inside.KLock.Found(image.kScale);
   }
-  const bool isKept = this->GetLockedK() > 0;
+  const bool isKept = choosesK(this) && this->GetLockedK() > 0;
   this->Status =
     inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;

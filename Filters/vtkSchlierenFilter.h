@@ -384,8 +384,8 @@ public:
    *   time, as the camera of an animation does. Found anew where camera, light, quality or data change and the time
    *   does not;
    * - LOCK_ALWAYS: kept where camera, light and quality change, too.
-   * In each case it is found anew where the settings of the medium, the kind of cutoff, or, at the same time, the data
-   * change, and where k is not automatic for an image in between.
+   * In each case it is found anew where the settings of the medium, the kind of cutoff that has a k, or, at the same
+   * time, the data change. Images between, whose k is not automatic, do not count.
    */
   vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
   vtkGetMacro(LockK, int);

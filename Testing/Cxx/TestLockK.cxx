@@ -134,22 +134,32 @@ TEST_F(LockK, AnotherMediumCutoffOrDataHasItsOwn)
   EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
 }
 
-TEST_F(LockK, IsFoundAnewAfterAnImageWithoutIt)
+// So that undoing what was in between leads back to the same image.
+TEST_F(LockK, StaysWhileAnImageHasNone)
 {
-  this->filter->SetLockK(Filter::LOCK_ALWAYS);
   this->kAt(0);
   EXPECT_EQ(this->kAt(2), this->own[0]);
   this->filter->SetAutoKScale(false);
   EXPECT_EQ(this->kAt(2), 1000);
-  EXPECT_FALSE(this->saysLocked());
+  EXPECT_EQ(std::string(this->filter->GetStatus()).find("locked"), std::string::npos);
   this->filter->SetAutoKScale(true);
-  EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
-  EXPECT_EQ(this->kAt(0), this->own[2]);
+  EXPECT_EQ(this->kAt(2), this->own[0]);
+  EXPECT_TRUE(this->saysLocked());
+  this->filter->SetCutoff(Filter::SHADOWGRAPH);
+  EXPECT_EQ(this->kAt(2), 0);
+  this->filter->SetCutoff(Filter::KNIFE_EDGE);
+  EXPECT_EQ(this->kAt(2), this->own[0]);
+}
+
+TEST_F(LockK, SwitchedOffAndOnKeepsTheKInUse)
+{
+  this->kAt(0);
+  EXPECT_EQ(this->kAt(2), this->own[0]);
   this->filter->SetLockK(Filter::LOCK_OFF);
-  EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
-  // Switched on, it keeps the k in use.
+  EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
+  EXPECT_FALSE(this->saysLocked());
   this->filter->SetLockK(Filter::LOCK_OVER_TIME);
-  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[0]);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[2]);
 }
 
 TEST_F(LockK, CanBeGiven)

@@ -9,6 +9,7 @@ import os
 import numpy as np
 from views_testing import FOLDER, ViewsSession, filters, load, png, simple, views
 from plugin_testing import Schlieren
+from window_testing import PANEL
 from follow_testing import saved
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -17,6 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 TIMES = [0, 0.1, 0.3, 0.7]
 SIZE = [240, 180]  # of the saved animation
 AIR = 1.0  # its refractivity in single precision is a little higher
+NOTES = os.path.join(FOLDER, "notes.txt")
 SERIES, LOG = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "shown.txt")
 
 
@@ -84,6 +86,13 @@ user.press("OnePicture")
 user.python(SETTLE + NOTE + begin("played"))
 vcr("Play")
 user.python(SETTLE + "save('played', bench)\n" + begin("stepped"))
+user.check_at(PANEL + "/Accept", "enabled", "false")
+user.check("LockK/ComboBox", "currentText", "Over Time")
+user.python(FIND + f"""
+with open({NOTES!r}, "w") as file:
+    for text in (widget("propertiesPanel", "Sensitivity", "Note").text(), information(bench, "Status")):
+        file.write(text + "\\n")
+""")
 user.save_state("played.pvsm")
 vcr("FirstFrame")
 user.python(SETTLE + "save('first', bench)\n")
@@ -151,6 +160,12 @@ for name, time in (("played", TIMES[-1]), ("first", TIMES[0]), ("next", TIMES[1]
     expected, _ = scripted(name, time)
     assert np.ptp(expected) > 0.5
     assert np.abs(saved(name)["intensity"] - expected).max() < 1e-5, (name, time)
+
+# The panel and the image's line say so.
+with open(NOTES, encoding="utf-8") as file:
+    sensitivity, status = file.read().splitlines()
+locked = f"k locked at {float(saved('played')['k']):.4g}"
+assert sensitivity.startswith(locked + ": full scale is ") and status.endswith(", " + locked), (sensitivity, status)
 
 # k is that of the first image, and would be another one at another time.
 assert saved("played")["k"] == saved("first")["k"] == saved("next")["k"]
