@@ -664,6 +664,7 @@ bool vtkSchlierenFilter::Show(
       vtkWarningMacro(<< warning);
     }
   }
+  dropIdleBounds(image);
   this->Status = inside.Pictures.GetStatus(image);
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(this, image.kScale);
