@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace
@@ -90,6 +91,26 @@ float srgbFromLinear(float light)
 } // namespace
 
 //------------------------------------------------------------------------------
+void dropIdleBounds(schlieren::Image& image)
+{
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (image.displacementBound >= 0.5 * image.frame.pixelSize * std::min(image.width, image.height))
+  {
+    image.displacementBound = unknown;
+  }
+  double largestSquare = 0;
+  for (std::size_t i = 0; i + 1 < image.deflection.size(); i += 2)
+  {
+    const double u = image.deflection[i], v = image.deflection[i + 1];
+    largestSquare = std::max(largestSquare, u * u + v * v);
+  }
+  if (image.skippingBound > 0 && image.skippingBound >= std::sqrt(largestSquare))
+  {
+    image.skippingBound = unknown;
+  }
+}
+
+//------------------------------------------------------------------------------
 void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
@@ -127,8 +148,14 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
   addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
   addFieldValue(output, "TraceSeconds", image.traceSeconds, "s");
-  addFieldValue(output, "DisplacementBound", image.displacementBound, dataUnits);
-  addFieldValue(output, "SkippingBound", image.skippingBound, "rad");
+  if (std::isfinite(image.displacementBound))
+  {
+    addFieldValue(output, "DisplacementBound", image.displacementBound, dataUnits);
+  }
+  if (std::isfinite(image.skippingBound))
+  {
+    addFieldValue(output, "SkippingBound", image.skippingBound, "rad");
+  }
   addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
 }
 

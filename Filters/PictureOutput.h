@@ -10,8 +10,12 @@ struct Histogram;
 struct Image;
 } // namespace schlieren
 
+/// Makes bounds infinite that say nothing of this image: of the displacement, if light from its middle might leave it;
+/// of what skipping changes, if that might be as much as the largest deflection.
+void dropIdleBounds(schlieren::Image& image);
+
 /// Makes `output` the picture `image`, with all arrays and field data that vtkSchlierenFilter promises
-/// but Color, Grid and MediumDimensions. Takes the memory of the image's arrays over, `color` excepted.
+/// but Color, Grid and MediumDimensions, and without bounds that are infinite. Takes the memory of the image's arrays over, `color` excepted.
 void setOutput(vtkImageData* output, schlieren::Image& image);
 
 /// How the light of a picture becomes the bytes of Color.

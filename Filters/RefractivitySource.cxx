@@ -252,8 +252,12 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   }
   if (selection.name.empty() && selection.attribute < 0)
   {
-    throw std::runtime_error(
-      "No array is chosen for " + property + ". Choose one of: " + names + ".");
+    throw std::runtime_error("No array is chosen for " + property + ". Choose one of: " + names +
+      "." +
+      (property == "Density"
+          ? " A temperature tells no density without a pressure; with both, compute one or use "
+            "IndexModel Ciddor (Documentation/density.md)."
+          : ""));
   }
   throw std::runtime_error("The input has no array '" + selection.name + "'. Set " + property +
     " to one of: " + names + ".");

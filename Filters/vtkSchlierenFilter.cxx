@@ -771,6 +771,7 @@ bool vtkSchlierenFilter::Show(
     inside.KLock.Found(image.kScale);
   }
   const bool isKept = choosesK(this) && this->GetLockedK() > 0;
+  dropIdleBounds(image);
   this->Status =
     inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;

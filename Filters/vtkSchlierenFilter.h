@@ -30,7 +30,7 @@
  * `AmbientRefractivity` (the value used), `RaysTraced`, `RaysLost` (trapped in the medium or turned back
  * by it), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
  * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
- * changes no direction cosine by more) and `MomentumDrift` (largest relative error of |p| = n where
+ * changes no direction cosine by more), each left out where it says nothing, and `MomentumDrift` (largest relative error of |p| = n where
  * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight` or `Refracted`.
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the

@@ -114,6 +114,7 @@ const std::map<std::string, double> densityUnits = { { "kg/m3", 1 }, { "kgm-3", 
   { "kg/m\xc2\xb3", 1 }, { "g/cm3", 1000 }, { "g/cc", 1000 }, { "gcm-3", 1000 }, { "g/ml", 1000 },
   { "kg/l", 1000 }, { "g/l", 1 }, { "g/m3", 1e-3 }, { "lb/ft3", 16.018463 },
   { "slug/ft3", 515.37882 } };
+const std::map<std::string, double> temperatureUnits = { { "k", 1 }, { "kelvin", 1 } };
 const std::map<std::string, double> pressureUnits = { { "pa", 1 }, { "n/m2", 1 }, { "hpa", 100 },
   { "mbar", 100 }, { "kpa", 1e3 }, { "mpa", 1e6 }, { "bar", 1e5 }, { "atm", 101325 },
   { "torr", 133.32237 }, { "mmhg", 133.32237 }, { "psi", 6894.7573 } };
@@ -246,7 +247,7 @@ public:
       "vtkOriginalCellIds", "vtkValidPointMask" };
     for (const FlowArray& array : this->Arrays)
     {
-      if (!helpers.count(array.name))
+      if (!helpers.count(array.name) && !isNoDensity(array))
       {
         this->Result.arrays = { { "Density", array.name } };
         this->Result.isSure = false;
@@ -258,6 +259,8 @@ public:
     }
     return false;
   }
+
+  bool isEmpty() const { return this->Arrays.empty(); }
 
   FlowDefaults Result;
   std::string Note; ///< what was not understood
@@ -399,8 +402,7 @@ private:
   {
     double kelvins = 1;
     double pascals = 1;
-    const FlowArray* temperature =
-      this->find(temperatures, { { "k", 1 }, { "kelvin", 1 } }, kelvins);
+    const FlowArray* temperature = this->find(temperatures, temperatureUnits, kelvins);
     const FlowArray* pressure = this->find(pressures, pressureUnits, pascals);
     if (!temperature || !pressure)
     {
@@ -456,6 +458,20 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
+bool isNoDensity(const FlowArray& array)
+{
+  const Name name(array.name);
+  const std::string words = name.joined();
+  if (name.is(temperatures) || name.is(pressures) || contains(words, "temperature") ||
+    temperatureUnits.count(name.unit) || pressureUnits.count(name.unit))
+  {
+    return true;
+  }
+  const bool isNamedDensity = contains(words, "rho") || contains(words, "dens");
+  return !isNamedDensity && array.range[0] >= 200 && array.range[1] <= 3000;
+}
+
+//------------------------------------------------------------------------------
 FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
 {
   std::vector<Chooser> choosers = { { arrays, FlowArray::Points }, { arrays, FlowArray::Cells } };
@@ -475,5 +491,19 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
       return chooser.Result;
     }
   }
-  return {};
+  FlowDefaults none;
+  none.isSure = false;
+  if (choosers[0].isEmpty() && choosers[1].isEmpty())
+  {
+    none.message = "There is no array with one value at a point or cell, so nothing tells the "
+                   "refractive index. Load or compute a density.";
+    return none;
+  }
+  none.message = choosers[0].Note + choosers[1].Note +
+    "There is no density, nor a temperature together with a pressure, so nothing tells the "
+    "refractive "
+    "index. Load or compute one (Documentation/density.md says how), or choose an array yourself "
+    "in "
+    "the filter of the menu Filters > Schlieren.";
+  return none;
 }

@@ -39,8 +39,8 @@ struct FlowDefaults
   IndexModel indexModel = GladstoneDale;
   FlowArray::Association association = FlowArray::Points;
 
-  /// Properties that take an array, and the array. The first is what the flow is shown by. None: the flow
-  /// has no array that could be used.
+  /// Properties that take an array, and the array. The first is what the flow is shown by. None: no array
+  /// could be used, and `message` says what is missing.
   std::vector<std::pair<std::string, std::string>> arrays;
 
   /// Properties that take a factor to SI units.
@@ -55,5 +55,9 @@ struct FlowDefaults
   std::string message;
   bool isSure = true;
 };
+
+/// Whether an array is surely not a density, or so likely not that only the user may take it for one: by its name or
+/// unit it is a temperature or a pressure, or it has values of a temperature in kelvins and no name of a density.
+bool isNoDensity(const FlowArray& array);
 
 FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays);

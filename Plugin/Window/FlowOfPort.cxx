@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlowOfPort.h"
 
+#include "FlowArrays.h"
+
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
-#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 
@@ -62,11 +63,10 @@ QString problemOfFlow(pqOutputPort* port)
   {
     return name + " is no data set in space. Select data that fill a volume.";
   }
-  if (flowDefaults(arraysOfFlow(port)).arrays.empty())
+  const FlowDefaults defaults = flowDefaults(arraysOfFlow(port));
+  if (defaults.arrays.empty())
   {
-    return name +
-      " has no array with one value at a point or cell, so that nothing tells its refractive "
-      "index. Load or compute a density.";
+    return name + ": " + QString::fromStdString(defaults.message);
   }
   return QString();
 }
@@ -74,20 +74,7 @@ QString problemOfFlow(pqOutputPort* port)
 //------------------------------------------------------------------------------
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port)
 {
-  std::vector<FlowArray> arrays;
-  for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
-  {
-    vtkPVDataSetAttributesInformation* info =
-      port->getDataInformation()->GetAttributeInformation(association);
-    for (int i = 0; i < info->GetNumberOfArrays(); ++i)
-    {
-      vtkPVArrayInformation* array = info->GetArrayInformation(i);
-      const double* range = array->GetComponentFiniteRange(0);
-      arrays.push_back(
-        { array->GetName(), association, array->GetNumberOfComponents(), { range[0], range[1] } });
-    }
-  }
-  return arrays;
+  return arraysOf(port->getDataInformation());
 }
 
 //------------------------------------------------------------------------------

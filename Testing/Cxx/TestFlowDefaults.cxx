@@ -156,9 +156,31 @@ TEST(FlowDefaults, PressureUnits)
 TEST(FlowDefaults, TemperaturesInCelsiusAreTold)
 {
   const FlowDefaults chosen = flowDefaults({ scalar("T", 15, 80), scalar("p", 9e4, 1e5) });
-  EXPECT_EQ(chosen.indexModel, FlowDefaults::GladstoneDale);
+  EXPECT_TRUE(chosen.arrays.empty());
   EXPECT_NE(chosen.message.find("'T' is not in kelvins"), std::string::npos);
-  EXPECT_NE(chosen.message.find("'T' is taken as the density"), std::string::npos);
+}
+
+TEST(FlowDefaults, TemperatureOrPressureAloneIsNoDensity)
+{
+  for (const FlowArray& array :
+    { scalar("T", 290, 310), scalar("temp", 15, 80), scalar("Temperature", 300, 301),
+      scalar("wallTemperature", 0, 1), scalar("x [K]", 1, 2), scalar("temperature_K", 1, 2),
+      scalar("field", 250, 2500), scalar("p", 9e4, 1e5), scalar("q (hPa)", 900, 1013) })
+  {
+    const FlowDefaults chosen = flowDefaults({ velocity, array });
+    EXPECT_TRUE(chosen.arrays.empty()) << array.name;
+    EXPECT_FALSE(chosen.isSure) << array.name;
+    EXPECT_NE(chosen.message.find("no density, nor a temperature together with a pressure"),
+      std::string::npos)
+      << chosen.message;
+    EXPECT_NE(chosen.message.find("Documentation/density.md"), std::string::npos);
+    // The only other array is a guess.
+    EXPECT_EQ(
+      flowDefaults({ array, scalar("Mach", 0, 2) }).arrays, (Arrays{ { "Density", "Mach" } }))
+      << array.name;
+  }
+  EXPECT_EQ(flowDefaults({ scalar("water dens", 990, 1000) }).arrays,
+    (Arrays{ { "Density", "water dens" } }));
 }
 
 TEST(FlowDefaults, RefractiveIndexByNameAndRange)

@@ -13,8 +13,18 @@ for button in ("OnePicture", "ThreePictures", "Comparison", "Follow"):
 
 user.python('SetActiveSource(Sphere(registrationName="ball"))')
 user.press("OnePicture")
-user.check_message("'ball' has no array with one value at a point or cell, so that nothing tells its "
+user.check_message("'ball': There is no array with one value at a point or cell, so nothing tells the "
                    "refractive index. Load or compute a density.")
+user.python("""
+warm = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="T", Function="250 + RTData"),
+                  PointDataArrays=["T"], registrationName="warm")
+warm.UpdatePipeline()
+SetActiveSource(warm)
+""")
+user.press("OnePicture")
+user.check_message("'warm': There is no density, nor a temperature together with a pressure, so nothing tells the "
+                   "refractive index. Load or compute one (Documentation/density.md says how), or choose an "
+                   "array yourself in the filter of the menu Filters > Schlieren.")
 user.python(MESH + """
 table = Histogram(Input=mesh, registrationName="table")
 table.UpdatePipeline()

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Adaptive meshes of ParaView's own sources, 2-D data, and the grid that is told."""
+"""Adaptive meshes of ParaView's own sources, 2-D data, the grid that is told, and the array that is chosen."""
 
 import numpy as np
-from paraview.simple import AMRGaussianPulseSource, HierarchicalFractal, Slice
-from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, picture
+from paraview.simple import AMRGaussianPulseSource, Calculator, HierarchicalFractal, PassArrays, Slice
+from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, is_empty, output, picture
 
 
 def told_grid(bench):
@@ -44,3 +44,18 @@ image = output(flat)
 assert image.GetDimensions() == (64, 2, 64), image.GetDimensions()
 assert image.GetBounds()[2:4] == (-0.5, 0.5), image.GetBounds()
 assert "chosen from the sizes of the cells" in told_grid(flat), told_grid(flat)
+
+# A temperature is not taken for a density, unless the user says so.
+warm = Calculator(column, ResultArrayName="T", Function="300 + 1e4*N")
+temperature = PassArrays(warm, PointDataArrays=["T"])
+both = PassArrays(warm, PointDataArrays=["T", "rho"])
+for source in (temperature, both):
+    source.UpdatePipeline()
+for kind in (Schlieren, RefractiveIndex):
+    bench = kind(temperature)
+    assert not bench.Density[1], bench.Density
+    assert is_empty(bench)
+    bench.Density = ["POINTS", "T"]
+    assert not is_empty(bench)
+    assert not is_empty(kind(temperature, Density=["POINTS", "T"]))
+    assert list(kind(both).Density) == ["POINTS", "rho"]
