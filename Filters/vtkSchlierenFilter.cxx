@@ -772,8 +772,7 @@ bool vtkSchlierenFilter::Show(
     inside.KLock.Found(image.kScale);
   }
   const bool isKept = this->GetLockedK() > 0;
-  this->Status =
-    inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+  this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
   ++this->PictureCount;
@@ -952,7 +951,7 @@ int vtkSchlierenFilter::RequestData(
   if (isStopped)
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
-    this->Status = "No image: stopped before the refractive index was known";
+    this->Status = "No image: the refractive index is not known yet";
   }
   return 1;
 }
