@@ -134,6 +134,26 @@ std::vector<double> describeInputs(
   return description;
 }
 
+/// Whether there are no data because a filter before this one was aborted.
+bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
+{
+  if (!input || input->GetNumberOfElements(vtkDataObject::POINT) > 0)
+  {
+    return false;
+  }
+  while (filter->GetNumberOfInputPorts() > 0 && filter->GetNumberOfInputConnections(0) > 0)
+  {
+    filter = filter->GetInputAlgorithm(0, 0);
+    if (filter->GetAbortExecute())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+const char* const noIndexYet = "No image: the refractive index is not known yet";
+
 /// Whether the bench itself makes colours.
 bool seesColor(vtkSchlierenFilter* self)
 {
@@ -914,6 +934,12 @@ int vtkSchlierenFilter::RequestData(
     {
       throw std::runtime_error(missing);
     }
+    if (isAbortedUpstream(this, input))
+    {
+      this->ForgetPicture();
+      this->Status = noIndexYet;
+      return 1;
+    }
     this->PassToMedium();
     const bool goesOn = this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;
@@ -951,7 +977,7 @@ int vtkSchlierenFilter::RequestData(
   if (isStopped)
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
-    this->Status = "No image: the refractive index is not known yet";
+    this->Status = noIndexYet;
   }
   return 1;
 }
