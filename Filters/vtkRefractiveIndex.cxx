@@ -491,8 +491,9 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const auto latestChange = [this]()
-  { return std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) }); };
+  const auto latestChange = [this]() {
+    return std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
+  };
   const vtkMTimeType now = latestChange();
   if (this->FailedAt == now)
   {

@@ -792,7 +792,8 @@ bool vtkSchlierenFilter::Show(
     inside.KLock.Found(image.kScale);
   }
   const bool isKept = this->GetLockedK() > 0;
-  this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+  this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) +
+    (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
   ++this->PictureCount;
