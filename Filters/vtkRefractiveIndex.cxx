@@ -491,8 +491,10 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   }
 
   // An empty output lets the pipeline ask again and again: one message is enough.
-  const vtkMTimeType now =
-    std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
+  const auto latestChange = [this]() {
+    return std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
+  };
+  const vtkMTimeType now = latestChange();
   if (this->FailedAt == now)
   {
     return 1;
@@ -510,13 +512,15 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     {
       vtkWarningMacro(<< warning);
     }
-    if (!this->GetAbortExecute())
+    if (this->GetAbortExecute())
     {
-      // Where RequestInformation could not tell it. Without the second, VTK would crop the output.
-      tellGrid(output, outInfo);
-      outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
-      setComplete(outputVector);
+      this->FailedAt = latestChange(); // whoever asks again need not wait again
+      return 1;
     }
+    // Where RequestInformation could not tell it. Without the second, VTK would crop the output.
+    tellGrid(output, outInfo);
+    outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
+    setComplete(outputVector);
     return 1;
   }
   catch (const std::bad_alloc&)

@@ -134,6 +134,26 @@ std::vector<double> describeInputs(
   return description;
 }
 
+/// Whether there are no data because a filter before this one was aborted.
+bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
+{
+  if (!input || input->GetNumberOfElements(vtkDataObject::POINT) > 0)
+  {
+    return false;
+  }
+  while (filter->GetNumberOfInputPorts() > 0 && filter->GetNumberOfInputConnections(0) > 0)
+  {
+    filter = filter->GetInputAlgorithm(0, 0);
+    if (filter->GetAbortExecute())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+const char* const noIndexYet = "No image: the refractive index is not known yet";
+
 /// Whether the bench itself makes colours.
 bool seesColor(vtkSchlierenFilter* self)
 {
@@ -772,8 +792,8 @@ bool vtkSchlierenFilter::Show(
   }
   const bool isKept = choosesK(this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
-  this->Status =
-    inside.Pictures.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+  this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) +
+    (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
   ++this->PictureCount;
@@ -915,6 +935,12 @@ int vtkSchlierenFilter::RequestData(
     {
       throw std::runtime_error(missing);
     }
+    if (isAbortedUpstream(this, input))
+    {
+      this->ForgetPicture();
+      this->Status = noIndexYet;
+      return 1;
+    }
     this->PassToMedium();
     const bool goesOn = this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;
@@ -952,7 +978,7 @@ int vtkSchlierenFilter::RequestData(
   if (isStopped)
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
-    this->Status = "No image: stopped before the refractive index was known";
+    this->Status = noIndexYet;
   }
   return 1;
 }

@@ -9,6 +9,7 @@
 #include "SchlierenFilters.h"
 #include "UndoStep.h"
 #include "VolumeDisplay.h"
+#include "pqPictureCameras.h"
 #include "pqPictureRefiner.h"
 
 #include "pqActiveObjects.h"
@@ -42,6 +43,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <vector>
 
@@ -376,11 +378,19 @@ private:
       this->Controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, window);
     if (representation)
     {
+      // ParaView shows the outline of data that are not there yet.
+      vtkSMPropertyHelper type(representation, "Representation");
+      if (std::strcmp(type.GetAsString(), "Outline") == 0)
+      {
+        SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
+        type.Set("Slice");
+        representation->UpdateVTKObjects();
+      }
       PictureDisplay::apply(representation, source->getProxy());
     }
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
-      fitViewToPicture(window, source->getProxy());
+      pqPictureCameras::fit(view, source);
     }
     const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window)]()
     {

@@ -17,7 +17,9 @@
 
 #include <QCoreApplication>
 #include <QEvent>
+#include <QMainWindow>
 #include <QScopedValueRollback>
+#include <QStatusBar>
 #include <QToolButton>
 #include <QWidget>
 
@@ -125,6 +127,10 @@ void pqImageProgress::abort()
   if (this->Executing)
   {
     this->Executing->SetAbortExecute(1);
+    if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
+    {
+      window->statusBar()->showMessage("Stopped. Another setting and Apply begin anew.");
+    }
   }
   else
   {

@@ -17,8 +17,18 @@
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSourceProxy.h"
 
+#include <QVariant>
+
 #include <algorithm>
 #include <cmath>
+
+namespace
+{
+
+/// A property of a view whose picture is still to come.
+constexpr const char* isToBeFitted = "SchlierenIsToBeFitted";
+
+} // namespace
 
 //------------------------------------------------------------------------------
 pqPictureCameras::pqPictureCameras(QObject* parentObject)
@@ -48,9 +58,21 @@ void pqPictureCameras::watch(pqView* item)
 }
 
 //------------------------------------------------------------------------------
+void pqPictureCameras::fit(pqRenderView* view, pqPipelineSource* filter)
+{
+  const bool isFitted = fitViewToPicture(view->getRenderViewProxy(), filter->getProxy());
+  view->setProperty(isToBeFitted, !isFitted);
+}
+
+//------------------------------------------------------------------------------
 void pqPictureCameras::arrange(pqRenderView* view)
 {
   const QList<pqPipelineSource*> filters = picturesInViews::picturesIn(view);
+  if (view->property(isToBeFitted).toBool() && !filters.isEmpty())
+  {
+    SCOPED_UNDO_EXCLUDE();
+    fit(view, filters.front());
+  }
   const auto following = std::find_if(filters.begin(), filters.end(),
     [](pqPipelineSource* filter) { return !picturesInViews::followedName(filter).isEmpty(); });
   if (following == filters.end() || !picturesInViews::isFlat(view))

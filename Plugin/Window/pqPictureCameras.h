@@ -21,6 +21,9 @@ public:
   explicit pqPictureCameras(QObject* parent);
   ~pqPictureCameras() override;
 
+  /// Fills a view with the picture of a filter, as soon as there is one.
+  static void fit(pqRenderView* view, pqPipelineSource* filter);
+
 private:
   /// The picture that a view's camera was last arranged for, data units.
   struct Place

@@ -128,7 +128,7 @@ void pqPictureStatus::show(pqRenderView* view)
       vtkSMProxy* proxy = filter->getProxy();
       proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));
       const QString status = QString::fromUtf8(vtkSMPropertyHelper(proxy, "Status").GetAsString());
-      lines << (isStopped(filter) ? "Stopped: " + status : status);
+      lines << (isStopped(filter) ? "Stopped. " + status : status);
     }
     lines.removeAll(QString());
   }

@@ -17,7 +17,9 @@ FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 # The Qt that the window uses: 5 or 6.
 with open("/proc/self/maps", encoding="utf-8") as _maps:
     QT = 6 if "/libQt6Core.so" in _maps.read() else 5
-Qt = import_module(f"PyQt{QT}.QtCore").Qt
+QEvent, QPointF, Qt, QTimer = (getattr(import_module(f"PyQt{QT}.QtCore"), name)
+                               for name in ("QEvent", "QPointF", "Qt", "QTimer"))
+QMouseEvent = import_module(f"PyQt{QT}.QtGui").QMouseEvent
 QTest = import_module(f"PyQt{QT}.QtTest").QTest
 QApplication, QPushButton, QWidget = (getattr(import_module(f"PyQt{QT}.QtWidgets"), name)
                                       for name in ("QApplication", "QPushButton", "QWidget"))
@@ -139,6 +141,33 @@ def _run_step(number):
             exec(compile(file.read(), name, "exec"), {"__name__": "__main__"})
     except Exception:  # PyQt would end the window
         traceback.print_exc()
+
+
+def click(button):
+    """Clicks a button and returns when the window has done what that leads to; with the interpreter's lock held,
+    so that VTK may call Python meanwhile."""
+    QTimer.singleShot(0, button.click)
+    process_events()
+
+
+def click_during(algorithm, share, button):
+    """Clicks an enabled button as the mouse does, once, when an update of a VTK algorithm has come so far. Returns
+    what ends this."""
+    clicked = []
+
+    def watch(*_):
+        if not clicked and algorithm.GetProgress() > share and button.isEnabled():
+            clicked.append(True)
+            window = widget().windowHandle()
+            place = button.mapTo(widget(), button.rect().center())
+            left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+            for kind, held in ((QEvent.Type.MouseButtonPress, left), (QEvent.Type.MouseButtonRelease, none)):
+                QApplication.postEvent(window, QMouseEvent(
+                    kind, QPointF(place), QPointF(window.mapToGlobal(place)), left, held,
+                    Qt.KeyboardModifier.NoModifier))
+
+    tag = algorithm.AddObserver("ProgressEvent", watch)
+    return lambda: algorithm.RemoveObserver(tag)
 
 
 def press_key(key, modifiers=Qt.KeyboardModifier.NoModifier, release=True):

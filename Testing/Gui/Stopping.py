@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""ParaView's abort button: it stops an image that is being refined, which stays as it is until *Continue* or Apply,
+and with the builtin server also a refractive index that Apply waits for."""
+
+import os
+
+from views_testing import FOLDER, INSIDE, MESH, ViewsSession
+
+REPORT = os.path.join(FOLDER, "report.txt")
+with open(REPORT, "w", encoding="utf-8"):
+    pass
+STEPS = f"""
+bench = FindSource("Schlieren1")
+abort, bar = widget("AbortButton"), widget("ProgressBar")
+def line():
+    return widget("Frame.2", "Viewport", "SchlierenStatus")
+def go_on():
+    return widget("Frame.2", "Viewport", "SchlierenContinue")
+def is_stopped():
+    shown = go_on() is not None and go_on().isVisible()
+    assert shown == (information(bench, "Stopped") == 1) == line().text().startswith("Stopped. ")
+    return shown
+def report(text):
+    with open({REPORT!r}, "a") as file:
+        file.write(text + "\\n")
+"""
+
+user = ViewsSession()
+user.menu("menuFilters", "Schlieren")
+user.menu("menuFilters/Schlieren", "Schlieren")
+user.type("SamplesPerPixel/LineEdit0", "2000")
+user.apply()
+user.python(STEPS + """
+until(lambda: abort.isEnabled())
+until(lambda: " of 2000 samples" in information(bench, "Status"))
+pause(0.5)
+assert bar.text() == "Schlieren1" and 0 <= information(bench, "PercentDone") < 100
+assert not is_stopped() and not finished(bench)
+QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
+assert is_stopped() and finished(bench) and not abort.isEnabled() and bar.text() != "Schlieren1"
+
+# Neither rendering nor an update nor a screenshot asks for more.
+rays = information(bench, "TotalRaysTraced")
+Render(FindView("RenderView2"))
+bench.UpdatePipeline()
+SaveScreenshot(os.path.join(FOLDER, "stopped.png"), FindView("RenderView2"))
+pause(0.5)
+assert information(bench, "TotalRaysTraced") == rays and is_stopped()
+report("stopped")
+
+samples = int(information(bench, "Status").split(" ")[0])
+click(go_on())
+until(lambda: int(information(bench, "Status").split(" ")[0]) > samples)
+assert not is_stopped() and not finished(bench)
+report("continued")
+
+until(lambda: abort.isEnabled())
+QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
+assert is_stopped()
+""")
+user.type("SamplesPerPixel/LineEdit0", "2")
+user.apply()
+user.python(STEPS + """
+settle(bench)
+assert not is_stopped() and information(bench, "Status").startswith("2 samples")
+until(lambda: not abort.isEnabled())
+report("applied")
+
+# A mesh and a fine grid: some seconds until the refractive index is known.
+bench.SamplingDimensions = 3 * [250]
+accept = widget("propertiesPanel", "Accept")
+""")
+user.choose("GladstoneDaleConstant/DoubleLineEdit0", "0.0003")
+user.python(STEPS + """
+builds = information(bench, "MediumBuilds")
+end = click_during(bench.GetClientSideObject(), 0.05, abort)
+click(widget("propertiesPanel", "Accept"))
+end()
+assert is_stopped() and finished(bench) and not abort.isEnabled()
+assert line().text() == "Stopped. No image: the refractive index is not known yet", line().text()
+Render(FindView("RenderView2"))
+assert bench.GetDataInformation().GetNumberOfPoints() == 0
+assert information(bench, "MediumBuilds") == builds
+report("no index")
+
+click(go_on())
+settle(bench)
+assert not is_stopped() and information(bench, "MediumBuilds") == builds + 1
+assert bench.GetDataInformation().GetNumberOfPoints() == 512 * 512
+report("index")
+""")
+
+# The filter that makes the index for others.
+user.python("""
+SetActiveSource(FindSource("mesh"))
+SetActiveView(FindView("RenderView1"))
+""")
+user.press("ThreePictures")
+user.python("""
+settle(*[FindSource(name) for name in ("KnifeEdge1", "Shadowgraph1", "Interferogram1")])
+FindSource("RefractiveIndex1").SamplingDimensions = 3 * [250]
+SetActiveSource(FindSource("RefractiveIndex1"))
+""")
+user.choose("GladstoneDaleConstant/DoubleLineEdit0", "0.0003")
+user.python(STEPS + """
+index, knife = by_name("RefractiveIndex1", "KnifeEdge1")
+end = click_during(index.GetClientSideObject(), 0.1, abort)
+click(widget("propertiesPanel", "Accept"))
+end()
+assert index.GetDataInformation().GetNumberOfPoints() == 0
+assert knife.GetDataInformation().GetNumberOfPoints() == 0
+assert information(knife, "Status") == "No image: the refractive index is not known yet"
+report("no index of others")
+""")
+user.choose("GladstoneDaleConstant/DoubleLineEdit0", "0.0002")
+user.apply()
+user.python(STEPS + """
+index, knife = by_name("RefractiveIndex1", "KnifeEdge1")
+settle(knife)
+assert index.GetDataInformation().GetNumberOfPoints() == 250 ** 3
+assert knife.GetDataInformation().GetNumberOfPoints() > 0
+report("index of others")
+""")
+user.play(INSIDE + MESH)
+
+with open(REPORT, encoding="utf-8") as file:
+    steps = file.read().split("\n")
+assert steps == ["stopped", "continued", "applied", "no index", "index", "no index of others", "index of others",
+                 ""], steps
