@@ -80,14 +80,11 @@ user.check(POINT.format(0), "text", "0.01")
 
 # From fast to fine; and notes can be read and copied like any text that stands in a window.
 user.python(f"""
-from PyQt5.QtCore import QLocale
-from PyQt5.QtGui import QPalette
-from PyQt5.QtWidgets import QComboBox, QLabel
-quality = widget("propertiesPanel", "Quality").findChild(QComboBox)
+quality = widget("propertiesPanel", "Quality").findChild(QtWidgets.QComboBox)
 names = [quality.itemText(i) for i in range(quality.count())]
 with open({REPORT!r}, "w", encoding="utf-8") as file:
     for name in names:
-        file.write(quality.itemDelegate().displayText(name, QLocale()) + "\\n")
+        file.write(quality.itemDelegate().displayText(name, QtCore.QLocale()) + "\\n")
     for name in ("Grid", "Status"):
         note = widget("propertiesPanel", name, "Note")
         around = widget("propertiesPanel", "ProxyPanel").grab().toImage().pixelColor(0, 0)

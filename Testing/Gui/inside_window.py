@@ -17,13 +17,12 @@ FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 # The Qt that the window uses: 5 or 6.
 with open("/proc/self/maps", encoding="utf-8") as _maps:
     QT = 6 if "/libQt6Core.so" in _maps.read() else 5
-QEvent, QPointF, Qt, QTimer = (getattr(import_module(f"PyQt{QT}.QtCore"), name)
-                               for name in ("QEvent", "QPointF", "Qt", "QTimer"))
-QMouseEvent = import_module(f"PyQt{QT}.QtGui").QMouseEvent
-QTest = import_module(f"PyQt{QT}.QtTest").QTest
-QApplication, QPushButton, QWidget = (getattr(import_module(f"PyQt{QT}.QtWidgets"), name)
-                                      for name in ("QApplication", "QPushButton", "QWidget"))
-QAction = import_module("PyQt6.QtGui" if QT == 6 else "PyQt5.QtWidgets").QAction
+QtCore, QtGui, QtTest, QtWidgets = (import_module(f"PyQt{QT}.{name}")
+                                    for name in ("QtCore", "QtGui", "QtTest", "QtWidgets"))
+QEvent, QPointF, Qt, QTimer = QtCore.QEvent, QtCore.QPointF, QtCore.Qt, QtCore.QTimer
+QMouseEvent, QTest = QtGui.QMouseEvent, QtTest.QTest
+QApplication, QWidget = QtWidgets.QApplication, QtWidgets.QWidget
+QAction = (QtGui if QT == 6 else QtWidgets).QAction
 
 # Neither PyQt nor CDLL, which let go of the interpreter's lock: VTK's observers in Python do not ask for it.
 _process_events = ctypes.PyDLL(
@@ -129,7 +128,7 @@ def add_steps(count):
     steps = QWidget(widget())
     steps.setObjectName("Steps")
     for number in range(1, count + 1):
-        button = QPushButton(steps)
+        button = QtWidgets.QPushButton(steps)
         button.setObjectName(f"step{number}")
         button.clicked.connect(lambda _, number=number: _run_step(number))
 
