@@ -74,7 +74,10 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
 {
   QObject::connect(
     pqPictureRefiner::instance(), &pqPictureRefiner::progressed, this, &pqImageProgress::show);
-  QObject::connect(manager(), &pqProgressManager::abort, this, &pqImageProgress::abort);
+  if (pqProgressWidget* bar = progressBar())
+  {
+    QObject::connect(bar, &pqProgressWidget::abortPressed, this, &pqImageProgress::abort);
+  }
   QObject::connect(manager(), &pqProgressManager::progressEndEvent, this,
     [this]()
     {
