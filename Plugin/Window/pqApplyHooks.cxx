@@ -5,16 +5,22 @@
 #include "PicturesInViews.h"
 #include "SchlierenViews.h"
 
+#include "pqApplicationCore.h"
 #include "pqApplyBehavior.h"
 #include "pqCoreUtilities.h"
 #include "pqPipelineSource.h"
 #include "pqPropertiesPanel.h"
 #include "pqProxyModifiedStateUndoElement.h"
 #include "pqServer.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
+#include "pqView.h"
 #include "vtkNew.h"
+#include "vtkSMViewProxy.h"
 
 #include <QWidget>
+
+#include <algorithm>
 
 //------------------------------------------------------------------------------
 pqApplyHooks::pqApplyHooks(QObject* parentObject)
@@ -43,8 +49,8 @@ void pqApplyHooks::setUp()
         continue;
       }
       behavior->unregisterPanel(panel);
-      QObject::connect(panel, oneApplied, this, &pqApplyHooks::before);
-      QObject::connect(panel, allApplied, this, [this]() { this->before(nullptr); });
+      QObject::connect(panel, oneApplied, this, &pqApplyHooks::beforeOne);
+      QObject::connect(panel, allApplied, this, &pqApplyHooks::beforeAll);
       behavior->registerPanel(panel);
       QObject::connect(panel, oneApplied, this, &pqApplyHooks::after);
       QObject::connect(panel, allApplied, this, &pqApplyHooks::after);
@@ -53,11 +59,16 @@ void pqApplyHooks::setUp()
 }
 
 //------------------------------------------------------------------------------
-void pqApplyHooks::before(pqProxy* proxy)
+void pqApplyHooks::beforeOne(pqProxy* proxy)
 {
-  this->Shortly.emplace();
+  // ParaView shows what is new.
   auto* source = qobject_cast<pqPipelineSource*>(proxy);
-  if (picturesInViews::isSchlieren(source) && source->modifiedState() == pqProxy::UNINITIALIZED)
+  if (!source || source->modifiedState() != pqProxy::UNINITIALIZED)
+  {
+    return;
+  }
+  this->Shortly.emplace();
+  if (picturesInViews::isSchlieren(source))
   {
     SchlierenViews::show(source);
     // ParaView has nothing to show any more.
@@ -66,6 +77,19 @@ void pqApplyHooks::before(pqProxy* proxy)
     shown->MadeUnmodified(source);
     ADD_UNDO_ELEM(shown);
     source->setModifiedState(pqProxy::UNMODIFIED);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqApplyHooks::beforeAll()
+{
+  // ParaView updates the views that need it.
+  const QList<pqView*> views =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>();
+  if (std::any_of(views.begin(), views.end(),
+        [](pqView* view) { return view->getViewProxy()->GetNeedsUpdate(); }))
+  {
+    this->Shortly.emplace();
   }
 }
 

@@ -23,7 +23,8 @@ public:
   void setUp();
 
 private:
-  void before(pqProxy* proxy);
+  void beforeOne(pqProxy* proxy);
+  void beforeAll();
   void after();
 
   bool IsSetUp = false;

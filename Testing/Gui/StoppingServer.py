@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Apply and the abort button where a server makes the image: refined in the window, stopped and continued. Skipped
+without pvserver."""
+
+import os
+
+from server_testing import connect, start_server
+from views_testing import FOLDER, INSIDE, MESH, ViewsSession
+
+REPORT = os.path.join(FOLDER, "report.txt")
+with open(REPORT, "w", encoding="utf-8"):
+    pass
+
+server, port = start_server()
+user = ViewsSession()
+user.menu("menuFilters", "Schlieren")
+user.menu("menuFilters/Schlieren", "Schlieren")
+user.type("SamplesPerPixel/LineEdit0", "20000")
+user.apply()
+user.python(f"""
+bench = FindSource("Schlieren1")
+abort, bar = widget("AbortButton"), widget("ProgressBar")
+def samples():
+    return int(information(bench, "Status").split(" of 20000 ")[0])
+until(lambda: abort.isEnabled())
+until(lambda: " of 20000 samples" in information(bench, "Status"))
+assert not finished(bench) and bar.text() == "Schlieren1"
+QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
+go_on = widget("Frame.2", "Viewport", "SchlierenContinue")
+assert go_on.isVisible() and not abort.isEnabled() and information(bench, "Stopped") == 1
+rays, left = information(bench, "TotalRaysTraced"), samples()
+Render(FindView("RenderView2"))
+pause(0.5)
+assert information(bench, "TotalRaysTraced") == rays
+click(go_on)
+until(lambda: samples() > left)
+assert not go_on.isVisible()
+until(lambda: abort.isEnabled())
+QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
+assert go_on.isVisible()
+with open({REPORT!r}, "w") as file:
+    file.write("done")
+""")
+try:
+    user.play(connect(port) + INSIDE + MESH)
+finally:
+    server.kill()
+
+with open(REPORT, encoding="utf-8") as file:
+    assert file.read() == "done"
