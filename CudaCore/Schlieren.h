@@ -398,6 +398,10 @@ Frame frameOf(const Grid& grid, const View& view);
 void gradientMagnitudes(const Grid& grid, const float* values, const unsigned char* valid,
   int threads, int count, int field, float* gradients);
 
+/// The cores that this process may use: not the whole machine's where it is bound to some (taskset, a batch system)
+/// or has a quota (a container).
+int coresOfProcess();
+
 /// Whether a CUDA device answers. When it does not, `reason` (if given) says why.
 bool cudaAvailable(std::string* reason = nullptr);
 

@@ -18,5 +18,5 @@ schlieren::Scene sceneFrom(vtkSchlierenFilter* self, vtkRefractiveIndex* medium,
 /// Where the picture lies.
 schlieren::Frame frameFrom(vtkSchlierenFilter* self, const schlieren::Grid& grid);
 
-/// Threads to use: what the filter is set to, or else VTK_SMP_MAX_THREADS; 0: all cores.
+/// Threads to use: what the filter is set to, or else VTK_SMP_MAX_THREADS; 0: coresOfProcess().
 int threadsFrom(vtkSchlierenFilter* self);

@@ -29,7 +29,10 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 
+#include "Schlieren.h"
+
 #include <algorithm>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
 
@@ -313,8 +316,11 @@ std::string vtkRefractiveIndex::Convert(
     return "";
   }
 
-  // Most builds of ParaView run VTK's threaded loops on one core unless told otherwise.
-  const vtkSMPTools::Config threads(this->NumberOfThreads, "STDThread", false);
+  // Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
+  const int limit = this->NumberOfThreads > 0 || std::getenv("VTK_SMP_MAX_THREADS")
+    ? this->NumberOfThreads
+    : schlieren::coresOfProcess();
+  const vtkSMPTools::Config threads(limit, "STDThread", false);
   Tally tally;
   std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,

@@ -357,7 +357,7 @@ public:
   ///@{
   /**
    * Threads for conversion and resampling; 0 (the default): VTK_SMP_MAX_THREADS where that is set,
-   * else all cores. The result does not depend on it; so setting it does not call Modified().
+   * else the cores that this process may use. The result does not depend on it; so setting it does not call Modified().
    */
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = threads < 0 ? 0 : threads; }
   vtkGetMacro(NumberOfThreads, int);

@@ -756,8 +756,8 @@ public:
 
   ///@{
   /**
-   * Threads on the CPU; 0 (the default): VTK_SMP_MAX_THREADS where that is set, else all cores. The
-   * picture does not depend on it.
+   * Threads on the CPU; 0 (the default): VTK_SMP_MAX_THREADS where that is set, else the cores that this
+   * process may use. The image does not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);

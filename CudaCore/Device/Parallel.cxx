@@ -13,14 +13,7 @@
 namespace schlieren
 {
 
-int threadCount(int requested)
-{
-  if (requested > 0)
-  {
-    return requested;
-  }
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int threadCount(int requested) { return requested > 0 ? requested : coresOfProcess(); }
 
 bool parallelFor(std::int64_t count, std::int64_t grain, int threads,
   const std::function<void(std::int64_t, std::int64_t)>& body, const Monitor& monitor)

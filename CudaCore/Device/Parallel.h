@@ -10,7 +10,7 @@
 namespace schlieren
 {
 
-/// The number of threads to use when `requested` is 0: all cores this process may use.
+/// The number of threads to use: `requested`, or coresOfProcess() where that is 0.
 int threadCount(int requested);
 
 /// Calls body(begin, end) for consecutive pieces of [0, count), at most `grain` long, from
