@@ -74,6 +74,18 @@ SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Number>& last)
   return { clampTo(x.x, last.x), clampTo(x.y, last.y), clampTo(x.z, last.z) };
 }
 
+/// As an integer from 0 to `most`, which many numbers of steps cannot be: they are estimates, of any size.
+template <class Number>
+SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
+{
+  constexpr Number beyond = Number(2147483648.0); // the first that no std::int32_t holds
+  if (!(steps > 0))
+  {
+    return 0;
+  }
+  return steps < beyond ? lesser(static_cast<std::int32_t>(steps), most) : most;
+}
+
 /// How far inside the box [0, last] a place is, along the axis where that is least.
 template <class Real, class Number>
 SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Number>& last)
@@ -430,12 +442,13 @@ struct March
       lesser(toLast.z, toFirst.z));
     Number most[lanes];
     toArray(least, most);
-    Number all = static_cast<Number>(task.stepLimit - steps);
+    const std::int32_t left = task.stepLimit - steps;
+    Number all = static_cast<Number>(left);
     for (const Number one : most)
     {
       all = one < all ? one : all;
     }
-    return static_cast<std::int32_t>(all);
+    return wholeSteps(all, left);
   }
 
   /// One step of rays of which none leaves the grid, with nothing to look at but the medium.
