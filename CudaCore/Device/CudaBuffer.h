@@ -54,11 +54,12 @@ public:
     : data_(allocateOnCuda<T, Failure>(size))
   {
   }
-  CudaBuffer(const T* values, std::size_t size)
+  /// With the values; `copying` is what a failure says: "Copying the medium".
+  CudaBuffer(const T* values, std::size_t size, const char* copying)
     : CudaBuffer(size)
   {
     checkCuda<Failure>(
-      cudaMemcpy(data_, values, size * sizeof(T), cudaMemcpyHostToDevice), "Copying the medium");
+      cudaMemcpy(data_, values, size * sizeof(T), cudaMemcpyHostToDevice), copying);
   }
   CudaBuffer(const CudaBuffer&) = delete;
   CudaBuffer& operator=(const CudaBuffer&) = delete;

@@ -228,7 +228,8 @@ struct CudaFilm::DeviceMemory
   {
     if (!copied || onHost != table.values)
     {
-      copied = std::make_unique<CudaBuffer<float, DeviceError>>(table.values, table.size);
+      copied = std::make_unique<CudaBuffer<float, DeviceError>>(
+        table.values, table.size, "Copying the cutoff");
       onHost = table.values;
     }
     return { copied->data(), table.size };

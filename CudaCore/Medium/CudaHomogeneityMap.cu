@@ -75,13 +75,13 @@ HomogeneityMap<Real> buildHomogeneityMapOnCuda(
     std::vector<std::uint8_t>(static_cast<std::size_t>(pyramid.size(0))) };
 
   const CudaBuffer<Real, DeviceError> samples(
-    medium.volume.samples.data(), medium.volume.samples.size());
+    medium.volume.samples.data(), medium.volume.samples.size(), "Copying the medium");
   MediumView<Real> view = medium.view();
   view.samples = samples.data();
   std::optional<CudaBuffer<std::uint32_t, DeviceError>> solid;
   if (!medium.solid.empty())
   {
-    solid.emplace(medium.solid.data(), medium.solid.size());
+    solid.emplace(medium.solid.data(), medium.solid.size(), "Copying the solids");
     view.solid = solid->data();
   }
   const CudaBuffer<NuRange<Real>, DeviceError> ranges(map.ranges.size());

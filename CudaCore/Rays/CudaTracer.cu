@@ -125,12 +125,13 @@ template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {
   explicit DeviceMemory(const Medium<Real>& medium)
-    : samples(medium.volume.samples.data(), medium.volume.samples.size())
+    : samples(medium.volume.samples.data(), medium.volume.samples.size(), "Copying the medium")
     , totals(1)
   {
     if (!medium.solid.empty())
     {
-      solid = std::make_unique<Buffer<std::uint32_t>>(medium.solid.data(), medium.solid.size());
+      solid = std::make_unique<Buffer<std::uint32_t>>(
+        medium.solid.data(), medium.solid.size(), "Copying the solids");
     }
   }
 
@@ -141,8 +142,9 @@ struct CudaTracer<Real>::DeviceMemory
   {
     Map(const HomogeneityView& view, double toleranceOfView)
       : tolerance(toleranceOfView)
-      , levels(
-          view.levels, static_cast<std::size_t>(view.bricks[0] * view.bricks[1] * view.bricks[2]))
+      , levels(view.levels,
+          static_cast<std::size_t>(view.bricks[0] * view.bricks[1] * view.bricks[2]),
+          "Copying the homogeneity map")
     {
     }
     double tolerance;
@@ -156,7 +158,8 @@ struct CudaTracer<Real>::DeviceMemory
       : version(versionOfValues)
       , values(view.values,
           static_cast<std::size_t>(
-            view.count * view.dimensions[0] * view.dimensions[1] * view.dimensions[2]))
+            view.count * view.dimensions[0] * view.dimensions[1] * view.dimensions[2]),
+          "Copying the gradients of the fields")
     {
     }
     std::uint64_t version;

@@ -512,7 +512,8 @@ struct Experiment
     const std::int64_t samples[3] = { volume.dimensions[0] + 2, volume.dimensions[1] + 2,
       volume.dimensions[2] + 2 };
 
-    const CudaBuffer<float, DeviceError> rows(volume.samples.data(), volume.samples.size());
+    const CudaBuffer<float, DeviceError> rows(
+      volume.samples.data(), volume.samples.size(), "Copying the samples");
     MediumView<float> view = medium.view();
     view.samples = rows.data();
     each("rows", Rows<Scheme, float>{ view });
@@ -534,7 +535,8 @@ struct Experiment
   {
     const BrickLayout<edge> layout(samples);
     const std::vector<float> bricks = inBricks(volume, layout);
-    const CudaBuffer<float, DeviceError> onDevice(bricks.data(), bricks.size());
+    const CudaBuffer<float, DeviceError> onDevice(
+      bricks.data(), bricks.size(), "Copying the bricks");
     each(
       "bricks of " + std::to_string(edge) + "^3", Bricks<Scheme, edge>{ onDevice.data(), layout });
   }
@@ -571,7 +573,7 @@ struct Experiment
   {
     const Medium<double> medium = buildMedium<double>(blob.field, interpolation, 0);
     const CudaBuffer<double, DeviceError> rows(
-      medium.volume.samples.data(), medium.volume.samples.size());
+      medium.volume.samples.data(), medium.volume.samples.size(), "Copying the medium");
     MediumView<double> view = medium.view();
     view.samples = rows.data();
     std::vector<std::vector<Vec3<double>>> all;
