@@ -100,9 +100,9 @@ void forCells(const Counts& first, const Counts& count, const Visit& visit)
 }
 
 /// Finds the cells that are no copies of other blocks' cells: a box, around which the copies lie.
-void findOwnCells(AmrBlock& block)
+void findOwnCells(vtkDataSet* data, AmrBlock& block)
 {
-  vtkUnsignedCharArray* ghosts = block.leaf.data->GetCellGhostArray();
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
   if (!ghosts)
   {
     block.ownBegin = { 0, 0, 0 };
@@ -134,10 +134,10 @@ std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
   std::vector<AmrLevel> levels;
   auto* first = vtkImageData::SafeDownCast(leaves[0].data);
   flat = first ? flatAxisOf(first) : -2;
-  for (const Leaf& leaf : leaves)
+  for (std::size_t number = 0; number < leaves.size(); ++number)
   {
-    auto* image = vtkImageData::SafeDownCast(leaf.data);
-    if (!image || !leaf.ofCells || flat == -2 || flatAxisOf(image) != flat ||
+    auto* image = vtkImageData::SafeDownCast(leaves[number].data);
+    if (!image || !leaves[number].ofCells || flat == -2 || flatAxisOf(image) != flat ||
       !image->GetDirectionMatrix()->IsIdentity())
     {
       return {};
@@ -153,8 +153,8 @@ std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
     {
       level = levels.insert(levels.end(), { spacing, {}, {} });
     }
-    level->blocks.push_back({ leaf, {}, cellsOf(image), {}, {} });
-    findOwnCells(level->blocks.back());
+    level->blocks.push_back({ number, {}, cellsOf(image), {}, {} });
+    findOwnCells(image, level->blocks.back());
   }
   std::sort(levels.begin(), levels.end(),
     [](const AmrLevel& a, const AmrLevel& b)
@@ -166,12 +166,13 @@ std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
 }
 
 /// Finds where the blocks lie. Returns whether there is such a lattice.
-bool place(std::vector<AmrLevel>& levels, int flat, std::array<double, 3>& origin)
+bool place(const std::vector<Leaf>& leaves, std::vector<AmrLevel>& levels, int flat,
+  std::array<double, 3>& origin)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto cornerOn = [&](const AmrBlock& block)
-    { return cornerOf(vtkImageData::SafeDownCast(block.leaf.data), flat)[axis]; };
+    { return cornerOf(vtkImageData::SafeDownCast(leaves[block.leaf].data), flat)[axis]; };
     double& coarsest = levels[0].spacing[axis];
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const AmrLevel& level : levels)
@@ -251,39 +252,146 @@ Counts ratioOf(const Counts& fine, const Counts& coarse)
   return { fine[0] / coarse[0], fine[1] / coarse[1], fine[2] / coarse[2] };
 }
 
+/// Cells of a level, from `begin` to before `end`.
+struct Box
+{
+  Counts begin, end;
+};
+
+Box intersection(const Box& a, const Box& b)
+{
+  Box both;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    both.begin[axis] = std::max(a.begin[axis], b.begin[axis]);
+    both.end[axis] = std::min(a.end[axis], b.end[axis]);
+  }
+  return both;
+}
+
+/// The cells of a level that finer blocks cover. The blocks are sorted into about as many equal bins, so that few
+/// are looked at for each block of the level.
+class CoveredCells
+{
+public:
+  CoveredCells(const Amr& amr, std::size_t level)
+  {
+    constexpr int most = std::numeric_limits<int>::max();
+    Box all{ { most, most, most }, { 0, 0, 0 } };
+    for (std::size_t finer = level + 1; finer < amr.levels.size(); ++finer)
+    {
+      const Counts ratio = ratioOf(amr.levels[finer].cells, amr.levels[level].cells);
+      for (const AmrBlock& block : amr.levels[finer].blocks)
+      {
+        Box& box = this->Boxes.emplace_back();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const int last = block.first[axis] + block.ownEnd[axis] - 1;
+          box.begin[axis] = (block.first[axis] + block.ownBegin[axis]) / ratio[axis];
+          box.end[axis] = last / ratio[axis] + 1;
+          all.begin[axis] = std::min(all.begin[axis], box.begin[axis]);
+          all.end[axis] = std::max(all.end[axis], box.end[axis]);
+        }
+      }
+    }
+    const double bins = std::cbrt(static_cast<double>(this->Boxes.size()));
+    for (std::size_t axis = 0; axis < 3 && !this->Boxes.empty(); ++axis)
+    {
+      const int cells = std::max(1, all.end[axis] - all.begin[axis]);
+      this->First[axis] = all.begin[axis];
+      this->Edge[axis] = static_cast<int>(std::ceil(cells / bins));
+      this->Count[axis] = (cells - 1) / this->Edge[axis] + 1;
+    }
+    this->Bins.resize(volume(this->Count));
+    for (const Box& box : this->Boxes)
+    {
+      this->ForBins(box, [&](std::size_t bin, const Box&) { this->Bins[bin].push_back(&box); });
+    }
+  }
+
+  /// Calls visit(cells) for boxes that make up what of a box is covered.
+  template <class Visit>
+  void ForBoxesIn(const Box& box, const Visit& visit) const
+  {
+    this->ForBins(box,
+      [&](std::size_t bin, const Box& cells)
+      {
+        for (const Box* finer : this->Bins[bin])
+        {
+          visit(intersection(intersection(*finer, box), cells));
+        }
+      });
+  }
+
+private:
+  /// Calls visit(number, cells) for the bins that a box meets.
+  template <class Visit>
+  void ForBins(const Box& box, const Visit& visit) const
+  {
+    Counts first, count;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const int begin = std::max(box.begin[axis] - this->First[axis], 0) / this->Edge[axis];
+      const int last = (box.end[axis] - 1 - this->First[axis]) / this->Edge[axis];
+      first[axis] = begin;
+      count[axis] = box.end[axis] > this->First[axis] && box.end[axis] > box.begin[axis]
+        ? std::min(last + 1, this->Count[axis]) - begin
+        : 0;
+    }
+    forCells(first, count,
+      [&](int i, int j, int k)
+      {
+        const Counts at = { i, j, k };
+        Box cells;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          cells.begin[axis] = this->First[axis] + at[axis] * this->Edge[axis];
+          cells.end[axis] = cells.begin[axis] + this->Edge[axis];
+        }
+        visit((static_cast<std::size_t>(k) * static_cast<std::size_t>(this->Count[1]) +
+                static_cast<std::size_t>(j)) *
+              static_cast<std::size_t>(this->Count[0]) +
+            static_cast<std::size_t>(i),
+          cells);
+      });
+  }
+
+  std::vector<Box> Boxes; // of the finer blocks
+  Counts First{ 0, 0, 0 }, Edge{ 1, 1, 1 }, Count{ 0, 0, 0 };
+  std::vector<std::vector<const Box*>> Bins;
+};
+
 /// Calls visit(i, j, k, N) for the block's cells that belong to it and that no finer block covers.
 /// N is NaN in solids.
 template <class Visit>
-void forValues(const Amr& amr, std::size_t level, const AmrBlock& block, const Model& model,
+void forValues(const CoveredCells& covered, const AmrBlock& block, const Source& source,
   Tally& tally, const Visit& visit)
 {
-  vtkDataSet* data = block.leaf.data;
+  vtkDataSet* data = source.leaves[block.leaf].data;
   std::vector<bool> isCovered(volume(block.cells), false);
-  for (std::size_t finer = level + 1; finer < amr.levels.size(); ++finer)
+  Box own{ block.first, {} };
+  Counts count;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const Counts ratio = ratioOf(amr.levels[finer].cells, amr.levels[level].cells);
-    for (const AmrBlock& child : amr.levels[finer].blocks)
+    own.end[axis] = block.first[axis] + block.cells[axis];
+  }
+  covered.ForBoxesIn(own,
+    [&](const Box& cells)
     {
-      Counts first, count;
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        const int last = child.first[axis] + child.ownEnd[axis] - 1;
-        const int begin =
-          std::max((child.first[axis] + child.ownBegin[axis]) / ratio[axis], block.first[axis]);
-        const int end = std::min(last / ratio[axis] + 1, block.first[axis] + block.cells[axis]);
-        first[axis] = begin - block.first[axis];
-        count[axis] = end - begin;
+        count[axis] = cells.end[axis] - cells.begin[axis];
       }
-      forCells(first, count,
+      forCells(cells.begin, count,
         [&](int i, int j, int k)
         {
-          isCovered[(static_cast<std::size_t>(k) * static_cast<std::size_t>(block.cells[1]) +
-                      static_cast<std::size_t>(j)) *
+          isCovered[(static_cast<std::size_t>(k - own.begin[2]) *
+                        static_cast<std::size_t>(block.cells[1]) +
+                      static_cast<std::size_t>(j - own.begin[1])) *
               static_cast<std::size_t>(block.cells[0]) +
-            static_cast<std::size_t>(i)] = true;
+            static_cast<std::size_t>(i - own.begin[0])] = true;
         });
-    }
-  }
+    });
 
   auto valid = newMask(data->GetNumberOfCells());
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
@@ -295,7 +403,8 @@ void forValues(const Amr& amr, std::size_t level, const AmrBlock& block, const M
       valid->SetValue(i, 0);
     }
   }
-  const auto values = convert<vtkDoubleArray>(block.leaf.arrays, model, valid, nan, tally);
+  const auto values =
+    convert<vtkDoubleArray>(source.leaves[block.leaf].arrays, source.model, valid, nan, tally);
   vtkIdType cell = 0;
   forCells(block.first, block.cells,
     [&](int i, int j, int k)
@@ -310,7 +419,7 @@ void forValues(const Amr& amr, std::size_t level, const AmrBlock& block, const M
 }
 
 /// Sets the mean of all cells of finer levels wherever there are any.
-void averageFinerLevels(const Amr& amr, const Model& model, Grid& grid, Tally& tally)
+void averageFinerLevels(const Amr& amr, const Source& source, Grid& grid, Tally& tally)
 {
   if (amr.used + 1 == amr.levels.size())
   {
@@ -321,9 +430,10 @@ void averageFinerLevels(const Amr& amr, const Model& model, Grid& grid, Tally& t
   {
     const Counts ratio = ratioOf(amr.levels[level].cells, grid.cells);
     const double weight = 1 / static_cast<double>(volume(ratio));
+    const CoveredCells covered(amr, level);
     for (const AmrBlock& block : amr.levels[level].blocks)
     {
-      forValues(amr, level, block, model, tally,
+      forValues(covered, block, source, tally,
         [&](int i, int j, int k, double value)
         {
           const std::size_t cell = grid.index(i / ratio[0], j / ratio[1], k / ratio[2]);
@@ -486,19 +596,20 @@ void resampleTo(std::vector<double>& values, Counts cells, const Counts& counts)
 }
 
 /// The values of the level that is used, all over the domain.
-Grid valuesOf(const Amr& amr, const Model& model, Tally& tally)
+Grid valuesOf(const Amr& amr, const Source& source, Tally& tally)
 {
   std::vector<Grid> grids;
   for (std::size_t level = 0; level <= amr.used; ++level)
   {
     Grid& grid = grids.emplace_back(amr.levels[level].cells);
+    const CoveredCells covered(amr, level);
     for (const AmrBlock& block : amr.levels[level].blocks)
     {
-      forValues(amr, level, block, model, tally,
+      forValues(covered, block, source, tally,
         [&grid](int i, int j, int k, double value) { grid.set(grid.index(i, j, k), value); });
     }
   }
-  averageFinerLevels(amr, model, grids.back(), tally);
+  averageFinerLevels(amr, source, grids.back(), tally);
   for (std::size_t level = amr.used; level > 0; --level)
   {
     restrictTo(grids[level - 1], grids[level]);
@@ -527,7 +638,7 @@ std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]
   int flat = -1;
   amr.levels = sortedByLevel(source.leaves, flat);
   std::array<double, 3> corner;
-  if (amr.levels.empty() || !place(amr.levels, flat, corner))
+  if (amr.levels.empty() || !place(source.leaves, amr.levels, flat, corner))
   {
     return std::nullopt;
   }
@@ -594,7 +705,7 @@ void gridOf(const Amr& amr, vtkImageData* structure)
 Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtkImageData* output)
 {
   Tally tally;
-  Grid grid = valuesOf(amr, source.model, tally);
+  Grid grid = valuesOf(amr, source, tally);
   resampleTo(grid.values, grid.cells, amr.dimensions);
   gridOf(amr, output);
   vtkNew<vtkDoubleArray> values;

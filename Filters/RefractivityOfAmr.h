@@ -25,7 +25,7 @@ namespace refractivity
 /// A block, and where it lies on the lattice of its level.
 struct AmrBlock
 {
-  Leaf leaf;
+  std::size_t leaf;         // of the source
   std::array<int, 3> first; // its first cell
   std::array<int, 3> cells;
   std::array<int, 3> ownBegin, ownEnd; // those within the block that are no copies from others

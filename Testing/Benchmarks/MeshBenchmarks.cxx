@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes to refractivity on a grid: the first conversion, which searches the cells that hold the grid's
+// Adaptive meshes of many blocks to refractivity on a grid. And other meshes: the first conversion, which searches the cells that hold the grid's
 // points; the third, which has kept them; and vtkResampleToImage, on the same mesh and in turns with the
 // others, so that all meet the same machine. The least times of all turns.
+#include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkRefractiveIndex.h"
@@ -180,5 +182,71 @@ BENCHMARK_CAPTURE(sample, cubicHexahedra, cubicHexahedra)
   ->ArgsProduct({ { 65 }, { 1, 2 } })
   ->Iterations(2)
   ->Unit(benchmark::kMillisecond);
+
+/// A block of 4^3 cells with N in them.
+vtkSmartPointer<vtkImageData> amrBlock(int i, int j, int k, double h)
+{
+  auto block = vtkSmartPointer<vtkImageData>::New();
+  block->SetDimensions(5, 5, 5);
+  block->SetSpacing(h, h, h);
+  block->SetOrigin(4 * i * h, 4 * j * h, 4 * k * h);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("N");
+  for (int cell = 0; cell < 64; ++cell)
+  {
+    values->InsertNextValue(1e-4 * std::sin(i + 0.7 * j + 1.3 * k + cell));
+  }
+  block->GetCellData()->AddArray(values);
+  return block;
+}
+
+/// Argument: blocks along each axis, of which an eighth is refined into eight each: twice as many in all.
+void amr(benchmark::State& state)
+{
+  const int n = static_cast<int>(state.range(0));
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  const auto add = [&](vtkImageData* block)
+  { blocks->SetBlock(blocks->GetNumberOfBlocks(), block); };
+  for (int k = 0; k < n; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        add(amrBlock(i, j, k, 1. / n));
+        if (i < n / 2 && j < n / 2 && k < n / 2)
+        {
+          for (int part = 0; part < 8; ++part)
+          {
+            add(
+              amrBlock(2 * i + (part & 1), 2 * j + (part >> 1 & 1), 2 * k + (part >> 2), 0.5 / n));
+          }
+        }
+      }
+    }
+  }
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  vtkNew<vtkImageData> output;
+  double seconds = 1e30;
+  for (auto _ : state)
+  {
+    seconds = std::min(seconds, secondsOf([&] { filter->Convert(blocks, output); }));
+  }
+  double sum = 0;
+  vtkDataArray* values = output->GetPointData()->GetArray("Refractivity");
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    sum += (i % 7 + 1) * values->GetComponent(i, 0);
+  }
+  state.SetLabel(filter->GetGrid());
+  state.counters["blocks"] = blocks->GetNumberOfBlocks();
+  state.counters["s"] = seconds;
+  state.counters["sum"] = sum; // the same whatever is made faster
+}
+
+BENCHMARK(amr)->ArgName("n")->Arg(22)->Arg(44)->Iterations(2)->Unit(benchmark::kMillisecond);
 
 } // namespace
