@@ -66,19 +66,20 @@ int orderOf(vtkDataSet* data, vtkIdType cell)
 }
 
 /// The sizes of the cells along each axis, sorted; empty along an axis along which no cell has any.
-std::array<std::vector<double>, 3> sizesOfCells(const std::vector<Leaf>& leaves, int dimension)
+std::array<std::vector<double>, 3> sizesOfCells(
+  const std::vector<vtkDataSet*>& leaves, int dimension)
 {
   std::array<std::vector<double>, 3> sizes;
-  for (const Leaf& leaf : leaves)
+  for (vtkDataSet* leaf : leaves)
   {
-    const vtkIdType cells = leaf.data->GetNumberOfCells();
+    const vtkIdType cells = leaf->GetNumberOfCells();
     for (vtkIdType i = 0; i < cells; i += 1 + cells / mostCellsMeasured)
     {
-      if (dimensionOfCell(leaf.data, i) == dimension)
+      if (dimensionOfCell(leaf, i) == dimension)
       {
         double bounds[6];
-        leaf.data->GetCellBounds(i, bounds);
-        const int order = orderOf(leaf.data, i);
+        leaf->GetCellBounds(i, bounds);
+        const int order = orderOf(leaf, i);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           const double size = (bounds[2 * axis + 1] - bounds[2 * axis]) / order;
@@ -318,18 +319,21 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
   const int dimension = plan.flatAxis < 0 ? 3 : 2;
   vtkBoundingBox box;
   double points = 0;
-  for (const Leaf& leaf : source.leaves)
+  std::vector<vtkDataSet*> leaves;
+  for (std::size_t i = 0; i < source.leaves.size(); ++i)
   {
-    if (hasCells(leaf.data, dimension))
+    vtkDataSet* data = source.leaves[i].data;
+    if (hasCells(data, dimension))
     {
-      plan.leaves.push_back(leaf);
-      points += static_cast<double>(leaf.data->GetNumberOfPoints());
-      box.AddBounds(leaf.data->GetBounds());
+      plan.leaves.push_back(i);
+      leaves.push_back(data);
+      points += static_cast<double>(data->GetNumberOfPoints());
+      box.AddBounds(data->GetBounds());
     }
   }
   box.GetBounds(plan.bounds);
   std::array<int, 3> given = requireDimensions(samplingDimensions);
-  const std::array<std::vector<double>, 3> sizes = sizesOfCells(plan.leaves, dimension);
+  const std::array<std::vector<double>, 3> sizes = sizesOfCells(leaves, dimension);
   std::array<double, 3> lengths{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -374,9 +378,10 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   Tally tally;
   std::vector<vtkSmartPointer<vtkDataSet>> prepared;
   std::vector<vtkDataSet*> leaves;
-  for (const Leaf& leaf : plan.leaves)
+  for (const std::size_t leaf : plan.leaves)
   {
-    prepared.push_back(prepare(leaf, plan.flatAxis < 0 ? 3 : 2, source.model, tally));
+    prepared.push_back(
+      prepare(source.leaves[leaf], plan.flatAxis < 0 ? 3 : 2, source.model, tally));
     leaves.push_back(prepared.back());
   }
   setPoints(plan, output);

@@ -15,8 +15,8 @@ namespace refractivity
 /// The leaves that have 3-D cells (of flat data: 2-D cells), and the grid that covers them.
 struct Resampling
 {
-  std::vector<Leaf> leaves;
-  std::array<int, 3> dimensions; // 1 along the flat axis
+  std::vector<std::size_t> leaves; // of the source
+  std::array<int, 3> dimensions;   // 1 along the flat axis
   double bounds[6];
   int flatAxis;     // -1: none
   std::string note; // what the user may want to know of the grid

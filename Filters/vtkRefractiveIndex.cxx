@@ -34,9 +34,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 using namespace refractivity;
+
+struct refractivity::GridPlan
+{
+  std::vector<double> key; // the input, and the filter's time; empty: not chosen yet
+  std::optional<Amr> amr;
+  Resampling resampling; // where it is no Amr
+  vtkTypeInt64 count = 0;
+};
 
 vtkStandardNewMacro(vtkRefractiveIndex);
 
@@ -76,7 +85,8 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
 
 //------------------------------------------------------------------------------
 vtkRefractiveIndex::vtkRefractiveIndex()
-  : Search(std::make_shared<MeshSearch>())
+  : Plan(std::make_shared<GridPlan>())
+  , Search(std::make_shared<MeshSearch>())
   , Ranks(std::make_shared<InputOnRank0>())
 {
   this->SetNumberOfInputPorts(2);
@@ -104,6 +114,9 @@ void vtkRefractiveIndex::ShareMeshSearch(vtkRefractiveIndex* owner)
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractiveIndex::GetMeshSearches() { return this->Search->count; }
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractiveIndex::GetGridPlans() { return this->Plan->count; }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
@@ -293,14 +306,30 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
   {
     gridOfImage(source.image, source.leaves[0].ofCells, structure);
   }
-  else if (const auto amr = planAmr(source, this->SamplingDimensions))
-  {
-    gridOf(*amr, structure);
-  }
   else
   {
-    gridOf(planResampling(source, this->SamplingDimensions), structure);
+    const GridPlan& plan = this->PlanGrid(source, input);
+    plan.amr ? gridOf(*plan.amr, structure) : gridOf(plan.resampling, structure);
   }
+}
+
+//------------------------------------------------------------------------------
+const GridPlan& vtkRefractiveIndex::PlanGrid(const Source& source, vtkDataObject* input)
+{
+  GridPlan& plan = *this->Plan;
+  std::vector<double> key = describeInput(input, this->GetMTime());
+  if (plan.key != key)
+  {
+    plan.key.clear();
+    ++plan.count;
+    plan.amr = planAmr(source, this->SamplingDimensions);
+    if (!plan.amr)
+    {
+      plan.resampling = planResampling(source, this->SamplingDimensions);
+    }
+    plan.key = std::move(key);
+  }
+  return plan;
 }
 
 //------------------------------------------------------------------------------
@@ -335,11 +364,11 @@ std::string vtkRefractiveIndex::Convert(
         this->Search->release();
         tally = convertImage(source, this->DoublePrecision, output);
       }
-      else if (const auto amr = planAmr(source, this->SamplingDimensions))
+      else if (const GridPlan& plan = this->PlanGrid(source, input); plan.amr)
       {
         this->Search->release();
-        note = amr->note;
-        tally = convertAmr(*amr, source, this->DoublePrecision, output);
+        note = plan.amr->note;
+        tally = convertAmr(*plan.amr, source, this->DoublePrecision, output);
         if (!this->OutsideBlocksLight)
         {
           setOutside(outsideOfBoxes(source.leaves, output), output);
@@ -347,11 +376,10 @@ std::string vtkRefractiveIndex::Convert(
       }
       else
       {
-        const Resampling plan = planResampling(source, this->SamplingDimensions);
-        note = plan.note;
+        note = plan.resampling.note;
         const bool wasSeries = this->Search->isSeries;
         tally = resample(
-          plan, source, this->DoublePrecision, this->OutsideBlocksLight, *this->Search,
+          plan.resampling, source, this->DoublePrecision, this->OutsideBlocksLight, *this->Search,
           [this](double done)
           {
             this->UpdateProgress(0.05 + 0.95 * done);

@@ -49,7 +49,7 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for TransferFunctions
 
-#include <memory> // for Search, Ranks
+#include <memory> // for Plan, Search, Ranks
 #include <string> // for std::string
 #include <vector> // for std::vector
 
@@ -58,8 +58,10 @@ class vtkPiecewiseFunction;
 
 namespace refractivity
 {
+struct GridPlan;
 struct MeshSearch;
-}
+struct Source;
+} // namespace refractivity
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -393,6 +395,11 @@ public:
   vtkTypeInt64 GetMeshSearches();
   ///@}
 
+  /**
+   * How often a grid was chosen for the input, images apart: once for each input and set of properties.
+   */
+  vtkTypeInt64 GetGridPlans();
+
   vtkMTimeType GetMTime() override;
 
   vtkTypeBool ProcessRequest(
@@ -417,6 +424,10 @@ private:
   /// Newest time of this filter and of everything upstream when it last failed.
   vtkMTimeType FailedAt = 0;
 
+  /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
+  const refractivity::GridPlan& PlanGrid(const refractivity::Source& source, vtkDataObject* input);
+
+  std::shared_ptr<refractivity::GridPlan> Plan;
   std::shared_ptr<refractivity::MeshSearch> Search;
   bool IsSearchShared = false; // by another filter, whose it is
 

@@ -430,6 +430,9 @@ vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMeshSearches(); }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetGridPlans() { return this->Medium->GetGridPlans(); }
+
+//------------------------------------------------------------------------------
 void vtkSchlierenFilter::Refine()
 {
   Internals& inside = *this->Inside;

@@ -7,8 +7,10 @@
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPassThrough.h"
+#include "vtkPoints.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
+#include "vtkStructuredGrid.h"
 
 namespace
 {
@@ -149,6 +151,49 @@ TEST(Pipeline, OutputsAreNotTurnedWithTheInput)
     EXPECT_TRUE(std::equal(unturned, unturned + 9, output->GetDirectionMatrix()->GetData()))
       << port;
   }
+}
+
+TEST(Pipeline, AGridForAMeshIsChosenOnce)
+{
+  auto image = columnImage(12);
+  vtkNew<vtkPoints> points;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    points->InsertNextPoint(image->GetPoint(i));
+  }
+  vtkNew<vtkStructuredGrid> mesh;
+  mesh->SetDimensions(12, 12, 12);
+  mesh->SetPoints(points);
+  mesh->GetPointData()->ShallowCopy(image->GetPointData());
+
+  auto filter = bench(mesh, 16);
+  vtkNew<vtkRefractiveIndex> refractivity;
+  refractivity->SetInputData(mesh);
+  refractivity->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  refractivity->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  const auto expectPlans = [&](int count)
+  {
+    for (vtkAlgorithm* algorithm :
+      { static_cast<vtkAlgorithm*>(filter), static_cast<vtkAlgorithm*>(refractivity) })
+    {
+      algorithm->UpdateInformation();
+      algorithm->Update();
+      algorithm->Update();
+    }
+    EXPECT_EQ(filter->GetGridPlans(), count);
+    EXPECT_EQ(refractivity->GetGridPlans(), count);
+  };
+  expectPlans(1);
+  filter->SetKnifeEdgeAngle(30);
+  expectPlans(1);
+  mesh->GetPointData()->GetArray("N")->Modified();
+  mesh->Modified();
+  expectPlans(2);
+  filter->SetSamplingDimensions(20, 21, 22);
+  refractivity->SetSamplingDimensions(20, 21, 22);
+  expectPlans(3);
+  EXPECT_EQ(refractivity->GetOutput()->GetDimensions()[1], 21);
 }
 
 TEST(Pipeline, NothingIsDoneTwice)
