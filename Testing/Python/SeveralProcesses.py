@@ -57,9 +57,10 @@ def results():
 
 
 def read_files():
-    """Files give rank 0 all that they have, or an error."""
-    from paraview.simple import (ExodusIIReader, OpenFOAMReader, PLOT3DReader, XMLImageDataReader,
-                                 XMLUnstructuredGridReader)
+    """Files give rank 0 all that they have, or an error; so does an adaptive mesh, whose source makes the ranks
+    wait for each other."""
+    from paraview.simple import (ExodusIIReader, HierarchicalFractal, OpenFOAMReader, PLOT3DReader,
+                                 XMLImageDataReader, XMLUnstructuredGridReader)
     from plugin_testing import Schlieren
     data = os.path.join(HERE, "..", "Data", "")
     foam = OpenFOAMReader(FileName=data + "ladenburg_openfoam/ladenburg.foam")
@@ -74,6 +75,7 @@ def read_files():
             (XMLImageDataReader(FileName=[data + "oblique_shock_extruded.vti"]), ["POINTS", "rho"], True),
             (XMLUnstructuredGridReader(FileName=[data + "heating_coil_fluid.vtu"]),
              ["POINTS", "Temperature"], True),
+            (HierarchicalFractal(Dimensions=8), ["CELLS", "Fractal Volume Fraction"], True),
             (foam, ["CELLS", "T"], True), (disk, ["POINTS", "Temp"], True),
             (fin, ["POINTS", "Density"], False)):  # which each rank reads a part of, whatever is requested
         seen = Schlieren(Input=reader, Density=array, ImageSize=[32, 32], OutsideBlocksLight=0,
