@@ -74,10 +74,6 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
 {
   QObject::connect(
     pqPictureRefiner::instance(), &pqPictureRefiner::progressed, this, &pqImageProgress::show);
-  if (pqProgressWidget* bar = progressBar())
-  {
-    QObject::connect(bar, &pqProgressWidget::abortPressed, this, &pqImageProgress::abort);
-  }
   QObject::connect(manager(), &pqProgressManager::progressEndEvent, this,
     [this]()
     {
@@ -85,7 +81,7 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
       if (bar)
       {
         this->SinceEvents.invalidate();
-        bar->enableAbort(this->IsRefining);
+        this->enableAbort(bar, this->IsRefining);
       }
     });
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
@@ -120,8 +116,17 @@ void pqImageProgress::show(const QString& what, int percent)
   {
     bar->enableProgress(this->IsRefining);
     bar->setProgress(what, percent);
-    bar->enableAbort(this->IsRefining);
+    this->enableAbort(bar, this->IsRefining);
   }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::enableAbort(pqProgressWidget* bar, bool isEnabled)
+{
+  // ParaView 6.1 tells nobody else that the button was pressed.
+  QObject::connect(
+    bar, &pqProgressWidget::abortPressed, this, &pqImageProgress::abort, Qt::UniqueConnection);
+  bar->enableAbort(isEnabled);
 }
 
 //------------------------------------------------------------------------------
@@ -150,7 +155,7 @@ void pqImageProgress::onProgress(vtkObject* filter)
   {
     return;
   }
-  bar->enableAbort(true);
+  this->enableAbort(bar, true);
   const QScopedValueRollback<vtkAlgorithm*> executing(
     this->Executing, vtkAlgorithm::SafeDownCast(filter));
   // ParaView lets nothing be pressed meanwhile, the window that the button is in included.

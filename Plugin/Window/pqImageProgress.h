@@ -34,6 +34,7 @@ private:
   void watch(pqPipelineSource* source);
   void show(const QString& what, int percent);
   void abort();
+  void enableAbort(pqProgressWidget* bar, bool isEnabled);
 
   bool IsRefining = false;
   vtkAlgorithm* Executing = nullptr; ///< while its progress is shown

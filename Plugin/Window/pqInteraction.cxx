@@ -48,7 +48,7 @@ void pqInteraction::watch(pqView* view)
   if (interactor)
   {
     for (const auto event : { vtkCommand::StartInteractionEvent, vtkCommand::EndInteractionEvent,
-           vtkCommand::ConfigureEvent, vtkCommand::WindowResizeEvent })
+           vtkCommand::ConfigureEvent })
     {
       // Before ParaView renders.
       this->Connection->Connect(

@@ -35,7 +35,7 @@ user.check_message("'table' has no cells to send light through. Select data that
 user.python("""
 nothing = Threshold(Input=FindSource("mesh"), registrationName="nothing")
 nothing.Scalars = ["POINTS", "rho"]
-nothing.LowerThreshold = nothing.UpperThreshold = 1e9
+nothing.LowerThreshold = nothing.UpperThreshold = 100  # where a slider still reaches
 nothing.UpdatePipeline()
 SetActiveSource(nothing)
 """)
