@@ -174,10 +174,8 @@ public:
   /// Shows the picture of a filter that is there already.
   void add(pqPipelineSource* source)
   {
-    this->Scene = sceneView(this->Server);
-    pqRenderView* view = this->Scene
-      ? this->addViews(1).front()
-      : this->addView(pqActiveObjects::instance().activeLayout(), -1);
+    this->findScene();
+    pqRenderView* view = this->addViews(1).front();
     this->showPicture(view, source);
     pqActiveObjects::instance().setActiveView(view);
   }
@@ -237,30 +235,28 @@ private:
       const int top = layout->SplitVertical(left, 0.5);
       cells.insert(cells.begin() + 1, top + 1);
     }
+    // ParaView's toolbar shows the axes of a view that becomes active after one without: in the middle of making
+    // it, which traces would not survive.
+    pqActiveObjects::instance().setActiveView(this->Scene);
     std::vector<pqRenderView*> views;
     for (const int cell : cells)
     {
       views.push_back(this->addView(layout, cell));
     }
+    for (pqRenderView* view : views)
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", view->getProxy());
+      flatten(view->getProxy());
+    }
     this->keepInSight(before, sizeOf(this->Scene));
     return views;
   }
 
-  /// `cell`: -1 for any.
   pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell)
   {
     auto* builder = pqApplicationCore::instance()->getObjectBuilder();
     auto* view = qobject_cast<pqRenderView*>(builder->createView("RenderView", this->Server));
-    if (cell < 0)
-    {
-      this->Controller->AssignViewToLayout(view->getViewProxy(), layout, 0);
-    }
-    else
-    {
-      layout->AssignView(cell, view->getViewProxy());
-    }
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", view->getProxy());
-    flatten(view->getProxy());
+    layout->AssignView(cell, view->getViewProxy());
     return view;
   }
 
