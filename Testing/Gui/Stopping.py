@@ -35,7 +35,8 @@ user.python(STEPS + """
 until(lambda: abort.isEnabled())
 until(lambda: " of 2000 samples" in information(bench, "Status"))
 pause(0.5)
-assert bar.text() == "Schlieren1" and 0 <= information(bench, "PercentDone") < 100
+until(lambda: bar.text() == "Schlieren1")
+assert 0 <= information(bench, "PercentDone") < 100
 assert not is_stopped() and not finished(bench)
 QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
 assert is_stopped() and finished(bench) and not abort.isEnabled() and bar.text() != "Schlieren1"

@@ -25,7 +25,8 @@ def samples():
     return int(information(bench, "Status").split(" of 20000 ")[0])
 until(lambda: abort.isEnabled())
 until(lambda: " of 20000 samples" in information(bench, "Status"))
-assert not finished(bench) and bar.text() == "Schlieren1"
+until(lambda: bar.text() == "Schlieren1")
+assert not finished(bench)
 QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
 go_on = widget("Frame.2", "Viewport", "SchlierenContinue")
 assert go_on.isVisible() and not abort.isEnabled() and information(bench, "Stopped") == 1
