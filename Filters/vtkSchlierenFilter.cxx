@@ -82,7 +82,7 @@ struct vtkSchlierenFilter::Internals
   }
 
   vtkMTimeType StoppedOf = 0; // the one that Stop(), or an abort within a limit, has left; 0: none
-  double Done = 0;            // share of the picture that was begun last
+  double Done = 0;            // of the image that was begun last: 0 to 1
 
   std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
 

@@ -805,8 +805,8 @@ public:
 
   ///@{
   /**
-   * Leaves an unfinished picture as it is: it counts as finished then, until Refine() lets the next update go on
-   * with it, or something else changes the picture. So is an update with a TimeLimit left that is aborted while
+   * Leaves an unfinished image as it is: it counts as finished then, until Refine() lets the next update go on
+   * with it, or something else changes the image. So is an update with a TimeLimit left that is aborted while
    * the refractivity is found; the output is empty then. GetStopped() tells whether that is so.
    */
   void Stop();
@@ -814,7 +814,7 @@ public:
   ///@}
 
   /**
-   * How much of the rays and the light of the picture there is, in per cent; 100 only for a finished one.
+   * How much of the rays and the light of the image there is, in per cent; 100 only for a finished one.
    */
   int GetPercentDone();
 

@@ -58,7 +58,7 @@ double distanceOfData(vtkSMProxy* filter, vtkCamera* camera)
   return camera->GetDistance();
 }
 
-/// As placeOfPicture, of the picture that the filter has made.
+/// As placeOfPicture, of the image that the filter has made.
 bool placeOfOutput(vtkSMProxy* filter, double center[2], double& halfHeight)
 {
   auto* source = vtkSMSourceProxy::SafeDownCast(filter);

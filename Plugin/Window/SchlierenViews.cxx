@@ -171,7 +171,7 @@ public:
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
-  /// Shows the picture of a filter that is there already.
+  /// Shows the image of a filter that is there already.
   void add(pqPipelineSource* source)
   {
     this->findScene();
@@ -365,7 +365,7 @@ private:
     return source;
   }
 
-  /// Fills a 2-D view with the picture of a filter.
+  /// Fills a 2-D view with the image of a filter.
   void showPicture(pqRenderView* view, pqPipelineSource* source)
   {
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();

@@ -25,7 +25,7 @@
 namespace
 {
 
-/// A property of a view whose picture is still to come.
+/// A property of a view whose image is still to come.
 constexpr const char* isToBeFitted = "SchlierenIsToBeFitted";
 
 } // namespace

@@ -21,7 +21,7 @@ public:
   explicit pqPictureCameras(QObject* parent);
   ~pqPictureCameras() override;
 
-  /// Fills a view with the picture of a filter, as soon as there is one.
+  /// Fills a view with the image of a filter, as soon as there is one.
   static void fit(pqRenderView* view, pqPipelineSource* filter);
 
 private:

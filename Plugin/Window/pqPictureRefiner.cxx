@@ -415,7 +415,7 @@ void pqPictureRefiner::takeTurn()
   }
   if (isUnfinished && job.HasShown && !job.IsTold && sourceOf(job.Filter))
   {
-    job.IsTold = true; // what panels say of the picture is nearly right from the first samples on
+    job.IsTold = true; // what panels say of the image is nearly right from the first samples on
     Q_EMIT source->dataUpdated(source);
   }
   if (!isUnfinished && job.Haste != Pace::Hurried && !this->Untold.contains(job.Filter))

@@ -618,7 +618,7 @@ TEST(Slices, WhatIsStoppedIsOneTimeStep)
   expectSamePicture(filter, fresh);
 }
 
-// An array that the picture from before does not have.
+// An array that the image from before does not have.
 TEST(Slices, ColouredPictureHasColourAtOnce)
 {
   auto filter = smallBench(columnImage());
