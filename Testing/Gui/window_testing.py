@@ -75,6 +75,14 @@ class Session:
     def menu(self, menu, action):
         self.event(f"pqClientMainWindow/menubar/{menu}", "activate", action)
 
+    def size_plane(self, side):
+        """Gives the plane of the cutoff editor edges of so many pixels, however wide the panel is."""
+        self.python(f"""
+plane = widget("propertiesPanel", "SchlierenCutoff", "Plane")
+plane.setFixedWidth({side} + plane.fontMetrics().height() + 4)
+until(lambda: plane.property("side") == {side})
+""")
+
     def choose_filter(self, name):
         """Of the menu Filters > Schlieren."""
         self.event("pqClientMainWindow/menubar", "activate", "menuFilters")  # opens it, which fills it
