@@ -76,10 +76,15 @@ class Session:
         self.event(f"pqClientMainWindow/menubar/{menu}", "activate", action)
 
     def size_plane(self, side):
-        """Gives the plane of the cutoff editor edges of so many pixels, however wide the panel is."""
+        """Gives the plane of the cutoff editor edges of so many pixels, 20 from the left and 2 from the top,
+        whatever the panel and its font."""
         self.python(f"""
 plane = widget("propertiesPanel", "SchlierenCutoff", "Plane")
-plane.setFixedWidth({side} + plane.fontMetrics().height() + 4)
+font = plane.font()
+font.setPixelSize(15)
+plane.setFont(font)
+assert plane.fontMetrics().height() == 18, plane.fontMetrics().height()
+plane.setFixedWidth({side} + 18 + 4)
 until(lambda: plane.property("side") == {side})
 """)
 
