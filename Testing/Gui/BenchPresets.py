@@ -4,6 +4,7 @@
 and what was typed but not applied waits on."""
 
 import os
+import re
 import sys
 
 import numpy as np
@@ -99,7 +100,8 @@ assert np.ptp(fringes) > 0.5
 # Each preset is one entry of the trace.
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
-lines = [line.split(".", 1)[1].strip() for line in script.splitlines() if line.startswith("bench.")]
-dark = lines.index("Cutoff = 'Circular Complement'")
-assert set(lines[dark:dark + 3]) == {"Cutoff = 'Circular Complement'", "KFromOptics = 0",
-                                     "SourceShape = 'Point'"}, lines
+# bench.Cutoff = '...', or since ParaView 6 bench.Set(Cutoff='...', ...) with a line for each.
+lines = re.findall(r"^(?:bench\.|    )(\w+) ?= ?(.*?),?$", script, re.MULTILINE)
+dark = lines.index(("Cutoff", "'Circular Complement'"))
+assert set(lines[dark:dark + 3]) == {("Cutoff", "'Circular Complement'"), ("KFromOptics", "0"),
+                                     ("SourceShape", "'Point'")}, lines

@@ -59,7 +59,7 @@ def settle():
 
 settle()
 user.check(PLANE, "enabled", "true")
-user.check(PLANE, "side", SIDE)
+user.size_plane(SIDE)
 user.check(PLANE, "range", RANGE)
 
 # The edge: 21 pixels to the right. On the way there 40; the picture is there before the mouse is released.

@@ -43,7 +43,7 @@ def session(name, before):
 
     keep("first")
     user.check(PLANE, "enabled", "true")
-    user.check(PLANE, "side", SIDE)
+    user.size_plane(SIDE)
     user.check(PLANE, "range", 0.005)
     x, y = 20 + SIDE // 2, 2 + SIDE // 2 - 30
     user.drag(PLANE, (x, y), (x + 40, y), (x + 21, y))

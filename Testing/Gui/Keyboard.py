@@ -23,7 +23,7 @@ pause(0.3)
 """)
 user.save_state("added.pvsm")
 user.check(PLANE, "enabled", "true")
-user.check(PLANE, "side", SIDE)
+user.size_plane(SIDE)
 
 # What a drag changes before it is given up, and what there is then.
 LOOK = f"""

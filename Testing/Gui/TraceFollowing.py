@@ -23,7 +23,7 @@ user.drag_view(1, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))
 user.python(SETTLE)
 user.save_state("turned.pvsm")
 user.check("SchlierenCutoff/Plane", "enabled", "true")
-user.check("SchlierenCutoff/Plane", "side", SIDE)
+user.size_plane(SIDE)
 x, y = MIDDLE
 user.drag("SchlierenCutoff/Plane", (x, y - 30), (x + 40, y - 30), (x + 21, y - 30))
 user.python(SETTLE)

@@ -75,6 +75,19 @@ class Session:
     def menu(self, menu, action):
         self.event(f"pqClientMainWindow/menubar/{menu}", "activate", action)
 
+    def size_plane(self, side):
+        """Gives the plane of the cutoff editor edges of so many pixels, 20 from the left and 2 from the top,
+        whatever the panel and its font."""
+        self.python(f"""
+plane = widget("propertiesPanel", "SchlierenCutoff", "Plane")
+font = plane.font()
+font.setPixelSize(15)
+plane.setFont(font)
+assert plane.fontMetrics().height() == 18, plane.fontMetrics().height()
+plane.setFixedWidth({side} + 18 + 4)
+until(lambda: plane.property("side") == {side})
+""")
+
     def choose_filter(self, name):
         """Of the menu Filters > Schlieren."""
         self.event("pqClientMainWindow/menubar", "activate", "menuFilters")  # opens it, which fills it
