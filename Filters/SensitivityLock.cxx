@@ -13,14 +13,9 @@ namespace
 
 using Filter = vtkSchlierenFilter;
 
-/// Whether the k of an image holds for another one. Where the time differs, everything may: an animation can move the
-/// camera, too.
-bool holdsFor(int mode, const ImageCircumstances& before, const ImageCircumstances& now)
+bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
 {
-  const bool isOtherTime = before.time && now.time && *before.time != *now.time;
-  return before.medium == now.medium &&
-    (isOtherTime ||
-      (before.data == now.data && (mode == Filter::LOCK_ALWAYS || before.rays == now.rays)));
+  return a.time && b.time && *a.time != *b.time;
 }
 
 /// Whether they are the same, whenever they were asked for.
@@ -64,11 +59,21 @@ std::vector<double> settingsOfRays(vtkSchlierenFilter* self)
 //------------------------------------------------------------------------------
 double SensitivityLock::For(int mode, const ImageCircumstances& now)
 {
-  if (mode == Filter::LOCK_OFF || (this->Last && !holdsFor(mode, *this->Last, now)))
+  // A series differs from time to time, and an animation moves the camera before or after the first image of a time
+  // is made: only at the time that k is of does the camera make another one.
+  const bool holds = this->Last && this->Last->medium == now.medium &&
+    (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
+    (this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
+      mode == Filter::LOCK_ALWAYS);
+  if (mode == Filter::LOCK_OFF || (this->Last && !holds))
   {
     this->Drop();
   }
   this->Last = now;
+  if (!this->Origin)
+  {
+    this->Origin = now;
+  }
   return this->K;
 }
 
@@ -76,7 +81,7 @@ double SensitivityLock::For(int mode, const ImageCircumstances& now)
 void SensitivityLock::Found(double k)
 {
   this->K = k;
-  this->FoundAt = this->Last;
+  this->FoundAt = this->Origin = this->Last;
 }
 
 //------------------------------------------------------------------------------
@@ -84,6 +89,7 @@ void SensitivityLock::Give(double k)
 {
   this->K = k > 0 ? k : 0;
   this->FoundAt.reset();
+  this->Origin.reset();
   this->Last.reset();
 }
 

@@ -39,6 +39,7 @@ public:
 
 private:
   double K = 0;
-  std::optional<ImageCircumstances> FoundAt;
+  std::optional<ImageCircumstances> FoundAt; // unset: K is from elsewhere
+  std::optional<ImageCircumstances> Origin;  // FoundAt, or else the first image with K
   std::optional<ImageCircumstances> Last;
 };

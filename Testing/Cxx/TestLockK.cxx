@@ -86,17 +86,18 @@ TEST_F(LockK, OverTimeKeepsThatOfTheFirstImage)
   this->filter->SetKnifeEdgeAngle(45);
   this->filter->SetNoiseFilter(Filter::MEAN);
   EXPECT_EQ(this->kAt(0), this->own[1]);
-  // Another view at the same time has its own, which is kept from there on.
+  // So does a camera that moves with the time, before or after the first image of that time.
   this->filter->SetParallelScale(0.1);
-  const double ofView = this->kAt(0);
+  EXPECT_EQ(this->kAt(0), this->own[1]);
+  this->filter->SetParallelScale(0.2);
+  EXPECT_EQ(this->kAt(2), this->own[1]);
+  EXPECT_TRUE(this->saysLocked());
+  // At the time that k is of, another view has its own, which is kept from there on.
+  const double ofView = this->kAt(1);
   EXPECT_NE(ofView, this->own[1]);
   EXPECT_FALSE(this->saysLocked());
   EXPECT_EQ(this->kAt(2), ofView);
-  // A camera that moves with the time keeps it.
-  this->filter->SetParallelScale(0.2);
-  EXPECT_EQ(this->kAt(1), ofView);
-  EXPECT_TRUE(this->saysLocked());
-  // Another quality at the same time.
+  // So has another quality.
   this->filter->SetParallelScale(0);
   this->filter->SetStepSize(0.5);
   EXPECT_NEAR(this->kAt(1), this->own[1], 1e-2 * this->own[1]);
