@@ -10,7 +10,7 @@ class vtkSchlierenFilter;
 /// What an automatic k belongs to.
 struct ImageCircumstances
 {
-  std::optional<double> time; ///< asked for; unset: nobody did
+  std::optional<double> time; ///< unset: data without time steps
   std::vector<double> data;   ///< describeInputs
   std::vector<double> medium; ///< and the kind of cutoff: its settings
   std::vector<double> rays;   ///< camera, quality, light

@@ -68,7 +68,7 @@ struct vtkSchlierenFilter::Internals
   vtkTimeStamp RefineTime;
 
   SensitivityLock KLock;
-  std::optional<double> Time; // last asked for
+  std::optional<double> Time; // of the last update; unset for data without time steps
 
   // Of Medium, the last time that Precision changed it, and before that.
   vtkMTimeType PrecisionTime = 0;
@@ -923,12 +923,16 @@ int vtkSchlierenFilter::RequestData(
     return 1;
   }
 
-  const int askedPort =
-    std::max(0, request->Get(vtkStreamingDemandDrivenPipeline::FROM_OUTPUT_PORT()));
-  if (vtkInformation* asked = outputVector->GetInformationObject(askedPort);
-      asked->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  // Data without time steps are the same at all times, and VTK need not run this for another one.
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
+  vtkInformation* outInfo =
+    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
+  inside.Time.reset();
+  if ((inInfo->Has(Pipeline::TIME_STEPS()) || inInfo->Has(Pipeline::TIME_RANGE())) &&
+    outInfo->Has(Pipeline::UPDATE_TIME_STEP()))
   {
-    inside.Time = asked->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    inside.Time = outInfo->Get(Pipeline::UPDATE_TIME_STEP());
   }
 
   this->SetAbortExecute(0); // it stays set after an abort

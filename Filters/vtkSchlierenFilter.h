@@ -381,7 +381,8 @@ public:
    * How long an automatic k is kept, one of LockModes. It is found for the first image and then
    * - LOCK_OFF: for each image anew;
    * - LOCK_OVER_TIME (the default): kept at all other times, whatever else changes with the time, as the camera of an
-   *   animation does. Found anew where camera, light or quality change at the time that it was found;
+   *   animation does. Found anew where camera, light or quality change at the time that it was found, and where data
+   *   have no time steps;
    * - LOCK_ALWAYS: kept where camera, light and quality change, too.
    * In each case it is found anew where the settings of the medium, the kind of cutoff that has a k, or, at the same
    * time, the data change. Images between, whose k is not automatic, do not count.
