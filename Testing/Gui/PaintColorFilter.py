@@ -11,7 +11,7 @@ from views_testing import check_baseline, frame, load, png, simple, views, write
 from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session
 
 WIDGET, PREVIEW = "ColorFilterImage", "ColorFilterImage/Preview"
-MIDDLE, HALF = 113, 96  # of the filter in its widget, pixels; the middle give or take a font's height
+MIDDLE, HALF = 96 + 18, 96  # of the filter in its widget, pixels; 18: the font's height
 SIDE = 256              # of the painted filter
 PIXELS, K = 321, 300
 COLOR = (10, 200, 30)
@@ -100,9 +100,11 @@ user.click(WIDGET + "/PaintOnPicture")
 user.check(WIDGET + "/PaintOnPicture", "checked", "false")
 
 user.play(f"""
-import sys
-sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from inside_window import QApplication
 from paraview.simple import *
+font = QApplication.font()
+font.setPixelSize(15)
+QApplication.setFont(font)
 flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=2 * [{PIXELS}], Cutoff="Color Filter",
