@@ -11,7 +11,7 @@ from views_testing import check_baseline, frame, load, png, simple, views, write
 from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session
 
 WIDGET, PREVIEW = "ColorFilterImage", "ColorFilterImage/Preview"
-MIDDLE, HALF = 96 + 18, 96  # of the filter in its widget, pixels; 18: the font's height
+MIDDLE, HALF = 113, 96  # of the filter in its widget, pixels; the middle give or take a font's height
 SIDE = 256              # of the painted filter
 PIXELS, K = 321, 300
 COLOR = (10, 200, 30)
@@ -100,11 +100,9 @@ user.click(WIDGET + "/PaintOnPicture")
 user.check(WIDGET + "/PaintOnPicture", "checked", "false")
 
 user.play(f"""
-from inside_window import QApplication
+import sys
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
-font = QApplication.font()
-font.setPixelSize(15)
-QApplication.setFont(font)
 flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=2 * [{PIXELS}], Cutoff="Color Filter",
@@ -196,8 +194,9 @@ def distances(centres, points):
     return np.stack([np.hypot(*(points - centre).transpose(2, 0, 1)) for centre in centres])
 
 
-# The mouse is in the middle of a pixel of the screen, so that those at the circle's rim may be in or out.
-surely, perhaps = places[away < -0.5], places[away < 0.5]
+# The mouse is in the middle of a pixel of the screen, which is about as large as one of the image, so that those
+# at the circle's rim may be in or out.
+surely, perhaps = places[away < -1], places[away < 1]
 on_filter = np.stack([u, v], axis=-1)
 check_painted(held(text), distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE,
               distances(perhaps, on_filter).min(axis=0) > 0.06 + 2 / SIDE)
