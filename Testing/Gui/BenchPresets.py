@@ -4,7 +4,6 @@
 and what was typed but not applied waits on."""
 
 import os
-import re
 import sys
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from views_testing import traced  # noqa: E402
 from window_testing import FOLDER, PANEL, PROPERTIES, Session  # noqa: E402
 
 TRACE = os.path.join(FOLDER, "trace.py")
@@ -100,8 +100,7 @@ assert np.ptp(fringes) > 0.5
 # Each preset is one entry of the trace.
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
-# bench.Cutoff = '...', or since ParaView 6 bench.Set(Cutoff='...', ...) with a line for each.
-lines = re.findall(r"^(?:bench\.|    )(\w+) ?= ?(.*?),?$", script, re.MULTILINE)
+lines = traced(script, "bench")
 dark = lines.index(("Cutoff", "'Circular Complement'"))
 assert set(lines[dark:dark + 3]) == {("Cutoff", "'Circular Complement'"), ("KFromOptics", "0"),
                                      ("SourceShape", "'Point'")}, lines

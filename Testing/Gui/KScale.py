@@ -6,7 +6,7 @@ is; before Apply, given up, undone, traced and kept. A script that switches it o
 import os
 
 import numpy as np
-from views_testing import picture, simple
+from views_testing import picture, simple, traced
 from plugin_testing import Schlieren
 from window_testing import FOLDER, Session
 
@@ -93,8 +93,9 @@ for state, is_automatic, value in (("before", 1, 1000), ("off", 0, k), ("undone"
 
 with open(TRACE, encoding="utf-8") as file:
     text = file.read()
-assert "bench.AutoKScale = 0\nbench.KScale = " in text, text
-assert float(text.split("bench.KScale = ")[1].split("\n")[0]) == k
+lines = traced(text, "bench")
+off = lines.index(("AutoKScale", "0"))
+assert lines[off + 1][0] == "KScale" and float(lines[off + 1][1]) == k, text
 
 # A script of its own, too.
 bench = scripted(AutoKScale=0)

@@ -194,8 +194,9 @@ def distances(centres, points):
     return np.stack([np.hypot(*(points - centre).transpose(2, 0, 1)) for centre in centres])
 
 
-# The mouse is in the middle of a pixel of the screen, so that those at the circle's rim may be in or out.
-surely, perhaps = places[away < -0.5], places[away < 0.5]
+# The mouse is in the middle of a pixel of the screen, which is about as large as one of the image, so that those
+# at the circle's rim may be in or out.
+surely, perhaps = places[away < -1], places[away < 1]
 on_filter = np.stack([u, v], axis=-1)
 check_painted(held(text), distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE,
               distances(perhaps, on_filter).min(axis=0) > 0.06 + 2 / SIDE)

@@ -7,6 +7,7 @@ against a filter that was set up by a script.
 """
 
 import os
+import re
 import sys
 
 import numpy as np
@@ -236,7 +237,8 @@ assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
 # So does the trace, up to where the last field was removed.
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
-last = script.index("bench.Fields = ['temperature']\n")
+last = re.search(r"^bench\.(Fields = |Set\(\n(    .*\n)*?    Fields=)\['temperature'\]", script,
+                 re.MULTILINE).start()
 simple.ResetSession()
 flow = simple.XMLImageDataReader(FileName=[FLOW], registrationName="XMLImageDataReader1")
 flow.UpdatePipeline()

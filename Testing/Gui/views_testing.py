@@ -3,6 +3,7 @@
 """What the tests of the toolbar Schlieren share: pressing it, and looking at what it has made."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -85,6 +86,12 @@ class ViewsSession(Session):
 
     def redo(self):
         self.menu("menu_Edit", "actionEditRedo")
+
+
+def traced(script, name):
+    """What a trace sets of what it calls `name`: pairs of property and value, as text. It is name.A = 1, or since
+    ParaView 6 name.Set(A=1, ...) with a line for each."""
+    return re.findall(rf"^(?:{name}\.|    )(\w+) ?= ?(.*?),?$", script, re.MULTILINE)
 
 
 def play_trace(state, before):
