@@ -27,8 +27,7 @@ def report(text):
 """
 
 user = ViewsSession()
-user.menu("menuFilters", "Schlieren")
-user.menu("menuFilters/Schlieren", "Schlieren")
+user.choose_filter("Schlieren")
 user.type("SamplesPerPixel/LineEdit0", "2000")
 user.apply()
 user.python(STEPS + """

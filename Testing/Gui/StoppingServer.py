@@ -14,8 +14,7 @@ with open(REPORT, "w", encoding="utf-8"):
 
 server, port = start_server()
 user = ViewsSession()
-user.menu("menuFilters", "Schlieren")
-user.menu("menuFilters/Schlieren", "Schlieren")
+user.choose_filter("Schlieren")
 user.type("SamplesPerPixel/LineEdit0", "20000")
 user.apply()
 user.python(f"""
