@@ -78,7 +78,7 @@ user.save_state("none.pvsm")
 user.menu("menu_Edit", "actionEditUndo")
 user.check(POINT.format(0), "text", "0.01")
 
-# From fast to fine; and notes can be read and copied like any text that stands in a window.
+# From fast to fine; and notes can be read and copied like other text in a window.
 user.python(f"""
 quality = widget("propertiesPanel", "Quality").findChild(QtWidgets.QComboBox)
 names = [quality.itemText(i) for i in range(quality.count())]
