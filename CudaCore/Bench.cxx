@@ -127,6 +127,9 @@ struct Bench::Stages
 
   template <class Real>
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
+  /// Makes the voxels of a source that a view needs and that are not there.
+  template <class Real>
+  void refineFor(const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor);
 
   /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
   template <class Real>
@@ -147,22 +150,41 @@ struct Bench::Stages
 template <class Real>
 MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
 {
-  const void* samples = field.singles != nullptr ? static_cast<const void*>(field.singles)
-                                                 : static_cast<const void*>(field.doubles);
+  const bool hasSource = field.source != nullptr;
+  const void* samples = hasSource ? static_cast<const void*>(field.source.get())
+    : field.singles != nullptr    ? static_cast<const void*>(field.singles)
+                                  : static_cast<const void*>(field.doubles);
   const Grid& grid = field.grid;
   const MediumKey key{ grid.dimensions, grid.origin, grid.spacing, grid.direction, field.version,
-    samples, field.ambient, scene.interpolation, scene.precision };
+    samples, field.ambient, scene.interpolation, scene.precision,
+    hasSource ? scene.mediumTolerance : 0, hasSource ? scene.mediumMemory : 0 };
   if (!mediumKey || mediumKey->tie() != key.tie())
   {
     // Given up first: two media at once might not fit.
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
-    medium = MediumOnDevices<Real>(buildMedium<Real>(field, scene.interpolation, scene.threads));
+    medium = MediumOnDevices<Real>(hasSource
+        ? buildTree<Real>(field,
+            { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
+        : buildMedium<Real>(field, scene.interpolation, scene.threads));
     mediumKey = key;
     ++work.mediumBuilds;
   }
   return std::get<MediumOnDevices<Real>>(medium);
+}
+
+template <class Real>
+void Bench::Stages::refineFor(
+  const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor)
+{
+  Monitor ofTree;
+  ofTree.aborted = monitor.aborted;
+  if (refine(held.medium, column, ofTree))
+  {
+    rays.clear();
+    held.cuda.reset();
+  }
 }
 
 template <class Real>
@@ -215,13 +237,23 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;
   const Light light = lightOf(scene, field.grid, image.frame);
+  if (field.source)
+  {
+    refineFor(columnOf(scene, light, image.frame), held, watch.monitor());
+    image.medium = held.medium.tree->statistics();
+    if (watch.isAborted())
+    {
+      return aborted;
+    }
+  }
   const DisplacementBound bound = boundDisplacement(held.medium, light);
   image.displacementBound = bound.displacement;
   const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
   image.pathModel = settings.kernel.path;
   // An adaptive step is as long as the medium lets it be without a map.
-  const double skips =
-    settings.kernel.integrator == Integrator::Adaptive ? 0 : scene.homogeneityTolerance;
+  const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
+    ? 0
+    : scene.homogeneityTolerance;
   // What differs by rounding only is homogeneous.
   constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
   const double tolerance =

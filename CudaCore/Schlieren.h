@@ -10,6 +10,7 @@
 #pragma once
 
 #include "Medium/IndexModels.h"
+#include "Medium/MediumSource.h"
 #include "PixelArray.h"
 
 #include <array>
@@ -186,11 +187,13 @@ struct FieldGradients
 /// Of Field::valid: light passes a place that has no data.
 constexpr unsigned char transparent = 2;
 
-/// Refractivity N = n - 1 on a grid, x fastest. The arrays belong to the caller and are read during
-/// Bench::render only. Exactly one of the two sample pointers is set.
+/// Refractivity N = n - 1. On a grid, x fastest: the arrays belong to the caller and are read during Bench::render
+/// only; exactly one of the two sample pointers is set. Or of a source, which is asked as finely as the view and
+/// Scene::mediumTolerance want it: then `grid` is coarsestGrid() of the source, and there are no arrays.
 struct Field
 {
   Grid grid;
+  std::shared_ptr<const MediumSource> source;
   const float* singles = nullptr;
   const double* doubles = nullptr;
   /// 0: solid, blocks light. 1: gas (solid where the sample is not finite). 2 (transparent): no data, but
@@ -259,6 +262,12 @@ struct Scene
   /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
   /// share of its range in the whole medium; 0: never. 0 ... 1.
   double homogeneityTolerance = 0;
+  /// Error of the deflection, of the largest one, that the voxels of a Field's source may make; 0: they are as
+  /// fine as the data. 0 ... 1.
+  double mediumTolerance = 0.01;
+  /// Bytes that the voxels of a Field's source may take. Where they do not do, the tolerance is not met:
+  /// see Image::medium.
+  std::size_t mediumMemory = std::size_t{ 1 } << 30;
   /// How far, in pixels, a straight ray may be from the refracted one for PathModel::Auto to take it.
   double pathTolerance = 0.01;
   Device device = Device::Auto;
@@ -290,6 +299,18 @@ struct LightBalance
   double emitted = 0; ///< by rays that reach the film's plane, after the cutoff
   double onFilm = 0;
   double outside = 0; ///< of the picture
+};
+
+/// What the medium of a Field's source consists of.
+struct MediumStatistics
+{
+  int coarsestLevel = 0, finestLevel = 0; ///< voxels of the next level are half as large
+  std::int64_t leaves = 0;                ///< boxes with voxels of one size
+  std::int64_t constantLeaves = 0;        ///< without voxels
+  std::int64_t voxels = 0;
+  std::int64_t bytes = 0;
+  double smallestVoxel = 0;  ///< data units, along the axis where it is smallest
+  double estimatedError = 0; ///< of the deflection, of the largest one
 };
 
 /// The picture and what is known about it. Arrays are row-major, bottom row first.
@@ -335,6 +356,7 @@ struct Image
   /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it tells
   /// the error of steps and interpolation.
   double momentumDrift = 0;
+  MediumStatistics medium;  ///< of a Field's source
   bool aborted = false; ///< the monitor asked to stop; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume goes on. The arrays then hold the picture of
@@ -388,6 +410,9 @@ private:
   struct Stages;
   std::unique_ptr<Stages> stages_;
 };
+
+/// The grid that a source is divided into at first: it covers its bounds. Throws Error where these are no box.
+Grid coarsestGrid(const MediumSource& source);
 
 /// The picture plane of a view of a grid. Throws Error where the view is degenerate.
 Frame frameOf(const Grid& grid, const View& view);

@@ -98,6 +98,24 @@ Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
     : lightFrom(scene.source, filmDistance(scene, frame), grid, scene.view, frame);
 }
 
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
+{
+  Column column{};
+  column.u = light.u;
+  column.v = light.v;
+  const double size[2] = { static_cast<double>(scene.view.width),
+    static_cast<double>(scene.view.height) };
+  const auto margin = static_cast<double>(mostMargin(scene.view));
+  for (int i = 0; i < 2; ++i)
+  {
+    column.middle[i] = frame.origin[static_cast<std::size_t>(i)] + 0.5 * (size[i] - 1) * frame.pixelSize;
+    column.halfWidth[i] = (0.5 * size[i] + margin) * frame.pixelSize +
+      0.5 * light.steepest[i] * (frame.exit - frame.entry);
+  }
+  column.finest = frame.pixelSize;
+  return column;
+}
+
 Projection projectionOf(
   const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit)
 {

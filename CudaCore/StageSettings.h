@@ -29,11 +29,13 @@ struct MediumKey
   std::optional<double> ambient;
   Interpolation interpolation;
   Precision precision;
+  double tolerance; ///< of a source, as the next; else 0
+  std::size_t memory;
 
   auto tie() const
   {
-    return std::tie(
-      dimensions, origin, spacing, direction, version, samples, ambient, interpolation, precision);
+    return std::tie(dimensions, origin, spacing, direction, version, samples, ambient,
+      interpolation, precision, tolerance, memory);
   }
 };
 
@@ -121,6 +123,9 @@ double filmDistance(const Scene& scene, const Frame& frame);
 std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame);
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame);
+
+/// The part of a source's medium that a view looks at, with the margin around the picture.
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
 
 /// Where a pass's rays start in their pixels and at their source.
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light);

@@ -39,6 +39,9 @@ void validateTolerances(const Scene& scene)
     "HomogeneityTolerance", scene.homogeneityTolerance,
     "between 0 (nothing is skipped) and 1 (all of the flow is), as a share of the refractivity's "
     "range.");
+  require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance",
+    scene.mediumTolerance,
+    "between 0 (voxels are as fine as the data) and 1, as a share of the largest deflection.");
   require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
     scene.pathTolerance, "to zero or more, in pixels.");
 }

@@ -66,7 +66,7 @@ std::vector<Neighbour> neighboursOf(NoiseFilter filter, double radius)
 }
 
 /// Where a filter looks.
-struct Place
+struct Neighbourhood
 {
   int width, height;
   int column, row;
@@ -92,7 +92,7 @@ private:
 
 /// The radius of the smallest disc around a place that holds `wanted` samples: where samples s(r) for each of
 /// its pixels in the picture make pi r^2 s(r) = wanted.
-double coneRadius(const Place& place, const std::vector<Neighbour>& neighbours,
+double coneRadius(const Neighbourhood& place, const std::vector<Neighbour>& neighbours,
   const PixelArray<float>& samples, double wanted)
 {
   double found = 0;
@@ -151,7 +151,7 @@ PixelArray<float> filtered(PixelArray<float> picture, int width, int height, Noi
       {
         for (int column = 0; column < width; ++column)
         {
-          const Place place{ width, height, column, static_cast<int>(row) };
+          const Neighbourhood place{ width, height, column, static_cast<int>(row) };
           const double reach = isCone ? coneRadius(place, neighbours, samples, pi * radius * radius)
                                       : neighbours.back().distance;
           std::fill(sums.begin(), sums.end(), 0.);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Math/Vec3.h"
+#include "Medium/Leaves.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -10,22 +11,32 @@
 namespace schlieren
 {
 
-/// What a ray sees of the medium: the relative refractivity nu = (N - N_ref) / (1 + N_ref) on the
-/// grid, in index coordinates (grid point (i, j, k) lies at (i, j, k)), with one layer of ghost
-/// points around it, so that no interpolation has to look where it is.
+/// What a ray sees of the medium: the relative refractivity nu = (N - N_ref) / (1 + N_ref) in leaves, which
+/// are bricks of samples that all have the same strides. An image is one leaf, whose local coordinates are
+/// the index coordinates (grid point (i, j, k) lies at (i, j, k)). Around each brick there are ghost points,
+/// so that no interpolation has to look where it is.
 template <class Real>
 struct MediumView
 {
-  /// Sample (quadratic: B-spline coefficient) of the ghost point (-1, -1, -1); x fastest.
+  /// Sample (quadratic: B-spline coefficient) of the point (-1, -1, -1) of the first brick; x fastest.
   const Real* samples;
   std::int64_t rowStride;   ///< from (i, j, k) to (i, j + 1, k)
   std::int64_t planeStride; ///< from (i, j, k) to (i, j, k + 1)
-  Vec3<Real> last;          ///< dimensions - 1: the largest index coordinates
-  /// One bit per point, 1 in solids, laid out like the samples; null where there are no solids.
-  const std::uint32_t* solid;
+  Vec3<Real> leafLow;       ///< a leaf's corners, in local coordinates
+  Vec3<Real> leafHigh;
+  Vec3<double> last;        ///< far corner of the domain, in index coordinates; the near one is 0
+  /// One bit per point of an image, 1 in solids, laid out like the samples; null where there are no solids.
+  const std::uint32_t* solid = nullptr;
   /// From a sample to what the ray that looks at it will look at some steps later: a processor can be told
   /// to fetch that in time.
   std::int64_t ahead = 0;
+
+  // Of a tree.
+  const Leaf<Real>* leaves = nullptr; ///< null: an image
+  LeafFinder finder{};
+  std::int64_t brickStride = 0; ///< samples from one brick to the next
+  /// Laid out like the samples, but with bricks of their own: see MediumTree::gasDistances.
+  const std::int16_t* gasDistances = nullptr;
 };
 
 /// A value and its derivatives by the index coordinates.
@@ -188,21 +199,27 @@ auto visitScheme(Interpolation interpolation, const Visit& visit)
   }
 }
 
-/// Value and gradient at a position within [0, last].
+/// Value and gradient, by local coordinates, at a position within a leaf whose samples begin at `base`
+/// (null: an image's).
 template <class Scheme, class Real>
-SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Real>& position) -> Sample<Real>
+SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* base,
+  const Vec3<Real>& position) -> Sample<Real>
 {
   const Real x[3] = { position.x, position.y, position.z };
-  const Real last[3] = { m.last.x, m.last.y, m.last.z };
+  const Real high[3] = { m.leafHigh.x, m.leafHigh.y, m.leafHigh.z };
   const std::int64_t strides[3] = { 1, m.rowStride, m.planeStride };
-  const Real* corner = m.samples;
+  const Real* corner = base != nullptr ? m.samples + *base : m.samples;
   Real w[3][Scheme::points], d[3][Scheme::points];
   for (int axis = 0; axis < 3; ++axis)
   {
     int i = static_cast<int>(Scheme::nearest ? x[axis] + static_cast<Real>(0.5) : x[axis]);
-    if (Scheme::points == 4 && i >= static_cast<int>(last[axis]))
+    if (!Scheme::nearest && x[axis] < static_cast<Real>(i))
     {
-      i = static_cast<int>(last[axis]) - 1; // the last point ends the last cell
+      --i; // bricks begin half a voxel before their first sample
+    }
+    if (Scheme::points == 4 && m.leaves == nullptr && i >= static_cast<int>(high[axis]))
+    {
+      i = static_cast<int>(high[axis]) - 1; // the last point ends the last cell
     }
     Scheme::weights(x[axis] - static_cast<Real>(i), w[axis], d[axis]);
     corner += (i + 1 + Scheme::first) * strides[axis]; // 1: the ghost layer
@@ -210,7 +227,14 @@ SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Real>& posit
   return tensorProduct<Real, Scheme::points>(m, corner, w, d);
 }
 
-/// Whether the grid point nearest to a position within [0, last] is solid.
+/// The same of an image.
+template <class Scheme, class Real>
+SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Real>& position) -> Sample<Real>
+{
+  return interpolate<Scheme>(m, static_cast<const std::int64_t*>(nullptr), position);
+}
+
+/// Whether the grid point of an image nearest to a position within [0, last] is solid.
 template <class Real>
 SCHLIEREN_HD bool isSolid(const MediumView<Real>& m, const Vec3<Real>& position)
 {
@@ -219,6 +243,42 @@ SCHLIEREN_HD bool isSolid(const MediumView<Real>& m, const Vec3<Real>& position)
     (static_cast<std::int64_t>(position.y + half) + 1) * m.rowStride +
     static_cast<std::int64_t>(position.x + half) + 1;
   return ((m.solid[at >> 5] >> (at & 31)) & 1u) != 0;
+}
+
+/// How far inside the gas a position within a leaf of kind Mixed is, in voxels; and whether what is outside, next
+/// to it, is a window rather than a wall. `map`: where the leaf's gasDistances begin.
+struct GasEdge
+{
+  float distance;
+  bool isWindow;
+};
+template <class Real>
+SCHLIEREN_HD GasEdge gasEdge(
+  const MediumView<Real>& m, std::int64_t map, const Vec3<Real>& position)
+{
+  const Real x[3] = { position.x, position.y, position.z };
+  const std::int64_t strides[3] = { 1, m.rowStride, m.planeStride };
+  std::int64_t corner = map, nearest = 0;
+  float f[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    int i = static_cast<int>(x[axis] + 1); // a floor: positions are no less than -1/2
+    corner += i * strides[axis];
+    --i;
+    f[axis] = static_cast<float>(x[axis] - static_cast<Real>(i));
+    nearest += f[axis] < 0.5f ? 0 : strides[axis];
+  }
+  float distance = 0;
+  for (int k = 0; k < 8; ++k)
+  {
+    const std::int64_t at = corner + (k & 1) * strides[0] + (k >> 1 & 1) * strides[1] +
+      (k >> 2) * strides[2];
+    const float weight = ((k & 1) != 0 ? f[0] : 1 - f[0]) * ((k & 2) != 0 ? f[1] : 1 - f[1]) *
+      ((k & 4) != 0 ? f[2] : 1 - f[2]);
+    distance += weight * static_cast<float>(m.gasDistances[at] >> 1);
+  }
+  constexpr float perVoxel = 4096; // the lowest bit has been shifted out
+  return { distance / perVoxel, (m.gasDistances[corner + nearest] & 1) != 0 };
 }
 
 } // namespace schlieren

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "Math/Vec3.h"
+#include "Medium/MediumSource.h"
 
 #include <cstdint>
 
@@ -18,12 +19,11 @@ namespace schlieren
 template <class Real>
 struct Leaf
 {
-  /// What the place is where the leaf has no map of walls of its own.
   enum Kind : std::int32_t
   {
     Samples,  ///< gas, everywhere
     Constant, ///< gas that is the same everywhere: it is crossed in one step
-    Mixed,    ///< gas, and places without: see MediumView::gasDistance
+    Mixed,    ///< gas, and places without: see MediumView::gasDistances
     Solid     ///< a body everywhere
   };
 

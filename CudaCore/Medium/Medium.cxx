@@ -329,21 +329,32 @@ int degreeOfGhosts(Interpolation interpolation)
   }
 }
 
-template <class Real, class Value>
-Medium<Real> build(
-  const Field& field, const Value* values, Interpolation interpolation, int threads)
+/// N_ref: as the field says, or else as it is found by `find`.
+template <class Find>
+double ambientOf(const Field& field, const Find& find)
 {
-  const Samples<Value> samples{ values, field.valid };
-  if (field.ambient && !(*field.ambient > -1 && *field.ambient <= largestPlausibleN))
+  if (!field.ambient)
+  {
+    return find();
+  }
+  if (!(*field.ambient > -1 && *field.ambient <= largestPlausibleN))
   {
     throw Error("The ambient refractivity " + std::to_string(*field.ambient) +
       " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
       "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
   }
+  return *field.ambient;
+}
+
+template <class Real, class Value>
+Medium<Real> build(
+  const Field& field, const Value* values, Interpolation interpolation, int threads)
+{
+  const Samples<Value> samples{ values, field.valid };
   // Before there is a volume: it takes memory, too.
   const double ambient =
-    field.ambient ? *field.ambient : boundaryMedian(samples, field.grid.dimensions);
-  Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {} };
+    ambientOf(field, [&] { return boundaryMedian(samples, field.grid.dimensions); });
+  Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {}, nullptr };
   medium.ambient = ambient;
   const Range range = load(samples, ambient, medium.volume, threads);
   checkRange(range);
@@ -427,14 +438,73 @@ Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int th
 }
 
 template <class Real>
-MediumView<Real> Medium<Real>::view() const
+Medium<Real> buildTree(const Field& field, const TreeSettings& settings)
 {
-  return { volume.samples.data(), volume.strides[1], volume.strides[2],
-    { static_cast<Real>(volume.dimensions[0] - 1), static_cast<Real>(volume.dimensions[1] - 1),
-      static_cast<Real>(volume.dimensions[2] - 1) },
-    solid.empty() ? nullptr : solid.data() };
+  const double ambient = ambientOf(field, [&] { return field.source->ambient(); });
+  Medium<Real> medium{ PaddedVolume<Real>({ 1, 1, 1 }), {},
+    std::make_unique<MediumTree<Real>>(field.source, ambient, settings) };
+  medium.ambient = ambient;
+  return medium;
 }
 
+template <class Real>
+bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor)
+{
+  MediumTree<Real>& tree = *medium.tree;
+  const bool hasChanged = tree.refine(column, monitor);
+  medium.largestN = tree.largestN();
+  medium.rangeOfNu = tree.rangeOfNu();
+  medium.largestNu = tree.largestNu();
+  medium.slope = tree.slope();
+  return hasChanged;
+}
+
+namespace
+{
+
+template <class Real>
+MediumView<Real> viewOf(const MediumTree<Real>& tree)
+{
+  constexpr int edge = MediumTree<Real>::brickEdge;
+  const std::int64_t row = edge + 2 * tree.apron();
+  const std::int64_t plane = row * row;
+  // Views begin at the first of the ghost points that all schemes have.
+  const std::int64_t ghost = (tree.apron() - 1) * (plane + row + 1);
+  constexpr Real low = Real(-0.5), high = Real(edge - 0.5);
+  const std::array<std::int64_t, 3>& points = tree.grid().dimensions;
+  MediumView<Real> view{ tree.samples().data() + ghost, row, plane, { low, low, low },
+    { high, high, high },
+    { static_cast<double>(points[0] - 1), static_cast<double>(points[1] - 1),
+      static_cast<double>(points[2] - 1) } };
+  view.leaves = tree.leaves().data();
+  view.finder = tree.finder();
+  view.brickStride = tree.samplesPerBrick();
+  view.gasDistances = tree.gasDistances().empty() ? nullptr : tree.gasDistances().data() + ghost;
+  return view;
+}
+
+} // namespace
+
+template <class Real>
+MediumView<Real> Medium<Real>::view() const
+{
+  if (tree)
+  {
+    return viewOf(*tree);
+  }
+  const auto lastOf = [this](std::size_t axis)
+  { return static_cast<double>(volume.dimensions[axis] - 1); };
+  const Vec3<double> last = { lastOf(0), lastOf(1), lastOf(2) };
+  MediumView<Real> view{ volume.samples.data(), volume.strides[1], volume.strides[2], { 0, 0, 0 },
+    static_cast<Vec3<Real>>(last), last };
+  view.solid = solid.empty() ? nullptr : solid.data();
+  return view;
+}
+
+template Medium<float> buildTree(const Field&, const TreeSettings&);
+template Medium<double> buildTree(const Field&, const TreeSettings&);
+template bool refine(Medium<float>&, const Column&, const Monitor&);
+template bool refine(Medium<double>&, const Column&, const Monitor&);
 template struct Medium<float>;
 template struct Medium<double>;
 template Medium<float> buildMedium(const Field&, Interpolation, int);

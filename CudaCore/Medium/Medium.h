@@ -3,10 +3,12 @@
 #pragma once
 
 #include "Medium/Interpolation.h"
+#include "Medium/MediumTree.h"
 #include "Medium/Prefilter.h"
 #include "Schlieren.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace schlieren
@@ -17,8 +19,9 @@ namespace schlieren
 template <class Real>
 struct Medium
 {
-  PaddedVolume<Real> volume;
+  PaddedVolume<Real> volume;        ///< of an image
   std::vector<std::uint32_t> solid; ///< one bit per sample, ghosts too; empty without solids
+  std::unique_ptr<MediumTree<Real>> tree; ///< of a source, instead of both
 
   double ambient = 0;            ///< N_ref
   double largestN = 0;           ///< largest |N|: what the samples' rounding is relative to
@@ -37,5 +40,13 @@ void validate(const Grid& grid);
 /// Throws Error.
 template <class Real>
 Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads);
+
+/// The medium of field.source, of which nothing but its coarsest voxels need be there yet: see refine.
+template <class Real>
+Medium<Real> buildTree(const Field& field, const TreeSettings& settings);
+
+/// Makes the voxels that a view needs. Returns whether there are new ones.
+template <class Real>
+bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor);
 
 } // namespace schlieren

@@ -64,14 +64,11 @@ public:
   double rangeOfNu() const;
   double largestN() const;
   Vec3<double> slope() const; ///< largest |d nu / d index| of all leaves, axis by axis
-  struct Statistics
-  {
-    int coarsestLevel, finestLevel;
-    std::int64_t bricks, constantLeaves, voxels, bytes;
-    double smallestVoxel;  ///< data units, along the axis where it is smallest
-    double estimatedError; ///< of the deflection, of the largest one
-  };
-  Statistics statistics() const;
+  MediumStatistics statistics() const;
+
+private:
+  struct Parts;
+  std::shared_ptr<Parts> parts_;
 };
 
 } // namespace schlieren

@@ -67,22 +67,32 @@ struct Stencil
   Pack w[3][Scheme::points];
   Pack d[3][Scheme::points];
 
+  /// Bricks begin half a voxel before their first sample: in a cell whose lower end is a ghost point.
+  SCHLIEREN_HD static bool countsFromGhosts(const MediumView<Real>& m)
+  {
+    return !Scheme::nearest && m.leaves != nullptr;
+  }
+
   SCHLIEREN_HD Stencil(const MediumView<Real>& m, const Vec3<Pack>& position)
   {
     using Int = IntOf<Pack>;
     const Pack x[3] = { position.x, position.y, position.z };
-    const Real last[3] = { m.last.x, m.last.y, m.last.z };
+    const Real high[3] = { m.leafHigh.x, m.leafHigh.y, m.leafHigh.z };
     for (int axis = 0; axis < 3; ++axis)
     {
       Int i =
         __builtin_convertvector(Scheme::nearest ? x[axis] + static_cast<Real>(0.5) : x[axis], Int);
-      if (Scheme::points == 4)
+      if (countsFromGhosts(m))
       {
-        const Int lastCell = Int{} + (static_cast<int>(last[axis]) - 1);
+        i += __builtin_convertvector(x[axis] < __builtin_convertvector(i, Pack), Int);
+      }
+      else if (Scheme::points == 4)
+      {
+        const Int lastCell = Int{} + (static_cast<int>(high[axis]) - 1);
         i = i < lastCell ? i : lastCell;
       }
       Scheme::weights(x[axis] - __builtin_convertvector(i, Pack), w[axis], d[axis]);
-      index[axis] = i;
+      index[axis] = countsFromGhosts(m) ? i + 1 : i; // which must not be negative
     }
   }
 };
@@ -100,7 +110,8 @@ struct Gatherer<SimdPack<float, 16>>
   using Pack = SimdPack<float, 16>;
   __m512i offsets[2]; ///< of the rays 0 1, 4 5, 8 9, 12 13 and of the others
 
-  SCHLIEREN_HD Gatherer(const MediumView<float>& m, const SimdPack<std::int32_t, 16> (&index)[3])
+  SCHLIEREN_HD Gatherer(const MediumView<float>& m, const std::int64_t* base,
+    const SimdPack<std::int32_t, 16> (&index)[3])
   {
     const auto wide = [](SimdPack<std::int32_t, 16> i, int half) __attribute__((always_inline))
     {
@@ -113,6 +124,14 @@ struct Gatherer<SimdPack<float, 16>>
       offsets[half] = _mm512_add_epi64(wide(index[0], half),
         _mm512_add_epi64(_mm512_mul_epu32(wide(index[1], half), _mm512_set1_epi64(m.rowStride)),
           _mm512_mul_epu32(wide(index[2], half), _mm512_set1_epi64(m.planeStride))));
+    }
+    if (base != nullptr)
+    {
+      const __m512i lower = _mm512_loadu_si512(base), upper = _mm512_loadu_si512(base + 8);
+      offsets[0] = _mm512_add_epi64(offsets[0],
+        _mm512_permutex2var_epi64(lower, _mm512_setr_epi64(0, 1, 4, 5, 8, 9, 12, 13), upper));
+      offsets[1] = _mm512_add_epi64(offsets[1],
+        _mm512_permutex2var_epi64(lower, _mm512_setr_epi64(2, 3, 6, 7, 10, 11, 14, 15), upper));
     }
   }
 
@@ -139,7 +158,8 @@ struct Gatherer<SimdPack<double, 8>>
   using Pack = SimdPack<double, 8>;
   __m512i offsets;
 
-  SCHLIEREN_HD Gatherer(const MediumView<double>& m, const SimdPack<std::int32_t, 8> (&index)[3])
+  SCHLIEREN_HD Gatherer(const MediumView<double>& m, const std::int64_t* base,
+    const SimdPack<std::int32_t, 8> (&index)[3])
   {
     const auto wide = [](SimdPack<std::int32_t, 8> i) __attribute__((always_inline))
     {
@@ -148,6 +168,10 @@ struct Gatherer<SimdPack<double, 8>>
     offsets = _mm512_add_epi64(wide(index[0]),
       _mm512_add_epi64(_mm512_mul_epu32(wide(index[1]), _mm512_set1_epi64(m.rowStride)),
         _mm512_mul_epu32(wide(index[2]), _mm512_set1_epi64(m.planeStride))));
+    if (base != nullptr)
+    {
+      offsets = _mm512_add_epi64(offsets, _mm512_loadu_si512(base));
+    }
   }
 
   template <int Points>
@@ -163,13 +187,13 @@ struct Gatherer<SimdPack<double, 8>>
 
 /// tensorProduct for packs.
 template <class Scheme, class Real, class Pack>
-SCHLIEREN_HD Sample<Pack> sumGathered(
-  const MediumView<Real>& m, const Stencil<Scheme, Real, Pack>& stencil, const Real* origin)
+SCHLIEREN_HD Sample<Pack> sumGathered(const MediumView<Real>& m,
+  const Stencil<Scheme, Real, Pack>& stencil, const Real* origin, const std::int64_t* base)
 {
   constexpr int points = Scheme::points;
   const auto& w = stencil.w;
   const auto& d = stencil.d;
-  const Gatherer<Pack> rows(m, stencil.index);
+  const Gatherer<Pack> rows(m, base, stencil.index);
   if (Scheme::points == 2) // the others have enough to do meanwhile
   {
     std::int64_t at[lanesOf<Pack>];
@@ -212,19 +236,22 @@ SCHLIEREN_HD Sample<Pack> sumGathered(
 
 #endif
 
-/// Values and gradients at the positions, within [0, last], of a pack of rays.
+/// Values and gradients at the positions of a pack of rays, each within a leaf; `base`: where the samples of
+/// each begin (null: an image's).
 ///
 /// With AVX-512 samples are gathered. Without, where a gather costs more than its loads: rows of four
 /// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
 /// the sums over x are done on packs of rays again.
 template <class Scheme, class Real, class Pack>
-SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Pack>& position)
+SCHLIEREN_HD auto interpolate(
+  const MediumView<Real>& m, const std::int64_t* base, const Vec3<Pack>& position)
   -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
 {
   const Stencil<Scheme, Real, Pack> stencil(m, position);
-  const Real* origin = m.samples + (1 + Scheme::first) * (m.planeStride + m.rowStride + 1);
+  const int ghosts = Stencil<Scheme, Real, Pack>::countsFromGhosts(m) ? 0 : 1;
+  const Real* origin = m.samples + (ghosts + Scheme::first) * (m.planeStride + m.rowStride + 1);
 #if defined(__AVX512F__)
-  return sumGathered(m, stencil, origin);
+  return sumGathered(m, stencil, origin, base);
 #else
   constexpr int lanes = lanesOf<Pack>;
   const auto& w = stencil.w;
@@ -236,6 +263,13 @@ SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const Vec3<Pack>& posit
   for (int ray = 0; ray < lanes; ++ray)
   {
     offsets[ray] = index[2][ray] * m.planeStride + index[1][ray] * m.rowStride + index[0][ray];
+  }
+  if (base != nullptr)
+  {
+    for (int ray = 0; ray < lanes; ++ray)
+    {
+      offsets[ray] += base[ray];
+    }
   }
 
   Pack values[4]{}, byY[4]{}, byZ[4]{};

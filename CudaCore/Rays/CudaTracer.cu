@@ -125,18 +125,60 @@ template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {
   explicit DeviceMemory(const Medium<Real>& medium)
-    : samples(medium.volume.samples.data(), medium.volume.samples.size(), "Copying the medium")
+    : view(medium.view())
+    , samples(begin(medium), size(medium), "Copying the medium")
     , totals(1)
   {
+    view.samples = samples.data() + (view.samples - begin(medium));
+    if (medium.tree)
+    {
+      tree = std::make_unique<Tree>(*medium.tree);
+      const std::int64_t ghost = view.samples - samples.data();
+      view.leaves = tree->leaves.data();
+      view.finder.roots = tree->roots.data();
+      view.finder.children = tree->children.data();
+      view.gasDistances =
+        view.gasDistances != nullptr ? tree->gasDistances->data() + ghost : nullptr;
+    }
     if (!medium.solid.empty())
     {
       solid = std::make_unique<Buffer<std::uint32_t>>(
         medium.solid.data(), medium.solid.size(), "Copying the solids");
+      view.solid = solid->data();
     }
   }
 
+  static const Real* begin(const Medium<Real>& medium)
+  {
+    return medium.tree ? medium.tree->samples().data() : medium.volume.samples.data();
+  }
+  static std::size_t size(const Medium<Real>& medium)
+  {
+    return medium.tree ? medium.tree->samples().size() : medium.volume.samples.size();
+  }
+
+  MediumView<Real> view; ///< on the device
   Buffer<Real> samples;
   std::unique_ptr<Buffer<std::uint32_t>> solid;
+
+  struct Tree
+  {
+    explicit Tree(const MediumTree<Real>& tree)
+      : leaves(tree.leaves().data(), tree.leaves().size(), "Copying the medium's leaves")
+      , roots(tree.roots().data(), tree.roots().size(), "Copying the medium's tree")
+      , children(tree.children().data(), tree.children().size(), "Copying the medium's tree")
+    {
+      if (!tree.gasDistances().empty())
+      {
+        gasDistances = std::make_unique<Buffer<std::int16_t>>(
+          tree.gasDistances().data(), tree.gasDistances().size(), "Copying the walls");
+      }
+    }
+    Buffer<Leaf<Real>> leaves;
+    Buffer<std::int32_t> roots, children;
+    std::unique_ptr<Buffer<std::int16_t>> gasDistances;
+  };
+  std::unique_ptr<Tree> tree;
 
   struct Map
   {
@@ -174,8 +216,7 @@ struct CudaTracer<Real>::DeviceMemory
   RayTask<Real> bring(const RayTask<Real>& task, const Versions& versions)
   {
     RayTask<Real> onDevice = task;
-    onDevice.medium.samples = samples.data();
-    onDevice.medium.solid = solid ? solid->data() : nullptr;
+    onDevice.medium = view;
     if (task.map.levels != nullptr)
     {
       if (!map || map->tolerance != versions.homogeneityTolerance)

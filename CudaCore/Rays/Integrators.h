@@ -20,14 +20,15 @@ namespace schlieren
 
 /// A ray in the perturbation form: position = start + length * D + offset and p = d + q, so that what
 /// is integrated is only the deviation from the straight ray, in full relative precision however weak
-/// the medium is. Positions and offsets are in index coordinates, q and p along the grid's axes.
+/// the medium is. Positions and offsets are in local coordinates of the leaf that the ray is in, q and p along
+/// the grid's axes.
 template <class Real>
 struct Ray
 {
   Vec3<Real> start;
   Vec3<Real> offset;
   Vec3<Real> q;
-  Real length; ///< travelled, in units of the light's unit of length
+  Real length; ///< travelled from `start`, in units of the light's unit of length
   Real path;   ///< of the optical path difference; with pathError a compensated sum (Kahan 1965)
   Real pathError;
 
@@ -44,9 +45,9 @@ struct Ray
 template <class Real>
 struct StraightLight
 {
-  Vec3<Real> d;                    ///< direction, along the grid's axes
-  Vec3<Real> perLength;            ///< D: index coordinates per unit of length
-  Vec3<NumberOf<Real>> indexScale; ///< index coordinates per unit of length along each grid axis
+  Vec3<Real> d;          ///< direction, along the grid's axes
+  Vec3<Real> perLength;  ///< D: local coordinates of the leaf per unit of length
+  Vec3<Real> indexScale; ///< the same along each grid axis
 };
 
 /// The ray bends.

@@ -8,6 +8,7 @@
 #include "Medium/FieldGradients.h"
 #include "Medium/HomogeneityMap.h"
 #include "Rays/Integrators.h"
+#include "Rays/LeavesOfRays.h"
 #include "Rays/Light.h"
 #include "Rays/RayExit.h"
 
@@ -47,11 +48,12 @@ struct RayTask
 template <class Number, int Lanes>
 struct RayBatch
 {
-  alignas(Lanes * sizeof(Number)) Number start[3][Lanes]; ///< within the grid
-  Number direction[3][Lanes]; ///< of undisturbed light, along the grid's axes
+  double start[3][Lanes]; ///< index coordinates within the domain
+  alignas(Lanes * sizeof(Number)) Number direction[3][Lanes]; ///< of undisturbed light, along the grid's axes
   Number perLength[3][Lanes]; ///< the same in index coordinates per unit of length
   Number q[3][Lanes];         ///< at the end, as all that follows
-  Number offset[3][Lanes];
+  Number offset[3][Lanes];    ///< index coordinates
+  Number end[3][Lanes];       ///< local coordinates of the last leaf
   Number length[Lanes];
   Number path[Lanes];
   Number pathError[Lanes];
@@ -74,6 +76,16 @@ SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Number>& last)
   return { clampTo(x.x, last.x), clampTo(x.y, last.y), clampTo(x.z, last.z) };
 }
 
+/// Into the box [low, high]; NaN becomes `low`.
+template <class Real, class Number>
+SCHLIEREN_HD Vec3<Real> clampTo(
+  const Vec3<Real>& x, const Vec3<Number>& low, const Vec3<Number>& high)
+{
+  return { lesser(greater(x.x, Real{} + low.x), Real{} + high.x),
+    lesser(greater(x.y, Real{} + low.y), Real{} + high.y),
+    lesser(greater(x.z, Real{} + low.z), Real{} + high.z) };
+}
+
 /// As an integer from 0 to `most`, which many numbers of steps cannot be: they are estimates, of any size.
 template <class Number>
 SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
@@ -86,13 +98,13 @@ SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
   return steps < beyond ? lesser(static_cast<std::int32_t>(steps), most) : most;
 }
 
-/// How far inside the box [0, last] a place is, along the axis where that is least.
-template <class Real, class Number>
-SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Number>& last)
+/// How far inside the box [low, high] a place is, along the axis where that is least.
+template <class Real, class Box>
+SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Box>& low, const Vec3<Box>& high)
 {
-  const Real ofX = lesser(x.x, last.x - x.x);
-  const Real ofY = lesser(x.y, last.y - x.y);
-  const Real ofZ = lesser(x.z, last.z - x.z);
+  const Real ofX = lesser(x.x - low.x, high.x - x.x);
+  const Real ofY = lesser(x.y - low.y, high.y - x.y);
+  const Real ofZ = lesser(x.z - low.z, high.z - x.z);
   return lesser(ofX, lesser(ofY, ofZ));
 }
 
@@ -116,9 +128,9 @@ SCHLIEREN_HD Real wayOut(
 /// A function of its own where a step takes several samples: in line, their code would be too much.
 template <class Scheme, class Real>
 SCHLIEREN_APART Sample<Real> sampleApart(
-  const MediumView<NumberOf<Real>>& medium, const Vec3<Real>& at)
+  const MediumView<NumberOf<Real>>& medium, const std::int64_t* base, const Vec3<Real>& at)
 {
-  return interpolate<Scheme>(medium, at);
+  return interpolate<Scheme>(medium, base, at);
 }
 
 /// What the march of some rays through the medium needs to know, and its steps.
@@ -136,8 +148,15 @@ struct March
 
   const RayTask<Number>& task;
   Batch& batch;
+  const bool isTree;
   StraightLight<Real> light;
   Ray<Real> ray;
+  LeavesOfRays<Number, lanes> in; ///< of a tree
+  Vec3<Real> domainLow, domainHigh; ///< in local coordinates
+  Real baseValue;                   ///< of the leaf: is added to what its samples say
+  Real inGas;                       ///< 0 outside of it, else 1
+  bool someConstant = false;        ///< some rays are in a leaf where nothing changes
+  bool someNearEdge = false;        ///< some rays are in a leaf where gas may end
   Vec3<Real> stepsToLast,
     stepsToFirst; ///< at least, per index coordinate towards the far or near side
   Real cruise;    ///< the usual step; 0 for rays that are not under way
@@ -152,20 +171,34 @@ struct March
   SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
     : task(ofTask)
     , batch(ofBatch)
-    , light{ packs(ofBatch.direction), packs(ofBatch.perLength), ofTask.indexScale }
+    , isTree(ofTask.medium.leaves != nullptr)
+    , light{ packs(ofBatch.direction), packs(ofBatch.perLength),
+      Vec3<Real>{} + ofTask.indexScale }
     , ray{}
+    , domainLow{}
+    , domainHigh(Vec3<Real>{} + static_cast<Vec3<Number>>(ofTask.medium.last))
+    , baseValue{}
+    , inGas(Real{} + 1)
     , stepsToLast(stepsPerIndex(light.perLength))
     , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
     , nextStep(Real{} + ofTask.step)
   {
-    Number usual[lanes];
+    Number usual[lanes], start[3][lanes];
     for (int i = 0; i < lanes; ++i)
     {
       usual[i] = batch.fate[i] == RayFate::Left ? task.step : 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        start[axis][i] = static_cast<Number>(batch.start[axis][i]);
+      }
     }
     cruise = fromArray<Real>(usual);
-    ray.start = packs(batch.start);
+    ray.start = packs(start);
     areUnderWay = any(cruise > 0);
+    if (isTree)
+    {
+      enterTree();
+    }
     park(cruise == 0);
     if constexpr (Path::bends)
     {
@@ -183,7 +216,7 @@ struct March
   template <class Mask>
   SCHLIEREN_HD void park(const Mask& which)
   {
-    const Vec3<Number> middle = Number(0.5) * task.medium.last;
+    const Vec3<Number> middle = Number(0.5) * (task.medium.leafLow + task.medium.leafHigh);
     cruise = which ? Real{} : cruise;
     ray.start.x = which ? Real{} + middle.x : ray.start.x;
     ray.start.y = which ? Real{} + middle.y : ray.start.y;
@@ -205,6 +238,10 @@ struct March
     put(ray.offset.x, batch.offset[0]);
     put(ray.offset.y, batch.offset[1]);
     put(ray.offset.z, batch.offset[2]);
+    const Vec3<Real> end = Path::position(ray, light);
+    put(end.x, batch.end[0]);
+    put(end.y, batch.end[1]);
+    put(end.z, batch.end[2]);
     put(ray.q.x, batch.q[0]);
     put(ray.q.y, batch.q[1]);
     put(ray.q.z, batch.q[2]);
@@ -219,6 +256,11 @@ struct March
       {
         batch.fate[i] = fate;
         batch.steps[i] = stepsTaken;
+        if (isTree)
+        {
+          in.toIndexCoordinates(task.medium, i, batch.offset);
+          batch.length[i] += static_cast<Number>(in.travelled[i]);
+        }
       }
     }
     park(which);
@@ -249,7 +291,7 @@ struct March
   SCHLIEREN_HD bool lengthen(Real& step, const Vec3<Real>& x, const Vec3<Real>& along) const
   {
     Number low[3][lanes]{}, edge[lanes]{};
-    forRays(clampTo(x, task.medium.last), step,
+    forRays(clampTo(x, task.medium.leafHigh), step,
       [&](int i, const Vec3<Number>& at, Number)
       {
         const HomogeneousCube<Number> cube = homogeneousCube(task.map, at);
@@ -271,6 +313,179 @@ struct March
     const Real within = Integrator::samplesBeyond ? far - Number(1e-3) * cruise : far;
     step = isIn ? greater(step, within) : step;
     return true;
+  }
+
+  /// Puts all rays into the leaves where they start.
+  SCHLIEREN_HD void enterTree()
+  {
+    Number one[lanes], start[3][lanes];
+    for (int i = 0; i < lanes; ++i)
+    {
+      one[i] = 1;
+      in.enter(task.medium, i, batch.start);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        start[axis][i] = static_cast<Number>(in.start[axis][i]);
+      }
+    }
+    ray.start = packs(start);
+    takeLeaves(fromArray<Real>(one));
+  }
+
+  /// What is known of the rays' leaves, as packs. `finer`: the new local coordinates by the old ones.
+  SCHLIEREN_HD void takeLeaves(const Real& finer)
+  {
+    Number value[lanes], perIndex[lanes], low[3][lanes], high[3][lanes], isUnderWay[lanes];
+    const double last[3] = { task.medium.last.x, task.medium.last.y, task.medium.last.z };
+    toArray(cruise, isUnderWay);
+    someConstant = false;
+    someNearEdge = false;
+    for (int i = 0; i < lanes; ++i)
+    {
+      const Leaf<Number>& leaf = task.medium.leaves[in.leaf[i]];
+      value[i] = leaf.offset;
+      perIndex[i] = static_cast<Number>(leaf.perIndex);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        low[axis][i] = static_cast<Number>(-leaf.first[axis] * leaf.perIndex);
+        high[axis][i] = static_cast<Number>((last[axis] - leaf.first[axis]) * leaf.perIndex);
+      }
+      if (isUnderWay[i] > 0)
+      {
+        someConstant = someConstant || leaf.kind == Leaf<Number>::Constant;
+        someNearEdge =
+          someNearEdge || leaf.kind == Leaf<Number>::Mixed || leaf.kind == Leaf<Number>::Solid;
+      }
+    }
+    baseValue = fromArray<Real>(value);
+    domainLow = packs(low);
+    domainHigh = packs(high);
+    const Real scale = fromArray<Real>(perIndex);
+    light.indexScale = scaled(Vec3<Real>{ scale, scale, scale }, task.indexScale);
+    light.perLength = scale * packs(batch.perLength);
+    cruise = cruise > 0 ? task.step / scale : Real{};
+    ray.offset = finer * ray.offset;
+    inGas = someNearEdge ? inGas : Real{} + 1;
+  }
+
+  /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
+  /// long as a voxel where that is; through a leaf where nothing changes, up to its far side.
+  SCHLIEREN_HD Real settle()
+  {
+    const Vec3<Real> middle = Path::ahead(ray, light, Number(0.5) * cruise);
+    const auto isOut =
+      (insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0) & (cruise > 0);
+    Real step = cruise;
+    if (any(isOut))
+    {
+      step = changeLeaves(isOut);
+    }
+    if (someConstant && !isAdaptive)
+    {
+      Number isConstant[lanes];
+      for (int i = 0; i < lanes; ++i)
+      {
+        isConstant[i] =
+          task.medium.leaves[in.leaf[i]].kind == Leaf<Number>::Constant ? Number(1) : Number(0);
+      }
+      // A little beyond, so that the next leaf is found there.
+      const Real out = wayOut(Path::position(ray, light), Path::along(ray, light),
+        task.medium.leafLow, task.medium.leafHigh);
+      const Real through = greater(out, Real{}) + Number(1e-3) * cruise;
+      step = (fromArray<Real>(isConstant) > 0) & (cruise > 0) ? through : step;
+    }
+    return step;
+  }
+
+  template <class Mask>
+  SCHLIEREN_HD Real changeLeaves(const Mask& isOut)
+  {
+    Number which[lanes], step[lanes], length[lanes], finer[lanes], x[3][lanes], along[3][lanes],
+      start[3][lanes];
+    const auto unpack = [](const Vec3<Real>& from, Number(&to)[3][lanes])
+    {
+      toArray(from.x, to[0]);
+      toArray(from.y, to[1]);
+      toArray(from.z, to[2]);
+    };
+    toArray(isOut ? Real{} + 1 : Real{}, which);
+    toArray(cruise, step);
+    toArray(ray.length, length);
+    unpack(Path::position(ray, light), x);
+    unpack(Path::along(ray, light), along);
+    unpack(ray.start, start);
+    bool hasChanged = false;
+    for (int i = 0; i < lanes; ++i)
+    {
+      finer[i] = 1;
+      if (which[i] != 0)
+      {
+        const double from = in.change(task.medium, i, x, along, step[i], length[i], batch.perLength);
+        finer[i] = static_cast<Number>(from);
+        if (from != 0)
+        {
+          hasChanged = true;
+          length[i] = 0;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            start[axis][i] = static_cast<Number>(in.start[axis][i]);
+          }
+        }
+        else
+        {
+          finer[i] = 1;
+        }
+      }
+    }
+    if (hasChanged)
+    {
+      ray.start = packs(start);
+      ray.length = fromArray<Real>(length);
+      takeLeaves(fromArray<Real>(finer));
+    }
+    return fromArray<Real>(step);
+  }
+
+  /// The medium at places of which some are in other leaves than the rays.
+  SCHLIEREN_HD Sample<Real> sampleElsewhere(const Vec3<Real>& at) const
+  {
+    alignas(64) std::int64_t base[lanes];
+    Number x[3][lanes], value[lanes], finer[lanes];
+    toArray(at.x, x[0]);
+    toArray(at.y, x[1]);
+    toArray(at.z, x[2]);
+    for (int i = 0; i < lanes; ++i)
+    {
+      const Leaf<Number>& leaf = in.leafAt(task.medium, i, x, finer[i]);
+      base[i] = leaf.brick * task.medium.brickStride;
+      value[i] = leaf.offset;
+    }
+    Sample<Real> found = sampleApart<Scheme>(task.medium, base, withinLeaf(packs(x)));
+    found.value += fromArray<Real>(value);
+    found.gradient = fromArray<Real>(finer) * found.gradient;
+    return onlyGas(found);
+  }
+
+  /// Ends the rays that have come to a wall, and finds out which are where there is no gas.
+  SCHLIEREN_HD void lookForEdges(Real& step, const Vec3<Real>& middle)
+  {
+    Number blocked[lanes]{}, gas[lanes];
+    toArray(inGas, gas);
+    forRays(middle, step,
+      [&](int i, const Vec3<Number>& at, Number)
+      {
+        const Leaf<Number>& leaf = task.medium.leaves[in.leaf[i]];
+        const Place place = placeIn(task.medium, leaf, at);
+        blocked[i] = place == Place::Wall ? 1 : 0;
+        gas[i] = place == Place::Gas ? 1 : 0;
+      });
+    inGas = fromArray<Real>(gas);
+    const auto which = fromArray<Real>(blocked) > 0;
+    if (any(which))
+    {
+      finish(which, RayFate::Blocked, steps);
+      step = which ? Real{} : step;
+    }
   }
 
   SCHLIEREN_HD void stopInSolids(Real& step, const Vec3<Real>& middle)
@@ -296,15 +511,32 @@ struct March
 
   SCHLIEREN_HD Sample<Real> sample(const Vec3<Real>& at) const
   {
-    const Vec3<Real> within = clampTo(at, task.medium.last);
+    const std::int64_t* base = isTree ? in.base : nullptr;
+    Sample<Real> found;
     if constexpr (Integrator::samplesBeyond)
     {
-      return sampleApart<Scheme>(task.medium, within);
+      if (isTree && any(insetOf(at, task.medium.leafLow, task.medium.leafHigh) < 0))
+      {
+        return sampleElsewhere(at);
+      }
+      found = sampleApart<Scheme>(task.medium, base, withinLeaf(at));
     }
     else
     {
-      return interpolate<Scheme>(task.medium, within);
+      found = interpolate<Scheme>(task.medium, base, withinLeaf(at));
     }
+    found.value += baseValue;
+    return onlyGas(found);
+  }
+
+  SCHLIEREN_HD Sample<Real> onlyGas(const Sample<Real>& found) const
+  {
+    return someNearEdge ? Sample<Real>{ inGas * found.value, inGas * found.gradient } : found;
+  }
+
+  SCHLIEREN_HD Vec3<Real> withinLeaf(const Vec3<Real>& at) const
+  {
+    return clampTo(at, task.medium.leafLow, task.medium.leafHigh);
   }
 
   struct Sampler // a lambda could not be told to be compiled into its caller
@@ -349,9 +581,9 @@ struct March
       {
         advance(there, step, x + (Number(0.5) * step) * along);
       }
-      const Real rest = wayOut(Path::position(there, light), Path::along(there, light),
-        Vec3<Number>{ 0, 0, 0 }, task.medium.last);
-      const Real longest = greater(Real{} + 2 * task.step, 2 * step);
+      const Real rest =
+        wayOut(Path::position(there, light), Path::along(there, light), domainLow, domainHigh);
+      const Real longest = greater(2 * cruise, 2 * step);
       step = leaving ? lesser(greater(step + rest, Real{}), longest) : step;
     }
     return step;
@@ -389,9 +621,9 @@ struct March
   {
     // Of a step: nearer to the grid's side than this is there.
     constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
-    const Real rest = wayOut(Path::position(ray, light), Path::along(ray, light),
-      Vec3<Number>{ 0, 0, 0 }, task.medium.last);
-    const auto done = leaving & (cruise > 0) & (rest <= Number(near) * task.step);
+    const Real rest =
+      wayOut(Path::position(ray, light), Path::along(ray, light), domainLow, domainHigh);
+    const auto done = leaving & (cruise > 0) & (rest <= Number(near) * cruise);
     if (any(done))
     {
       finish(done, RayFate::Left, steps + 1);
@@ -406,9 +638,7 @@ struct March
       return;
     }
     const Vec3<Real> q = packs(batch.q);
-    const Vec3<Real> at =
-      packs(batch.start) + fromArray<Real>(batch.length) * light.perLength + packs(batch.offset);
-    const Real nu = sample(at).value;
+    const Real nu = sample(packs(batch.end)).value;
     const Real n = 1 + nu;
     const Real drift = (2 * (dot(q, light.d) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
     toArray(drift < 0 ? -drift : drift, batch.drift);
@@ -418,7 +648,8 @@ struct March
     }
   }
 
-  /// The steps that a ray needs at least per index coordinate along an axis of the grid: dx/ds is off D by q.
+  /// The steps that a ray needs at least per local coordinate, which are the same in all leaves: dx/ds is off D
+  /// by q.
   SCHLIEREN_HD Real stepsPerIndex(const Real& along, const Number& indexScale) const
   {
     constexpr Number slowest = Number(1e-9);
@@ -426,18 +657,16 @@ struct March
   }
   SCHLIEREN_HD Vec3<Real> stepsPerIndex(const Vec3<Real>& along) const
   {
-    return { stepsPerIndex(along.x, light.indexScale.x), stepsPerIndex(along.y, light.indexScale.y),
-      stepsPerIndex(along.z, light.indexScale.z) };
+    return { stepsPerIndex(along.x, task.indexScale.x), stepsPerIndex(along.y, task.indexScale.y),
+      stepsPerIndex(along.z, task.indexScale.z) };
   }
 
-  /// How many steps the rays can take before any of them can reach the grid's side.
+  /// How many steps the rays can take before any of them can reach its leaf's side.
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
     const Vec3<Real> x = Path::position(ray, light);
-    const Vec3<Number>& last = task.medium.last;
-    const Vec3<Real> toLast =
-      scaled(Vec3<Real>{ last.x - x.x, last.y - x.y, last.z - x.z }, stepsToLast);
-    const Vec3<Real> toFirst = scaled(x, stepsToFirst);
+    const Vec3<Real> toLast = scaled(task.medium.leafHigh - x, stepsToLast);
+    const Vec3<Real> toFirst = scaled(x - task.medium.leafLow, stepsToFirst);
     const Real least = lesser(lesser(lesser(toLast.x, toFirst.x), lesser(toLast.y, toFirst.y)),
       lesser(toLast.z, toFirst.z));
     Number most[lanes];
@@ -451,7 +680,14 @@ struct March
     return wholeSteps(all, left);
   }
 
-  /// One step of rays of which none leaves the grid, with nothing to look at but the medium.
+  /// Whether there is nothing to look at but the medium's samples.
+  SCHLIEREN_HD bool isPlain() const
+  {
+    return !someConstant && !someNearEdge && task.map.levels == nullptr &&
+      task.medium.solid == nullptr && task.gradients.count == 0;
+  }
+
+  /// One step of rays of which none leaves its leaf, with nothing to look at but the medium.
   SCHLIEREN_HD void takeStepInside()
   {
     advance(ray, cruise, Path::ahead(ray, light, Number(0.5) * cruise));
@@ -467,20 +703,20 @@ struct March
       areUnderWay = false;
       return;
     }
-    constexpr Vec3<Number> zero{ 0, 0, 0 };
     constexpr int stepsBetweenLooks = 3;
+    const Real usual = isTree ? settle() : cruise;
     const Vec3<Real> x = Path::position(ray, light);
     const Vec3<Real> along = Path::along(ray, light);
-    Real step = isAdaptive ? lesser(cruise, nextStep) : cruise;
+    Real step = isAdaptive ? lesser(usual, nextStep) : usual;
     if (!isAdaptive && task.map.levels != nullptr && steps >= nextLook)
     {
       nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
     }
-    auto leaving = insetOf(x + step * along, task.medium.last) < 0;
+    auto leaving = insetOf(x + step * along, domainLow, domainHigh) < 0;
     const bool someLeave = any(leaving);
     if (someLeave)
     {
-      const Real out = lesser(step, wayOut(x, along, zero, task.medium.last));
+      const Real out = lesser(step, wayOut(x, along, domainLow, domainHigh));
       step = leaving ? (out > 0 ? out : Real{}) : step;
       if constexpr (isExact)
       {
@@ -490,7 +726,12 @@ struct March
     const Vec3<Real> middle = x + (Number(0.5) * step) * along;
     if (task.medium.solid != nullptr)
     {
-      stopInSolids(step, clampTo(middle, task.medium.last));
+      stopInSolids(step, clampTo(middle, task.medium.leafHigh));
+      areUnderWay = any(cruise > 0);
+    }
+    if (someNearEdge)
+    {
+      lookForEdges(step, withinLeaf(middle));
       areUnderWay = any(cruise > 0);
     }
     if constexpr (isAdaptive)
@@ -507,7 +748,7 @@ struct March
     }
     if (task.gradients.count > 0)
     {
-      gather(clampTo(middle, task.medium.last), step);
+      gather(clampTo(middle, task.medium.leafHigh), step);
     }
     if (someLeave)
     {
@@ -538,14 +779,13 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
 {
   March<Kernel, Real> a(task, one);
   March<Kernel, Real> b(task, other);
-  const bool isPlain = !Kernel::Integrator::samplesBeyond && task.map.levels == nullptr &&
-    task.medium.solid == nullptr && task.gradients.count == 0;
   constexpr std::int32_t worthIt = 4;
-  constexpr std::int32_t pause = 8;
+  // A tree's leaves are left so often that it pays to look soon again.
+  const std::int32_t pause = task.medium.leaves != nullptr ? 2 : 8;
   std::int32_t next = 0;
   while (a.areUnderWay && b.areUnderWay)
   {
-    if (isPlain && a.steps >= next)
+    if (a.steps >= next && a.isPlain() && b.isPlain())
     {
       const std::int32_t inside = lesser(a.stepsInside(), b.stepsInside());
       next = a.steps + (inside < worthIt ? pause : inside);

@@ -71,7 +71,7 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
     along = scaled(light.indexScale, steep);
     per = { 1 / along.x, 1 / along.y, 1 / along.z };
   }
-  const Vec3<double> last = static_cast<Vec3<double>>(task.medium.last);
+  const Vec3<double>& last = task.medium.last;
   Chord chord{ 0, light.depth };
   clip(chord, start.x, along.x, per.x, last.x);
   clip(chord, start.y, along.y, per.y, last.y);
@@ -81,9 +81,8 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
     batch.fate[i] = RayFate::Missed;
     return {};
   }
-  const Vec3<Number> at =
-    clampTo(static_cast<Vec3<Number>>(start + chord.from * along), task.medium.last);
-  const auto put = [i](const Vec3<Number>& from, Number(&to)[3][Lanes])
+  const Vec3<double> at = clampTo(start + chord.from * along, last);
+  const auto put = [i](const auto& from, auto& to)
   {
     to[0][i] = from.x;
     to[1][i] = from.y;
@@ -93,8 +92,7 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
   put(static_cast<Vec3<Number>>(cosine * steep), batch.direction);
   put(static_cast<Vec3<Number>>(cosine * along), batch.perLength);
   // Where it enters and leaves, too: the steps' midpoints do not look at the grid's faces.
-  batch.fate[i] =
-    task.medium.solid != nullptr && isSolid(task.medium, at) ? RayFate::Blocked : RayFate::Left;
+  batch.fate[i] = isWallAt(task.medium, at) ? RayFate::Blocked : RayFate::Left;
   return { chord.from, { slope[0], slope[1] }, cosine };
 }
 
@@ -112,8 +110,8 @@ SCHLIEREN_HD RayExit leaveGrid(
     return Vec3<Number>{ from[0][i], from[1][i], from[2][i] };
   };
   const Vec3<Number> gridOffset = of(batch.offset);
-  const Vec3<Number> end = of(batch.start) + batch.length[i] * of(batch.perLength) + gridOffset;
-  if (task.medium.solid != nullptr && isSolid(task.medium, clampTo(end, task.medium.last)))
+  if (task.medium.solid != nullptr &&
+    isSolid(task.medium, clampTo(of(batch.end), task.medium.leafHigh)))
   {
     exit.fate = RayFate::Blocked;
     return exit;

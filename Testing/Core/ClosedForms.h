@@ -112,7 +112,7 @@ inline ClosedForm fishEye(double n0)
     } };
 }
 
-struct Box
+struct GridBox
 {
   Point low, high;
 
@@ -124,7 +124,7 @@ struct Box
 };
 
 /// Of a grid that is not rotated.
-inline Box boxOf(const Grid& grid)
+inline GridBox boxOf(const Grid& grid)
 {
   Point edges{};
   double* edge[3] = { &edges.x, &edges.y, &edges.z };
@@ -138,7 +138,7 @@ inline Box boxOf(const Grid& grid)
 
 /// Where a path leaves the box: of after(t), the last within it. Looks every `stride`.
 template <class After>
-RayState leaving(const Box& box, const After& after, double stride)
+RayState leaving(const GridBox& box, const After& after, double stride)
 {
   double inside = 0, outside = stride;
   while (box.contains(after(outside).position))
@@ -154,7 +154,7 @@ RayState leaving(const Box& box, const After& after, double stride)
   return after(inside);
 }
 
-inline RayState leaving(const ClosedForm& form, const RayState& start, const Box& box)
+inline RayState leaving(const ClosedForm& form, const RayState& start, const GridBox& box)
 {
   return leaving(
     box, [&](double t) { return form.after(start, t); }, 1. / 512);
@@ -182,7 +182,7 @@ inline RayState rungeKutta(const ClosedForm& form, const RayState& state, double
 
 /// Where the ray leaves the box by that method: the truth for media without a closed form.
 inline RayState integrated(
-  const ClosedForm& form, const RayState& start, const Box& box, double step = 1. / 512)
+  const ClosedForm& form, const RayState& start, const GridBox& box, double step = 1. / 512)
 {
   RayState state = start;
   for (RayState next = rungeKutta(form, state, step); box.contains(next.position);
@@ -196,7 +196,7 @@ inline RayState integrated(
 
 /// The leapfrog in the medium itself, in double precision: what the method does, apart from any grid.
 inline RayState leapfrogged(
-  const ClosedForm& form, const RayState& start, const Box& box, double step)
+  const ClosedForm& form, const RayState& start, const GridBox& box, double step)
 {
   const auto stepped = [&](const RayState& from, double s)
   {
@@ -221,7 +221,7 @@ inline Point asPoint(const Vector& a) { return { a[0], a[1], a[2] }; }
 
 /// The light of a pixel where it enters the box, with |p| = n; false if it misses it.
 inline bool entering(
-  const ClosedForm& form, const Box& box, const Frame& frame, const PixelCentre& at, RayState& ray)
+  const ClosedForm& form, const GridBox& box, const Frame& frame, const PixelCentre& at, RayState& ray)
 {
   const Point w = asPoint(frame.w);
   const Point start = at.u * asPoint(frame.u) + at.v * asPoint(frame.v) + frame.entry * w;
@@ -314,7 +314,7 @@ inline Worst differences(const Image& a, const Image& b)
 template <class Visit>
 void forRays(const ClosedForm& form, const Grid& grid, const Image& image, const Visit& visit)
 {
-  const Box box = boxOf(grid);
+  const GridBox box = boxOf(grid);
   for (int row = 0; row < image.height; ++row)
   {
     for (int column = 0; column < image.width; ++column)

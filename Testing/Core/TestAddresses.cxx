@@ -66,8 +66,9 @@ public:
   MediumView<Real> view() const
   {
     constexpr Real last = static_cast<Real>(points - 1);
-    return { static_cast<const Real*>(memory_), stride, stride * stride, { last, last, last },
-      nullptr };
+    constexpr double far = points - 1;
+    return { static_cast<const Real*>(memory_), stride, stride * stride, { 0, 0, 0 },
+      { last, last, last }, { far, far, far } };
   }
 
 private:

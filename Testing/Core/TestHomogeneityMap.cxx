@@ -403,7 +403,7 @@ TEST(HomogeneityMap, UniformGasIsOneCube)
       SampledField<float> field(gridOf(dimensions), [](double, double, double) { return 2.7e-4; });
       const Medium<float> medium = buildMedium<float>(field.field, interpolation, 1);
       const HomogeneityMap<float> map = buildHomogeneityMap(medium, interpolation, 0.f, 1);
-      const Vec3<float> last = medium.view().last;
+      const Vec3<float> last = medium.view().leafHigh;
       for (const Vec3<float>& position : { Vec3<float>{ 0, 0, 0 }, 0.5f * last, last })
       {
         const HomogeneousCube<float> cube = homogeneousCube(map.view(), position);

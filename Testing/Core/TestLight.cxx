@@ -52,7 +52,7 @@ RayState undisturbed(const Image& image, const Scene& scene, const Grid& grid, i
   const Point u = asPoint(frame.u), v = asPoint(frame.v), w = asPoint(frame.w);
   const double a = (column - 0.5 * (image.width - 1)) * frame.pixelSize;
   const double b = (row - 0.5 * (image.height - 1)) * frame.pixelSize;
-  const Box box = boxOf(grid);
+  const GridBox box = boxOf(grid);
   const Point centre = 0.5 * (box.low + box.high);
   const Point focal = scene.view.focalPoint ? asPoint(*scene.view.focalPoint) : centre;
   const Point axis = focal + dot(centre - focal, w) * w; // there, in the plane of the centre
@@ -64,7 +64,7 @@ RayState undisturbed(const Image& image, const Scene& scene, const Grid& grid, i
 Reading truthOf(const ClosedForm& form, const Image& image, const Scene& scene, const Grid& grid,
   int column, int row)
 {
-  const Box box = boxOf(grid);
+  const GridBox box = boxOf(grid);
   const RayState middle = undisturbed(image, scene, grid, column, row);
   const Point d = middle.momentum;
   const RayState back = leaving(

@@ -416,7 +416,7 @@ void compareWithChords(const Grid& grid, const Scene& scene, const Vector& viewD
     std::abs(viewDirection[1]) > std::abs(viewDirection[2]) ? Vector{ 0, 0, 1 } : Vector{ 0, 1, 0 };
   const Image image = Bench().render(field.field, here);
   EXPECT_EQ(image.raysLost, 0);
-  const Box box = boxOf(grid);
+  const GridBox box = boxOf(grid);
   const Point w = asPoint(image.frame.w);
   Worst errors, size;
   for (int row = 0; row < image.height; ++row)

@@ -80,7 +80,7 @@ TEST(ClosedForms, ObeyTheRayEquation)
   for (const Case& medium : strongMedia())
   {
     SCOPED_TRACE(medium.name);
-    const Box box{ -1.0 * medium.half, medium.half };
+    const GridBox box{ -1.0 * medium.half, medium.half };
     for (const Point& direction : { Point{ 0, 0, 1 }, Point{ 0.48, -0.36, 0.8 } })
     {
       for (const Point& entry : { Point{ 0.31, 0.2, -1 }, Point{ -0.2, 0.3, -1 } })
@@ -131,7 +131,7 @@ TEST(ClosedForms, LeapfrogErrorIsAsDerived)
 {
   const double k = rodIndex;
   const ClosedForm rod = oscillator(k, { k, 0, 0 });
-  const Box box{ { -1, -1, -1 }, { 1, 1, 3 } };
+  const GridBox box{ { -1, -1, -1 }, { 1, 1, 3 } };
   const double x0 = 0.5;
   const RayState start{ { x0, 0, -1 }, { 0, 0, k * std::sqrt(1 - x0 * x0) }, 0 };
   const RayState exact = leaving(rod, start, box);
@@ -190,7 +190,7 @@ TEST_P(StrongMedia, LeapfrogInSinglePrecisionIsAsExactAsDerived)
   {
     const double h = 1. / 40;
     const Grid grid = boxGrid(h, medium.half);
-    const Box box = boxOf(grid);
+    const GridBox box = boxOf(grid);
     SampledField<float> field = sampled<float>(grid, medium.form);
     field.field.ambient = 0;
     for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
