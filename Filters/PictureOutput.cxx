@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace
@@ -183,6 +184,36 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
 void addFringeSpacing(vtkImageData* output, double spacing)
 {
   addFieldValue(output, "FringeSpacing", spacing, dataUnits);
+}
+
+//------------------------------------------------------------------------------
+void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
+{
+  vtkNew<vtkIntArray> levels;
+  levels->SetName("MediumLevels");
+  levels->InsertNextValue(medium.coarsestLevel);
+  levels->InsertNextValue(medium.finestLevel);
+  output->GetFieldData()->AddArray(levels);
+  addFieldValue<vtkTypeInt64Array>(
+    output, "MediumLeaves", static_cast<vtkTypeInt64>(medium.leaves));
+  addFieldValue<vtkTypeInt64Array>(
+    output, "MediumVoxels", static_cast<vtkTypeInt64>(medium.voxels));
+  addFieldValue<vtkTypeInt64Array>(output, "MediumBytes", static_cast<vtkTypeInt64>(medium.bytes));
+  addFieldValue<vtkDoubleArray>(output, "SmallestVoxel", medium.smallestVoxel);
+  addFieldValue<vtkDoubleArray>(output, "MediumError", medium.estimatedError);
+}
+
+//------------------------------------------------------------------------------
+std::string mediumInWords(const schlieren::MediumStatistics& medium)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << medium.leaves << " leaves on levels " << medium.coarsestLevel << " to "
+       << medium.finestLevel << ", " << 1e-6 * static_cast<double>(medium.voxels)
+       << " million voxels of " << medium.smallestVoxel << " and more, "
+       << std::lround(1e-6 * static_cast<double>(medium.bytes)) << " MB; estimated error "
+       << 100 * medium.estimatedError << " % of the largest deflection";
+  return text.str();
 }
 
 //------------------------------------------------------------------------------

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 class vtkImageData;
 
 namespace schlieren
 {
 struct Histogram;
 struct Image;
+struct MediumStatistics;
 } // namespace schlieren
 
 /// Makes bounds infinite that say nothing of this image: of the displacement, if light from its middle might leave it;
@@ -31,6 +34,12 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
 
 /// Adds the spacing of finite fringes, data units.
 void addFringeSpacing(vtkImageData* output, double spacing);
+
+/// Adds what the medium of a mesh consists of.
+void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);
+
+/// The same for people: "1234 leaves on levels 1 to 5, ...".
+std::string mediumInWords(const schlieren::MediumStatistics& medium);
 
 /// Adds what is known of the refractivity's grid: how it was chosen, and its points if it was resampled.
 void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity);

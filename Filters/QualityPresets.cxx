@@ -21,7 +21,7 @@ using Filter = vtkSchlierenFilter;
   }
 
 // clang-format off
-const std::array<QualitySetting, 10> qualitySettings{
+const std::array<QualitySetting, 11> qualitySettings{
   //                            Interactive        Draft              Publication        Reference
   SETTING(PathModel,            Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::REFRACTED),
   SETTING(Integrator,           Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::ADAPTIVE),
@@ -33,6 +33,7 @@ const std::array<QualitySetting, 10> qualitySettings{
   SETTING(Precision,            Filter::SINGLE,    Filter::SINGLE,    Filter::SINGLE,    Filter::DOUBLE),
   SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
   SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
+  SETTING(MediumTolerance,      0.02,              0.01,              0.003,             0.001),
 };
 // clang-format on
 

@@ -16,7 +16,7 @@ struct QualitySetting
 };
 
 /// All of them. What the presets are is written there alone; the XML's defaults are those of the first.
-extern const std::array<QualitySetting, 10> qualitySettings;
+extern const std::array<QualitySetting, 11> qualitySettings;
 
 /// StepSize of the fastest preset.
 double interactiveStepSize();

@@ -372,18 +372,24 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   }
 }
 
-Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
-  bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
+  const Resampling& plan, const Source& source, Tally& tally)
 {
-  Tally tally;
   std::vector<vtkSmartPointer<vtkDataSet>> prepared;
-  std::vector<vtkDataSet*> leaves;
   for (const std::size_t leaf : plan.leaves)
   {
     prepared.push_back(
       prepare(source.leaves[leaf], plan.flatAxis < 0 ? 3 : 2, source.model, tally));
-    leaves.push_back(prepared.back());
   }
+  return prepared;
+}
+
+Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+  bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
+{
+  Tally tally;
+  const std::vector<vtkSmartPointer<vtkDataSet>> prepared = preparedLeaves(plan, source, tally);
+  const std::vector<vtkDataSet*> leaves(prepared.begin(), prepared.end());
   setPoints(plan, output);
   vtkNew<vtkDoubleArray> values;
   values->SetNumberOfValues(output->GetNumberOfPoints());

@@ -5,6 +5,8 @@
 #include "MeshSearch.h"
 #include "RefractivitySource.h"
 
+#include "vtkSmartPointer.h"
+
 #include <array>
 #include <string>
 
@@ -36,6 +38,10 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 
 /// Makes `structure` the grid of the plan.
 void gridOf(const Resampling& plan, vtkImageData* structure);
+
+/// The leaves of the plan with nothing but N at their points (NaN where invalid), and other cells hidden.
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
+  const Resampling& plan, const Source& source, Tally& tally);
 
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
 /// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight. Where `progress` says to stop,

@@ -212,6 +212,8 @@ schlieren::Scene sceneFrom(vtkSchlierenFilter* self, vtkRefractiveIndex* medium,
   scene.precision = static_cast<schlieren::Precision>(self->GetPrecision());
   scene.adaptiveTolerance = self->GetAdaptiveTolerance();
   scene.pathTolerance = self->GetPathTolerance();
+  scene.mediumTolerance = self->GetMediumTolerance();
+  scene.mediumMemory = static_cast<std::size_t>(self->GetMediumMemory()) << 20;
   scene.device = static_cast<schlieren::Device>(self->GetDevice());
   scene.threads = threadsFrom(self);
   if (self->GetPreviewReduction() > 1)

@@ -6,6 +6,7 @@
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "MeshSearch.h"
+#include "MeshSource.h"
 #include "Ranks.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfAmr.h"
@@ -58,6 +59,15 @@ void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
   outInfo->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
   outInfo->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
   outInfo->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
+}
+
+/// Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
+vtkSMPTools::Config threadsOfLoops(vtkRefractiveIndex* self)
+{
+  const int given = self->GetNumberOfThreads();
+  const int limit =
+    given > 0 || std::getenv("VTK_SMP_MAX_THREADS") ? given : schlieren::coresOfProcess();
+  return vtkSMPTools::Config(limit, "STDThread", false);
 }
 
 void printList(
@@ -145,7 +155,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
-  os << indent << "OutsideBlocksLight: " << this->OutsideBlocksLight << "\n";
+  os << indent << "Outside: " << this->Outside << "\n";
   os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -333,6 +343,41 @@ const GridPlan& vtkRefractiveIndex::PlanGrid(const Source& source, vtkDataObject
 }
 
 //------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning)
+{
+  Source source = chooseSource(this, input);
+  const int* given = this->SamplingDimensions;
+  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }) ||
+    flatAxisOf(source) >= 0 || planAmr(source, given))
+  {
+    return nullptr;
+  }
+  this->Grid.clear();
+  this->Search->release();
+  Tally tally;
+  std::shared_ptr<const schlieren::MediumSource> made;
+  vtkSMPTools::LocalScope(threadsOfLoops(this),
+    [&]()
+    {
+      if (auto* fields = std::get_if<FieldMean>(&source.model))
+      {
+        fields->findRanges(source.leaves);
+      }
+      const GridPlan& plan = this->PlanGrid(source, input);
+      made = std::make_shared<MeshSource>(preparedLeaves(plan.resampling, source, tally), bodies,
+        static_cast<refractivity::Outside>(this->Outside));
+    });
+  warning = warningFrom(source.model, tally);
+  if (source.noteOnGases != this->ToldOfGases)
+  {
+    this->ToldOfGases = source.noteOnGases;
+    warning += (warning.empty() || source.noteOnGases.empty() ? "" : " ") + source.noteOnGases;
+  }
+  return made;
+}
+
+//------------------------------------------------------------------------------
 std::string vtkRefractiveIndex::Convert(
   vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies)
 {
@@ -345,11 +390,7 @@ std::string vtkRefractiveIndex::Convert(
     return "";
   }
 
-  // Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
-  const int limit = this->NumberOfThreads > 0 || std::getenv("VTK_SMP_MAX_THREADS")
-    ? this->NumberOfThreads
-    : schlieren::coresOfProcess();
-  const vtkSMPTools::Config threads(limit, "STDThread", false);
+  const vtkSMPTools::Config threads = threadsOfLoops(this);
   Tally tally;
   std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,
@@ -369,7 +410,7 @@ std::string vtkRefractiveIndex::Convert(
         this->Search->release();
         note = plan.amr->note;
         tally = convertAmr(*plan.amr, source, this->DoublePrecision, output);
-        if (!this->OutsideBlocksLight)
+        if (!this->GetOutsideBlocksLight())
         {
           setOutside(outsideOfBoxes(source.leaves, output), output);
         }
@@ -379,7 +420,7 @@ std::string vtkRefractiveIndex::Convert(
         note = plan.resampling.note;
         const bool wasSeries = this->Search->isSeries;
         tally = resample(
-          plan.resampling, source, this->DoublePrecision, this->OutsideBlocksLight, *this->Search,
+          plan.resampling, source, this->DoublePrecision, this->GetOutsideBlocksLight(), *this->Search,
           [this](double done)
           {
             this->UpdateProgress(0.05 + 0.95 * done);

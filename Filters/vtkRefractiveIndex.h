@@ -9,7 +9,7 @@
  *   0 where the mask is 0. N is stored and not n, because in single precision the 1 would cost all
  *   digits of a weak flow.
  * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1;
- * and, where OutsideBlocksLight is off, with a third one, `TransparentPointMask` (see there).
+ * and, where Outside is OUTSIDE_PASSES, with a third one, `TransparentPointMask` (see there).
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
  * arrays on the grid of the cells' centres, so that nothing is smoothed. Data in one plane across a
@@ -55,6 +55,11 @@
 
 class InputOnRank0;
 class vtkPiecewiseFunction;
+
+namespace schlieren
+{
+class MediumSource;
+}
 
 namespace refractivity
 {
@@ -333,18 +338,46 @@ public:
    */
   const char* GetGrid() const { return this->Grid.c_str(); }
 
+  /// What becomes of light at places that no cell covers.
+  enum OutsideModes
+  {
+    OUTSIDE_AUTO = 0,
+    OUTSIDE_BLOCKS = 1,
+    OUTSIDE_PASSES = 2
+  };
+
   ///@{
   /**
-   * Whether light stops at places within the grid that no cell covers. Default: true. Where it is
-   * false, light passes there as through the nearest gas: the output has a third point array
+   * What becomes of light at places of the data's box that no cell covers, one of OutsideModes:
+   * - OUTSIDE_AUTO (the default): bodies that the mesh leaves out stop it; beyond the mesh's outer boundary it goes
+   *   straight on. A body is a hole that the mesh encloses, or that reaches the box of the data only at
+   *   plane sides of it that the mesh has, too, such as a symmetry plane or the floor of a tunnel.
+   * - OUTSIDE_BLOCKS: all of them stop it.
+   * - OUTSIDE_PASSES: it goes straight on in all of them. Give the surfaces of bodies to make them solid.
+   *
+   * This filter's output, a grid, knows OUTSIDE_AUTO as OUTSIDE_BLOCKS; with OUTSIDE_PASSES it has a third point array
    * `TransparentPointMask` (unsigned char), 1 at such places (whose vtkValidPointMask stays 0), else 0.
-   * Bodies that the mesh leaves out are such places; give their surfaces to make them solid. It
-   * concerns input that is resampled; an image has cells everywhere, but its point array
+   * It concerns input that is resampled; an image has cells everywhere, but its point array
    * `TransparentPointMask`, if there is one, is passed on.
    */
-  vtkSetMacro(OutsideBlocksLight, bool);
-  vtkGetMacro(OutsideBlocksLight, bool);
-  vtkBooleanMacro(OutsideBlocksLight, bool);
+  vtkSetClampMacro(Outside, int, OUTSIDE_AUTO, OUTSIDE_PASSES);
+  vtkGetMacro(Outside, int);
+  ///@}
+
+  ///@{
+  /**
+   * The same, as older scripts have it: 0 is OUTSIDE_PASSES, 1 is OUTSIDE_BLOCKS; less than 0 changes nothing.
+   */
+  void SetOutsideBlocksLight(int blocks)
+  {
+    if (blocks >= 0)
+    {
+      this->SetOutside(blocks > 0 ? OUTSIDE_BLOCKS : OUTSIDE_PASSES);
+    }
+  }
+  bool GetOutsideBlocksLight() { return this->Outside != OUTSIDE_PASSES; }
+  void OutsideBlocksLightOn() { this->SetOutsideBlocksLight(1); }
+  void OutsideBlocksLightOff() { this->SetOutsideBlocksLight(0); }
   ///@}
 
   ///@{
@@ -380,10 +413,18 @@ public:
   VTK_WRAPEXCLUDE std::string Convert(
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
 
+  /**
+   * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. Null where the
+   * input is to be made a grid by Convert(): images, uniform AMR, 2-D data, and where SamplingDimensions are given.
+   * `warning`: what the user should be warned of. Throws as Convert() does.
+   */
+  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+
   ///@{
   /**
    * Where a grid's points lie in a mesh is kept for the next conversion, 16 bytes for each point (17 where
-   * OutsideBlocksLight is off), if the mesh (points, cells, which of them are hidden, and the grid) is the
+   * Outside is OUTSIDE_PASSES), if the mesh (points, cells, which of them are hidden, and the grid) is the
    * same as in the conversion before; not for more than 2^26 points. A conversion with another mesh frees it.
    * Where it is known that more conversions follow, KeepMeshSearch keeps it at once, and
    * DropMeshSearch frees it then, unless this filter itself has converted the mesh twice in a row.
@@ -458,7 +499,7 @@ private:
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
-  bool OutsideBlocksLight = true;
+  int Outside = OUTSIDE_AUTO;
   std::string Grid;
   bool DoublePrecision = false;
   int NumberOfThreads = 0;

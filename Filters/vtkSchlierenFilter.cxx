@@ -47,14 +47,34 @@ struct vtkSchlierenFilter::Internals
   LastPicture Shown[2]; // at each output
   RgbPictureReader RgbPictures;
   vtkNew<vtkImageData> Refractivity;
+  std::shared_ptr<const schlieren::MediumSource> Source; // instead of Refractivity, of meshes
+  vtkTimeStamp SourceTime;
+  std::string Grid; // what Source was divided into
+
+  schlieren::Field field() const
+  {
+    if (!this->Source)
+    {
+      return fieldFrom(this->Refractivity);
+    }
+    schlieren::Field field;
+    field.source = this->Source;
+    field.grid = schlieren::coarsestGrid(*this->Source);
+    field.version = this->SourceTime.GetMTime();
+    return field;
+  }
 
   // What Refractivity was made from: the input, and Medium at that time (0: nothing yet).
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
-  bool holdsRefractivityOf(const std::vector<double>& input, vtkRefractiveIndex* medium) const
+  bool IsOnGrid = false; // though it is a mesh
+
+  bool holdsRefractivityOf(
+    const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsGrid) const
   {
-    return this->MediumTime == medium->GetMTime() && this->Input == input;
+    return this->MediumTime == medium->GetMTime() && this->Input == input &&
+      (this->Source ? !needsGrid : needsGrid || !this->IsOnGrid);
   }
 
   // Of the fields that tint, on the grid of Refractivity; empty where not needed.
@@ -271,6 +291,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NoiseFilterRadius: " << this->NoiseFilterRadius << "\n";
   os << indent << "HistogramSize: " << this->HistogramSize << "\n";
   os << indent << "MemoryBudget: " << this->MemoryBudget << "\n";
+  os << indent << "MediumMemory: " << this->MediumMemory << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -415,6 +436,12 @@ void vtkSchlierenFilter::SetPrecision(int precision)
 }
 
 //------------------------------------------------------------------------------
+const char* vtkSchlierenFilter::GetGrid() const
+{
+  return this->Inside->Source ? this->Inside->Grid.c_str() : this->Medium->GetGrid();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()
 {
   return this->Inside->Pictures.GetBench().work().mediumBuilds;
@@ -528,7 +555,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     (!this->ColorByField || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(describeInputs(this, this->GetInputDataObject(0, 0),
                                  this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0)),
-      this->Medium);
+      this->Medium, this->ColorByField);
 }
 
 //------------------------------------------------------------------------------
@@ -618,7 +645,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   Internals& inside = *this->Inside;
   this->PassToMedium();
   std::vector<double> description = describeInputs(this, input, bodies);
-  if (inside.holdsRefractivityOf(description, this->Medium))
+  if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField))
   {
     return true;
   }
@@ -630,7 +657,20 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
   }
-  const std::string warning = this->Medium->Convert(input, inside.Refractivity, bodies);
+  inside.IsOnGrid = this->ColorByField;
+  inside.Source.reset();
+  inside.Grid.clear();
+  inside.Refractivity->Initialize();
+  std::string warning;
+  if (!inside.IsOnGrid)
+  {
+    inside.Source = this->Medium->MakeSource(input, bodies, warning);
+    inside.SourceTime.Modified();
+  }
+  if (!inside.Source)
+  {
+    warning = this->Medium->Convert(input, inside.Refractivity, bodies);
+  }
   if (this->Medium->GetAbortExecute())
   {
     return false;
@@ -639,7 +679,10 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     vtkWarningMacro(<< warning);
   }
-  mergeMasks(inside.Refractivity);
+  if (!inside.Source)
+  {
+    mergeMasks(inside.Refractivity);
+  }
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
@@ -665,7 +708,8 @@ bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfPicture() &&
-    inside.holdsRefractivityOf(describeInputs(this, input, bodies), this->Medium);
+    inside.holdsRefractivityOf(
+      describeInputs(this, input, bodies), this->Medium, this->ColorByField);
 }
 
 //------------------------------------------------------------------------------
@@ -741,7 +785,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
 {
   Internals& inside = *this->Inside;
   inside.Done = 0;
-  schlieren::Field field = fieldFrom(inside.Refractivity);
+  schlieren::Field field = inside.field();
   if (!this->AutoAmbientRefractivity)
   {
     field.ambient = this->AmbientRefractivity;
@@ -811,7 +855,12 @@ bool vtkSchlierenFilter::Show(
   {
     addFringeSpacing(output, scene.fringes.spacing);
   }
-  addGrid(output, this->Medium->GetGrid(), inside.Refractivity);
+  if (inside.Source)
+  {
+    inside.Grid = mediumInWords(image.medium);
+    addMedium(output, image.medium);
+  }
+  addGrid(output, this->GetGrid(), inside.Refractivity);
   setHistogram(histogram, image.histogram);
   inside.Shown[PICTURE_PORT].Keep(output);
   inside.Shown[HISTOGRAM_PORT].Keep(histogram);
@@ -836,12 +885,15 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       this->PassToMedium();
       vtkSmartPointer<vtkImageData> grid = this->Inside->Refractivity;
       vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
-      if (!this->Inside->holdsRefractivityOf(describeInputs(this, input, bodies), this->Medium))
+      if (!this->Inside->holdsRefractivityOf(
+      describeInputs(this, input, bodies), this->Medium, this->ColorByField))
       {
         grid = vtkSmartPointer<vtkImageData>::New();
         this->Medium->ComputeGrid(input, grid);
       }
-      const schlieren::Frame frame = frameFrom(this, gridFrom(grid));
+      const bool isSource = grid == this->Inside->Refractivity && this->Inside->Source;
+      const schlieren::Frame frame =
+        frameFrom(this, isSource ? this->Inside->field().grid : gridFrom(grid));
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
     }

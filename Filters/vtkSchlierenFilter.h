@@ -226,7 +226,8 @@ public:
   virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
   virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
   vtkSchlierenMediumMacro(RefractivityScale, double);
-  vtkSchlierenMediumMacro(OutsideBlocksLight, bool);
+  vtkSchlierenMediumMacro(Outside, int);
+  vtkSchlierenMediumMacro(OutsideBlocksLight, int);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {
     this->Medium->SetSamplingDimensions(x, y, z);
@@ -239,7 +240,7 @@ public:
   {
     return this->Medium->GetSamplingDimensions();
   }
-  const char* GetGrid() const { return this->Medium->GetGrid(); }
+  const char* GetGrid() const;
   ///@}
 
   ///@{
@@ -708,6 +709,24 @@ public:
 
   ///@{
   /**
+   * Of meshes: the error of the deflection that the size of voxels may make, of the largest deflection. 0: voxels
+   * are as fine as the mesh. 0 to 1.
+   */
+  vtkSetMacro(MediumTolerance, double);
+  vtkGetMacro(MediumTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of meshes: memory, MiB, for voxels. Default: 1024. Where it does not do, MediumTolerance is not met, and the
+   * field data MediumError say by how much.
+   */
+  vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MediumMemory, int);
+  ///@}
+
+  ///@{
+  /**
    * What takes the grain out of the picture, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN whose
    * standard deviation is half of NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or
    * a CONE that shrinks as samples come in (Jensen 1996): it encloses as many as the radius does of one
@@ -946,11 +965,13 @@ private:
   int FilmEstimator = 0;
   int Precision = 0;
   double AdaptiveTolerance = 0;
+  double MediumTolerance = 0;
   double PathTolerance = 0;
   int NoiseFilter = NO_FILTER;
   double NoiseFilterRadius = 2;
   int HistogramSize = 256;
   int MemoryBudget = 1024;
+  int MediumMemory = 1024;
   int Seed = 1;
   int Device = AUTO;
   int NumberOfThreads = 0;

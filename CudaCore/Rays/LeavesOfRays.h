@@ -9,6 +9,19 @@
 namespace schlieren
 {
 
+/// How long steps are, in units of the light's unit of length.
+template <class Number>
+struct StepsInLeaves
+{
+  Number inGas;  ///< where voxels are as large as the index coordinates' unit
+  Number atEdge; ///< the same where gas may end
+
+  SCHLIEREN_HD Number in(const Leaf<Number>& leaf) const
+  {
+    return (leaf.kind == Leaf<Number>::Mixed ? atEdge : inGas) / static_cast<Number>(leaf.perIndex);
+  }
+};
+
 /// Which leaves of a tree some rays are in. The undisturbed rays are followed in doubles from leaf to leaf, so
 /// that nothing is lost however many there are.
 template <class Number, int Lanes>
@@ -56,10 +69,10 @@ struct LeavesOfRays
   }
 
   /// Moves ray i, which is at `x` (local coordinates) and goes along `along`, into the leaf of the middle of its next
-  /// step. Where that leaf is finer, the step becomes as long as it has it. Returns the new local coordinates by the old ones,
-  /// or 0 if it stays where it is.
-  SCHLIEREN_HD double change(const View& medium, int i, const Number (&x)[3][Lanes],
-    const Number (&along)[3][Lanes], Number& step, Number length,
+  /// step. Where steps are shorter there (`usual`), so is this one. Returns the new local coordinates by the old
+  /// ones, or 0 if it stays where it is.
+  SCHLIEREN_HD double change(const View& medium, int i, const StepsInLeaves<Number>& usual,
+    const Number (&x)[3][Lanes], const Number (&along)[3][Lanes], Number& step, Number length,
     const Number (&perLength)[3][Lanes])
   {
     const Leaf<Number>& now = medium.leaves[leaf[i]];
@@ -75,25 +88,25 @@ struct LeavesOfRays
       return medium.finder.at({ index[0], index[1], index[2] });
     };
     std::int32_t next = leafOfMiddle(static_cast<double>(step));
-    const double finer = medium.leaves[next].perIndex / now.perIndex;
-    if (finer > 1)
+    const Number there = usual.in(medium.leaves[next]);
+    if (there < step)
     {
-      step = static_cast<Number>(static_cast<double>(step) / finer);
+      step = there;
       next = leafOfMiddle(static_cast<double>(step));
     }
     if (next == leaf[i])
     {
       return 0;
     }
-    const Leaf<Number>& there = medium.leaves[next];
+    const Leaf<Number>& then = medium.leaves[next];
     for (int axis = 0; axis < 3; ++axis)
     {
       const double local = start[axis][i] +
         static_cast<double>(length) * static_cast<double>(perLength[axis][i]) * now.perIndex;
-      start[axis][i] = (now.first[axis] + local / now.perIndex - there.first[axis]) * there.perIndex;
+      start[axis][i] = (now.first[axis] + local / now.perIndex - then.first[axis]) * then.perIndex;
     }
     travelled[i] += static_cast<double>(length);
-    const double ratio = there.perIndex / now.perIndex;
+    const double ratio = then.perIndex / now.perIndex;
     set(medium, i, next);
     return ratio;
   }

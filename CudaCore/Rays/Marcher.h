@@ -37,6 +37,7 @@ struct RayTask
   Light light;
   Vec3<Number> indexScale; ///< of the light
   Number step;             ///< in units of the light's unit of length
+  Number stepAtEdge;       ///< of leaves where gas may end
   std::int32_t stepLimit;
   double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
   Number largestQ;      ///< no ray has more of q
@@ -332,10 +333,17 @@ struct March
     takeLeaves(fromArray<Real>(one));
   }
 
+  SCHLIEREN_HD StepsInLeaves<Number> stepsInLeaves() const
+  {
+    return { task.step, task.stepAtEdge };
+  }
+
   /// What is known of the rays' leaves, as packs. `finer`: the new local coordinates by the old ones.
   SCHLIEREN_HD void takeLeaves(const Real& finer)
   {
-    Number value[lanes], perIndex[lanes], low[3][lanes], high[3][lanes], isUnderWay[lanes];
+    Number value[lanes], perIndex[lanes], low[3][lanes], high[3][lanes], isUnderWay[lanes],
+      usual[lanes];
+    const StepsInLeaves<Number> stepsOf = stepsInLeaves();
     const double last[3] = { task.medium.last.x, task.medium.last.y, task.medium.last.z };
     toArray(cruise, isUnderWay);
     someConstant = false;
@@ -350,6 +358,7 @@ struct March
         low[axis][i] = static_cast<Number>(-leaf.first[axis] * leaf.perIndex);
         high[axis][i] = static_cast<Number>((last[axis] - leaf.first[axis]) * leaf.perIndex);
       }
+      usual[i] = isUnderWay[i] > 0 ? stepsOf.in(leaf) : 0;
       if (isUnderWay[i] > 0)
       {
         someConstant = someConstant || leaf.kind == Leaf<Number>::Constant;
@@ -363,7 +372,7 @@ struct March
     const Real scale = fromArray<Real>(perIndex);
     light.indexScale = scaled(Vec3<Real>{ scale, scale, scale }, task.indexScale);
     light.perLength = scale * packs(batch.perLength);
-    cruise = cruise > 0 ? task.step / scale : Real{};
+    cruise = fromArray<Real>(usual);
     ray.offset = finer * ray.offset;
     inGas = someNearEdge ? inGas : Real{} + 1;
   }
@@ -420,7 +429,8 @@ struct March
       finer[i] = 1;
       if (which[i] != 0)
       {
-        const double from = in.change(task.medium, i, x, along, step[i], length[i], batch.perLength);
+        const double from = in.change(
+          task.medium, i, stepsInLeaves(), x, along, step[i], length[i], batch.perLength);
         finer[i] = static_cast<Number>(from);
         if (from != 0)
         {

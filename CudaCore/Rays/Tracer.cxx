@@ -31,6 +31,7 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
     task.medium.solid == nullptr ? settings.stepVoxels : std::min(settings.stepVoxels, 1.);
   const double step = voxels / light.fastest();
   task.step = static_cast<Real>(step);
+  task.stepAtEdge = static_cast<Real>(std::min(settings.stepVoxels, 1.) / light.fastest());
   constexpr double stepsAhead = 4;
   const auto ahead = [&](double along, double scale)
   { return std::llround(stepsAhead * step * along * scale); };
@@ -41,7 +42,9 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   const double largestQ = medium.largestNu + (std::isfinite(bend) ? bend : 2);
   constexpr double margin = 1.01; // for the integrator's error
   task.largestQ = static_cast<Real>(margin * largestQ);
-  const double straightSteps = std::ceil(light.depth / light.smallestCosine() / step) + 1;
+  const double finest = medium.tree ? std::exp2(medium.tree->statistics().finestLevel) : 1;
+  const double straightSteps =
+    std::ceil(light.depth / light.smallestCosine() / task.stepAtEdge * finest) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
   // Where n is small, a step leads less far; and an adaptive one may have to be much shorter.
   constexpr double smallestIndex = 1e-3;

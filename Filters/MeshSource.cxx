@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshSource.h"
+
+#include "vtkDataSet.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace refractivity
+{
+
+namespace
+{
+
+std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
+{
+  return { leaves.begin(), leaves.end() };
+}
+
+/// A lattice of one point.
+schlieren::Lattice latticeAt(const std::array<double, 3>& point)
+{
+  return { point, { 1, 1, 1 }, { 1, 1, 1 } };
+}
+
+CellTest testOf(const CellSampler& cells)
+{
+  return [&cells](const Point& place)
+  {
+    double value = 0;
+    unsigned char isFound = 0;
+    cells.sample(latticeAt({ place[0], place[1], place[2] }), &value, &isFound);
+    return isFound != 0;
+  };
+}
+
+} // namespace
+
+MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
+  vtkDataObject* bodies, Outside outside)
+  : Leaves(leaves)
+  , Cells(pointersTo(leaves))
+  , Values(this->Cells)
+  , Boundary(pointersTo(leaves), bodies, outside, testOf(this->Values))
+{
+  if (this->Cells.size() == 0)
+  {
+    throw std::runtime_error("no cells with gas");
+  }
+}
+
+schlieren::Box MeshSource::bounds() const
+{
+  const CellTree::Bounds& bounds = this->Cells.bounds();
+  return { bounds.low, bounds.high };
+}
+
+double MeshSource::ambient() const
+{
+  const double ambient = this->Boundary.ambient();
+  if (!std::isnan(ambient))
+  {
+    return ambient;
+  }
+  const CellTree::Content all = this->Cells.content(this->Cells.bounds());
+  return 0.5 * (all.lowest + all.highest);
+}
+
+std::array<double, 3> MeshSource::voxelShape() const { return this->Cells.voxelShape(); }
+
+schlieren::Place MeshSource::placeAt(const std::array<double, 3>& point) const
+{
+  double value = 0;
+  unsigned char isFound = 0;
+  this->Values.sample(latticeAt(point), &value, &isFound);
+  return this->Boundary.kindAt({ point[0], point[1], point[2] }, isFound != 0);
+}
+
+schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box) const
+{
+  const GasBoundary::Kinds faces = this->Boundary.facesIn(box);
+  Content content{ 1, 0, {}, faces.wall, faces.wall || faces.window, faces.window };
+  content.cellSize.fill(std::numeric_limits<double>::infinity());
+  if (!content.hasGas)
+  {
+    // All of it is like any place of it.
+    std::array<double, 3> middle{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] = 0.5 * (box.low[axis] + box.high[axis]);
+    }
+    const schlieren::Place place = this->placeAt(middle);
+    content.hasGas = place == schlieren::Place::Gas;
+    content.hasWall = place == schlieren::Place::Wall;
+    content.hasWindow = place == schlieren::Place::Window;
+  }
+  if (content.hasGas)
+  {
+    const CellTree::Content cells = this->Cells.content({ box.low, box.high });
+    content.lowest = cells.lowest;
+    content.highest = cells.highest;
+    content.cellSize = cells.cellSize;
+  }
+  return content;
+}
+
+void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances) const
+{
+  std::vector<unsigned char> isFound(static_cast<std::size_t>(lattice.size()));
+  this->Values.sample(lattice, refractivity, isFound.data());
+  this->Boundary.sample(lattice, isFound.data(), places, distances);
+}
+
+} // namespace refractivity
