@@ -65,6 +65,7 @@ MeshCell::Shape MeshCell::shapeOf(int type)
     case VTK_QUAD:
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
+    case VTK_PYRAMID: // a hexahedron of which a face is a point
     case VTK_QUADRATIC_QUAD:
     case VTK_BIQUADRATIC_QUAD:
     case VTK_QUADRATIC_LINEAR_QUAD:

@@ -3,6 +3,9 @@
 // Adaptive meshes of many blocks to refractivity on a grid. And other meshes: the first conversion, which searches the cells that hold the grid's
 // points; the third, which has kept them; and vtkResampleToImage, on the same mesh and in turns with the
 // others, so that all meet the same machine. The least times of all turns.
+#include "CellSampler.h"
+#include "CellTree.h"
+
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"
@@ -15,6 +18,7 @@
 #include "vtkResampleToImage.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
@@ -24,7 +28,9 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace
 {
@@ -246,6 +252,181 @@ void amr(benchmark::State& state)
   state.counters["s"] = seconds;
   state.counters["sum"] = sum; // the same whatever is made faster
 }
+
+/// A body-fitted mesh around a sphere of radius 1, out to 50: the first cell is 0.01 thick.
+Mesh aroundSphere(int radial, int polar, int around)
+{
+  double low = 1, high = 2; // ratio of one cell to the next
+  for (int i = 0; i < 60; ++i)
+  {
+    const double ratio = (low + high) / 2;
+    (0.01 * (std::pow(ratio, radial - 1) - 1) / (ratio - 1) > 49 ? high : low) = ratio;
+  }
+  auto mesh = vtkSmartPointer<vtkStructuredGrid>::New();
+  mesh->SetDimensions(radial, polar, around);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  constexpr double pi = 3.14159265358979323846;
+  for (int k = 0; k < around; ++k)
+  {
+    for (int j = 0; j < polar; ++j)
+    {
+      for (int i = 0; i < radial; ++i)
+      {
+        const double r = 1 + 0.01 * (std::pow(low, i) - 1) / (low - 1);
+        const double a = pi * j / (polar - 1), b = 2 * pi * (k % (around - 1)) / (around - 1);
+        points->InsertNextPoint(
+          r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a));
+      }
+    }
+  }
+  mesh->SetPoints(points);
+  return mesh;
+}
+
+/// 16 samples and two more to each side.
+schlieren::Lattice brickOf(const schlieren::Box& box)
+{
+  schlieren::Lattice brick;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    brick.spacing[axis] = (box.high[axis] - box.low[axis]) / 16;
+    brick.first[axis] = box.low[axis] - 1.5 * brick.spacing[axis];
+    brick.points[axis] = 20;
+  }
+  return brick;
+}
+
+/// Leaves of an octree, as a view needs them that looks along z at |x|, |y| < column: as fine as the cells.
+void addBricks(const refractivity::CellTree& tree, const schlieren::Box& box, double column,
+  double finest, std::vector<schlieren::Lattice>& bricks)
+{
+  const refractivity::CellTree::Content content = tree.content({ box.low, box.high });
+  if (content.lowest > content.highest)
+  {
+    return;
+  }
+  const schlieren::Lattice brick = brickOf(box);
+  bool isInView = true, isFine = false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    isInView = isInView && (axis == 2 || (box.low[axis] < column && box.high[axis] > -column));
+    isFine = isFine || brick.spacing[axis] <= std::max(finest, content.cellSize[axis]);
+  }
+  if (isFine || !isInView)
+  {
+    bricks.push_back(brick);
+    return;
+  }
+  for (int child = 0; child < 8; ++child)
+  {
+    schlieren::Box part = box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double middle = (box.low[axis] + box.high[axis]) / 2;
+      (child >> axis & 1 ? part.low : part.high)[axis] = middle;
+    }
+    addBricks(tree, part, column, finest, bricks);
+  }
+}
+
+/// Argument: threads. The tree of the cells, and the bricks that a view of the middle needs.
+void bricks(
+  benchmark::State& state, const std::function<Mesh()>& make, double column, double finest)
+{
+  const Mesh mesh = make();
+  vtkNew<vtkDoubleArray> values;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    mesh->GetPoint(i, x);
+    values->InsertNextValue(3e-4 * std::exp(-(x[0] * x[0] + x[1] * x[1])) + 1e-6 * x[2]);
+  }
+  mesh->GetPointData()->Initialize();
+  mesh->GetPointData()->SetScalars(values);
+  std::unique_ptr<refractivity::CellTree> tree;
+  double build = 1e30, ask = 1e30, sample = 1e30;
+  std::vector<schlieren::Lattice> all;
+  std::vector<double> sums;
+  const vtkSMPTools::Config threads(static_cast<int>(state.range(0)), "STDThread", false);
+  for (auto _ : state)
+  {
+    vtkSMPTools::LocalScope(threads,
+      [&]
+      {
+        build = std::min(build,
+          secondsOf(
+            [&] {
+              tree = std::make_unique<refractivity::CellTree>(std::vector<vtkDataSet*>{ mesh });
+            }));
+        ask = std::min(ask,
+          secondsOf(
+            [&]
+            {
+              all.clear();
+              schlieren::Box box{ tree->bounds().low, tree->bounds().high };
+              addBricks(*tree, box, column, finest, all);
+            }));
+        const refractivity::CellSampler sampler(*tree);
+        sums.assign(all.size(), 0);
+        sample = std::min(sample,
+          secondsOf(
+            [&]
+            {
+              vtkSMPTools::For(0, static_cast<vtkIdType>(all.size()), 16,
+                [&](vtkIdType begin, vtkIdType end)
+                {
+                  std::vector<double> some(8000);
+                  std::vector<unsigned char> found(8000);
+                  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end);
+                       ++i)
+                  {
+                    sampler.sample(all[i], some.data(), found.data());
+                    for (std::size_t k = 0; k < some.size(); ++k)
+                    {
+                      sums[i] += found[k];
+                    }
+                  }
+                });
+            }));
+      });
+  }
+  double found = 0;
+  for (const double sum : sums)
+  {
+    found += sum;
+  }
+  state.counters["build/s"] = build;
+  state.counters["bytes"] = static_cast<double>(tree->bytes()) / static_cast<double>(tree->size());
+  state.counters["ask/s"] = ask;
+  state.counters["bricks"] = static_cast<double>(all.size());
+  state.counters["Mpoints"] = static_cast<double>(all.size()) * 8e-3;
+  state.counters["found"] = found / (8000 * static_cast<double>(all.size()));
+  state.counters["s"] = sample;
+  state.counters["Mpoints/s"] = static_cast<double>(all.size()) * 8e-3 / sample;
+}
+
+BENCHMARK_CAPTURE(
+  bricks, sphere_1200000, [] { return aroundSphere(120, 80, 125); }, 1.2, 0.02)
+  ->ArgName("threads")
+  ->Arg(1)
+  ->Arg(2)
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(
+  bricks, tetrahedra_1080000, [] { return tetrahedra(60); }, 10, 1. / 120)
+  ->ArgName("threads")
+  ->Arg(1)
+  ->Arg(2)
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(
+  bricks, hexahedra_262144, [] { return hexahedra(64, true); }, 10, 1. / 128)
+  ->ArgName("threads")
+  ->Arg(1)
+  ->Arg(2)
+  ->Iterations(2)
+  ->Unit(benchmark::kMillisecond);
 
 BENCHMARK(amr)->ArgName("n")->Arg(22)->Arg(44)->Iterations(2)->Unit(benchmark::kMillisecond);
 

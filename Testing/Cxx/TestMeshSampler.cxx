@@ -3,151 +3,16 @@
 //
 // What a mesh becomes on a grid. Isoparametric cells interpolate linear fields exactly, however their points
 // are moved: that is the truth here.
-#include "Fixtures.h"
+#include "CellMeshes.h"
 
 #include "vtkCallbackCommand.h"
-#include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkGenericCell.h"
-#include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPoints.h"
 #include "vtkResampleToImage.h"
-#include "vtkUnstructuredGrid.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
 namespace
 {
-
-using Mesh = vtkSmartPointer<vtkUnstructuredGrid>;
-
-double linear(const Vec& x) { return 1e-4 * (2 + x[0] - 0.5 * x[1] + 0.25 * x[2]); }
-
-/// Moves what is inside the unit cube around, and leaves its faces in their planes.
-Vec moved(const Vec& x, double by)
-{
-  Vec y = x;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    y[axis] += by * x[axis] * (1 - x[axis]) *
-      std::sin(5 * x[0] + 7 * x[1] * x[1] + 3 * x[2] + static_cast<double>(axis));
-  }
-  return y;
-}
-
-/// n^3 cells in the unit cube (n^2 in its face z = 0). Each has its points at `corners` of a unit cell.
-Mesh meshOf(int type, int n, const std::vector<std::vector<Vec>>& cells, double by, bool isFlat)
-{
-  auto mesh = Mesh::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  std::vector<Vec> known; // by place, so that neighbours share points
-  for (int k = 0; k < (isFlat ? 1 : n); ++k)
-  {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        for (const std::vector<Vec>& corners : cells)
-        {
-          vtkNew<vtkIdList> ids;
-          for (const Vec& corner : corners)
-          {
-            const Vec at = { (i + corner[0]) / n, (j + corner[1]) / n, (k + corner[2]) / n };
-            std::size_t id = 0;
-            while (id < known.size() &&
-              std::abs(known[id][0] - at[0]) + std::abs(known[id][1] - at[1]) +
-                  std::abs(known[id][2] - at[2]) >
-                1e-9)
-            {
-              ++id;
-            }
-            if (id == known.size())
-            {
-              known.push_back(at);
-              Vec x = moved(at, by);
-              x[2] = isFlat ? 0 : x[2];
-              points->InsertNextPoint(x.data());
-            }
-            ids->InsertNextId(static_cast<vtkIdType>(id));
-          }
-          mesh->InsertNextCell(type, ids);
-        }
-      }
-    }
-  }
-  mesh->SetPoints(points);
-  addPointArray(mesh, "N", linear);
-  return mesh;
-}
-
-/// VTK's own unit cell of a type, of `count` points where these give its order.
-std::vector<Vec> unitCell(int type, int count)
-{
-  vtkNew<vtkUnstructuredGrid> one;
-  vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    points->SetPoint(i, 0, 0, 0);
-    ids->InsertNextId(i);
-  }
-  one->SetPoints(points);
-  one->InsertNextCell(type, ids);
-  vtkNew<vtkGenericCell> cell;
-  one->GetCell(0, cell);
-  const double* places = cell->GetParametricCoords();
-  std::vector<Vec> corners;
-  for (int i = 0; i < count; ++i)
-  {
-    corners.push_back({ places[3 * i], places[3 * i + 1], places[3 * i + 2] });
-  }
-  return corners;
-}
-
-/// A box cut into cells that are images of the unit cell, each by its corners: origin and three edges' ends.
-std::vector<std::vector<Vec>> cut(
-  const std::vector<Vec>& unitCorners, const std::vector<std::array<Vec, 4>>& frames)
-{
-  std::vector<std::vector<Vec>> cells;
-  for (const std::array<Vec, 4>& frame : frames)
-  {
-    cells.emplace_back();
-    for (const Vec& p : unitCorners)
-    {
-      Vec x = frame[0];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        for (std::size_t edge = 0; edge < 3; ++edge)
-        {
-          x[axis] += p[edge] * (frame[edge + 1][axis] - frame[0][axis]);
-        }
-      }
-      cells.back().push_back(x);
-    }
-  }
-  return cells;
-}
-
-using Frames = std::vector<std::array<Vec, 4>>;
-const Frames boxes = { { Vec{ 0, 0, 0 }, Vec{ 1, 0, 0 }, Vec{ 0, 1, 0 }, Vec{ 0, 0, 1 } } };
-const Frames prisms = { boxes[0],
-  { Vec{ 1, 1, 0 }, Vec{ 0, 1, 0 }, Vec{ 1, 0, 0 }, Vec{ 1, 1, 1 } } };
-const Frames kuhn = []
-{
-  Frames frames;
-  std::array<std::size_t, 3> order = { 0, 1, 2 };
-  do
-  {
-    std::array<Vec, 4> frame = { Vec{ 0, 0, 0 }, Vec{}, Vec{}, Vec{ 1, 1, 1 } };
-    frame[1][order[0]] = 1;
-    frame[2] = frame[1];
-    frame[2][order[1]] = 1;
-    frames.push_back(frame);
-  } while (std::next_permutation(order.begin(), order.end()));
-  return frames;
-}();
 
 vtkSmartPointer<vtkRefractiveIndex> reader(int n = 21, int threads = 2)
 {

@@ -1,0 +1,418 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellSampler.h"
+
+#include "MeshCell.h"
+#include "PlacesInCell.h"
+
+#include "vtkDataSet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace refractivity
+{
+
+namespace
+{
+
+// How far out of their range parametric coordinates may be; see MeshCell.cxx.
+constexpr double toleranceOfPlaneFaces = 1e-6;
+constexpr double toleranceOfCurvedFaces = 1e-3;
+
+/// Rounding must not decide for a later block where an earlier one has a point on a face.
+constexpr double nothing = 1e-9;
+
+/// Hexahedra are parallelepipeds where their corners say so, by this part of their length.
+constexpr double bendOfParallelepipeds = 1e-12;
+
+const LocateInCell locateInCell = functionsToLocate().back();
+
+/// The points of a lattice, and what is found there so far.
+class Brick
+{
+public:
+  Brick(
+    const CellTree& tree, const schlieren::Lattice& lattice, double* values, unsigned char* found);
+
+  /// Whether points lie in a box, which is then the one that add() adds cells to.
+  bool enter(const CellTree::Steps& box);
+  void add(CellTree::Number number);
+  void finish();
+
+private:
+  template <CellShape shape>
+  bool addNormal(const CellTree::Cell& cell);
+  void addOther(const CellTree::Cell& cell);
+  void scan(const NormalCell& cell, const Vector& middle, const Vector rows[3]);
+  void flush(const NormalCell& cell);
+  bool isSettled(std::size_t point) const
+  {
+    return this->Misses[point] == 0 && this->Owners[point] <= this->Number;
+  }
+  void set(std::size_t point, double miss, double value);
+
+  const CellTree& Tree;
+  const schlieren::Lattice& Lattice;
+  double* Values;
+  unsigned char* Found;
+  // From steps of the tree's boxes to indices of points.
+  double PerStep[3], AtOrigin[3], Slack[3];
+  int First[3], Last[3]; // in the last box
+
+  // Of the best cells so far.
+  std::vector<float> Misses;
+  std::vector<CellTree::Number> Owners;
+
+  CellTree::Number Number = 0;
+  double Tolerance = 0;
+  double Low[4],
+    High[4]; // of normal coordinates in the cell, and of their sum where there is a slanting face
+  CellPoints Points;
+  std::size_t Places[CellPoints::most];
+  int Count = 0;
+  std::unique_ptr<MeshCell> Other;
+};
+
+Brick::Brick(
+  const CellTree& tree, const schlieren::Lattice& lattice, double* values, unsigned char* found)
+  : Tree(tree)
+  , Lattice(lattice)
+  , Values(values)
+  , Found(found)
+{
+  constexpr double epsilon = 4 * std::numeric_limits<double>::epsilon();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double spacing = lattice.spacing[axis], first = lattice.first[axis];
+    this->PerStep[axis] = tree.step()[axis] / spacing;
+    this->AtOrigin[axis] = (tree.origin()[axis] - first) / spacing;
+    this->Slack[axis] =
+      epsilon * (std::abs(first) + std::abs(tree.origin()[axis])) / spacing + 1e-12;
+  }
+  const auto size = static_cast<std::size_t>(lattice.size());
+  this->Misses.assign(size, std::numeric_limits<float>::infinity());
+  this->Owners.assign(size, 0);
+  std::fill_n(values, size, 0.);
+}
+
+bool Brick::enter(const CellTree::Steps& box)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double last = this->Lattice.points[axis] - 1;
+    const double low =
+      this->AtOrigin[axis] + box.low[axis] * this->PerStep[axis] - this->Slack[axis];
+    const double high =
+      this->AtOrigin[axis] + box.high[axis] * this->PerStep[axis] + this->Slack[axis];
+    if (!(low <= last && high >= 0))
+    {
+      return false;
+    }
+    const int before = low > 0 ? static_cast<int>(low) : 0;
+    this->First[axis] = before < low ? before + 1 : before;
+    this->Last[axis] = static_cast<int>(high < last ? high : last);
+    if (this->First[axis] > this->Last[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Brick::set(std::size_t point, double miss, double value)
+{
+  if (miss > this->Tolerance)
+  {
+    return;
+  }
+  const auto rounded = miss <= nothing ? 0 : static_cast<float>(miss);
+  if (rounded < this->Misses[point] ||
+    (rounded == this->Misses[point] && this->Number < this->Owners[point]))
+  {
+    this->Misses[point] = rounded;
+    this->Owners[point] = this->Number;
+    this->Values[point] = value;
+  }
+}
+
+void Brick::add(CellTree::Number number)
+{
+  this->Number = number;
+  const CellTree::Cell cell = this->Tree.cell(number);
+  bool isNormal = false;
+  switch (shapeOf(cell.block->type(cell.id)))
+  {
+    case CellShape::Tetrahedron:
+      isNormal = this->addNormal<CellShape::Tetrahedron>(cell);
+      break;
+    case CellShape::Wedge:
+      isNormal = this->addNormal<CellShape::Wedge>(cell);
+      break;
+    case CellShape::Pyramid:
+      isNormal = this->addNormal<CellShape::Pyramid>(cell);
+      break;
+    case CellShape::Hexahedron:
+      isNormal = this->addNormal<CellShape::Hexahedron>(cell);
+      break;
+    case CellShape::Voxel:
+      isNormal = this->addNormal<CellShape::Voxel>(cell);
+      break;
+    case CellShape::Other:
+      break;
+  }
+  if (!isNormal)
+  {
+    this->addOther(cell);
+  }
+}
+
+/// Whether the cell has a volume where its middle is.
+template <CellShape shape>
+bool Brick::addNormal(const CellTree::Cell& cell)
+{
+  constexpr int count = cornersOf(shape);
+  constexpr bool isSimplex = shape == CellShape::Tetrahedron || shape == CellShape::Wedge;
+  vtkIdType points[8];
+  cell.block->points(cell.id, count, points);
+  double corners[4][8];
+  Vector origin;
+  cell.block->coordinates(points[0], origin.data());
+  double length = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    double x[3];
+    cell.block->coordinates(points[i], x);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      corners[axis][i] = x[axis] - origin[axis];
+      length = std::max(length, std::abs(corners[axis][i]));
+    }
+    corners[3][i] = cell.block->values()[points[i]];
+  }
+  const Polynomial place[3] = { polynomialOf<shape>(corners[0]), polynomialOf<shape>(corners[1]),
+    polynomialOf<shape>(corners[2]) };
+  const Vector columns[3] = { { place[0][1], place[1][1], place[2][1] },
+    { place[0][2], place[1][2], place[2][2] }, { place[0][3], place[1][3], place[2][3] } };
+  Vector rows[3];
+  if (!invert(columns, rows))
+  {
+    return false;
+  }
+  NormalCell normal;
+  normal.shape = shape;
+  normal.value = polynomialOf<shape>(corners[3]);
+  normal.isAffine = true;
+  if constexpr (shape == CellShape::Hexahedron)
+  {
+    for (const Polynomial& along : place)
+    {
+      for (std::size_t i = 4; i < 8; ++i)
+      {
+        normal.isAffine = normal.isAffine && std::abs(along[i]) <= bendOfParallelepipeds * length;
+      }
+    }
+  }
+  else
+  {
+    normal.isAffine = shape == CellShape::Tetrahedron || shape == CellShape::Voxel;
+  }
+  this->Tolerance = normal.isAffine ? toleranceOfPlaneFaces : toleranceOfCurvedFaces;
+
+  // What is interpolated lies between the corners, and so does the cell.
+  for (int i = 0; i < 4; ++i)
+  {
+    this->Low[i] = std::numeric_limits<double>::infinity();
+    this->High[i] = -this->Low[i];
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const Vector x = { corners[0][i] - place[0][0], corners[1][i] - place[1][0],
+      corners[2][i] - place[2][0] };
+    const double at[3] = { dot(rows[0], x), dot(rows[1], x), dot(rows[2], x) };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], at[axis]);
+      this->High[axis] = std::max(this->High[axis], at[axis]);
+    }
+    if constexpr (isSimplex)
+    {
+      const double sum = at[0] + at[1] + (shape == CellShape::Tetrahedron ? at[2] : 0);
+      this->Low[3] = std::min(this->Low[3], sum);
+      this->High[3] = std::max(this->High[3], sum);
+    }
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    const double more = 3 * this->Tolerance * (this->High[i] - this->Low[i]);
+    this->Low[i] -= more;
+    this->High[i] += more;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      const Vector factor = { place[0][k + 4], place[1][k + 4], place[2][k + 4] };
+      normal.bend[i][k] = dot(rows[i], factor);
+    }
+  }
+  const Vector middle = { origin[0] + place[0][0], origin[1] + place[1][0],
+    origin[2] + place[2][0] };
+  this->scan(normal, middle, rows);
+  return true;
+}
+
+/// Collects the points that may be in the cell, row by row.
+void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows[3])
+{
+  constexpr double parallel = 1e300; // 1 / 0, but without NaN
+  const bool isSimplex = cell.shape == CellShape::Tetrahedron || cell.shape == CellShape::Wedge;
+  const int slabs = isSimplex ? 4 : 3;
+  const schlieren::Lattice& lattice = this->Lattice;
+  double start[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    start[axis] = lattice.first[axis] - middle[axis] + this->First[axis] * lattice.spacing[axis];
+  }
+  double along[4], perAlong[4]; // changes from one point to the next
+  for (int i = 0; i < 3; ++i)
+  {
+    along[i] = rows[i][0] * lattice.spacing[0];
+  }
+  along[3] = along[0] + along[1] + (cell.shape == CellShape::Tetrahedron ? along[2] : 0);
+  for (int i = 0; i < slabs; ++i)
+  {
+    perAlong[i] = std::abs(along[i]) > 1 / parallel ? 1 / along[i] : parallel;
+  }
+  const double longest = this->Last[0] - this->First[0];
+  const auto rowLength = static_cast<std::size_t>(lattice.points[0]);
+  const auto rowCount = static_cast<std::size_t>(lattice.points[1]);
+  for (int k = this->First[2]; k <= this->Last[2]; ++k)
+  {
+    const double z = start[2] + (k - this->First[2]) * lattice.spacing[2];
+    for (int j = this->First[1]; j <= this->Last[1]; ++j)
+    {
+      const double y = start[1] + (j - this->First[1]) * lattice.spacing[1];
+      double at[4];
+      for (int i = 0; i < 3; ++i)
+      {
+        at[i] = rows[i][0] * start[0] + rows[i][1] * y + rows[i][2] * z;
+      }
+      at[3] = at[0] + at[1] + (cell.shape == CellShape::Tetrahedron ? at[2] : 0);
+      double low = 0, high = longest;
+      for (int i = 0; i < slabs; ++i)
+      {
+        const double a = (this->Low[i] - at[i]) * perAlong[i];
+        const double b = (this->High[i] - at[i]) * perAlong[i];
+        low = std::max(low, std::min(a, b));
+        high = std::min(high, std::max(a, b));
+      }
+      if (!(low <= high))
+      {
+        continue;
+      }
+      int i = static_cast<int>(low);
+      i += i < low ? 1 : 0;
+      const std::size_t row =
+        (static_cast<std::size_t>(k) * rowCount + static_cast<std::size_t>(j)) * rowLength +
+        static_cast<std::size_t>(this->First[0]);
+      for (const int last = static_cast<int>(high); i <= last; ++i)
+      {
+        const std::size_t point = row + static_cast<std::size_t>(i);
+        if (this->isSettled(point))
+        {
+          continue;
+        }
+        if (this->Count == CellPoints::most)
+        {
+          this->flush(cell);
+        }
+        for (int n = 0; n < 3; ++n)
+        {
+          this->Points.normal[n][this->Count] = at[n] + i * along[n];
+        }
+        this->Places[this->Count++] = point;
+      }
+    }
+  }
+  this->flush(cell);
+}
+
+void Brick::flush(const NormalCell& cell)
+{
+  // The rest of the last pack: any finite numbers.
+  for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
+  {
+    for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
+    {
+      of[i] = of[this->Count - 1];
+    }
+  }
+  locateInCell(cell, this->Count, this->Points);
+  for (int i = 0; i < this->Count; ++i)
+  {
+    this->set(this->Places[i], this->Points.miss[i], this->Points.value[i]);
+  }
+  this->Count = 0;
+}
+
+void Brick::addOther(const CellTree::Cell& cell)
+{
+  if (!this->Other)
+  {
+    this->Other = std::make_unique<MeshCell>(-1);
+  }
+  this->Tolerance = std::numeric_limits<double>::infinity(); // MeshCell has its own
+  this->Other->set(cell.block->data(), cell.id);
+  const schlieren::Lattice& lattice = this->Lattice;
+  for (int k = this->First[2]; k <= this->Last[2]; ++k)
+  {
+    for (int j = this->First[1]; j <= this->Last[1]; ++j)
+    {
+      for (int i = this->First[0]; i <= this->Last[0]; ++i)
+      {
+        const std::size_t point =
+          (static_cast<std::size_t>(k) * static_cast<std::size_t>(lattice.points[1]) +
+            static_cast<std::size_t>(j)) *
+            static_cast<std::size_t>(lattice.points[0]) +
+          static_cast<std::size_t>(i);
+        const double x[3] = { lattice.first[0] + i * lattice.spacing[0],
+          lattice.first[1] + j * lattice.spacing[1], lattice.first[2] + k * lattice.spacing[2] };
+        double coordinates[3], outside;
+        if (!this->isSettled(point) && this->Other->find(x, coordinates, outside))
+        {
+          this->set(point, outside, this->Other->valueAt(x, coordinates, cell.block->values()));
+        }
+      }
+    }
+  }
+}
+
+void Brick::finish()
+{
+  for (std::size_t i = 0; i < this->Misses.size(); ++i)
+  {
+    this->Found[i] = this->Misses[i] < std::numeric_limits<float>::infinity() ? 1 : 0;
+  }
+}
+
+} // namespace
+
+CellSampler::CellSampler(const CellTree& tree)
+  : Tree(tree)
+{
+}
+
+void CellSampler::sample(
+  const schlieren::Lattice& lattice, double* values, unsigned char* found) const
+{
+  Brick brick(this->Tree, lattice, values, found);
+  this->Tree.walk([&](const CellTree::Steps& box) { return brick.enter(box); },
+    [&](CellTree::Number number) { brick.add(number); });
+  brick.finish();
+}
+
+} // namespace refractivity

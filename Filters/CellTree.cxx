@@ -1,0 +1,630 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellTree.h"
+
+#include "CellTypes.h"
+
+#include "vtkCellType.h"
+#include "vtkDataSet.h"
+#include "vtkGenericCell.h"
+#include "vtkNew.h"
+#include "vtkSMPThreadLocal.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+namespace refractivity
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// How far curved cells may reach out of the box of their points, in parts of its lengths.
+constexpr double bulge = 0.05;
+
+/// Steps along each axis: as many as there are in 32 bits, with room for sums.
+constexpr double steps = 1 << 30;
+
+/// Bits of each coordinate in a place on the Hilbert curve.
+constexpr int curveBits = 21;
+
+/// Groups so much smaller than a box, and at its edge, count as in it.
+constexpr std::int32_t smallPart = 16;
+
+// Voxels: the size that a share of cells is smaller than. Proportions nearer than that to cubes are
+// cubes'; those of cells are not followed any further than to 1:32.
+constexpr double shareOfSmallerCells = 0.1;
+constexpr double nearlyEqual = 1.5;
+constexpr double flattest = 1. / 32;
+constexpr std::size_t mostCellsMeasured = 100000;
+
+/// Tetrahedra can be much flatter than what they resolve: their heights count down to this part of
+/// their shortest edge.
+constexpr double flattestTetrahedron = 0.5;
+
+int dimensionOfType(int type)
+{
+  return vtkCellTypeUtilities::GetDimension(static_cast<unsigned char>(type));
+}
+
+bool isLinear(int type) { return vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); }
+
+/// What higher-order cells overshoot the values at their points by, in parts of their range: from
+/// the norm of the interpolation (Lebesgue constants of equal distances), cubed.
+double overshootOf(int order)
+{
+  constexpr double norms[] = { 1, 1, 1.25, 1.64, 2.21, 3.11, 4.55, 6.93, 10.95 };
+  const double norm = norms[std::min(order, 8)];
+  return (norm * norm * norm - 1) / 2;
+}
+
+/// The corners of a curved cell come first among its points, as those of a linear one.
+CellShape skeletonOf(int type)
+{
+  switch (type)
+  {
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+      return CellShape::Hexahedron;
+    case VTK_QUADRATIC_TETRA:
+    case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
+      return CellShape::Tetrahedron;
+    case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
+      return CellShape::Wedge;
+    case VTK_QUADRATIC_PYRAMID:
+      return CellShape::Pyramid;
+    default:
+      return shapeOf(type);
+  }
+}
+
+/// Into how many parts a curved cell's points divide its edges.
+int orderOf(const CellTree::Cell& cell, vtkGenericCell* curved)
+{
+  if (isLinear(cell.block->type(cell.id)))
+  {
+    return 1;
+  }
+  cell.block->data()->GetCell(cell.id, curved);
+  return curved->GetNumberOfEdges() > 0
+    ? std::max(1, static_cast<int>(curved->GetEdge(0)->GetNumberOfPoints()) - 1)
+    : 1;
+}
+
+/// Where a place lies on the Hilbert curve (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707,
+/// 2004, pp. 381-387).
+std::uint64_t placeOnCurve(const std::int32_t middle[3])
+{
+  std::uint32_t x[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    x[axis] = static_cast<std::uint32_t>(middle[axis]) >> (30 - curveBits);
+    x[axis] = std::min(x[axis], (1u << curveBits) - 1);
+  }
+  for (std::uint32_t bit = 1u << (curveBits - 1); bit > 1; bit >>= 1)
+  {
+    const std::uint32_t lower = bit - 1;
+    for (std::uint32_t& along : x)
+    {
+      if (along & bit)
+      {
+        x[0] ^= lower;
+      }
+      else
+      {
+        const std::uint32_t exchanged = (x[0] ^ along) & lower;
+        x[0] ^= exchanged;
+        along ^= exchanged;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t flips = 0;
+  for (std::uint32_t bit = 1u << (curveBits - 1); bit > 1; bit >>= 1)
+  {
+    flips ^= (x[2] & bit) ? bit - 1 : 0;
+  }
+  std::uint64_t place = 0;
+  for (int bit = curveBits - 1; bit >= 0; --bit)
+  {
+    for (const std::uint32_t along : x)
+    {
+      place = place << 1 | (((along ^ flips) >> bit) & 1);
+    }
+  }
+  return place;
+}
+
+} // namespace
+
+CellTree::CellTree(const std::vector<vtkDataSet*>& blocks)
+{
+  vtkIdType cells = 0;
+  this->Blocks.reserve(blocks.size());
+  for (vtkDataSet* block : blocks)
+  {
+    this->FirstNumbers.push_back(static_cast<Number>(cells));
+    this->Blocks.emplace_back(block);
+    cells += block->GetNumberOfCells();
+    if (cells >= static_cast<vtkIdType>(std::numeric_limits<Number>::max()))
+    {
+      throw std::runtime_error(
+        "The input has more than 4294967294 cells, which cannot be used in one piece. Extract the "
+        "part that is to be seen.");
+    }
+    if (block->GetNumberOfCells() > 0)
+    {
+      vtkNew<vtkGenericCell>
+        first; // VTK makes what it needs on the first call, which one thread has to do
+      block->GetCell(0, first);
+    }
+  }
+  this->FirstNumbers.push_back(static_cast<Number>(cells));
+  this->findCells();
+  this->sortCells();
+  this->makeGroups();
+}
+
+CellTree::Cell CellTree::cell(Number number) const
+{
+  std::size_t block = 0;
+  if (this->Blocks.size() > 1)
+  {
+    block = static_cast<std::size_t>(
+      std::upper_bound(this->FirstNumbers.begin(), this->FirstNumbers.end(), number) -
+      this->FirstNumbers.begin() - 1);
+  }
+  return { &this->Blocks[block], static_cast<vtkIdType>(number - this->FirstNumbers[block]) };
+}
+
+std::size_t CellTree::bytes() const
+{
+  std::size_t sum = this->Numbers.size() * (sizeof(Number) + sizeof(Steps));
+  for (const std::vector<Group>& level : this->Levels)
+  {
+    sum += level.size() * sizeof(Group);
+  }
+  return sum;
+}
+
+/// Not finite where a point or a value is not.
+CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
+{
+  Bounds bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  double sum = 0; // of minimum and maximum, NaN may come out as a number
+  cell.block->forPoints(cell.id,
+    [&](vtkIdType point)
+    {
+      double x[3];
+      cell.block->coordinates(point, x);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        bounds.low[axis] = std::min(bounds.low[axis], x[axis]);
+        bounds.high[axis] = std::max(bounds.high[axis], x[axis]);
+      }
+      sum += (x[0] + x[1] + x[2] + cell.block->values()[point]) * 0;
+    });
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const bool isCurved = !isLinear(cell.block->type(cell.id));
+    const double more = isCurved ? bulge * (bounds.high[axis] - bounds.low[axis]) : 0;
+    bounds.low[axis] += sum - more;
+    bounds.high[axis] += sum + more;
+  }
+  return bounds;
+}
+
+/// The cells that are there, and the box of all.
+void CellTree::findCells()
+{
+  std::array<bool, 256> isVolume{};
+  for (const MeshArrays& block : this->Blocks)
+  {
+    for (const int type : block.types())
+    {
+      isVolume[static_cast<std::size_t>(type)] = dimensionOfType(type) == 3;
+    }
+  }
+  constexpr Number part = 1 << 14;
+  const Number end = this->FirstNumbers.back();
+  const std::size_t count = (std::size_t{ end } + part - 1) / part;
+  std::vector<std::vector<Number>> found(count);
+  std::vector<Bounds> boxes(
+    count, Bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
+    [&](vtkIdType begin, vtkIdType last)
+    {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(last); ++i)
+      {
+        const auto first = static_cast<Number>(i * part);
+        for (Number number = first; number < std::min<std::size_t>(end, (i + 1) * part); ++number)
+        {
+          const Cell one = this->cell(number);
+          if (!one.block->isVisible(one.id) ||
+            !isVolume[static_cast<std::size_t>(one.block->type(one.id))])
+          {
+            continue;
+          }
+          const Bounds bounds = this->boundsOf(one);
+          double sum = 0;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            sum += (bounds.high[axis] - bounds.low[axis]) * 0;
+          }
+          if (sum != 0) // NaN: somewhere it is not finite, or there are no points
+          {
+            continue;
+          }
+          found[i].push_back(number);
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            boxes[i].low[axis] = std::min(boxes[i].low[axis], bounds.low[axis]);
+            boxes[i].high[axis] = std::max(boxes[i].high[axis], bounds.high[axis]);
+          }
+        }
+      }
+    });
+  this->Whole = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    sum += found[i].size();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      this->Whole.low[axis] = std::min(this->Whole.low[axis], boxes[i].low[axis]);
+      this->Whole.high[axis] = std::max(this->Whole.high[axis], boxes[i].high[axis]);
+    }
+  }
+  this->Numbers.reserve(sum);
+  for (const std::vector<Number>& some : found)
+  {
+    this->Numbers.insert(this->Numbers.end(), some.begin(), some.end());
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = this->Whole.high[axis] - this->Whole.low[axis];
+    this->Step[axis] = length > 0 && length < infinity ? length / (steps - 4) : 1;
+    this->Origin[axis] = this->Whole.low[axis] - 2 * this->Step[axis];
+  }
+}
+
+CellTree::Steps CellTree::stepsOf(const Bounds& box) const
+{
+  Steps result;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto place = [&](double x)
+    { return std::clamp((x - this->Origin[axis]) / this->Step[axis], -2., steps + 2); };
+    result.low[axis] = static_cast<std::int32_t>(std::floor(place(box.low[axis]))) - 1;
+    result.high[axis] = static_cast<std::int32_t>(std::floor(place(box.high[axis]))) + 2;
+  }
+  return result;
+}
+
+void CellTree::sortCells()
+{
+  using Entry = std::pair<std::uint64_t, Number>;
+  const std::size_t count = this->Numbers.size();
+  std::vector<Entry> entries(count);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 4096,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      {
+        const Steps box = this->stepsOf(this->boundsOf(this->cell(this->Numbers[i])));
+        std::int32_t middle[3];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          middle[axis] = std::max(0, box.low[axis] + (box.high[axis] - box.low[axis]) / 2);
+        }
+        entries[i] = { placeOnCurve(middle), this->Numbers[i] };
+      }
+    });
+  // Parts of fixed size, then pairs of parts, then pairs of these.
+  constexpr std::size_t part = 1 << 15;
+  const auto at = [&](std::size_t i)
+  { return entries.begin() + static_cast<std::ptrdiff_t>(std::min(i, count)); };
+  vtkSMPTools::For(0, static_cast<vtkIdType>((count + part - 1) / part), 1,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      {
+        std::sort(at(i * part), at((i + 1) * part));
+      }
+    });
+  std::vector<Entry> merged(count > part ? count : 0);
+  for (std::size_t length = part; length < count; length *= 2)
+  {
+    vtkSMPTools::For(0, static_cast<vtkIdType>((count + 2 * length - 1) / (2 * length)), 1,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+        {
+          const std::size_t first = 2 * i * length;
+          std::merge(at(first), at(first + length), at(first + length), at(first + 2 * length),
+            merged.begin() + static_cast<std::ptrdiff_t>(first));
+        }
+      });
+    entries.swap(merged);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->Numbers[i] = entries[i].second;
+  }
+}
+
+Vector CellTree::sizeOf(const Cell& one) const
+{
+  const int type = one.block->type(one.id);
+  const CellShape shape = skeletonOf(type);
+  Vector size;
+  if (shape == CellShape::Other)
+  {
+    const Bounds bounds = this->boundsOf(one);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      size[axis] = bounds.high[axis] - bounds.low[axis];
+    }
+    return size;
+  }
+  vtkIdType points[8];
+  one.block->points(one.id, cornersOf(shape), points);
+  double corners[3][8];
+  for (int i = 0; i < cornersOf(shape); ++i)
+  {
+    double x[3];
+    one.block->coordinates(points[i], x);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      corners[axis][i] = x[axis];
+    }
+  }
+  Vector columns[3], rows[4];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Polynomial x = polynomialOf(shape, corners[axis]);
+    for (std::size_t along = 0; along < 3; ++along)
+    {
+      columns[along][axis] = x[along + 1];
+    }
+  }
+  if (!invert(columns, rows))
+  {
+    return { infinity, infinity, infinity };
+  }
+  // The coordinate that vanishes on the slanting face of tetrahedra and wedges.
+  const bool isTetrahedron = shape == CellShape::Tetrahedron;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    rows[3][axis] = rows[0][axis] + rows[1][axis] + (isTetrahedron ? rows[2][axis] : 0);
+  }
+  double shortest = 0;
+  if (isTetrahedron)
+  {
+    shortest = infinity;
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int k = 0; k < i; ++k)
+      {
+        shortest = std::min(shortest,
+          std::hypot(corners[0][i] - corners[0][k], corners[1][i] - corners[1][k],
+            corners[2][i] - corners[2][k]));
+      }
+    }
+  }
+  const int rowCount = isTetrahedron || shape == CellShape::Wedge ? 4 : 3;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double steepest = 0;
+    for (int i = 0; i < rowCount; ++i)
+    {
+      steepest = std::max(steepest, std::abs(rows[i][axis]));
+    }
+    size[axis] = std::max(1 / steepest, flattestTetrahedron * shortest);
+  }
+  return size;
+}
+
+void CellTree::makeGroups()
+{
+  const std::size_t count = this->Numbers.size();
+  if (count == 0)
+  {
+    return;
+  }
+  this->Boxes.resize(count);
+  this->Levels.emplace_back((count + width - 1) / width);
+  vtkSMPThreadLocal<vtkSmartPointer<vtkGenericCell>> curvedCells;
+  vtkSMPTools::For(0, static_cast<vtkIdType>(this->Levels[0].size()), 512,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      vtkSmartPointer<vtkGenericCell>& curved = curvedCells.Local();
+      if (!curved)
+      {
+        curved = vtkSmartPointer<vtkGenericCell>::New();
+      }
+      for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
+           ++group)
+      {
+        double lowest = infinity, highest = -infinity;
+        Vector sizes = { infinity, infinity, infinity };
+        for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
+        {
+          const Cell one = this->cell(this->Numbers[i]);
+          this->Boxes[i] = this->stepsOf(this->boundsOf(one));
+          double low = infinity, high = -infinity;
+          one.block->forPoints(one.id,
+            [&](vtkIdType point)
+            {
+              low = std::min(low, one.block->values()[point]);
+              high = std::max(high, one.block->values()[point]);
+            });
+          const int order = orderOf(one, curved);
+          const double more = overshootOf(order) * (high - low);
+          lowest = std::min(lowest, low - more);
+          highest = std::max(highest, high + more);
+          const Vector size = this->sizeOf(one);
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            sizes[axis] = std::min(sizes[axis], size[axis] / order);
+          }
+        }
+        Group& made = this->Levels[0][group];
+        made.lowest = lowest;
+        made.highest = highest;
+        std::transform(sizes.begin(), sizes.end(), made.cellSize,
+          [](double size) { return static_cast<float>(size); });
+      }
+    });
+
+  const auto addBox = [](const Steps& from, Steps& to, bool isFirst)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      to.low[axis] = isFirst ? from.low[axis] : std::min(to.low[axis], from.low[axis]);
+      to.high[axis] = isFirst ? from.high[axis] : std::max(to.high[axis], from.high[axis]);
+    }
+  };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    addBox(this->Boxes[i], this->Levels[0][i / width].box, i % width == 0);
+  }
+  while (this->Levels.back().size() > 1)
+  {
+    const std::vector<Group>& below = this->Levels.back();
+    std::vector<Group> level((below.size() + width - 1) / width);
+    for (std::size_t i = 0; i < below.size(); ++i)
+    {
+      Group& group = level[i / width];
+      const bool isFirst = i % width == 0;
+      addBox(below[i].box, group.box, isFirst);
+      group.lowest = isFirst ? below[i].lowest : std::min(group.lowest, below[i].lowest);
+      group.highest = isFirst ? below[i].highest : std::max(group.highest, below[i].highest);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        group.cellSize[axis] = isFirst ? below[i].cellSize[axis]
+                                       : std::min(group.cellSize[axis], below[i].cellSize[axis]);
+      }
+    }
+    this->Levels.push_back(std::move(level));
+  }
+}
+
+CellTree::Content CellTree::content(const Bounds& box) const
+{
+  Content content{ infinity, -infinity, { infinity, infinity, infinity } };
+  if (this->Levels.empty())
+  {
+    return content;
+  }
+  const Steps steps = this->stepsOf(box);
+  const auto isSmallOrWithin = [&](const Steps& other)
+  {
+    bool isSmall = true, isWithin = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      isSmall = isSmall &&
+        other.high[axis] - other.low[axis] <= (steps.high[axis] - steps.low[axis]) / smallPart;
+      isWithin =
+        isWithin && other.low[axis] >= steps.low[axis] && other.high[axis] <= steps.high[axis];
+    }
+    return isSmall || isWithin;
+  };
+  const auto add = [&](const Group& group)
+  {
+    content.lowest = std::min(content.lowest, group.lowest);
+    content.highest = std::max(content.highest, group.highest);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      content.cellSize[axis] = std::min<double>(content.cellSize[axis], group.cellSize[axis]);
+    }
+  };
+  const auto look = [&](const auto& self, std::size_t level, std::size_t index) -> void
+  {
+    const Group& group = this->Levels[level][index];
+    if (!meet(group.box, steps))
+    {
+      return;
+    }
+    if (isSmallOrWithin(group.box))
+    {
+      add(group);
+      return;
+    }
+    const std::size_t first = width * index;
+    if (level > 0)
+    {
+      const std::size_t end = std::min(first + width, this->Levels[level - 1].size());
+      for (std::size_t i = first; i < end; ++i)
+      {
+        self(self, level - 1, i);
+      }
+      return;
+    }
+    const std::size_t end = std::min(first + width, this->Numbers.size());
+    for (std::size_t i = first; i < end; ++i)
+    {
+      if (meet(this->Boxes[i], steps))
+      {
+        add(group);
+        return;
+      }
+    }
+  };
+  look(look, this->Levels.size() - 1, 0);
+  return content;
+}
+
+Vector CellTree::voxelShape() const
+{
+  std::array<std::vector<double>, 3> sizes;
+  const std::size_t count = this->Numbers.size();
+  for (std::size_t i = 0; i < count; i += 1 + count / mostCellsMeasured)
+  {
+    const Vector size = this->sizeOf(this->cell(this->Numbers[i]));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (size[axis] < infinity)
+      {
+        sizes[axis].push_back(size[axis]);
+      }
+    }
+  }
+  Vector shape = { 1, 1, 1 };
+  if (sizes[0].empty())
+  {
+    return shape;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto place = sizes[axis].begin() +
+      static_cast<std::ptrdiff_t>(shareOfSmallerCells * static_cast<double>(sizes[axis].size()));
+    std::nth_element(sizes[axis].begin(), place, sizes[axis].end());
+    shape[axis] = *place;
+  }
+  const double largest = *std::max_element(shape.begin(), shape.end());
+  for (double& along : shape)
+  {
+    along = std::max(along / largest, flattest);
+    along = along * nearlyEqual >= 1 ? 1 : along;
+  }
+  return shape;
+}
+
+} // namespace refractivity

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CellShape.h"
+#include "MeshArrays.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+class vtkDataSet;
+
+namespace refractivity
+{
+
+/**
+ * The 3-D cells of several datasets, sorted by place, in boxes of boxes.
+ *
+ * Cells follow each other along a Hilbert curve. Eight in a row make a group, eight groups a larger one, and
+ * so on: no pointers, some 40 bytes for each cell. VTK's locators know no values.
+ *
+ * Cells that are hidden, that have points nowhere or points whose value is NaN are not there. Everything
+ * depends on the datasets alone, not on the number of threads; and everything but the constructor, which
+ * works in parallel (vtkSMPTools), may be called from many threads at once.
+ */
+class CellTree
+{
+public:
+  /// Each dataset has one double scalar at each point. They must outlive the tree. Throws where there are
+  /// too many cells.
+  explicit CellTree(const std::vector<vtkDataSet*>& blocks);
+
+  /// Cells by numbers that count through all blocks, hidden ones too.
+  using Number = std::uint32_t;
+  struct Cell
+  {
+    const MeshArrays* block;
+    vtkIdType id;
+  };
+  Cell cell(Number number) const;
+
+  std::size_t size() const { return this->Numbers.size(); } // cells that are there
+  std::size_t bytes() const;
+
+  struct Bounds // low > high: none
+  {
+    Vector low, high;
+  };
+  const Bounds& bounds() const { return this->Whole; }
+
+  /// What is known of some cells.
+  struct Content
+  {
+    double lowest,
+      highest;       // of what is interpolated between their points; lowest > highest: no cells
+    Vector cellSize; // the smallest, along each axis; infinite: no cells
+  };
+
+  /// Of the cells in a box. Cells near it may count, too: those of a group that is much smaller.
+  Content content(const Bounds& box) const;
+
+  /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
+  Vector voxelShape() const;
+
+  /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
+  /// coordinates by more than 1. Infinite where it has no volume.
+  Vector sizeOf(const Cell& cell) const;
+
+  // For those who walk through the tree: boxes in steps of a lattice that is fine enough for all of them.
+  // They lie within; rounding widens them.
+  struct Steps
+  {
+    std::int32_t low[3], high[3];
+  };
+  struct Group
+  {
+    Steps box;
+    float cellSize[3];
+    double lowest, highest;
+  };
+  const Vector& origin() const { return this->Origin; }
+  const Vector& step() const { return this->Step; }
+
+  /// Calls enter(box), whether to go on, for groups and cells, and visit(number of a cell), in an order that
+  /// depends on the tree only.
+  template <class Enter, class Visit>
+  void walk(const Enter& enter, const Visit& visit) const
+  {
+    if (!this->Levels.empty())
+    {
+      this->walk(this->Levels.size() - 1, 0, enter, visit);
+    }
+  }
+
+  /// Calls visit(number) for all cells whose boxes meet a box.
+  template <class Visit>
+  void visit(const Bounds& box, const Visit& visit) const
+  {
+    const Steps steps = this->stepsOf(box);
+    this->walk([&](const Steps& other) { return meet(steps, other); }, visit);
+  }
+
+private:
+  static constexpr std::size_t width = 8; // of groups
+
+  static bool meet(const Steps& a, const Steps& b)
+  {
+    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] &&
+      b.low[1] <= a.high[1] && a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+  }
+
+  template <class Enter, class Visit>
+  void walk(std::size_t level, std::size_t group, const Enter& enter, const Visit& visit) const
+  {
+    if (!enter(this->Levels[level][group].box))
+    {
+      return;
+    }
+    const std::size_t first = width * group;
+    if (level > 0)
+    {
+      const std::size_t end = std::min(first + width, this->Levels[level - 1].size());
+      for (std::size_t i = first; i < end; ++i)
+      {
+        this->walk(level - 1, i, enter, visit);
+      }
+      return;
+    }
+    const std::size_t end = std::min(first + width, this->Numbers.size());
+    for (std::size_t i = first; i < end; ++i)
+    {
+      if (enter(this->Boxes[i]))
+      {
+        visit(this->Numbers[i]);
+      }
+    }
+  }
+
+  Bounds boundsOf(const Cell& cell) const;
+  Steps stepsOf(const Bounds& box) const;
+  void findCells();
+  void sortCells();
+  void makeGroups();
+
+  std::vector<MeshArrays> Blocks;
+  std::vector<Number> FirstNumbers; // of each block, and the end
+  Bounds Whole;
+  Vector Origin, Step;
+  std::vector<Number> Numbers;            // sorted
+  std::vector<Steps> Boxes;               // of them
+  std::vector<std::vector<Group>> Levels; // of eight cells, of eight times as many, ... one group
+};
+
+} // namespace refractivity

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkType.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+class vtkDataSet;
+class vtkUnsignedCharArray;
+
+namespace refractivity
+{
+
+/**
+ * The points and cells of a dataset as plain arrays, for many threads at once.
+ *
+ * VTK's virtual functions for one cell or point take longer than what is done with their results. Arrays are
+ * the dataset's own where it has them (structured and unstructured grids), else copies. The dataset has one
+ * double scalar at each point, and must outlive this.
+ */
+class MeshArrays
+{
+public:
+  explicit MeshArrays(vtkDataSet* data);
+
+  vtkDataSet* data() const { return this->Data; }
+  vtkIdType cells() const { return this->CellCount; }
+  const double* values() const { return this->Values; }
+
+  /// The VTK cell type, whether or not the cell is hidden.
+  int type(vtkIdType cell) const
+  {
+    return this->Types.empty() ? this->Type : this->Types[static_cast<std::size_t>(cell)];
+  }
+
+  /// All types that there are.
+  std::vector<int> types() const;
+
+  /// Whether no bit of hiddenCellBits hides it.
+  bool isVisible(vtkIdType cell) const;
+
+  /// Calls visit(number of the point) for all points of a cell, in VTK's order.
+  template <class Visit>
+  void forPoints(vtkIdType cell, const Visit& visit) const
+  {
+    if (this->Layer > 0)
+    {
+      vtkIdType points[8];
+      this->boxPoints(cell, points);
+      for (const vtkIdType point : points)
+      {
+        visit(point);
+      }
+    }
+    else if (this->Points64)
+    {
+      for (vtkTypeInt64 i = this->Offsets64[cell]; i < this->Offsets64[cell + 1]; ++i)
+      {
+        visit(static_cast<vtkIdType>(this->Points64[i]));
+      }
+    }
+    else
+    {
+      for (vtkTypeInt32 i = this->Offsets32[cell]; i < this->Offsets32[cell + 1]; ++i)
+      {
+        visit(static_cast<vtkIdType>(this->Points32[i]));
+      }
+    }
+  }
+
+  /// The first `count` points of a cell, which has as many.
+  void points(vtkIdType cell, int count, vtkIdType* points) const
+  {
+    if (this->Layer > 0)
+    {
+      this->boxPoints(cell, points);
+    }
+    else if (this->Points64)
+    {
+      const vtkTypeInt64* from = this->Points64 + this->Offsets64[cell];
+      for (int i = 0; i < count; ++i)
+      {
+        points[i] = static_cast<vtkIdType>(from[i]);
+      }
+    }
+    else
+    {
+      const vtkTypeInt32* from = this->Points32 + this->Offsets32[cell];
+      for (int i = 0; i < count; ++i)
+      {
+        points[i] = from[i];
+      }
+    }
+  }
+
+  void coordinates(vtkIdType point, double x[3]) const
+  {
+    if (this->Doubles)
+    {
+      const double* from = this->Doubles + 3 * point;
+      x[0] = from[0];
+      x[1] = from[1];
+      x[2] = from[2];
+    }
+    else
+    {
+      const float* from = this->Floats + 3 * point;
+      x[0] = from[0];
+      x[1] = from[1];
+      x[2] = from[2];
+    }
+  }
+
+private:
+  void setPoints();
+  void setCells();
+  bool setStructure(const int dimensions[3]);
+  void copyCells();
+
+  /// A cell of a structured grid. The order of voxels differs from that of hexahedra.
+  void boxPoints(vtkIdType cell, vtkIdType points[8]) const
+  {
+    const vtkIdType row = cell / this->CellsAlong, layer = row / this->CellsAcross;
+    const vtkIdType first = cell + row + layer * this->Row;
+    const vtkIdType second = first + this->Row;
+    points[0] = first;
+    points[1] = first + 1;
+    points[2] = this->IsVoxel ? second : second + 1;
+    points[3] = this->IsVoxel ? second + 1 : second;
+    for (int i = 0; i < 4; ++i)
+    {
+      points[i + 4] = points[i] + this->Layer;
+    }
+  }
+
+  vtkDataSet* Data;
+  vtkIdType CellCount;
+  const double* Values = nullptr;
+  const unsigned char* Ghosts = nullptr;
+
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr;
+  std::vector<double> OwnPoints;
+
+  int Type = 0; // of all cells where Types is empty
+  std::vector<unsigned char> Types;
+  // Of structured grids: cells in a row, rows of cells in a layer; points in a row and in a layer.
+  vtkIdType CellsAlong = 0, CellsAcross = 0, Row = 0, Layer = 0;
+  bool IsVoxel = false;
+  const vtkTypeInt64 *Offsets64 = nullptr, *Points64 = nullptr;
+  const vtkTypeInt32 *Offsets32 = nullptr, *Points32 = nullptr;
+  std::vector<vtkTypeInt64> OwnOffsets, OwnCells;
+};
+
+} // namespace refractivity

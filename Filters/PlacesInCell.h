@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CellShape.h"
+
+#include <vector>
+
+namespace refractivity
+{
+
+/**
+ * A cell whose coordinates are a polynomial of its parametric ones (see CellShape.h). All of them are counted
+ * from its middle, and coordinates in its edges there (`normal` ones): what makes them polynomials is what is
+ * left apart from the parametric ones themselves.
+ */
+struct NormalCell
+{
+  CellShape shape;
+  bool isAffine;
+  double bend[3][4]; // factors of uv, vw, uw and uvw
+  Polynomial value;
+};
+
+/// Points of one cell, each number for all of them.
+struct CellPoints
+{
+  static constexpr int most = 256;
+  static constexpr int room = most + 8; // for packs
+  double normal[3][room];               // coordinates
+  double value[room];                   // what is interpolated
+  double
+    miss[room]; // by how much a parametric coordinate is out of its range; infinite: nowhere near
+};
+
+/// Sets value and miss of `count` points: each by itself, whatever the others are.
+using LocateInCell = void (*)(const NormalCell& cell, int count, CellPoints& points);
+
+/// For the instructions that this processor has, slower ones first.
+std::vector<LocateInCell> functionsToLocate();
+
+} // namespace refractivity

@@ -1,0 +1,532 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Values in cells on lattices: against closed forms, and against MeshCell, which asks each cell.
+#include "CellMeshes.h"
+
+#include "CellSampler.h"
+#include "MeshCell.h"
+#include "PlacesInCell.h"
+#include "Polyhedra.h"
+
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+using refractivity::CellSampler;
+using refractivity::CellTree;
+using schlieren::Lattice;
+
+namespace
+{
+
+struct Found
+{
+  std::vector<double> values;
+  std::vector<unsigned char> found;
+};
+
+Found sampled(const std::vector<vtkDataSet*>& blocks, const Lattice& lattice)
+{
+  const CellTree tree(blocks);
+  const auto size = static_cast<std::size_t>(lattice.size());
+  Found result{ std::vector<double>(size, -1), std::vector<unsigned char>(size, 9) };
+  CellSampler(tree).sample(lattice, result.values.data(), result.found.data());
+  return result;
+}
+
+Vec pointOf(const Lattice& lattice, std::size_t i)
+{
+  const auto row = static_cast<std::size_t>(lattice.points[0]),
+             layer = row * static_cast<std::size_t>(lattice.points[1]);
+  const std::size_t index[3] = { i % row, i % layer / row, i / layer };
+  Vec x;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    x[axis] = lattice.first[axis] + static_cast<double>(index[axis]) * lattice.spacing[axis];
+  }
+  return x;
+}
+
+/// A lattice whose points at the ends lie on the faces of the unit cube.
+Lattice unitLattice(int n)
+{
+  const double spacing = 1. / (n - 1);
+  return { { 0, 0, 0 }, { spacing, spacing, spacing }, { n, n, n } };
+}
+
+/// Of all cells, in their order, the first that holds a point best.
+Found eachCell(const std::vector<vtkDataSet*>& blocks, const Lattice& lattice)
+{
+  Found result;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lattice.size()); ++i)
+  {
+    const Vec x = pointOf(lattice, i);
+    refractivity::MeshCell cell(-1);
+    double value = 0;
+    float least = HUGE_VALF;
+    for (vtkDataSet* block : blocks)
+    {
+      for (vtkIdType number = 0; number < block->GetNumberOfCells(); ++number)
+      {
+        double bounds[6], place[3], miss;
+        block->GetCellBounds(number, bounds);
+        const bool isNear = x[0] >= bounds[0] - 0.1 && x[0] <= bounds[1] + 0.1 &&
+          x[1] >= bounds[2] - 0.1 && x[1] <= bounds[3] + 0.1 && x[2] >= bounds[4] - 0.1 &&
+          x[2] <= bounds[5] + 0.1;
+        if (isNear)
+        {
+          cell.set(block, number);
+          if (cell.find(x.data(), place, miss) && static_cast<float>(miss) < least)
+          {
+            least = static_cast<float>(miss);
+            value = cell.valueAt(x.data(), place,
+              vtkDoubleArray::SafeDownCast(block->GetPointData()->GetScalars())->GetPointer(0));
+          }
+        }
+      }
+    }
+    result.values.push_back(value);
+    result.found.push_back(least < HUGE_VALF ? 1 : 0);
+  }
+  return result;
+}
+
+void setN(vtkDataSet* data, const ScalarField& field)
+{
+  data->GetPointData()->SetScalars(addPointArray(data, "N", field));
+}
+
+double rough(const Vec& x) { return std::sin(1e4 * (x[0] + x[1] + 2 * x[2])); }
+
+/// The largest error of a linear field at points that were found; all are to be found.
+double errorOf(const Found& found, const Lattice& lattice)
+{
+  double error = 0;
+  EXPECT_EQ(std::count(found.found.begin(), found.found.end(), 1), lattice.size());
+  for (std::size_t i = 0; i < found.values.size(); ++i)
+  {
+    error = std::max(error, std::abs(found.values[i] - linear(pointOf(lattice, i))));
+  }
+  return error;
+}
+
+double difference(const Found& a, const Found& b)
+{
+  EXPECT_EQ(a.found, b.found);
+  double most = 0;
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+  {
+    most = std::max(most, std::abs(a.values[i] - b.values[i]));
+  }
+  return most;
+}
+
+struct Kind
+{
+  std::string name;
+  int type;
+  std::vector<std::vector<Vec>> cells;
+};
+
+std::vector<Kind> kinds()
+{
+  const auto c = unitCell(VTK_HEXAHEDRON, 8);
+  const Vec middle = { 0.5, 0.5, 0.5 };
+  return { { "Tetrahedra", VTK_TETRA, cut(unitCell(VTK_TETRA, 4), kuhn) },
+    { "Hexahedra", VTK_HEXAHEDRON, { c } },
+    { "Wedges", VTK_WEDGE, cut(unitCell(VTK_WEDGE, 6), prisms) },
+    { "Pyramids", VTK_PYRAMID,
+      { { c[0], c[1], c[2], c[3], middle }, { c[4], c[7], c[6], c[5], middle },
+        { c[0], c[4], c[5], c[1], middle }, { c[3], c[2], c[6], c[7], middle },
+        { c[0], c[3], c[7], c[4], middle }, { c[1], c[5], c[6], c[2], middle } } },
+    { "QuadraticHexahedra", VTK_QUADRATIC_HEXAHEDRON,
+      cut(unitCell(VTK_QUADRATIC_HEXAHEDRON, 20), boxes) },
+    { "LagrangeTetrahedra", VTK_LAGRANGE_TETRAHEDRON,
+      cut(unitCell(VTK_LAGRANGE_TETRAHEDRON, 20), kuhn) } };
+}
+
+class CellsOnLattices : public testing::TestWithParam<Kind>
+{
+};
+
+/// The cells of a mesh with others in between.
+Mesh with(vtkUnstructuredGrid* good, int type, const std::vector<std::vector<vtkIdType>>& bad,
+  vtkPoints* points)
+{
+  auto mesh = Mesh::New();
+  mesh->SetPoints(points);
+  for (const std::vector<vtkIdType>& cell : bad)
+  {
+    mesh->InsertNextCell(type, static_cast<vtkIdType>(cell.size()), cell.data());
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < good->GetNumberOfCells(); ++i)
+  {
+    good->GetCellPoints(i, ids);
+    mesh->InsertNextCell(good->GetCellType(i), ids);
+  }
+  return mesh;
+}
+
+} // namespace
+
+TEST_P(CellsOnLattices, InterpolateLinearFieldsExactlyAndLeaveNoHoles)
+{
+  for (const double by : { 0., 0.1 })
+  {
+    const Mesh mesh = meshOf(GetParam().type, 3, GetParam().cells, by, false);
+    setN(mesh, linear);
+    for (const int n : { 2, 4, 19, 31 })
+    {
+      EXPECT_LT(errorOf(sampled({ mesh }, unitLattice(n)), unitLattice(n)), 1e-15) << n;
+    }
+  }
+}
+
+TEST_P(CellsOnLattices, AreWhatEachCellSays)
+{
+  const Mesh mesh = meshOf(GetParam().type, 3, GetParam().cells, 0.1, false);
+  setN(mesh, rough);
+  const Lattice lattice = { { -0.103, -0.101, -0.107 }, { 0.11, 0.1, 0.09 }, { 11, 12, 13 } };
+  EXPECT_LT(difference(sampled({ mesh }, lattice), eachCell({ mesh }, lattice)), 1e-12);
+}
+
+TEST_P(CellsOnLattices, DoNotDependOnTheLattice)
+{
+  const Mesh mesh = meshOf(GetParam().type, 3, GetParam().cells, 0.1, false);
+  setN(mesh, rough);
+  const Lattice all = { { -0.1, -0.1, -0.1 }, { 1. / 32, 1. / 32, 1. / 32 }, { 40, 40, 40 } };
+  const Found values = sampled({ mesh }, all);
+  for (const int every : { 1, 3, 13 })
+  {
+    Lattice some = all;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      some.first[axis] += 5 * all.spacing[axis];
+      some.spacing[axis] *= every;
+      some.points[axis] = 1 + 26 / every;
+    }
+    const Found again = sampled({ mesh }, some);
+    for (std::size_t i = 0; i < again.values.size(); ++i)
+    {
+      const Vec x = pointOf(some, i);
+      std::size_t at = 0;
+      for (const std::size_t axis : { 2, 1, 0 })
+      {
+        at = 40 * at + static_cast<std::size_t>(std::lround((x[axis] + 0.1) * 32));
+      }
+      EXPECT_EQ(again.found[i], values.found[at]);
+      EXPECT_NEAR(again.values[i], values.values[at], 1e-12);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, CellsOnLattices, testing::ValuesIn(kinds()),
+  [](const auto& tested) { return tested.param.name; });
+
+TEST(CellSampler, PolyhedraAreCutIntoTetrahedra)
+{
+  const Mesh boxesOnly = meshOf(VTK_HEXAHEDRON, 2, { unitCell(VTK_HEXAHEDRON, 8) }, 0, false);
+  auto mesh = Mesh::New();
+  mesh->SetPoints(boxesOnly->GetPoints());
+  constexpr int faces[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 }, { 1, 2, 6, 5 },
+    { 2, 3, 7, 6 }, { 3, 0, 4, 7 } };
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    vtkNew<vtkIdList> corners, stream;
+    boxesOnly->GetCellPoints(i, corners);
+    stream->InsertNextId(6);
+    for (const auto& face : faces)
+    {
+      stream->InsertNextId(4);
+      for (const int corner : face)
+      {
+        stream->InsertNextId(corners->GetId(corner));
+      }
+    }
+    mesh->InsertNextCell(VTK_POLYHEDRON, stream);
+  }
+  setN(mesh, linear);
+  const auto cutMesh = refractivity::withoutPolyhedra(mesh);
+  EXPECT_LT(errorOf(sampled({ cutMesh }, unitLattice(19)), unitLattice(19)), 1e-15);
+}
+
+// Structured data have no lists of points; what VTK says of their cells is the truth.
+TEST(CellSampler, TakesStructuredData)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 5, 6);
+  image->SetSpacing(1. / 3, 1. / 4, 1. / 5);
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  rectilinear->SetDimensions(4, 5, 6);
+  vtkNew<vtkStructuredGrid> curvilinear;
+  curvilinear->SetDimensions(4, 5, 6);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vtkNew<vtkDoubleArray> places;
+    for (int i = 0; i < 4 + axis; ++i)
+    {
+      places->InsertNextValue(std::pow(i / (3. + axis), 1.5));
+    }
+    axis == 0
+      ? rectilinear->SetXCoordinates(places)
+      : (axis == 1 ? rectilinear->SetYCoordinates(places) : rectilinear->SetZCoordinates(places));
+  }
+  for (const bool isDouble : { false, true })
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(isDouble ? VTK_DOUBLE : VTK_FLOAT);
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      Vec x;
+      image->GetPoint(i, x.data());
+      points->InsertNextPoint(moved(x, 0.1).data());
+    }
+    curvilinear->SetPoints(points);
+    for (vtkDataSet* data : { static_cast<vtkDataSet*>(image),
+           static_cast<vtkDataSet*>(rectilinear), static_cast<vtkDataSet*>(curvilinear) })
+    {
+      setN(data, rough);
+      const Lattice lattice = { { -0.1, -0.1, -0.1 }, { 0.06, 0.07, 0.08 }, { 20, 18, 16 } };
+      EXPECT_LT(difference(sampled({ data }, lattice), eachCell({ data }, lattice)), 1e-11);
+    }
+  }
+}
+
+TEST(CellSampler, TheFirstOfOverlappingBlocksCounts)
+{
+  std::vector<vtkSmartPointer<vtkDataSet>> blocks;
+  std::vector<vtkDataSet*> all;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Kind kind = kinds()[static_cast<std::size_t>(i)];
+    const Mesh mesh = meshOf(kind.type, 2 + i, kind.cells, 0.1, false);
+    setN(mesh, [i](const Vec&) { return 1 + i; });
+    blocks.emplace_back(mesh);
+    all.push_back(mesh);
+  }
+  const Found result = sampled(all, unitLattice(17));
+  for (const double value : result.values)
+  {
+    EXPECT_NEAR(value, 1, 1e-14);
+  }
+}
+
+// A hidden cell, and one of whose points has no value: others may hold their points, else nothing is found.
+TEST(CellSampler, FindsNothingWhereThereIsNoGas)
+{
+  const Mesh mesh = meshOf(VTK_HEXAHEDRON, 3, { unitCell(VTK_HEXAHEDRON, 8) }, 0, false);
+  setN(mesh, linear);
+  const Mesh behind = Mesh::New();
+  behind->DeepCopy(mesh);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(27);
+  ghosts->FillValue(0);
+  ghosts->SetValue(0, vtkDataSetAttributes::HIDDENCELL);
+  mesh->GetCellData()->AddArray(ghosts);
+  vtkNew<vtkIdList> points;
+  mesh->GetCellPoints(26, points);
+  mesh->GetPointData()->GetScalars()->SetComponent(points->GetId(6), 0, std::nan(""));
+  const Lattice lattice = unitLattice(20); // no point on a face inside
+  const Found result = sampled({ mesh }, lattice);
+  for (std::size_t i = 0; i < result.found.size(); ++i)
+  {
+    const Vec x = pointOf(lattice, i);
+    const bool isIn =
+      std::max({ x[0], x[1], x[2] }) < 1. / 3 || std::min({ x[0], x[1], x[2] }) > 2. / 3;
+    EXPECT_EQ(result.found[i], isIn ? 0 : 1) << x[0] << " " << x[1] << " " << x[2];
+    if (isIn)
+    {
+      EXPECT_EQ(result.values[i], 0);
+    }
+  }
+  EXPECT_LT(errorOf(sampled({ mesh, behind }, lattice), lattice), 1e-15);
+}
+
+TEST(CellSampler, BadCellsHarmNoOthers)
+{
+  const Mesh good = meshOf(VTK_HEXAHEDRON, 3, { unitCell(VTK_HEXAHEDRON, 8) }, 0.1, false);
+  const Lattice lattice = unitLattice(16);
+  for (const double far : { 0.5, std::nan(""), HUGE_VAL, 1e30 })
+  {
+    vtkNew<vtkPoints> points;
+    points->DeepCopy(good->GetPoints());
+    const vtkIdType bad = points->InsertNextPoint(far, 0.5, 0.5);
+    const std::pair<int, std::size_t> types[] = { { VTK_HEXAHEDRON, 8 }, { VTK_WEDGE, 6 },
+      { VTK_PYRAMID, 5 }, { VTK_TETRA, 4 }, { VTK_VOXEL, 8 } };
+    for (const auto& [type, count] : types)
+    {
+      std::vector<vtkIdType> none = { 0, 0, 0, 0, bad, bad, bad, bad },
+                             flat = { 0, 1, 2, 3, 0, 1, 2, 3 };
+      none.resize(count);
+      flat.resize(count);
+      const Mesh mesh = with(good, type, { none, flat }, points);
+      setN(mesh, linear);
+      EXPECT_LT(errorOf(sampled({ mesh }, lattice), lattice), far == 1e30 ? 1e-12 : 1e-15)
+        << far << " " << type;
+    }
+  }
+  // Inside out.
+  auto turned = Mesh::New();
+  turned->DeepCopy(good);
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType i = 0; i < good->GetNumberOfCells(); ++i)
+  {
+    vtkNew<vtkIdList> ids;
+    good->GetCellPoints(i, ids);
+    for (vtkIdType k = 0; k < 4; ++k)
+    {
+      std::swap(*ids->GetPointer(k), *ids->GetPointer(k + 4));
+    }
+    cells->InsertNextCell(ids);
+  }
+  turned->SetCells(VTK_HEXAHEDRON, cells);
+  setN(turned, linear);
+  EXPECT_LT(errorOf(sampled({ turned }, lattice), lattice), 1e-15);
+}
+
+// A hexahedron with edges, faces or all but a wedge collapsed, as around the axis of a mesh.
+TEST(CellSampler, CollapsedHexahedraLeaveNoHoles)
+{
+  vtkNew<vtkStructuredGrid> grid; // a ball, with poles
+  grid->SetDimensions(6, 9, 17);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int k = 0; k < 17; ++k)
+  {
+    for (int j = 0; j < 9; ++j)
+    {
+      for (int i = 0; i < 6; ++i)
+      {
+        const double r = i / 5., a = pi * j / 8, b = 2 * pi * k / 16;
+        points->InsertNextPoint(
+          r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a));
+      }
+    }
+  }
+  grid->SetPoints(points);
+  setN(grid, linear);
+  for (const int n : { 5, 17, 32 })
+  {
+    const double spacing = 1.04 / (n - 1); // with points on the axis, for odd n
+    const Lattice lattice = { { -0.52, -0.52, -0.52 }, { spacing, spacing, spacing }, { n, n, n } };
+    EXPECT_LT(errorOf(sampled({ grid }, lattice), lattice), 1e-11) << n;
+  }
+}
+
+// Boundary layers: a thousandth as thick as wide, sheared and bent.
+TEST(CellSampler, TakesStretchedCells)
+{
+  for (const Kind& kind : kinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0.1, false);
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      double x[3];
+      mesh->GetPoint(i, x);
+      mesh->GetPoints()->SetPoint(i, x[0], x[1], 1e-3 * x[2] + 0.3 * x[0] + 0.002 * x[1] * x[1]);
+    }
+    setN(mesh, linear);
+    const Lattice lattice = { { 0.3, 0.01, 0.0902 }, { 2e-4, 0.05, 1e-4 }, { 10, 10, 30 } };
+    const Found found = sampled({ mesh }, lattice);
+    EXPECT_GT(std::count(found.found.begin(), found.found.end(), 1), 700) << kind.name;
+    EXPECT_LT(std::count(found.found.begin(), found.found.end(), 1), 2500) << kind.name;
+    for (std::size_t i = 0; i < found.values.size(); ++i)
+    {
+      if (found.found[i])
+      {
+        EXPECT_NEAR(found.values[i], linear(pointOf(lattice, i)), 1e-10 * 3e-4) << kind.name;
+      }
+    }
+  }
+}
+
+TEST(CellSampler, TakesCellsFarAway)
+{
+  for (const Kind& kind : kinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0.1, false);
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      double x[3];
+      mesh->GetPoint(i, x);
+      mesh->GetPoints()->SetPoint(i, 1e7 + 1e-2 * x[0], 1e7 + 1e-2 * x[1], 1e7 + 1e-2 * x[2]);
+    }
+    setN(mesh, linear);
+    const double* bounds = mesh->GetBounds();
+    Lattice lattice;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      lattice.first[axis] = bounds[2 * axis];
+      lattice.spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / 20;
+      lattice.points[axis] = 21;
+    }
+    const Found found = sampled({ mesh }, lattice);
+    EXPECT_EQ(std::count(found.found.begin(), found.found.end(), 1), lattice.size()) << kind.name;
+  }
+}
+
+TEST(CellSampler, CurvedCellsOfOrder3AreExact)
+{
+  vtkNew<vtkXMLUnstructuredGridReader> file;
+  file->SetFileName(SCHLIEREN_TEST_DATA "/blob_lagrange_hex.vtu");
+  file->Update();
+  vtkUnstructuredGrid* mesh = file->GetOutput();
+  setN(mesh, linear);
+  const double* bounds = mesh->GetBounds();
+  Lattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    lattice.first[axis] = bounds[2 * axis];
+    lattice.spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / 11;
+    lattice.points[axis] = 12;
+  }
+  EXPECT_LT(errorOf(sampled({ mesh }, lattice), lattice), 1e-10);
+}
+
+// Each point is itself, whatever is computed along with it.
+TEST(CellSampler, AllInstructionsGiveTheSame)
+{
+  refractivity::NormalCell cell{ refractivity::CellShape::Hexahedron, false,
+    { { 0.1, -0.2, 0.15, 0.05 }, { 0.2, 0.1, 0.1, -0.1 }, { -0.1, 0.1, 0.05, 0.2 } },
+    { 1, 2, 3, 4, 5, 6, 7, 8 } };
+  const auto all = refractivity::functionsToLocate();
+  ASSERT_GE(all.size(), 1u);
+  const auto setPoints = [](refractivity::CellPoints& points, int first, int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        points.normal[axis][i] = 0.8 * std::sin((first + i + 1) * (axis + 1.3));
+      }
+    }
+  };
+  refractivity::CellPoints expected;
+  setPoints(expected, 0, 100);
+  all[0](cell, 93, expected);
+  int inside = 0;
+  for (const auto locate : all)
+  {
+    refractivity::CellPoints together, alone;
+    setPoints(together, 0, 100);
+    locate(cell, 93, together);
+    for (int i = 0; i < 93; ++i)
+    {
+      setPoints(alone, i, 8);
+      locate(cell, 1, alone);
+      EXPECT_EQ(alone.miss[0], together.miss[i]);
+      EXPECT_EQ(alone.value[0], together.value[i]);
+      if (together.miss[i] < 1e-3)
+      {
+        ++inside;
+        EXPECT_NEAR(together.value[i], expected.value[i], 1e-12);
+        EXPECT_NEAR(together.miss[i], expected.miss[i], 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(inside, 20);
+}

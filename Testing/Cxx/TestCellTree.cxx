@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is known of the cells in a box.
+#include "CellMeshes.h"
+
+#include "CellTree.h"
+
+#include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
+
+#include <random>
+
+using refractivity::CellTree;
+
+namespace
+{
+
+void setN(vtkDataSet* data, const ScalarField& field)
+{
+  data->GetPointData()->SetScalars(addPointArray(data, "N", field));
+}
+
+double rough(const Vec& x) { return 1e-4 * std::sin(3 * x[0] + 5 * x[1] * x[1]) + 1e-5 * x[2]; }
+
+Mesh hexahedra(int n, double by)
+{
+  const Mesh mesh = meshOf(VTK_HEXAHEDRON, n, { unitCell(VTK_HEXAHEDRON, 8) }, by, false);
+  setN(mesh, rough);
+  return mesh;
+}
+
+/// Numbers of the cells in the order in which the tree has them.
+std::vector<CellTree::Number> orderOf(const CellTree& tree)
+{
+  std::vector<CellTree::Number> order;
+  tree.walk([](const CellTree::Steps&) { return true; },
+    [&](CellTree::Number number) { order.push_back(number); });
+  return order;
+}
+
+std::vector<CellTree::Bounds> someBoxes(int count, double low, double high)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(low, high);
+  std::vector<CellTree::Bounds> some;
+  for (int i = 0; i < count; ++i)
+  {
+    CellTree::Bounds box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double a = place(random), b = place(random);
+      box.low[axis] = std::min(a, b);
+      box.high[axis] = std::max(a, b);
+    }
+    some.push_back(box);
+  }
+  return some;
+}
+
+bool meet(const CellTree::Bounds& box, vtkDataSet* data, vtkIdType cell, double more)
+{
+  double bounds[6];
+  data->GetCellBounds(cell, bounds);
+  bool doMeet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    doMeet = doMeet && bounds[2 * axis] <= box.high[axis] + more &&
+      bounds[2 * axis + 1] >= box.low[axis] - more;
+  }
+  return doMeet;
+}
+
+/// Lowest and highest value at the points of cells that meet a box.
+std::array<double, 2> rangeIn(vtkDataSet* data, const CellTree::Bounds& box, double more)
+{
+  std::array<double, 2> range = { HUGE_VAL, -HUGE_VAL };
+  vtkDataArray* values = data->GetPointData()->GetScalars();
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    if (meet(box, data, cell, more))
+    {
+      vtkNew<vtkIdList> points;
+      data->GetCellPoints(cell, points);
+      for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+      {
+        const double value = values->GetComponent(points->GetId(i), 0);
+        range = { std::min(range[0], value), std::max(range[1], value) };
+      }
+    }
+  }
+  return range;
+}
+
+/// Boxes of one size, turned around z.
+vtkSmartPointer<vtkStructuredGrid> turnedBoxes(const Vec& size, double degrees)
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetDimensions(11, 11, 11);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
+  for (int k = 0; k < 11; ++k)
+  {
+    for (int j = 0; j < 11; ++j)
+    {
+      for (int i = 0; i < 11; ++i)
+      {
+        const double x = i * size[0], y = j * size[1];
+        points->InsertNextPoint(c * x - s * y, s * x + c * y, k * size[2]);
+      }
+    }
+  }
+  grid->SetPoints(points);
+  setN(grid, rough);
+  return grid;
+}
+
+} // namespace
+
+TEST(CellTree, HasAllCellsOnce)
+{
+  for (const int n : { 1, 2, 7 })
+  {
+    const Mesh mesh = hexahedra(n, 0.1), other = hexahedra(2, 0);
+    const CellTree tree({ mesh, other });
+    std::vector<CellTree::Number> order = orderOf(tree);
+    EXPECT_EQ(tree.size(), order.size());
+    std::sort(order.begin(), order.end());
+    ASSERT_EQ(order.size(), static_cast<std::size_t>(n * n * n + 8));
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      EXPECT_EQ(order[i], i);
+    }
+    EXPECT_EQ(tree.cell(order.back()).block->data(), other);
+    EXPECT_EQ(tree.cell(order.back()).id, 7);
+  }
+}
+
+TEST(CellTree, IsEmptyWhereNoCellIs)
+{
+  const Mesh mesh = hexahedra(2, 0);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(8);
+  ghosts->FillValue(vtkDataSetAttributes::HIDDENCELL);
+  mesh->GetCellData()->AddArray(ghosts);
+  for (const std::vector<vtkDataSet*>& blocks : { std::vector<vtkDataSet*>{}, { mesh } })
+  {
+    const CellTree tree(blocks);
+    const CellTree::Content content = tree.content({ { 0, 0, 0 }, { 1, 1, 1 } });
+    EXPECT_EQ(tree.size(), 0u);
+    EXPECT_GT(content.lowest, content.highest);
+    EXPECT_EQ(content.cellSize[0], HUGE_VAL);
+    EXPECT_GT(tree.bounds().low[0], tree.bounds().high[0]);
+    EXPECT_EQ(tree.voxelShape(), (Vec{ 1, 1, 1 }));
+  }
+}
+
+// Cells that are hidden, that lie nowhere or have no value do not count.
+TEST(CellTree, HasOnlyCellsThatHoldGas)
+{
+  const double nan = std::nan("");
+  const Mesh mesh = hexahedra(3, 0);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(27);
+  ghosts->FillValue(0);
+  ghosts->SetValue(0, vtkDataSetAttributes::REFINEDCELL);
+  ghosts->SetValue(1, vtkDataSetAttributes::DUPLICATECELL); // which is seen
+  mesh->GetCellData()->AddArray(ghosts);
+  vtkNew<vtkIdList> points;
+  mesh->GetCellPoints(26, points);
+  const vtkIdType corner = points->GetId(6); // of this cell alone
+  for (const double bad : { nan, HUGE_VAL })
+  {
+    setN(mesh, rough);
+    EXPECT_EQ(CellTree({ mesh }).size(), 26u);
+    mesh->GetPointData()->GetScalars()->SetComponent(corner, 0, bad);
+    EXPECT_EQ(CellTree({ mesh }).size(), 25u);
+    setN(mesh, rough);
+    mesh->GetPoints()->SetPoint(corner, 1, bad, 1);
+    const CellTree tree({ mesh });
+    EXPECT_EQ(tree.size(), 25u);
+    EXPECT_EQ(tree.bounds().high[1], 1);
+    mesh->GetPoints()->SetPoint(corner, 1, 1, 1);
+  }
+}
+
+// Never less than the cells that meet a box; never more than those near it.
+TEST(CellTree, KnowsTheRangeInABox)
+{
+  const Mesh mesh = hexahedra(9, 0.1);
+  const CellTree tree({ mesh });
+  const double cell = 0.15;
+  for (const CellTree::Bounds& box : someBoxes(100, -0.2, 1.2))
+  {
+    const CellTree::Content content = tree.content(box);
+    const std::array<double, 2> least = rangeIn(mesh, box, 0), most = rangeIn(mesh, box, 3 * cell);
+    EXPECT_LE(content.lowest, least[0]);
+    EXPECT_GE(content.highest, least[1]);
+    EXPECT_GE(content.lowest, most[0]);
+    EXPECT_LE(content.highest, most[1]);
+  }
+  const CellTree::Content nothing = tree.content({ { 1.01, 0, 0 }, { 2, 1, 1 } });
+  EXPECT_GT(nothing.lowest, nothing.highest);
+}
+
+TEST(CellTree, VisitsTheCellsInABox)
+{
+  const Mesh mesh = hexahedra(9, 0.1);
+  const CellTree tree({ mesh });
+  for (const CellTree::Bounds& box : someBoxes(100, -0.2, 1.2))
+  {
+    std::vector<vtkIdType> visited, expected;
+    tree.visit(box, [&](CellTree::Number number) { visited.push_back(number); });
+    std::sort(visited.begin(), visited.end());
+    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+    {
+      if (meet(box, mesh, i, 0))
+      {
+        expected.push_back(i);
+      }
+    }
+    EXPECT_EQ(visited, expected);
+  }
+}
+
+// Cubic Lagrange cells overshoot the values at their points.
+TEST(CellTree, KnowsTheRangeOfCurvedCells)
+{
+  const Mesh mesh =
+    meshOf(VTK_LAGRANGE_HEXAHEDRON, 1, { unitCell(VTK_LAGRANGE_HEXAHEDRON, 64) }, 0, false);
+  setN(mesh, [](const Vec& x) { return x[0] < 0.5 ? 0 : 1; });
+  const CellTree tree({ mesh });
+  vtkNew<vtkGenericCell> cell;
+  mesh->GetCell(0, cell);
+  double lowest = 1, highest = 0;
+  for (double u = 0; u <= 1; u += 0.01)
+  {
+    double weights[64], value = 0;
+    const double place[3] = { u, 0.5, 0.5 };
+    cell->InterpolateFunctions(place, weights);
+    for (int i = 0; i < 64; ++i)
+    {
+      value +=
+        weights[i] * mesh->GetPointData()->GetScalars()->GetComponent(cell->GetPointId(i), 0);
+    }
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  EXPECT_GT(highest, 1.03);
+  const CellTree::Content content = tree.content({ { 0, 0, 0 }, { 1, 1, 1 } });
+  EXPECT_LE(content.lowest, lowest);
+  EXPECT_GE(content.highest, highest);
+  EXPECT_NEAR(content.cellSize[1], 1. / 3, 1e-6);
+}
+
+// A thin cell needs thin voxels along each axis that its normal has a part of.
+TEST(CellTree, KnowsTheSizeOfTurnedCells)
+{
+  const auto sizeAt = [](double degrees)
+  {
+    const auto grid = turnedBoxes({ 0.01, 0.06, 0.08 }, degrees);
+    return CellTree({ grid }).content({ { -1, -1, -1 }, { 1, 1, 1 } }).cellSize;
+  };
+  const Vec straight = sizeAt(0), turned = sizeAt(45), across = sizeAt(90), nearly = sizeAt(1);
+  const Vec expected[4] = { { 0.01, 0.06, 0.08 },
+    { 0.01 * std::sqrt(2), 0.01 * std::sqrt(2), 0.08 }, { 0.06, 0.01, 0.08 },
+    { 0.01, 0.06, 0.08 } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(straight[axis], expected[0][axis], 1e-8);
+    EXPECT_NEAR(turned[axis], expected[1][axis], 1e-8);
+    EXPECT_NEAR(across[axis], expected[2][axis], 1e-8);
+    EXPECT_NEAR(nearly[axis], expected[3][axis], 1e-4);
+  }
+}
+
+TEST(CellTree, KnowsTheSizeOfTetrahedraAndWedges)
+{
+  for (const auto& [type, frames] : { std::pair(VTK_TETRA, &kuhn), std::pair(VTK_WEDGE, &prisms) })
+  {
+    const Mesh mesh =
+      meshOf(type, 4, cut(unitCell(type, type == VTK_TETRA ? 4 : 6), *frames), 0, false);
+    setN(mesh, rough);
+    const CellTree tree({ mesh });
+    for (const double size : tree.content(tree.bounds()).cellSize)
+    {
+      EXPECT_NEAR(size, 0.25, 1e-6);
+    }
+  }
+}
+
+TEST(CellTree, ProposesVoxelsOfTheCellsShape)
+{
+  const auto shapeOf = [](const Vec& size, double degrees)
+  {
+    const auto grid = turnedBoxes(size, degrees);
+    return CellTree({ grid }).voxelShape();
+  };
+  EXPECT_EQ(shapeOf({ 1, 1, 1 }, 0), (Vec{ 1, 1, 1 }));
+  EXPECT_EQ(shapeOf({ 1, 0.9, 1.2 }, 0), (Vec{ 1, 1, 1 }));
+  EXPECT_EQ(shapeOf({ 1, 0.001, 1 }, 0), (Vec{ 1, 1. / 32, 1 }));
+  const Vec flat = shapeOf({ 1, 0.1, 1 }, 0);
+  EXPECT_EQ(flat[0], 1);
+  EXPECT_NEAR(flat[1], 0.1, 1e-9);
+  EXPECT_EQ(shapeOf({ 0.1, 1, 1 }, 45)[0], shapeOf({ 0.1, 1, 1 }, 45)[1]);
+}
+
+// Around a cylinder no axis is preferred, but the cylinder's own.
+TEST(CellTree, ProposesCubesForOGrids)
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetDimensions(30, 73, 5);
+  vtkNew<vtkPoints> points;
+  for (int k = 0; k < 5; ++k)
+  {
+    for (int j = 0; j < 73; ++j)
+    {
+      for (int i = 0; i < 30; ++i)
+      {
+        const double r = std::pow(1.1, i), angle = 2 * pi * (j % 72) / 72;
+        points->InsertNextPoint(r * std::cos(angle), r * std::sin(angle), k);
+      }
+    }
+  }
+  grid->SetPoints(points);
+  setN(grid, rough);
+  const Vec shape = CellTree({ grid }).voxelShape();
+  EXPECT_EQ(shape[0], shape[1]);
+  EXPECT_LT(shape[0], 0.2);
+  EXPECT_EQ(shape[2], 1);
+}
+
+TEST(CellTree, IsTheSameForAnyNumberOfThreads)
+{
+  const Mesh mesh = hexahedra(9, 0.1);
+  std::vector<std::vector<CellTree::Number>> orders;
+  std::vector<Vec> found;
+  for (const int threads : { 1, 2, 7 })
+  {
+    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
+      [&]
+      {
+        const CellTree tree({ mesh, mesh });
+        orders.push_back(orderOf(tree));
+        const CellTree::Content content = tree.content({ { 0.2, 0.3, 0.1 }, { 0.5, 0.6, 0.4 } });
+        found.push_back({ content.lowest, content.highest, content.cellSize[0] });
+      });
+  }
+  EXPECT_EQ(orders[1], orders[0]);
+  EXPECT_EQ(orders[2], orders[0]);
+  EXPECT_EQ(found[1], found[0]);
+  EXPECT_EQ(found[2], found[0]);
+}
