@@ -15,205 +15,69 @@ namespace
 // Newton's method converges quadratically: after a step as small as this nothing is left.
 constexpr int mostSteps = 15;
 constexpr double lastStep = 1e-7;
-constexpr double farthest = 1;    // from the range
+constexpr double farthest = 1; // from the range
+constexpr double nearlyAffine = 0.5;
 constexpr double nothing = 1e-14; // of what is left, in edges: also where cells are collapsed
 
-// What is inlined into functions for several instruction sets; no other function is called there.
+// For functions with packs as arguments.
 #define SCHLIEREN_INLINE inline __attribute__((always_inline))
 
-template <int Lanes>
-struct Packs
+namespace two
 {
-  typedef double Real __attribute__((vector_size(sizeof(double) * Lanes)));
-  typedef std::int64_t Mask __attribute__((vector_size(sizeof(double) * Lanes)));
-};
+constexpr int lanes = 2;
+#include "PlacesInCell.inl"
+} // namespace two
 
-template <class Real>
-SCHLIEREN_INLINE void load(const double* from, Real& pack)
-{
-  __builtin_memcpy(&pack, from, sizeof(pack));
-}
-
-template <class Real>
-SCHLIEREN_INLINE void store(const Real& pack, double* to)
-{
-  __builtin_memcpy(to, &pack, sizeof(pack));
-}
-
-template <class Real>
-SCHLIEREN_INLINE void greater(const Real& a, const Real& b, Real& result)
-{
-  result = a > b ? a : b;
-}
-
-template <class Mask>
-SCHLIEREN_INLINE bool all(const Mask& mask)
-{
-  std::int64_t lanes[sizeof(Mask) / sizeof(std::int64_t)], each = -1;
-  __builtin_memcpy(lanes, &mask, sizeof(mask));
-  for (const std::int64_t lane : lanes)
-  {
-    each &= lane;
-  }
-  return each != 0;
-}
-
-template <int Lanes>
-SCHLIEREN_INLINE void locate(const NormalCell& cell, int count, CellPoints& points)
-{
-  using Real = typename Packs<Lanes>::Real;
-  using Mask = typename Packs<Lanes>::Mask;
-  const auto& b = cell.bend;
-  const bool isTetrahedron = cell.shape == CellShape::Tetrahedron;
-  const bool isSimplex = isTetrahedron || cell.shape == CellShape::Wedge;
-  const double third = 1. / 3;
-  const double middle[3] = { isTetrahedron ? 0.25 : (isSimplex ? third : 0.5),
-    isTetrahedron ? 0.25 : (isSimplex ? third : 0.5),
-    isTetrahedron || cell.shape == CellShape::Pyramid ? 0.25 : 0.5 };
-  const Real zero = {};
-  for (int first = 0; first < count; first += Lanes)
-  {
-    Real x, y, z;
-    load(points.normal[0] + first, x);
-    load(points.normal[1] + first, y);
-    load(points.normal[2] + first, z);
-    Real u = x, v = y, w = z;
-    Mask isFound = zero == zero;
-    if (!cell.isAffine)
-    {
-      const auto within = [&](Real & place, int axis) __attribute__((always_inline))
-      {
-        const Real low = zero - (farthest + middle[axis]);
-        const Real high = zero + (1 + farthest - middle[axis]);
-        place = place > low ? place : low;
-        place = place < high ? place : high;
-      };
-      within(u, 0);
-      within(v, 1);
-      within(w, 2);
-      Mask isDone = zero != zero;
-      isFound = isDone;
-      for (int i = 0; i < mostSteps; ++i)
-      {
-        const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
-        const Real restX = x - u - b[0][0] * uv - b[0][1] * vw - b[0][2] * uw - b[0][3] * uvw;
-        const Real restY = y - v - b[1][0] * uv - b[1][1] * vw - b[1][2] * uw - b[1][3] * uvw;
-        const Real restZ = z - w - b[2][0] * uv - b[2][1] * vw - b[2][2] * uw - b[2][3] * uvw;
-        const Real xu = b[0][0] * v + b[0][2] * w + b[0][3] * vw + 1;
-        const Real yu = b[1][0] * v + b[1][2] * w + b[1][3] * vw;
-        const Real zu = b[2][0] * v + b[2][2] * w + b[2][3] * vw;
-        const Real xv = b[0][0] * u + b[0][1] * w + b[0][3] * uw;
-        const Real yv = b[1][0] * u + b[1][1] * w + b[1][3] * uw + 1;
-        const Real zv = b[2][0] * u + b[2][1] * w + b[2][3] * uw;
-        const Real xw = b[0][1] * v + b[0][2] * u + b[0][3] * uv;
-        const Real yw = b[1][1] * v + b[1][2] * u + b[1][3] * uv;
-        const Real zw = b[2][1] * v + b[2][2] * u + b[2][3] * uv + 1;
-        const Real minorX = yv * zw - zv * yw, minorY = zv * xw - xv * zw,
-                   minorZ = xv * yw - yv * xw;
-        const Real perVolume = 1 / (xu * minorX + yu * minorY + zu * minorZ);
-        const Real crossX = restY * zw - restZ * yw, crossY = restZ * xw - restX * zw,
-                   crossZ = restX * yw - restY * xw;
-        const Real stepU = (restX * minorX + restY * minorY + restZ * minorZ) * perVolume;
-        const Real stepV = (xu * crossX + yu * crossY + zu * crossZ) * perVolume;
-        const Real outerX = yv * restZ - zv * restY, outerY = zv * restX - xv * restZ,
-                   outerZ = xv * restY - yv * restX;
-        const Real stepW = (xu * outerX + yu * outerY + zu * outerZ) * perVolume;
-
-        const auto sizeOf = [&](const Real& a, const Real& c, const Real& d, Real& size)
-          __attribute__((always_inline))
-        {
-          const Real absA = a < 0 ? -a : a, absC = c < 0 ? -c : c, absD = d < 0 ? -d : d;
-          greater(absA, absC, size);
-          greater(size, absD, size);
-        };
-        Real rest, step;
-        sizeOf(restX, restY, restZ, rest);
-        sizeOf(stepU, stepV, stepW, step);
-        const Mask isThere = rest <= nothing;
-        const Mask isFinite = (stepU + stepV + stepW) * 0 == 0;
-        const Mask isMoving = ~isDone & ~isThere & isFinite;
-        Real nextU = u + stepU, nextV = v + stepV, nextW = w + stepW;
-        within(nextU, 0);
-        within(nextV, 1);
-        within(nextW, 2);
-        const Mask hasMoved = (nextU != u) | (nextV != v) | (nextW != w);
-        u = isMoving ? nextU : u;
-        v = isMoving ? nextV : v;
-        w = isMoving ? nextW : w;
-        isFound |= ~isDone & (isThere | (isFinite & (step <= lastStep)));
-        isDone |= isFound | ~isFinite | ~hasMoved;
-        if (all(isDone))
-        {
-          break;
-        }
-      }
-    }
-
-    const Real r = u + middle[0], s = v + middle[1], t = w + middle[2];
-    Real miss = zero;
-    greater(-r, miss, miss);
-    greater(-s, miss, miss);
-    greater(-t, miss, miss);
-    if (isTetrahedron)
-    {
-      greater(r + s + t - 1, miss, miss);
-    }
-    else
-    {
-      if (isSimplex)
-      {
-        greater(r + s - 1, miss, miss);
-      }
-      else
-      {
-        greater(r - 1, miss, miss);
-        greater(s - 1, miss, miss);
-      }
-      greater(t - 1, miss, miss);
-    }
-    const Real infinite = zero + std::numeric_limits<double>::infinity();
-    miss = isFound ? miss : infinite;
-    store(miss, points.miss + first);
-    const Polynomial& n = cell.value;
-    const Real value = n[0] + n[1] * u + n[2] * v + n[3] * w + n[4] * (u * v) + n[5] * (v * w) +
-      n[6] * (u * w) + n[7] * (u * v * w);
-    store(value, points.value + first);
-  }
-}
-
-void locateByTwo(const NormalCell& cell, int count, CellPoints& points)
-{
-  locate<2>(cell, count, points);
-}
-
+// Types, too, depend on the instructions: where GCC knows of these only in functions, it compares lane by lane.
 #if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) void locateByFour(
-  const NormalCell& cell, int count, CellPoints& points)
-{
-  locate<4>(cell, count, points);
-}
+#define SCHLIEREN_HAS_AVX
 
-__attribute__((target("avx512f,avx512dq,avx512vl,fma"))) void locateByEight(
-  const NormalCell& cell, int count, CellPoints& points)
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#endif
+namespace four
 {
-  locate<8>(cell, count, points);
-}
+constexpr int lanes = 4;
+#include "PlacesInCell.inl"
+} // namespace four
+#if defined(__clang__)
+#pragma clang attribute pop
+#pragma clang attribute push( \
+  __attribute__((target("avx512f,avx512dq,avx512vl,fma"))), apply_to = function)
+#else
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,fma")
+#endif
+namespace eight
+{
+constexpr int lanes = 8;
+#include "PlacesInCell.inl"
+} // namespace eight
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
 #endif
 
 } // namespace
 
 std::vector<LocateInCell> functionsToLocate()
 {
-  std::vector<LocateInCell> functions = { locateByTwo };
-#if defined(__x86_64__)
+  std::vector<LocateInCell> functions = { two::locate };
+#if defined(SCHLIEREN_HAS_AVX)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
   {
-    functions.push_back(locateByFour);
+    functions.push_back(four::locate);
   }
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
     __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
   {
-    functions.push_back(locateByEight);
+    functions.push_back(eight::locate);
   }
 #endif
   return functions;
