@@ -56,49 +56,6 @@ std::vector<vtkPolyData*> surfacesOf(vtkDataObject* bodies)
   return surfaces;
 }
 
-/// The polygons of all leaves, as triangles in index coordinates of the grid, counted from its first point.
-vtkSmartPointer<vtkPolyData> trianglesOf(vtkDataObject* bodies, vtkImageData* grid)
-{
-  const int* extent = grid->GetExtent();
-  vtkNew<vtkAppendPolyData> append;
-  for (vtkPolyData* data : surfacesOf(bodies))
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(data->GetNumberOfPoints());
-    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-    {
-      double x[3];
-      grid->TransformPhysicalPointToContinuousIndex(data->GetPoint(i), x);
-      points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
-    }
-    vtkNew<vtkPolyData> moved;
-    moved->SetPoints(points);
-    moved->SetPolys(data->GetPolys());
-    moved->SetStrips(data->GetStrips());
-    append->AddInputData(moved);
-  }
-  if (append->GetNumberOfInputConnections(0) == 0)
-  {
-    throw std::runtime_error(
-      "The Bodies are empty: they have no points. Check that their source was "
-      "read or updated, or take the input away.");
-  }
-  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(append->GetOutputPort());
-  triangles->PassLinesOff();
-  triangles->PassVertsOff();
-  triangles->Update();
-  if (triangles->GetOutput()->GetNumberOfPolys() == 0)
-  {
-    throw std::runtime_error(
-      "The Bodies have no polygons, only points or lines, which stop no light. Give surfaces, for "
-      "instance from the filter Extract Surface, or take the input away.");
-  }
-  return triangles->GetOutput();
-}
-
 void requireFinite(vtkPolyData* triangles)
 {
   auto iterator = vtk::TakeSmartPointer(triangles->GetPolys()->NewIterator());
@@ -117,6 +74,25 @@ void requireFinite(vtkPolyData* triangles)
       }
     }
   }
+}
+
+/// The same triangles in index coordinates of the grid, counted from its first point.
+vtkSmartPointer<vtkPolyData> onGrid(vtkPolyData* triangles, vtkImageData* grid)
+{
+  const int* extent = grid->GetExtent();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(triangles->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < triangles->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    grid->TransformPhysicalPointToContinuousIndex(triangles->GetPoint(i), x);
+    points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
+  }
+  auto moved = vtkSmartPointer<vtkPolyData>::New();
+  moved->SetPoints(points);
+  moved->SetPolys(triangles->GetPolys());
+  return moved;
 }
 
 /// A coordinate in voxels, to 1/4096. Walls often go through points of the grid, but for rounding, which
@@ -171,11 +147,43 @@ std::vector<std::vector<Surface::Triangle>> partsOf(vtkPolyData* labelled)
 
 } // namespace
 
+vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies)
+{
+  vtkNew<vtkAppendPolyData> append;
+  for (vtkPolyData* data : surfacesOf(bodies))
+  {
+    vtkNew<vtkPolyData> polygons;
+    polygons->SetPoints(data->GetPoints());
+    polygons->SetPolys(data->GetPolys());
+    polygons->SetStrips(data->GetStrips());
+    append->AddInputData(polygons);
+  }
+  if (append->GetNumberOfInputConnections(0) == 0)
+  {
+    throw std::runtime_error(
+      "The Bodies are empty: they have no points. Check that their source was "
+      "read or updated, or take the input away.");
+  }
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(append->GetOutputPort());
+  triangles->PassLinesOff();
+  triangles->PassVertsOff();
+  triangles->Update();
+  if (triangles->GetOutput()->GetNumberOfPolys() == 0)
+  {
+    throw std::runtime_error(
+      "The Bodies have no polygons, only points or lines, which stop no light. Give surfaces, for "
+      "instance from the filter Extract Surface, or take the input away.");
+  }
+  requireFinite(triangles->GetOutput());
+  return triangles->GetOutput();
+}
+
 std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
 {
-  const auto triangles = trianglesOf(bodies, output);
-  requireFinite(triangles);
-  const auto labelled = labelParts(triangles);
+  const auto triangles = trianglesOfBodies(bodies);
+  const auto labelled = labelParts(onGrid(triangles, output));
   std::vector<std::array<double, 3>> points(
     static_cast<std::size_t>(labelled->GetNumberOfPoints()));
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vtkSmartPointer.h"
+
 #include <string>
 
 class vtkDataObject;
 class vtkImageData;
+class vtkPolyData;
 
 /// Bodies in the gas, given as surfaces.
 namespace refractivity
@@ -15,5 +18,8 @@ namespace refractivity
 /// composite of them), and where open ones are. Returns what to warn the user of, mostly nothing.
 /// Throws std::runtime_error where they are no surfaces.
 std::string placeBodies(vtkDataObject* bodies, vtkImageData* output);
+
+/// The polygons of `bodies` as triangles, whose points are finite. Throws as placeBodies() does.
+vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies);
 
 } // namespace refractivity

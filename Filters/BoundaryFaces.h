@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Triangles.h"
+
+#include <functional>
+#include <vector>
+
+class vtkDataSet;
+
+namespace refractivity
+{
+
+/// Whether a visible cell of any leaf holds a place. Called from several threads.
+using CellTest = std::function<bool(const Point& place)>;
+
+/// Where the gas ends: the faces that belong to one visible cell only.
+struct BoundaryFaces
+{
+  Triangles surface;          ///< normals point into the gas
+  std::vector<double> values; ///< the leaves' scalars at its points
+  std::vector<unsigned char>
+    hidesBehind; ///< of each triangle: whether there is a hidden cell on the other side
+};
+
+/// The boundary of all leaves together: datasets with a double scalar at each point, NaN where there is no gas.
+/// Cells are visible if they are 3-D, not hidden by a ghost array (hiddenCellBits), and have no point that is NaN.
+///
+/// Faces with the same points count as one, also where the points are there twice (blocks; the seam of an O-grid;
+/// the wake cut of a C-grid): points are one if they lie within 1e-3 of the smallest edge or cell beside them, or
+/// within the rounding of the coordinates. Faces without area, at a pole or an axis, are left out. With a
+/// `isInCell`, so are faces that have cells on both sides without the same points: blocks that overlap,
+/// hanging nodes.
+BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell);
+
+/// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
+std::vector<std::int32_t> coincidentPoints(
+  const std::vector<Point>& points, const std::vector<double>& tolerances);
+
+/// How far rounding may have moved points: of single precision where all coordinates fit into it.
+double relativeRounding(const std::vector<Point>& points);
+
+} // namespace refractivity

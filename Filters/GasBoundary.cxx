@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GasBoundary.h"
+
+#include "LatticeSampling.h"
+#include "OuterFaces.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace refractivity
+{
+
+GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
+  Outside outside, const CellTest& isInCell)
+  : Faces(boundaryOf(leaves, isInCell))
+  , Tree(this->Faces.surface)
+  , Walls(this->Faces.surface.size(), 0)
+  , Far(outside == Outside::Blocks ? Place::Wall : Place::Window)
+  , Bodies(bodies ? std::make_unique<BodySurfaces>(bodies) : nullptr)
+{
+  const std::vector<unsigned char> isOuter =
+    findOuter(this->Faces.surface, this->Tree, relativeRounding(this->Faces.surface.points));
+  for (std::size_t t = 0; t < this->Walls.size(); ++t)
+  {
+    const bool isWall = this->Faces.hidesBehind[t] || outside == Outside::Blocks ||
+      (outside == Outside::Auto && !isOuter[t]);
+    this->Walls[t] = isWall ? 1 : 0;
+  }
+  this->findAmbient(isOuter);
+}
+
+void GasBoundary::findAmbient(const std::vector<unsigned char>& isOuter)
+{
+  const Triangles& surface = this->Faces.surface;
+  std::vector<std::pair<double, double>> parts; // N, area
+  for (const bool ofAll : { false, true })
+  {
+    double area = 0;
+    for (std::size_t t = 0; t < surface.size(); ++t)
+    {
+      if (ofAll || (isOuter[t] && !this->Faces.hidesBehind[t]))
+      {
+        double mean = 0;
+        for (const std::int32_t corner : surface.corners[t])
+        {
+          mean += this->Faces.values[static_cast<std::size_t>(corner)] / 3;
+        }
+        parts.emplace_back(mean, norm(surface.normal(t)));
+        area += parts.back().second;
+      }
+    }
+    std::sort(parts.begin(), parts.end());
+    double below = 0;
+    for (const auto& [value, size] : parts)
+    {
+      below += size;
+      if (below >= 0.5 * area)
+      {
+        this->Ambient = value;
+        return;
+      }
+    }
+  }
+  this->Ambient = std::numeric_limits<double>::quiet_NaN();
+}
+
+GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const
+{
+  Kinds kinds{ false, false };
+  this->Tree.forTrianglesAt(box,
+    [&](std::int32_t triangle)
+    {
+      const auto t = static_cast<std::size_t>(triangle);
+      bool& has = this->Walls[t] ? kinds.wall : kinds.window;
+      has = has || meets(this->Faces.surface, t, box);
+    });
+  if (this->Bodies && !kinds.wall)
+  {
+    this->Bodies->tree().forTrianglesAt(box,
+      [&](std::int32_t triangle)
+      {
+        kinds.wall =
+          kinds.wall || meets(this->Bodies->surface(), static_cast<std::size_t>(triangle), box);
+      });
+  }
+  return kinds;
+}
+
+GasBoundary::Place GasBoundary::kindAt(const Point& place, bool isInCell) const
+{
+  if (this->Bodies && this->Bodies->isInside(place))
+  {
+    return Place::Wall;
+  }
+  if (isInCell)
+  {
+    return Place::Gas;
+  }
+  const int nearest = this->Tree.nearlyNearest(place);
+  if (nearest < 0)
+  {
+    return this->Far;
+  }
+  return this->Walls[static_cast<std::size_t>(nearest)] ? Place::Wall : Place::Window;
+}
+
+void GasBoundary::sample(const schlieren::Lattice& lattice, const unsigned char* isInCell,
+  Place* places, float* distances) const
+{
+  LatticeSampling sampling(lattice);
+  sampling.addFaces(this->Faces.surface, this->Tree, this->Walls);
+  std::vector<unsigned char> isInBody;
+  if (this->Bodies)
+  {
+    const bool isNear = sampling.addBodies(this->Bodies->surface(), this->Bodies->tree());
+    if (isNear)
+    {
+      this->Bodies->findInside(lattice, isInBody);
+    }
+    else if (this->Bodies->isInside(lattice.first))
+    {
+      isInBody.assign(static_cast<std::size_t>(lattice.size()), 1);
+    }
+  }
+  sampling.run(
+    isInCell, isInBody, [&](const Point& place) { return this->kindAt(place, false); }, places,
+    distances);
+}
+
+} // namespace refractivity

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BodySurfaces.h"
+#include "BoundaryFaces.h"
+#include "Medium/MediumSource.h"
+#include "Triangles.h"
+
+#include <memory>
+#include <vector>
+
+class vtkDataObject;
+class vtkDataSet;
+
+namespace refractivity
+{
+
+/// What stops light where the gas ends.
+enum class Outside
+{
+  Auto,   ///< bodies do, outer boundaries do not: see findOuter()
+  Blocks, ///< all that is outside of the cells
+  Passes  ///< nothing but hidden cells and Bodies
+};
+
+/**
+ * Where the gas of meshes ends, and which of that is walls. What is towards hidden cells is a wall, and so are
+ * Bodies, whatever `Outside` says. All functions may be called from several threads.
+ */
+class GasBoundary
+{
+public:
+  using Place = schlieren::Place;
+
+  /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see BodySurfaces.
+  GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
+    const CellTest& isInCell);
+  GasBoundary(const GasBoundary&) = delete;
+  GasBoundary& operator=(const GasBoundary&) = delete;
+
+  /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where
+  /// there is none. NaN: there is no boundary.
+  double ambient() const { return this->Ambient; }
+
+  /// Which faces there are in a box.
+  struct Kinds
+  {
+    bool wall, window;
+  };
+  Kinds facesIn(const schlieren::Box& box) const;
+
+  /// What there is at a place, given whether a visible cell holds it. Of a place outside, the nearest face counts
+  /// (or one that is farther away by no more than a twentieth).
+  Place kindAt(const Point& place, bool isInCell) const;
+
+  /// Fills `places` and `distances` (may be null), see MediumSource::sample(), given which points visible cells
+  /// hold. Distances are never 0: points in cells have at least 1/4096, others at most -1/4096.
+  ///
+  /// Where a wall is thinner than a voxel, so that there are points with gas on both sides, the nearer one becomes
+  /// a wall, half a voxel deep. So the points with gas that are corners of the same voxel are all on one side of
+  /// it: nothing leaks through where distances are interpolated trilinearly.
+  void sample(const schlieren::Lattice& lattice, const unsigned char* isInCell, Place* places,
+    float* distances) const;
+
+  /// For tests and messages.
+  const Triangles& surface() const { return this->Faces.surface; }
+  bool isWall(std::size_t triangle) const { return this->Walls[triangle] != 0; }
+
+private:
+  void findAmbient(const std::vector<unsigned char>& isOuter);
+
+  BoundaryFaces Faces;
+  TriangleTree Tree;
+  std::vector<unsigned char> Walls; // of each triangle
+  Place Far;                        // where there are no faces at all
+  std::unique_ptr<BodySurfaces> Bodies;
+  double Ambient;
+};
+
+} // namespace refractivity

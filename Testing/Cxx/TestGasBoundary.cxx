@@ -1,0 +1,960 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where gas ends: which faces bound meshes, which of them are walls, and how far from them the points of lattices
+// are.
+#include "Fixtures.h"
+
+#include "GasBoundary.h"
+
+#include "vtkCellArray.h"
+#include "vtkCubeSource.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkGenericCell.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkMultiBlockPLOT3DReader.h"
+#include "vtkOpenFOAMReader.h"
+#include "vtkPlaneSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkReverseSense.h"
+#include "vtkSphereSource.h"
+#include "vtkStaticCellLocator.h"
+#include "vtkStructuredGrid.h"
+#include "vtkThreshold.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
+#include "vtkTriangleFilter.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLStructuredGridReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+using refractivity::GasBoundary;
+using refractivity::Outside;
+using schlieren::Lattice;
+using schlieren::Place;
+
+namespace
+{
+
+using Data = vtkSmartPointer<vtkDataSet>;
+using Mapping = std::function<Vec(double, double, double)>;
+
+/// A curvilinear grid over the unit cube of its parameters, N = 1 everywhere.
+vtkSmartPointer<vtkStructuredGrid> curvilinear(
+  int ni, int nj, int nk, const Mapping& place, int type = VTK_DOUBLE)
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetDimensions(ni, nj, nk);
+  vtkNew<vtkPoints> points;
+  points->SetDataType(type);
+  for (int k = 0; k < nk; ++k)
+  {
+    for (int j = 0; j < nj; ++j)
+    {
+      for (int i = 0; i < ni; ++i)
+      {
+        const Vec x = place(i / (ni - 1.), j / (nj - 1.), k / (nk - 1.));
+        points->InsertNextPoint(x.data());
+      }
+    }
+  }
+  grid->SetPoints(points);
+  addPointArray(grid, "N", [](const Vec&) { return 1; });
+  grid->GetPointData()->SetActiveScalars("N");
+  return grid;
+}
+
+/// Around a sphere of radius 1: poles on z, a seam at y = 0. `part`: of the longitude.
+Vec aroundSphere(double r, double latitude, double longitude, double far, double part = 1)
+{
+  const double radius = std::pow(far, r);
+  const double theta = pi * latitude, phi = 2 * pi * part * longitude;
+  return { radius * std::sin(theta) * std::cos(phi), radius * std::sin(theta) * std::sin(phi),
+    radius * std::cos(theta) };
+}
+
+vtkSmartPointer<vtkStructuredGrid> sphereMesh(
+  int n, double far, int type = VTK_DOUBLE, double part = 1)
+{
+  return curvilinear(
+    n, n + 1, 2 * n + 1,
+    [&](double i, double j, double k) { return aroundSphere(i, j, k, far, part); }, type);
+}
+
+/// The cells of a box [0, lengths] whose middles are in gas.
+Data blocks(
+  const std::array<int, 3>& cells, const Vec& lengths, const std::function<bool(const Vec&)>& isGas)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(cells[0] + 1, cells[1] + 1, cells[2] + 1);
+  image->SetSpacing(lengths[0] / cells[0], lengths[1] / cells[1], lengths[2] / cells[2]);
+  addPointArray(image, "N", [](const Vec&) { return 1; });
+  addCellArray(image, "gas", [&](const Vec& x) { return isGas(x) ? 1 : 0; });
+  vtkNew<vtkThreshold> threshold;
+  threshold->SetInputData(image);
+  threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "gas");
+  threshold->SetThresholdFunction(vtkThreshold::THRESHOLD_UPPER);
+  threshold->SetUpperThreshold(0.5);
+  threshold->Update();
+  Data data = threshold->GetOutput();
+  data->GetPointData()->SetActiveScalars("N");
+  return data;
+}
+
+/// Turned about an axis across all the others.
+void turn(vtkPointSet* data)
+{
+  const Vec a = unit({ 0.3, 0.7, 0.5 });
+  const double angle = 0.6;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    data->GetPoint(i, x.data());
+    const Vec b = cross(a, x);
+    const double along = dot(a, x) * (1 - std::cos(angle));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = x[axis] * std::cos(angle) + b[axis] * std::sin(angle) + along * a[axis];
+    }
+    data->GetPoints()->SetPoint(i, x.data());
+  }
+}
+
+void hide(vtkDataSet* data, const std::function<bool(const Vec&)>& isHidden)
+{
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    double b[6];
+    data->GetCellBounds(i, b);
+    const bool is = isHidden({ (b[0] + b[1]) / 2, (b[2] + b[3]) / 2, (b[4] + b[5]) / 2 });
+    ghosts->InsertNextValue(is ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  data->GetCellData()->AddArray(ghosts);
+}
+
+/// Which visible cells hold a place.
+class Cells
+{
+public:
+  explicit Cells(const std::vector<Data>& leaves)
+  {
+    for (const Data& leaf : leaves)
+    {
+      vtkNew<vtkStaticCellLocator> locator;
+      locator->SetDataSet(leaf);
+      locator->BuildLocator();
+      locators_.emplace_back(locator);
+      ghosts_.push_back(leaf->GetCellGhostArray());
+    }
+  }
+  bool hold(const Vec& x) const
+  {
+    vtkNew<vtkGenericCell> cell;
+    for (std::size_t i = 0; i < locators_.size(); ++i)
+    {
+      Vec place = x;
+      double coordinates[3], weights[64];
+      int sub;
+      const vtkIdType found =
+        locators_[i]->FindCell(place.data(), 1e-20, cell, sub, coordinates, weights);
+      if (found >= 0 && (!ghosts_[i] || ghosts_[i]->GetValue(found) == 0))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  refractivity::CellTest test() const
+  {
+    return [this](const refractivity::Point& x) { return this->hold(x); };
+  }
+
+private:
+  std::vector<vtkSmartPointer<vtkStaticCellLocator>> locators_;
+  std::vector<vtkUnsignedCharArray*> ghosts_;
+};
+
+std::vector<vtkDataSet*> pointers(const std::vector<Data>& leaves)
+{
+  return { leaves.begin(), leaves.end() };
+}
+
+/// Areas of walls and windows.
+struct Areas
+{
+  double wall = 0, window = 0;
+};
+
+Areas areasOf(const GasBoundary& boundary)
+{
+  Areas areas;
+  for (std::size_t t = 0; t < boundary.surface().size(); ++t)
+  {
+    const double area = 0.5 * refractivity::norm(boundary.surface().normal(t));
+    (boundary.isWall(t) ? areas.wall : areas.window) += area;
+  }
+  return areas;
+}
+
+Areas areasOf(const std::vector<Data>& leaves, Outside outside = Outside::Auto)
+{
+  return areasOf(GasBoundary(pointers(leaves), nullptr, outside, {}));
+}
+
+void expectAreas(const Areas& areas, double wall, double window, double tolerance = 1e-6)
+{
+  EXPECT_NEAR(areas.wall, wall, tolerance * (wall + window));
+  EXPECT_NEAR(areas.window, window, tolerance * (wall + window));
+}
+
+/// The same, also where the mesh is turned, and its points are of single precision.
+void expectAreasWherever(vtkPointSet* mesh, double wall, double window, double tolerance = 1e-6)
+{
+  expectAreas(areasOf({ mesh }), wall, window, tolerance);
+  turn(mesh);
+  expectAreas(areasOf({ mesh }), wall, window, tolerance);
+  vtkNew<vtkPoints> single;
+  single->SetDataTypeToFloat();
+  single->DeepCopy(mesh->GetPoints());
+  mesh->SetPoints(single);
+  expectAreas(areasOf({ mesh }), wall, window, std::max(tolerance, 1e-4));
+}
+
+vtkPointSet* asPoints(const Data& data) { return vtkPointSet::SafeDownCast(data); }
+
+} // namespace
+
+// No faces at the seam, at the poles and on the axis.
+TEST(GasBoundary, SphereInItsMeshIsAWall)
+{
+  for (const int type : { VTK_DOUBLE, VTK_FLOAT })
+  {
+    const Areas areas = areasOf({ sphereMesh(40, 50, type) });
+    EXPECT_NEAR(areas.wall, 4 * pi, 0.01 * 4 * pi);
+    EXPECT_NEAR(areas.window, 4 * pi * 2500, 0.01 * 4 * pi * 2500);
+  }
+}
+
+TEST(GasBoundary, SphereOnItsSymmetryPlaneIsAWall)
+{
+  auto mesh = sphereMesh(40, 50, VTK_DOUBLE, 0.5);
+  expectAreasWherever(mesh, 2 * pi, 2 * pi * 2500 + pi * 2499, 0.005);
+  const Areas areas = areasOf({ mesh });
+  EXPECT_NEAR(areas.wall, 2 * pi, 0.01 * 2 * pi);
+}
+
+// Around a profile with a sharp trailing edge, and on behind it, with points there twice.
+TEST(GasBoundary, ProfileInItsCGridIsAWall)
+{
+  const double far = 10;
+  auto mesh = curvilinear(121, 31, 3,
+    [&](double i, double j, double k)
+    {
+      // Around the profile from the lower end of the wake to the upper one.
+      const double s = 2 * i - 1; // -1 ... 1
+      const double wake = std::abs(s) > 0.5 ? (std::abs(s) - 0.5) * 2 : 0;
+      const double c = std::abs(s) < 0.5 ? 1 - std::cos(pi * std::abs(s)) : 1; // 0 ... 1
+      const double y0 = wake > 0 ? 0 : std::copysign(0.2 * std::sqrt(c) * (1 - c), s);
+      const double x0 = wake > 0 ? 1 + (far - 1) * wake : c;
+      // Far away a half circle and two straight lines.
+      const double x1 = wake > 0 ? 1 + (far - 1) * wake : 1 - far * std::cos(pi * s);
+      const double y1 = wake > 0 ? std::copysign(far, s) : far * std::sin(pi * s);
+      return Vec{ x0 + j * j * (x1 - x0), y0 + j * j * (y1 - y0), k };
+    });
+  double profile = 0;
+  for (int i = 30; i < 90; ++i)
+  {
+    Vec a, b;
+    mesh->GetPoint(i, a.data());
+    mesh->GetPoint(i + 1, b.data());
+    profile += std::hypot(a[0] - b[0], a[1] - b[1]);
+  }
+  const Areas areas = areasOf({ mesh });
+  expectAreasWherever(mesh, profile, areas.window, 1e-6);
+  EXPECT_NEAR(areas.window,
+    2 * (pi * far * far / 2 + 2 * far * (far - 1)) + pi * far + 2 * (far - 1) + 2 * far, 5);
+}
+
+TEST(GasBoundary, PipeIsAllWindow)
+{
+  // With an axis where cells collapse.
+  auto pipe = curvilinear(9, 33, 11,
+    [](double r, double phi, double x) {
+      return Vec{ 5 * x, r * std::cos(2 * pi * phi), r * std::sin(2 * pi * phi) };
+    });
+  const double round = 32 * 2 * std::sin(pi / 32) * 5, ends = 32 * std::sin(2 * pi / 32);
+  expectAreasWherever(pipe, 0, round + ends);
+}
+
+TEST(GasBoundary, TubeWithinAPipeIsAWall)
+{
+  auto pipe = curvilinear(9, 33, 11,
+    [](double r, double phi, double x)
+    {
+      const double radius = 0.2 + 0.8 * r;
+      return Vec{ 5 * x, radius * std::cos(2 * pi * phi), radius * std::sin(2 * pi * phi) };
+    });
+  const double perimeter = 32 * 2 * std::sin(pi / 32), area = 16 * std::sin(2 * pi / 32);
+  expectAreasWherever(pipe, 0.2 * perimeter * 5, perimeter * 5 + 2 * area * 0.96);
+}
+
+// Its wall is not convex, and it is widest where a flat side is.
+TEST(GasBoundary, NozzleIsAllWindow)
+{
+  const auto nozzle = [](double inlet, double outlet)
+  {
+    return curvilinear(9, 33, 41,
+      [&](double r, double phi, double x)
+      {
+        const double radius =
+          r * (0.5 + (x < 0.5 ? inlet : outlet) * (1 - std::cos(2 * pi * (x - 0.5))));
+        return Vec{ 5 * x, radius * std::cos(2 * pi * phi), radius * std::sin(2 * pi * phi) };
+      });
+  };
+  for (const double outlet : { 0., 0.1, 0.25, 0.4 })
+  {
+    auto mesh = nozzle(0.25, outlet);
+    EXPECT_EQ(areasOf({ mesh }).wall, 0) << outlet;
+    turn(mesh);
+    EXPECT_EQ(areasOf({ mesh }).wall, 0) << outlet;
+  }
+}
+
+TEST(GasBoundary, ElbowIsAllWindow)
+{
+  auto elbow = curvilinear(9, 33, 31,
+    [](double r, double phi, double s)
+    {
+      const double radius = 3 + r * std::cos(2 * pi * phi);
+      return Vec{ radius * std::cos(pi / 2 * s), radius * std::sin(pi / 2 * s),
+        r * std::sin(2 * pi * phi) };
+    });
+  EXPECT_EQ(areasOf({ elbow }).wall, 0);
+  turn(elbow);
+  EXPECT_EQ(areasOf({ elbow }).wall, 0);
+}
+
+TEST(GasBoundary, StepInAChannelIsAWall)
+{
+  for (const bool isForward : { true, false })
+  {
+    const Data channel = blocks({ 40, 20, 8 }, { 4, 2, 1 },
+      [&](const Vec& x) { return x[1] > 0.5 || (isForward ? x[0] < 1 : x[0] > 1); });
+    const double top = isForward ? 3 : 1;
+    const double all = 2 * (4 * 2 + 4 * 1 + 2 * 1) - 2 * 0.5 * top;
+    expectAreasWherever(asPoints(channel), top + 0.5, all - top - 0.5);
+  }
+}
+
+TEST(GasBoundary, BumpInAFloorIsAWall)
+{
+  auto channel = curvilinear(41, 21, 5,
+    [](double i, double j, double k)
+    {
+      const double x = 4 * i, floor = 0.1 * std::exp(-8 * (x - 2) * (x - 2));
+      return Vec{ x, floor + j * (2 - floor), k };
+    });
+  for (const bool isTurned : { false, true })
+  {
+    const Areas areas = areasOf({ channel });
+    EXPECT_GT(areas.wall, 1) << isTurned;
+    EXPECT_LT(areas.wall, 3) << isTurned;
+    turn(channel);
+  }
+}
+
+TEST(GasBoundary, HoleInABoxIsAWall)
+{
+  const Data closed = blocks({ 10, 10, 10 }, { 1, 1, 1 },
+    [](const Vec& x) {
+      return std::max({ std::abs(x[0] - 0.5), std::abs(x[1] - 0.5), std::abs(x[2] - 0.5) }) > 0.2;
+    });
+  expectAreasWherever(asPoints(closed), 6 * 0.16, 6);
+  const Data through = blocks({ 10, 10, 10 }, { 1, 1, 1 },
+    [](const Vec& x) { return std::max(std::abs(x[0] - 0.5), std::abs(x[1] - 0.5)) > 0.2; });
+  expectAreasWherever(asPoints(through), 4 * 0.4, 6 - 2 * 0.16);
+}
+
+TEST(GasBoundary, FinOnAPlateIsAWall)
+{
+  for (const double end : { 0.7, 1. }) // as far as the outlet
+  {
+    const Data data = blocks({ 20, 20, 20 }, { 1, 1, 1 },
+      [&](const Vec& x)
+      { return x[0] < 0.3 || x[0] > end || x[2] > 0.5 || std::abs(x[1] - 0.5) > 0.1; });
+    const double length = end - 0.3, front = (end < 1 ? 2 : 1) * 0.2 * 0.5;
+    const double wall = 2 * length * 0.5 + length * 0.2 + front;
+    expectAreasWherever(asPoints(data), wall, 6 - length * 0.2 - (end < 1 ? 0 : 0.1));
+  }
+}
+
+TEST(GasBoundary, ModesChooseWhatIsOutside)
+{
+  const std::vector<Data> mesh = { sphereMesh(10, 4) };
+  const Areas all = areasOf(mesh);
+  expectAreas(areasOf(mesh, Outside::Blocks), all.wall + all.window, 0);
+  expectAreas(areasOf(mesh, Outside::Passes), 0, all.wall + all.window);
+}
+
+// Hidden cells, and points without gas, stop light wherever they are.
+TEST(GasBoundary, WhatIsHiddenIsAWall)
+{
+  const auto isBody = [](const Vec& x) { return x[0] > 0.3 && x[0] < 0.7 && x[2] < 0.3; };
+  auto image = cube(11, 0.5);
+  image->SetOrigin(0, 0, 0);
+  addPointArray(image, "N", [](const Vec&) { return 1; });
+  image->GetPointData()->SetActiveScalars("N");
+  hide(image, isBody);
+  const Data mesh = blocks({ 10, 10, 10 }, { 1, 1, 1 }, [](const Vec&) { return true; });
+  hide(mesh, isBody);
+  for (const Data& data : { Data(image), mesh })
+  {
+    for (const Outside outside : { Outside::Auto, Outside::Passes })
+    {
+      expectAreas(areasOf({ data }, outside), 2 * 0.3 + 0.4, 6 - 0.4 - 2 * 0.12);
+    }
+  }
+  auto holed = cube(11, 0.5);
+  holed->SetOrigin(0, 0, 0);
+  addPointArray(holed, "N",
+    [](const Vec& x) { return x[0] > 0.35 && x[0] < 0.65 && x[2] < 0.25 ? std::nan("") : 1; });
+  holed->GetPointData()->SetActiveScalars("N");
+  expectAreas(areasOf({ Data(holed) }, Outside::Passes), 2 * 0.3 + 0.4, 6 - 0.4 - 2 * 0.12);
+}
+
+TEST(GasBoundary, FacesBetweenBlocksAreNone)
+{
+  const auto half = [](double from, double to, int n)
+  {
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(n + 1, n + 1, n + 1);
+    image->SetOrigin(from, 0, 0);
+    image->SetSpacing((to - from) / n, 1. / n, 1. / n);
+    addPointArray(image, "N", [](const Vec&) { return 1; });
+    image->GetPointData()->SetActiveScalars("N");
+    return Data(image);
+  };
+  expectAreas(areasOf({ half(0, 1, 8), half(1, 3, 8) }), 0, 14);
+  // One has another layer of the other's cells.
+  const std::vector<Data> same = { half(0, 1, 8), half(0, 1, 8) };
+  expectAreas(areasOf(same), 0, 6);
+  // Hanging nodes; and blocks that overlap.
+  for (const std::vector<Data>& pair : { std::vector<Data>{ half(0, 1, 8), half(1, 3, 16) },
+         std::vector<Data>{ half(0, 1.33, 7), half(0.9, 3, 9) } })
+  {
+    const Cells cells(pair);
+    const GasBoundary boundary(pointers(pair), nullptr, Outside::Auto, cells.test());
+    const Areas areas = areasOf(boundary);
+    EXPECT_EQ(areas.wall, 0);
+    for (std::size_t t = 0; t < boundary.surface().size(); ++t)
+    {
+      const Vec a = boundary.surface().corner(t, 0), b = boundary.surface().corner(t, 1),
+                c = boundary.surface().corner(t, 2);
+      const bool isAcross = a[0] == b[0] && b[0] == c[0];
+      EXPECT_TRUE(!isAcross || a[0] == 0 || a[0] == 3) << a[0];
+    }
+  }
+}
+
+namespace
+{
+
+std::string shared(const std::string& name)
+{
+  return std::string(SCHLIEREN_TEST_DATA) + "/" + name;
+}
+
+Data withScalars(vtkDataSet* data)
+{
+  data->GetCellData()->Initialize();
+  addPointArray(data, "N", [](const Vec&) { return 1; });
+  data->GetPointData()->SetActiveScalars("N");
+  return data;
+}
+
+} // namespace
+
+// Within a cylinder, through whose side it goes.
+TEST(GasBoundary, HeatingCoilIsAWall)
+{
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(shared("heating_coil_fluid.vtu").c_str());
+  reader->Update();
+  const Data mesh = withScalars(reader->GetOutput());
+  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  for (std::size_t t = 0; t < boundary.surface().size(); ++t)
+  {
+    bool isInSide[3] = { true, true, true };
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      const Vec x = boundary.surface().corner(t, corner);
+      isInSide[0] = isInSide[0] && std::hypot(x[0], x[1]) > 0.999;
+      isInSide[1] = isInSide[1] && x[2] < 1e-6;
+      isInSide[2] = isInSide[2] && x[2] > 2.25 - 1e-6;
+    }
+    ASSERT_EQ(boundary.isWall(t), !isInSide[0] && !isInSide[1] && !isInSide[2]) << t;
+  }
+  EXPECT_GT(areasOf(boundary).wall, 7);
+}
+
+// Half of a fin with a round leading edge.
+TEST(GasBoundary, BluntFinIsAWall)
+{
+  vtkNew<vtkMultiBlockPLOT3DReader> reader;
+  reader->SetXYZFileName(shared("bluntfin_plot3d/bluntfinxyz.bin").c_str());
+  reader->SetQFileName(shared("bluntfin_plot3d/bluntfinq.bin").c_str());
+  reader->Update();
+  const Data mesh = withScalars(vtkDataSet::SafeDownCast(reader->GetOutput()->GetBlock(0)));
+  double bounds[6];
+  mesh->GetBounds(bounds);
+  const double fin = (bounds[1] - 0.5 + pi / 4) * bounds[5];
+  EXPECT_NEAR(areasOf({ mesh }).wall, fin, 0.002 * fin);
+}
+
+// The wing has no thickness, and its mesh goes on behind it without a difference: it is not known to be there.
+TEST(GasBoundary, SheetsInAMeshAreNotKnown)
+{
+  vtkNew<vtkXMLStructuredGridReader> reader;
+  reader->SetFileName(shared("deltawing.vts").c_str());
+  reader->Update();
+  const Data mesh = withScalars(reader->GetOutput());
+  EXPECT_EQ(areasOf({ mesh }).wall, 0);
+}
+
+// An axisymmetric case of OpenFOAM: its plane sides are no walls.
+TEST(GasBoundary, WedgeIsAllWindow)
+{
+  vtkNew<vtkOpenFOAMReader> reader;
+  reader->SetFileName(shared("ladenburg_openfoam/ladenburg.foam").c_str());
+  reader->UpdateInformation();
+  reader->SetTimeValue(0.00045);
+  reader->Update();
+  const Data mesh = withScalars(vtkDataSet::SafeDownCast(reader->GetOutput()->GetBlock(0)));
+  const Areas areas = areasOf({ mesh });
+  EXPECT_EQ(areas.wall, 0);
+  EXPECT_GT(areas.window, 0);
+}
+
+namespace
+{
+
+/// What a ray sees of a lattice: distances with 15 bits, interpolated trilinearly.
+class Samples
+{
+public:
+  Samples(const GasBoundary& boundary, const Lattice& lattice,
+    const std::function<bool(const Vec&)>& isInCell)
+    : places(static_cast<std::size_t>(lattice.size()))
+    , distances(places.size())
+    , lattice_(lattice)
+  {
+    std::vector<unsigned char> inCell(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      inCell[i] = isInCell(this->point(i)) ? 1 : 0;
+    }
+    boundary.sample(lattice, inCell.data(), places.data(), distances.data());
+  }
+
+  Vec point(std::size_t i) const
+  {
+    const auto n = static_cast<int>(i);
+    const int nx = lattice_.points[0], ny = lattice_.points[1];
+    const int at[3] = { n % nx, n / nx % ny, n / nx / ny };
+    Vec x;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = lattice_.first[axis] + at[axis] * lattice_.spacing[axis];
+    }
+    return x;
+  }
+  double at(const Vec& x) const
+  {
+    std::size_t first[3];
+    double part[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double at = (x[axis] - lattice_.first[axis]) / lattice_.spacing[axis];
+      first[axis] =
+        static_cast<std::size_t>(std::clamp(std::floor(at), 0., lattice_.points[axis] - 2.));
+      part[axis] = at - static_cast<double>(first[axis]);
+    }
+    double sum = 0;
+    for (unsigned corner = 0; corner < 8; ++corner)
+    {
+      double weight = 1;
+      std::size_t at[3];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const unsigned upper = corner >> axis & 1;
+        weight *= upper ? part[axis] : 1 - part[axis];
+        at[axis] = first[axis] + upper;
+      }
+      const auto nx = static_cast<std::size_t>(lattice_.points[0]);
+      const auto ny = static_cast<std::size_t>(lattice_.points[1]);
+      sum += weight * std::round(8192 * distances[(at[2] * ny + at[1]) * nx + at[0]]) / 8192;
+    }
+    return sum;
+  }
+  /// Whether light goes from one place to another.
+  bool lets(const Vec& from, const Vec& to, double step) const
+  {
+    Vec line{ to[0] - from[0], to[1] - from[1], to[2] - from[2] };
+    const double length = std::sqrt(dot(line, line));
+    const int steps = static_cast<int>(std::ceil(length / step));
+    for (int i = 0; i <= steps; ++i)
+    {
+      const double s = static_cast<double>(i) / steps;
+      if (this->at({ from[0] + s * line[0], from[1] + s * line[1], from[2] + s * line[2] }) < 0)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<Place> places;
+  std::vector<float> distances;
+
+private:
+  Lattice lattice_;
+};
+
+Lattice latticeAround(const Vec& middle, const Vec& half, double h)
+{
+  Lattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    lattice.points[axis] = static_cast<int>(2 * half[axis] / h) + 1;
+    lattice.spacing[axis] = h;
+    lattice.first[axis] = middle[axis] - half[axis] + 0.123 * h;
+  }
+  return lattice;
+}
+
+} // namespace
+
+// Where distances change sign along rays through the sphere's middle.
+TEST(GasBoundary, SphereIsWhereItIs)
+{
+  const auto mesh = sphereMesh(160, 4);
+  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  for (const double h : { 0.04, 0.02, 0.01 })
+  {
+    double worst = 0, sum = 0;
+    int rays = 0;
+    for (const Vec& to : { Vec{ 1, 0, 0 }, Vec{ 0.6, 0.64, 0.48 }, Vec{ 0, -0.6, 0.8 } })
+    {
+      const Lattice lattice = latticeAround(to, { 10 * h, 10 * h, 10 * h }, h);
+      const Samples samples(boundary, lattice, [](const Vec& x) { return dot(x, x) > 1; });
+      for (double y = -3 * h; y <= 3 * h; y += 0.47 * h)
+      {
+        for (double z = -3 * h; z <= 3 * h; z += 0.47 * h)
+        {
+          const Vec along = unit({ to[0] + y, to[1] + z, to[2] + y - z });
+          double low = 1 - 3 * h, high = 1 + 3 * h;
+          EXPECT_LT(samples.at({ low * along[0], low * along[1], low * along[2] }), 0);
+          for (int i = 0; i < 40; ++i)
+          {
+            const double r = 0.5 * (low + high);
+            (samples.at({ r * along[0], r * along[1], r * along[2] }) < 0 ? low : high) = r;
+          }
+          worst = std::max(worst, std::abs(low - 1) / h);
+          sum += (low - 1) / h;
+          ++rays;
+        }
+      }
+    }
+    std::cout << h << " worst " << worst << " voxels, mean " << sum / rays << ", area "
+              << 200 * h * sum / rays << " %\n";
+    EXPECT_LT(worst, 0.02);
+    EXPECT_LT(std::abs(2 * h * sum / rays), 0.003);
+  }
+}
+
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> boxSurface(const Vec& lengths, const Vec& middle = { 0, 0, 0 })
+{
+  vtkNew<vtkCubeSource> source;
+  source->SetXLength(lengths[0]);
+  source->SetYLength(lengths[1]);
+  source->SetZLength(lengths[2]);
+  source->SetCenter(middle[0], middle[1], middle[2]);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(source->GetOutputPort());
+  triangles->Update();
+  return triangles->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> plate(const Vec& o, const Vec& p, const Vec& q)
+{
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(o[0], o[1], o[2]);
+  source->SetPoint1(p[0], p[1], p[2]);
+  source->SetPoint2(q[0], q[1], q[2]);
+  source->Update();
+  return source->GetOutput();
+}
+
+Data gasAround()
+{
+  auto image = cube(5, 10);
+  addPointArray(image, "N", [](const Vec&) { return 1; });
+  image->GetPointData()->SetActiveScalars("N");
+  return Data(image);
+}
+
+bool always(const Vec&) { return true; }
+
+} // namespace
+
+// Plates within the mesh, thinner than a voxel, in any direction; rays through them that keep clear of the rims.
+TEST(GasBoundary, NothingLeaksThroughThinPlates)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int rays = 0;
+  for (const double thickness : { 0., 0.01, 0.3, 0.7, 1., 1.5 }) // voxels
+  {
+    for (int turned = 0; turned < 8; ++turned)
+    {
+      // A box of gas with a plate left out, or a sheet in the gas.
+      const double h = 0.1;
+      auto body = thickness > 0 ? boxSurface({ 1.6, 1.6, thickness * h })
+                                : plate({ -0.8, -0.8, 0 }, { 0.8, -0.8, 0 }, { -0.8, 0.8, 0 });
+      const Vec axis = unit({ any(random), any(random), any(random) });
+      const Vec shift{ 0.1 * any(random), 0.1 * any(random), 0.1 * any(random) };
+      vtkNew<vtkTransform> transform;
+      if (turned > 0) // else along the lattice
+      {
+        transform->Translate(shift.data());
+        transform->RotateWXYZ(180 * any(random), axis.data());
+      }
+      vtkNew<vtkTransformPolyDataFilter> turn;
+      turn->SetTransform(transform);
+      turn->SetInputData(body);
+      turn->Update();
+      const Data gas = gasAround();
+      const GasBoundary boundary({ gas }, turn->GetOutput(), Outside::Auto, {});
+      Lattice lattice = latticeAround({ 0, 0, 0 }, { 1.2, 1.2, 1.2 }, h);
+      if (turned == 0)
+      {
+        lattice.first = { -1.2, -1.2, -1.2 }; // with points on the plate
+      }
+      const Samples samples(boundary, lattice, always);
+      for (int ray = 0; ray < 200; ++ray)
+      {
+        Vec from{ 0.6 * any(random), 0.6 * any(random), 0.3 },
+          to{ 0.6 * any(random), 0.6 * any(random), -0.3 };
+        transform->TransformPoint(from.data(), from.data());
+        transform->TransformPoint(to.data(), to.data());
+        EXPECT_FALSE(samples.lets(from, to, 0.1 * h)) << thickness << " " << turned;
+        EXPECT_FALSE(samples.lets(from, to, 0.45 * h)) << thickness << " " << turned;
+        // Beside it there is gas.
+        Vec back{ from[0], from[1], from[2] };
+        EXPECT_GT(samples.at(back), 0) << thickness << " " << turned;
+        ++rays;
+      }
+    }
+  }
+  EXPECT_EQ(rays, 6 * 8 * 200);
+}
+
+TEST(GasBoundary, PlatesAreAboutAVoxelThick)
+{
+  const double h = 0.1;
+  const Data gas = gasAround();
+  for (double z = 0; z < 0.1; z += 0.013)
+  {
+    const auto sheet = plate({ -0.8, -0.8, z }, { 0.8, -0.8, z }, { -0.8, 0.8, z });
+    const GasBoundary boundary({ gas }, sheet, Outside::Auto, {});
+    const Samples samples(boundary, latticeAround({ 0, 0, 0 }, { 1.2, 1.2, 1.2 }, h), always);
+    double thickness = 0, deepest = 0;
+    for (double at = -0.5; at < 0.5; at += 0.001)
+    {
+      const double distance = samples.at({ 0.03, 0.04, at });
+      thickness += distance < 0 ? 0.001 / h : 0;
+      deepest = std::min(deepest, distance);
+    }
+    EXPECT_NEAR(thickness, 1, 0.4) << z;
+    EXPECT_LT(deepest, -0.4) << z;
+  }
+}
+
+// Distances from a box's faces are exact; at its edges the silhouette misses by a part of a voxel.
+TEST(GasBoundary, ABoxKeepsItsFacesAndEdges)
+{
+  const double h = 0.1;
+  const auto isGas = [](const Vec& x) {
+    return std::max({ std::abs(x[0]), std::abs(x[1]), std::abs(x[2]) }) > 0.5;
+  };
+  const Data gas = gasAround();
+  const GasBoundary boundary({ gas }, boxSurface({ 1, 1, 1 }), Outside::Auto, {});
+  const Lattice lattice = latticeAround({ 0, 0, 0 }, { 1, 1, 1 }, h);
+  const Samples samples(boundary, lattice, always);
+  for (std::size_t i = 0; i < samples.places.size(); ++i)
+  {
+    const Vec x = samples.point(i);
+    EXPECT_EQ(samples.places[i], isGas(x) ? Place::Gas : Place::Wall);
+    const double depth = 0.5 - std::max({ std::abs(x[0]), std::abs(x[1]), std::abs(x[2]) });
+    double outside = 0;
+    for (const double coordinate : x)
+    {
+      outside += std::pow(std::max(0., std::abs(coordinate) - 0.5), 2);
+    }
+    const double truth = std::clamp((depth > 0 ? -depth : std::sqrt(outside)) / h, -3., 3.);
+    EXPECT_NEAR(samples.distances[i], truth, 1e-3);
+  }
+  double worst = 0; // of a line of sight along z
+  for (double x = 0.3; x < 0.7; x += 0.003)
+  {
+    for (double y = 0.3; y < 0.7; y += 0.003)
+    {
+      const bool isStopped = samples.at({ x, y, 0.01 }) < 0;
+      const double d = std::max(x, y) - 0.5;
+      worst = std::max(worst, isStopped == (d < 0) ? 0. : std::abs(d) / h);
+    }
+  }
+  std::cout << "edge " << worst << " voxels\n";
+  EXPECT_LT(worst, 0.5);
+}
+
+TEST(GasBoundary, ClosedBodiesAreSolidHoweverTheyAreTurned)
+{
+  const Data gas = gasAround();
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(1);
+  source->SetThetaResolution(60);
+  source->SetPhiResolution(60);
+  source->Update();
+  vtkNew<vtkReverseSense> reverse;
+  reverse->SetInputConnection(source->GetOutputPort());
+  reverse->Update();
+  vtkNew<vtkMultiBlockDataSet> nested;
+  nested->SetBlock(0, source->GetOutput());
+  nested->SetBlock(1, boxSurface({ 0.5, 0.5, 0.5 }));
+  nested->SetBlock(2, boxSurface({ 1, 0.2, 0.2 }, { 1, 0, 0 }));
+  const Lattice lattice = latticeAround({ 0, 0, 0 }, { 1.3, 1.3, 1.3 }, 0.1);
+  const GasBoundary one({ gas }, source->GetOutput(), Outside::Auto, {});
+  const GasBoundary turned({ gas }, reverse->GetOutput(), Outside::Auto, {});
+  const GasBoundary several({ gas }, nested, Outside::Auto, {});
+  const Samples a(one, lattice, always), b(turned, lattice, always), c(several, lattice, always);
+  EXPECT_EQ(a.distances, b.distances);
+  for (std::size_t i = 0; i < a.places.size(); ++i)
+  {
+    const Vec x = a.point(i);
+    const double r = std::sqrt(dot(x, x));
+    if (std::abs(r - 1) > 0.01)
+    {
+      EXPECT_EQ(a.places[i], r < 1 ? Place::Wall : Place::Gas);
+    }
+    EXPECT_NEAR(a.distances[i], std::clamp((r - 1) / 0.1, -3., 3.), 0.03);
+    const bool isInBar = std::abs(x[0] - 1) < 0.5 && std::max(std::abs(x[1]), std::abs(x[2])) < 0.1;
+    EXPECT_EQ(c.places[i], isInBar ? Place::Wall : a.places[i]);
+  }
+  EXPECT_EQ(one.kindAt({ 0.1, 0.2, 0 }, true), Place::Wall);
+  EXPECT_EQ(one.kindAt({ 3, 0.2, 0 }, true), Place::Gas);
+  EXPECT_TRUE(one.facesIn({ { 0.9, -0.1, -0.1 }, { 1.1, 0.1, 0.1 } }).wall);
+  EXPECT_FALSE(one.facesIn({ { -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 } }).wall);
+  EXPECT_TRUE(one.facesIn({ { 9, 9, 9 }, { 11, 11, 11 } }).window);
+}
+
+// The sphere from inside its mesh, a box within the sphere, and places outside of the far field.
+TEST(GasBoundary, PlacesOutsideAreOfTheNearestFace)
+{
+  const Data mesh = sphereMesh(30, 4);
+  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const auto isIn = [](const Vec& x) { return dot(x, x) > 1 && dot(x, x) < 16; };
+  EXPECT_EQ(boundary.kindAt({ 0, 0, 0.1 }, false), Place::Wall);
+  EXPECT_EQ(boundary.kindAt({ 0, 4.1, 0.1 }, false), Place::Window);
+  const Samples inside(boundary, latticeAround({ 0, 0, 0 }, { 0.4, 0.4, 0.4 }, 0.1), isIn);
+  const Samples outside(boundary, latticeAround({ 4, 4, 4 }, { 1, 1, 1 }, 0.1), isIn);
+  const Samples far(boundary, latticeAround({ 4.2, 0, 0 }, { 1, 1, 1 }, 0.1), isIn);
+  const Samples near(boundary, latticeAround({ 0, 0, 0 }, { 1.5, 1.5, 1.5 }, 0.1), isIn);
+  const Samples gas(boundary, latticeAround({ 2.5, 0, 0 }, { 0.4, 0.4, 0.4 }, 0.1), isIn);
+  for (const auto& [samples, kind] : { std::make_pair(&inside, Place::Wall),
+         std::make_pair(&outside, Place::Window), std::make_pair(&far, Place::Window),
+         std::make_pair(&near, Place::Wall), std::make_pair(&gas, Place::Gas) })
+  {
+    for (std::size_t i = 0; i < samples->places.size(); ++i)
+    {
+      EXPECT_EQ(samples->places[i], isIn(samples->point(i)) ? Place::Gas : kind);
+    }
+  }
+  EXPECT_EQ(inside.distances[100], -3);
+  EXPECT_EQ(gas.distances[100], 3);
+}
+
+TEST(GasBoundary, AmbientIsThatOfTheFarField)
+{
+  auto mesh = sphereMesh(20, 4);
+  addPointArray(mesh, "N", [](const Vec& x) { return dot(x, x) < 15 ? 7 : (x[0] > 2 ? 3 : 2); });
+  mesh->GetPointData()->SetActiveScalars("N");
+  for (const Outside outside : { Outside::Auto, Outside::Blocks, Outside::Passes })
+  {
+    EXPECT_EQ(GasBoundary({ mesh }, nullptr, outside, {}).ambient(), 2);
+  }
+}
+
+// A mesh as for a flow with a far field: what it takes to make, and to sample near the wall.
+TEST(GasBoundary, DISABLED_Speed)
+{
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto seconds = [&](auto since)
+  { return std::chrono::duration<double>(now() - since).count(); };
+  const Data mesh = curvilinear(
+    108, 76, 151, [](double i, double j, double k) { return aroundSphere(i, j, k, 50); });
+  auto start = now();
+  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  std::cout << mesh->GetNumberOfCells() << " cells, " << boundary.surface().size()
+            << " triangles: " << seconds(start) << " s\n";
+  for (const double h : { 0.005, 0.01, 0.02, 0.05, 0.1, 0.2 })
+  {
+    for (const int points : { 20, 24 })
+    {
+      std::mt19937 random(3);
+      std::uniform_real_distribution<double> any(-1, 1);
+      int bricks = 0;
+      double time = 0;
+      for (int i = 0; i < 200; ++i)
+      {
+        const Vec middle = unit({ any(random), any(random), any(random) });
+        Lattice lattice;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          lattice.points[axis] = points;
+          lattice.spacing[axis] = h;
+          lattice.first[axis] = middle[axis] + (any(random) * 8 - points / 2) * h;
+        }
+        std::vector<unsigned char> inCell(static_cast<std::size_t>(lattice.size()));
+        std::vector<Place> places(inCell.size());
+        std::vector<float> distances(inCell.size());
+        for (std::size_t p = 0; p < inCell.size(); ++p)
+        {
+          const auto n = static_cast<int>(p);
+          double r = 0;
+          const int at[3] = { n % points, n / points % points, n / points / points };
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            r += std::pow(lattice.first[axis] + at[axis] * h, 2);
+          }
+          inCell[p] = r > 1;
+        }
+        start = now();
+        boundary.sample(lattice, inCell.data(), places.data(), distances.data());
+        time += seconds(start);
+        ++bricks;
+      }
+      std::cout << "h " << h << ", " << points << "^3: " << 1e3 * time / bricks << " ms a brick\n";
+    }
+  }
+}
