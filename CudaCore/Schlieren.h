@@ -304,13 +304,16 @@ struct LightBalance
 /// What the medium of a Field's source consists of.
 struct MediumStatistics
 {
-  int coarsestLevel = 0, finestLevel = 0; ///< voxels of the next level are half as large
-  std::int64_t leaves = 0;                ///< boxes with voxels of one size
-  std::int64_t constantLeaves = 0;        ///< without voxels
+  int coarsestLevel = 0, finestLevel = 0; ///< of leaves with voxels; those of the next level are half as large
+  std::int64_t bricks = 0;                ///< leaves with voxels
+  std::int64_t constantLeaves = 0;
   std::int64_t voxels = 0;
   std::int64_t bytes = 0;
-  double smallestVoxel = 0;  ///< data units, along the axis where it is smallest
-  double estimatedError = 0; ///< of the deflection, of the largest one
+  double smallestVoxel = 0;     ///< data units, along the axis where it is smallest
+  double largestDeflection = 0; ///< of straight rays of the last view
+  /// Of the deflection over a leaf of the last view, of the largest one: what memory did not suffice for. Voxels
+  /// of the size of cells, or as fine as the view asks, have none.
+  double estimatedError = 0;
 };
 
 /// The picture and what is known about it. Arrays are row-major, bottom row first.

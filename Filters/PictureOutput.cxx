@@ -195,7 +195,7 @@ void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
   levels->InsertNextValue(medium.finestLevel);
   output->GetFieldData()->AddArray(levels);
   addFieldValue<vtkTypeInt64Array>(
-    output, "MediumLeaves", static_cast<vtkTypeInt64>(medium.leaves));
+    output, "MediumBricks", static_cast<vtkTypeInt64>(medium.bricks));
   addFieldValue<vtkTypeInt64Array>(
     output, "MediumVoxels", static_cast<vtkTypeInt64>(medium.voxels));
   addFieldValue<vtkTypeInt64Array>(output, "MediumBytes", static_cast<vtkTypeInt64>(medium.bytes));
@@ -208,7 +208,7 @@ std::string mediumInWords(const schlieren::MediumStatistics& medium)
 {
   std::ostringstream text;
   text.precision(2);
-  text << medium.leaves << " leaves on levels " << medium.coarsestLevel << " to "
+  text << medium.bricks << " bricks on levels " << medium.coarsestLevel << " to "
        << medium.finestLevel << ", " << 1e-6 * static_cast<double>(medium.voxels)
        << " million voxels of " << medium.smallestVoxel << " and more, "
        << std::lround(1e-6 * static_cast<double>(medium.bytes)) << " MB; estimated error "

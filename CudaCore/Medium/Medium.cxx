@@ -213,25 +213,6 @@ void setSolids(const Samples<Value>& samples, Medium<Real>& medium, int threads)
     findPoints(dimensions, threads, [&](std::int64_t at) { return !samples.isGas(at); }), threads);
 }
 
-void checkRange(const Range& range)
-{
-  if (range.gas == 0)
-  {
-    throw Error(
-      "The refractivity is invalid everywhere (NaN, infinite or masked), so there is no gas "
-      "for light to cross. Choose another array or check the data.");
-  }
-  const double largest = std::max(std::abs(range.lowest), std::abs(range.highest));
-  if (largest > largestPlausibleN || range.lowest <= -1)
-  {
-    throw Error("The refractivity n - 1 reaches from " + std::to_string(range.lowest) + " to " +
-      std::to_string(range.highest) +
-      ", which no transparent medium has (-1 < n - 1 <= 10 is accepted). Check the index model, "
-      "the "
-      "chosen array and its unit (density in kg/m^3; use the density scale to convert).");
-  }
-}
-
 /// Sets to zero what is too small to matter beside `largest` |nu|. The tails of a spline's coefficients
 /// fall by 5.8 (quadratic) or 3.7 a point and soon reach denormal numbers, on which a CPU is a hundred
 /// times slower.
@@ -337,12 +318,7 @@ double ambientOf(const Field& field, const Find& find)
   {
     return find();
   }
-  if (!(*field.ambient > -1 && *field.ambient <= largestPlausibleN))
-  {
-    throw Error("The ambient refractivity " + std::to_string(*field.ambient) +
-      " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
-      "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
-  }
+  validateAmbient(*field.ambient);
   return *field.ambient;
 }
 
@@ -357,7 +333,7 @@ Medium<Real> build(
   Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {}, nullptr };
   medium.ambient = ambient;
   const Range range = load(samples, ambient, medium.volume, threads);
-  checkRange(range);
+  validateRange(range.lowest, range.highest);
   medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
   medium.rangeOfNu = (range.highest - range.lowest) / (1 + ambient);
   if (range.gas < field.grid.dimensions[0] * field.grid.dimensions[1] * field.grid.dimensions[2])
@@ -380,6 +356,34 @@ Medium<Real> build(
 }
 
 } // namespace
+
+void validateAmbient(double ambient)
+{
+  if (!(ambient > -1 && ambient <= largestPlausibleN))
+  {
+    throw Error("The ambient refractivity " + std::to_string(ambient) +
+      " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
+      "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
+  }
+}
+
+void validateRange(double lowest, double highest)
+{
+  if (!(lowest <= highest))
+  {
+    throw Error(
+      "The refractivity is invalid everywhere (NaN, infinite or masked), so there is no gas "
+      "for light to cross. Choose another array or check the data.");
+  }
+  if (std::max(std::abs(lowest), std::abs(highest)) > largestPlausibleN || lowest <= -1)
+  {
+    throw Error("The refractivity n - 1 reaches from " + std::to_string(lowest) + " to " +
+      std::to_string(highest) +
+      ", which no transparent medium has (-1 < n - 1 <= 10 is accepted). Check the index model, "
+      "the "
+      "chosen array and its unit (density in kg/m^3; use the density scale to convert).");
+  }
+}
 
 void validate(const Grid& grid)
 {

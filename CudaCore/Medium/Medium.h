@@ -35,6 +35,10 @@ struct Medium
 /// Checks the grid of `field`. Throws Error.
 void validate(const Grid& grid);
 
+/// Refuse a refractivity that no transparent medium has, or none at all (`lowest` > `highest`). Throw Error.
+void validateAmbient(double ambient);
+void validateRange(double lowest, double highest);
+
 /// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they, and transparent
 /// places, take values spread from the gas around them, so that they pull at no gradient next to them.
 /// Throws Error.

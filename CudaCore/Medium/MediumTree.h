@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Medium/Brick.h"
+#include "Medium/BrickRays.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
 #include "Schlieren.h"
@@ -13,15 +15,6 @@
 namespace schlieren
 {
 
-/// What a view looks at: an orthographic column through the data; unbounded where the half widths are infinite.
-struct Column
-{
-  Vec3<double> u, v;      ///< of the picture, unit vectors, along the source's axes
-  double middle[2];       ///< picture coordinates, data units
-  double halfWidth[2];    ///< along u and v, data units
-  double finest;          ///< no voxel needs to be smaller: data units, the pixel's size or a part of it
-};
-
 /// How fine leaves are made.
 struct TreeSettings
 {
@@ -32,7 +25,13 @@ struct TreeSettings
   int threads = 0;
 };
 
-/// The medium of a source: nu = (N - N_ref) / (1 + N_ref), as fine as data and views ask for.
+/// The medium of a source: nu = (N - N_ref) / (1 + N_ref), as fine as data and views ask for. It does not depend
+/// on the number of threads.
+///
+/// A leaf is refined where what finer voxels would change, as a deflection over the leaf, is more than the
+/// tolerance of the largest deflection. That is found from the tree as it is, after each level: the largest of
+/// straight rays on a lattice over the view, and of those through the steepest places of the steepest leaves, that
+/// no wall stops. At first it is smaller than it should be, if anything, because coarse voxels are smooth.
 template <class Real>
 class MediumTree
 {
@@ -40,35 +39,96 @@ public:
   static constexpr int brickEdge = 16; ///< samples
 
   /// Throws Error where no gas is found or values are impossible, as buildMedium does.
-  MediumTree(std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings);
+  MediumTree(
+    std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings);
 
   /// Makes the leaves that a view needs and that are not there; keeps the others while memory allows. Returns
   /// whether anything has changed. Where `monitor` says stop, what has been made stays, and the same call goes on.
   bool refine(const Column& column, const Monitor& monitor = {});
 
   // What rays see. Grid::dimensions of the whole domain are those of its coarsest level.
-  const Grid& grid() const;
-  const std::vector<Leaf<Real>>& leaves() const;
-  const std::vector<std::int32_t>& roots() const;
-  const std::vector<std::int32_t>& children() const;
+  const Grid& grid() const { return grid_; }
+  const std::vector<Leaf<Real>>& leaves() const { return leaves_; }
+  const std::vector<std::int32_t>& roots() const { return roots_; }
+  const std::vector<std::int32_t>& children() const { return children_; }
   LeafFinder finder() const;
-  int apron() const;                ///< samples around each brick
-  const std::vector<Real>& samples() const; ///< all bricks, one after the other; brick 0 is 0 everywhere
-  std::int64_t samplesPerBrick() const;
-  /// One for each sample of the maps of Leaf::Mixed: the distance to where gas ends, in 1/8192 of a voxel, positive in
-  /// gas; the lowest bit tells what is outside: 0 a wall, 1 a window.
-  const std::vector<std::int16_t>& gasDistances() const;
+  int apron() const { return maker_.apron(); } ///< samples around each brick
+  /// All bricks, one after the other; brick 0 is 0 everywhere.
+  const std::vector<Real>& samples() const { return samples_; }
+  std::int64_t samplesPerBrick() const { return maker_.samplesPerBrick(); }
+  /// One for each sample of the maps of Leaf::Mixed, laid out like the samples: the distance to where gas ends, in
+  /// 1/8192 of a voxel, positive in gas; the lowest bit tells what is outside: 0 a wall, 1 a window.
+  const std::vector<std::int16_t>& gasDistances() const { return gasDistances_; }
 
   // What is known of it.
-  double largestNu() const;
-  double rangeOfNu() const;
-  double largestN() const;
-  Vec3<double> slope() const; ///< largest |d nu / d index| of all leaves, axis by axis
-  MediumStatistics statistics() const;
+  double largestNu() const { return largestNu_; }
+  double rangeOfNu() const { return rangeOfNu_; }
+  double largestN() const { return largestN_; }
+  /// Largest |d nu / d index| of all leaves, axis by axis.
+  Vec3<double> slope() const { return slope_; }
+  using Statistics = MediumStatistics;
+  Statistics statistics() const { return statistics_; }
 
 private:
-  struct Parts;
-  std::shared_ptr<Parts> parts_;
+  struct Node
+  {
+    NodePlace place;
+    std::int32_t children = -1; ///< the first of eight nodes, x fastest; -1: a leaf
+    bool isKnown = false;       ///< otherwise a leaf that no view has asked for
+    typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
+    Real offset = 0;
+    std::int32_t brick = 0;
+    std::int32_t map = -1;
+    BrickFacts facts{};
+  };
+  /// A node to be made or to be divided.
+  struct Task
+  {
+    std::int32_t node;
+    bool divides;
+    double urgency;
+  };
+  class View;
+
+  void makeRoots();
+  bool refineOnce(View& view, const Monitor& monitor, bool& goesOn);
+  std::vector<Task> tasksOf(const View& view) const;
+  void keep(Node& node, Brick<Real>&& brick);
+  void forget(Node& node);
+  void forgetNegligible(const View& view);
+  void forgetBelow(Node& node);
+  bool forgetUnneeded(const View& view);
+  bool forgetUnneeded(std::int32_t node, const View& view);
+  std::size_t bytesUsed() const;
+  std::size_t bytesOfBrick() const { return samplesPerBrick() * sizeof(Real); }
+  std::size_t bytesOfMap() const { return samplesPerBrick() * sizeof(std::int16_t); }
+
+  void numberLeaves();
+  void number(std::int32_t node, std::int32_t& code);
+  void arrange();
+  void summarize(const View& view);
+
+  std::shared_ptr<const MediumSource> source_;
+  TreeSettings settings_;
+  Grid grid_;
+  std::array<std::int32_t, 3> rootCells_;
+  double rangeOfNu_ = 0;
+  double largestN_ = 0;
+  BrickMaker<Real> maker_;
+
+  std::vector<Node> nodes_; ///< the roots first
+  std::vector<Leaf<Real>> leaves_;
+  std::vector<std::int32_t> leafNodes_; ///< of each leaf
+  std::vector<std::int32_t> roots_;
+  std::vector<std::int32_t> children_;
+  std::vector<Real> samples_;
+  std::vector<std::int16_t> gasDistances_;
+  std::vector<std::int32_t> freeBricks_, freeMaps_;
+  bool isMeasured_ = false; ///< false: leaves have been made without knowing what is negligible
+
+  double largestNu_ = 0;
+  Vec3<double> slope_{ 0, 0, 0 };
+  Statistics statistics_{};
 };
 
 } // namespace schlieren

@@ -1,0 +1,575 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Medium/Brick.h"
+
+#include "Medium/Solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// A range of nu within a box, as the deflection that it may make there. A variation over the whole box makes
+/// one as large as itself, one over a sixteenth of it, along the ray, 16 times as much.
+constexpr double deflectionByRange = 8;
+
+/// The gradient of a quadratic spline through samples is wrong by about a twelfth of their third difference, a
+/// voxel.
+constexpr double errorByThirdDifference = 1. / 12;
+
+/// Voxels of the size of a cell are the finest that data which are linear in cells deserve: finer ones see the
+/// facets. (What is refined is halved, so that voxels are 0.5 ... 1 cell in the end.)
+constexpr double voxelByCell = 1;
+
+/// Voxels this much coarser than cells may miss what cells have.
+constexpr double coarseByCell = 2;
+
+/// What the cells have beyond the range of the samples is taken for something that was missed where it is more
+/// than this share of that range: peaks, too, lie between samples.
+constexpr double missedByRange = 0.5;
+
+/// Edges are linear in their distances: finer voxels than this share of a cell show nothing new.
+constexpr double edgeVoxelByCell = 0.5;
+
+/// Layers around the samples of a brick with edges that continued values may depend on.
+constexpr int marginOfEdges = 2;
+
+constexpr double distanceUnits = 8192;
+
+int apronOf(Interpolation interpolation)
+{
+  return interpolation == Interpolation::Quadratic || interpolation == Interpolation::Linear ? 1
+                                                                                             : 2;
+}
+
+} // namespace
+
+/// A lattice around a box.
+template <class Real>
+struct BrickMaker<Real>::Samples
+{
+  int margin;                       ///< points beyond the box
+  int n;                            ///< points along each axis
+  std::array<int, 3> begin, end;    ///< those that are within the domain
+  std::vector<double> nu;           ///< everywhere, in the end
+  std::vector<Place> places;        ///< only where there may be others than gas
+  std::vector<float> distances;     ///< likewise
+  std::vector<unsigned char> isGas; ///< empty: all are
+  double lowest = std::numeric_limits<double>::infinity(); ///< nu of the gas
+  double highest = -std::numeric_limits<double>::infinity();
+
+  std::size_t index(int i, int j, int k) const
+  {
+    return static_cast<std::size_t>((k * n + j) * n + i);
+  }
+  bool isWithin(int i, int j, int k) const
+  {
+    return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] && k >= begin[2] &&
+      k < end[2];
+  }
+  bool isAllWithin() const
+  {
+    return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, n };
+  }
+  bool hasGas() const { return lowest <= highest; }
+
+  void findGas();
+  void continueGas();
+};
+
+template <class Real>
+BrickMaker<Real>::BrickMaker(const MediumSource& source, const Grid& grid, double ambient,
+  double largestNu, Interpolation interpolation)
+  : source_(source)
+  , grid_(grid)
+  , bounds_(source.bounds())
+  , ambient_(ambient)
+  , smallest_(1e-20 * largestNu)
+  , interpolation_(interpolation)
+  , apron_(apronOf(interpolation))
+  , support_(
+      interpolation == Interpolation::Quadratic || interpolation == Interpolation::Cubic ? 1 : 0)
+{
+}
+
+template <class Real>
+std::int64_t BrickMaker<Real>::samplesPerBrick() const
+{
+  const std::int64_t n = edge + 2 * apron_;
+  return n * n * n;
+}
+
+template <class Real>
+std::array<double, 3> BrickMaker<Real>::voxelOf(int level) const
+{
+  return { std::ldexp(grid_.spacing[0], -level), std::ldexp(grid_.spacing[1], -level),
+    std::ldexp(grid_.spacing[2], -level) };
+}
+
+template <class Real>
+Box BrickMaker<Real>::boxOf(const NodePlace& place) const
+{
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  Box box{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.low[axis] = grid_.origin[axis] + edge * voxel[axis] * place.at[axis];
+    box.high[axis] = grid_.origin[axis] + edge * voxel[axis] * (place.at[axis] + 1);
+  }
+  return box;
+}
+
+template <class Real>
+typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
+  const NodePlace& place, bool hasEdges) const
+{
+  Samples samples;
+  samples.margin = apron_ + support_ + (hasEdges ? marginOfEdges : 0);
+  samples.n = edge + 2 * samples.margin;
+  Lattice lattice{ {}, voxelOf(place.level), { samples.n, samples.n, samples.n } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t first = std::int64_t{ edge } * place.at[axis] - samples.margin;
+    lattice.first[axis] =
+      grid_.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
+    const std::int64_t all = (grid_.dimensions[axis] - 1) << place.level;
+    samples.begin[axis] = static_cast<int>(std::max<std::int64_t>(0, -first));
+    samples.end[axis] = static_cast<int>(std::min<std::int64_t>(samples.n, all - first));
+  }
+  const auto points = static_cast<std::size_t>(lattice.size());
+  samples.nu.resize(points);
+  samples.places.resize(points);
+  samples.distances.resize(hasEdges ? points : 0);
+  source_.sample(lattice, samples.nu.data(), samples.places.data(),
+    hasEdges ? samples.distances.data() : nullptr);
+  for (double& value : samples.nu)
+  {
+    value = nuOf(value);
+  }
+  samples.findGas();
+  samples.continueGas();
+  return samples;
+}
+
+/// Which points have a value that counts, and the range of these.
+template <class Real>
+void BrickMaker<Real>::Samples::findGas()
+{
+  bool areAllGas = true;
+  isGas.resize(nu.size());
+  for (int k = 0; k < n; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      const bool isRowWithin = j >= begin[1] && j < end[1] && k >= begin[2] && k < end[2];
+      for (int i = 0; i < n; ++i)
+      {
+        const std::size_t at = index(i, j, k);
+        const bool is = isRowWithin && i >= begin[0] && i < end[0] && places[at] == Place::Gas &&
+          std::isfinite(nu[at]);
+        isGas[at] = is ? 1 : 0;
+        areAllGas = areAllGas && is;
+        lowest = is && nu[at] < lowest ? nu[at] : lowest;
+        highest = is && nu[at] > highest ? nu[at] : highest;
+      }
+    }
+  }
+  if (areAllGas)
+  {
+    isGas.clear();
+  }
+}
+
+/// Gives values to the points that have none: within the domain those of the gas around, beyond its faces
+/// parabolas through the last three.
+template <class Real>
+void BrickMaker<Real>::Samples::continueGas()
+{
+  if (isGas.empty() || !hasGas())
+  {
+    return;
+  }
+  bool hasHoles = false;
+  for (int k = begin[2]; k < end[2]; ++k)
+  {
+    for (int j = begin[1]; j < end[1]; ++j)
+    {
+      for (int i = begin[0]; i < end[0]; ++i)
+      {
+        hasHoles = hasHoles || isGas[index(i, j, k)] == 0;
+      }
+    }
+  }
+  if (hasHoles)
+  {
+    PaddedVolume<double> volume({ n, n, n });
+    PointMask empty({ n, n, n });
+    for (int k = 0; k < n; ++k)
+    {
+      for (int j = 0; j < n; ++j)
+      {
+        std::uint64_t gas = 0; // n is below 64: one word a row
+        for (int i = 0; i < n; ++i)
+        {
+          gas |= std::uint64_t{ isGas[index(i, j, k)] } << i;
+          volume.at(i, j, k) = nu[index(i, j, k)];
+        }
+        *empty.row(j, k) = ~gas;
+      }
+    }
+    fillEmpty(volume, empty, 1);
+    for (int k = 0; k < n; ++k)
+    {
+      for (int j = 0; j < n; ++j)
+      {
+        std::copy_n(&volume.at(0, j, k), n, &nu[index(0, j, k)]);
+      }
+    }
+  }
+  // Axis by axis; the later axes carry what the earlier ones have made along.
+  std::array<int, 3> from = begin;
+  std::array<int, 3> to = end;
+  const std::array<int, 3> strides{ 1, n, n * n };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t a = (axis + 1) % 3;
+    const std::size_t b = (axis + 2) % 3;
+    for (int p = from[a]; p < to[a]; ++p)
+    {
+      for (int q = from[b]; q < to[b]; ++q)
+      {
+        double* line = nu.data() + p * strides[a] + q * strides[b];
+        const int stride = strides[axis];
+        const auto at = [&](int i) -> double& { return line[i * stride]; };
+        for (int i = begin[axis] - 1; i >= 0; --i)
+        {
+          at(i) = 3 * (at(i + 1) - at(i + 2)) + at(i + 3);
+        }
+        for (int i = end[axis]; i < n; ++i)
+        {
+          at(i) = 3 * (at(i - 1) - at(i - 2)) + at(i - 3);
+        }
+      }
+    }
+    from[axis] = 0;
+    to[axis] = n;
+  }
+}
+
+/// The kind of a leaf that may have walls or windows, its map and what it needs to be finer. Returns whether gas
+/// or a window ends in it.
+template <class Real>
+bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Content& content,
+  Samples& samples, double negligible, Brick<Real>& brick) const
+{
+  bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
+  double besideEdge = 0;
+  const int first = samples.margin - 1;
+  const int last = samples.margin + edge;
+  for (int k = first; k <= last; ++k)
+  {
+    for (int j = first; j <= last; ++j)
+    {
+      for (int i = first; i <= last; ++i)
+      {
+        if (!samples.isWithin(i, j, k))
+        {
+          continue;
+        }
+        const std::size_t at = samples.index(i, j, k);
+        hasGas = hasGas || samples.places[at] == Place::Gas;
+        hasWall = hasWall || samples.places[at] == Place::Wall;
+        hasWindow = hasWindow || samples.places[at] == Place::Window;
+        // Where gas ends with the domain there is no edge: rays end there, too.
+        const bool isLast =
+          !samples.isWithin(i - 1, j - 1, k - 1) || !samples.isWithin(i + 1, j + 1, k + 1);
+        const bool isNear =
+          samples.distances[at] > -1 && samples.distances[at] < (isLast ? 0.45f : 1.f);
+        hasEdge = hasEdge || isNear;
+        if (isNear && samples.places[at] == Place::Gas)
+        {
+          besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
+        }
+      }
+    }
+  }
+  hasEdge = hasEdge || (hasGas ? hasWall || hasWindow : hasWall && hasWindow);
+  if (!hasEdge)
+  {
+    brick.kind = hasGas ? Leaf<Real>::Samples : hasWall ? Leaf<Real>::Solid : Leaf<Real>::Constant;
+    return false;
+  }
+  BrickFacts& facts = brick.facts;
+  facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
+  facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    facts.areEdgesFine =
+      facts.areEdgesFine && !(voxel[axis] > edgeVoxelByCell * content.cellSize[axis]);
+  }
+  if (!facts.hasWallEdge && facts.besideWindow <= negligible)
+  {
+    facts.neglected = std::max(facts.neglected, facts.besideWindow);
+    brick.kind = hasGas ? Leaf<Real>::Samples : Leaf<Real>::Constant;
+    return true; // but nothing of it can be seen
+  }
+  brick.kind = Leaf<Real>::Mixed;
+  const int stored = edge + 2 * apron_;
+  const int skipped = samples.margin - apron_;
+  brick.gasDistances.reserve(static_cast<std::size_t>(samplesPerBrick()));
+  for (int k = 0; k < stored; ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      for (int i = 0; i < stored; ++i)
+      {
+        const std::size_t at = samples.index(i + skipped, j + skipped, k + skipped);
+        // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
+        bool isWindow = samples.places[at] == Place::Window;
+        if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
+        {
+          bool isBesideWall = false;
+          for (int neighbour = 0; neighbour < 27; ++neighbour)
+          {
+            const Place there = samples.places[samples.index(i + skipped + neighbour % 3 - 1,
+              j + skipped + neighbour / 3 % 3 - 1, k + skipped + neighbour / 9 - 1)];
+            isWindow = isWindow || there == Place::Window;
+            isBesideWall = isBesideWall || there == Place::Wall;
+          }
+          isWindow = isWindow && !isBesideWall;
+        }
+        const double limited = std::clamp(static_cast<double>(samples.distances[at]),
+          -static_cast<double>(MediumSource::reach), static_cast<double>(MediumSource::reach));
+        const int even = 2 * static_cast<int>(std::lround(limited * distanceUnits / 2));
+        brick.gasDistances.push_back(static_cast<std::int16_t>(even + (isWindow ? 1 : 0)));
+      }
+    }
+  }
+  return true;
+}
+
+/// The errors that finer samples would lessen.
+template <class Real>
+void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Content& content,
+  const Samples& samples, BrickFacts& facts) const
+{
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  const int first = samples.margin - 1;
+  const int points = edge + 2;
+  const std::array<int, 3> strides{ 1, samples.n, samples.n * samples.n };
+  bool isCoarse = false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    isCoarse = isCoarse || voxel[axis] > coarseByCell * content.cellSize[axis];
+    if (!(voxel[axis] > voxelByCell * content.cellSize[axis]))
+    {
+      continue;
+    }
+    std::array<int, 3> to{ points, points, points };
+    to[axis] -= 3;
+    const std::ptrdiff_t s = strides[axis];
+    double largest = 0;
+    for (int k = 0; k < to[2]; ++k)
+    {
+      for (int j = 0; j < to[1]; ++j)
+      {
+        const std::size_t row = samples.index(first, first + j, first + k);
+        const double* p = samples.nu.data() + row;
+        const unsigned char* gas = samples.isGas.empty() ? nullptr : samples.isGas.data() + row;
+        for (int i = 0; i < to[0]; ++i)
+        {
+          const double third = std::abs(p[i + 3 * s] - p[i] - 3 * (p[i + 2 * s] - p[i + s]));
+          const bool counts =
+            gas == nullptr || (gas[i] & gas[i + s] & gas[i + 2 * s] & gas[i + 3 * s]) != 0;
+          largest = counts && third > largest ? third : largest;
+        }
+      }
+    }
+    // Along the ray the box may be longer than along this axis.
+    double longest = 0;
+    for (std::size_t other = 0; other < 3; ++other)
+    {
+      longest = other == axis ? longest : std::max(longest, voxel[other]);
+    }
+    facts.error[axis] = errorByThirdDifference * largest * edge * longest / voxel[axis];
+  }
+  const double missed = std::max(0., nuOf(content.highest) - samples.highest) +
+    std::max(0., samples.lowest - nuOf(content.lowest));
+  if (isCoarse && missed > missedByRange * (samples.highest - samples.lowest))
+  {
+    facts.hidden = deflectionByRange * missed;
+  }
+}
+
+/// Samples become coefficients, relative to the brick's offset.
+template <class Real>
+void BrickMaker<Real>::storeCoefficients(Samples& samples, Brick<Real>& brick) const
+{
+  const int n = samples.n;
+  if (support_ > 0)
+  {
+    const double outer = interpolation_ == Interpolation::Cubic ? -1. / 6 : -1. / 8;
+    const double inner = 1 - 2 * outer;
+    std::vector<double> line(samples.nu.size());
+    for (const int stride : { 1, n, n * n })
+    {
+      // The outermost layers come out wrong, one more with each axis but only along it: none is stored.
+      const std::size_t s = static_cast<std::size_t>(stride);
+      const double* from = samples.nu.data();
+      for (std::size_t i = s; i + s < line.size(); ++i)
+      {
+        line[i] = inner * from[i] + outer * (from[i - s] + from[i + s]);
+      }
+      std::swap(line, samples.nu);
+    }
+  }
+  const int stored = edge + 2 * apron_;
+  const int skipped = samples.margin - apron_;
+  brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
+  brick.samples.resize(static_cast<std::size_t>(samplesPerBrick()));
+  Real* to = brick.samples.data();
+  for (int k = 0; k < stored; ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      const double* row = samples.nu.data() + samples.index(skipped, j + skipped, k + skipped);
+      for (int i = 0; i < stored; ++i)
+      {
+        const double relative = row[i] - static_cast<double>(brick.offset);
+        *to++ = static_cast<Real>(std::abs(relative) < smallest_ ? 0 : relative);
+      }
+    }
+  }
+}
+
+template <class Real>
+void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) const
+{
+  const int stored = edge + 2 * apron_;
+  const std::array<int, 3> strides{ 1, stored, stored * stored };
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  BrickFacts& facts = brick.facts;
+  const auto [lowest, highest] = std::minmax_element(brick.samples.begin(), brick.samples.end());
+  const auto offset = static_cast<double>(brick.offset);
+  facts.largestNu = std::max(std::abs(offset + static_cast<double>(*lowest)),
+    std::abs(offset + static_cast<double>(*highest)));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    std::array<int, 3> to{ stored, stored, stored };
+    to[axis] -= 1;
+    Real largest = 0;
+    std::array<int, 3> largestAt{ 0, 0, 0 };
+    for (int k = 0; k < to[2]; ++k)
+    {
+      for (int j = 0; j < to[1]; ++j)
+      {
+        const Real* row = brick.samples.data() + k * strides[2] + j * strides[1];
+        const Real* next = row + strides[axis];
+        Real ofRow = 0;
+        for (int i = 0; i < to[0]; ++i)
+        {
+          const Real difference = std::abs(next[i] - row[i]);
+          ofRow = difference > ofRow ? difference : ofRow;
+        }
+        if (ofRow > largest)
+        {
+          largest = ofRow;
+          int i = 0;
+          while (std::abs(next[i] - row[i]) < largest)
+          {
+            ++i;
+          }
+          largestAt = { i, j, k };
+        }
+      }
+    }
+    facts.slope[axis] = static_cast<double>(largest);
+    if (facts.slope[axis] / voxel[axis] > facts.steepest)
+    {
+      facts.steepest = facts.slope[axis] / voxel[axis];
+      for (std::size_t other = 0; other < 3; ++other)
+      {
+        const double local =
+          std::clamp(largestAt[other] - apron_ + (other == axis ? 0.5 : 0), -0.49, edge - 0.51);
+        facts.steepestAt[other] =
+          std::ldexp(edge * static_cast<double>(place.at[other]) + 0.5 + local, -place.level);
+      }
+    }
+  }
+}
+
+template <class Real>
+Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) const
+{
+  Brick<Real> brick;
+  Box box = boxOf(place);
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.low[axis] = std::max(box.low[axis] - apron_ * voxel[axis], bounds_.low[axis]);
+    box.high[axis] = std::min(box.high[axis] + apron_ * voxel[axis], bounds_.high[axis]);
+  }
+  const MediumSource::Content content = source_.contentOf(box);
+  const bool hasData = content.hasGas && content.lowest <= content.highest;
+  if (!hasData && !(content.hasWall && content.hasWindow))
+  {
+    brick.kind = content.hasWall ? Leaf<Real>::Solid : Leaf<Real>::Constant;
+    return brick;
+  }
+  const double lowest = hasData ? nuOf(content.lowest) : 0;
+  const double highest = hasData ? nuOf(content.highest) : 0;
+  if (!content.hasWall)
+  {
+    const double low = content.hasWindow ? std::min(lowest, 0.) : lowest;
+    const double high = content.hasWindow ? std::max(highest, 0.) : highest;
+    if (deflectionByRange * (high - low) <= negligible)
+    {
+      brick.facts.neglected = deflectionByRange * (high - low);
+      brick.facts.largestNu = std::max(std::abs(low), std::abs(high));
+      brick.offset = content.hasWindow ? Real(0) : static_cast<Real>(0.5 * (low + high));
+      return brick;
+    }
+  }
+  const bool hasEdges = content.hasWall || content.hasWindow;
+  Samples samples = sample(place, hasEdges);
+  brick.kind = Leaf<Real>::Samples;
+  const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible, brick);
+  BrickFacts& facts = brick.facts;
+  if (!samples.hasGas())
+  {
+    if (hasEdge && !facts.hasWallEdge)
+    {
+      // The cells know of gas that no sample has met.
+      facts.besideWindow = deflectionByRange * std::max(std::abs(lowest), std::abs(highest));
+    }
+    brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
+    return brick;
+  }
+  findErrors(place, content, samples, facts);
+  facts.range = deflectionByRange * (samples.highest - samples.lowest);
+  if (facts.range <= negligible)
+  {
+    facts.neglected = std::max(facts.neglected, facts.range);
+    facts.largestNu = std::max(std::abs(samples.lowest), std::abs(samples.highest));
+    brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
+    brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
+    return brick;
+  }
+  if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
+  {
+    storeCoefficients(samples, brick);
+    findBounds(place, brick);
+  }
+  return brick;
+}
+
+template class BrickMaker<float>;
+template class BrickMaker<double>;
+
+} // namespace schlieren

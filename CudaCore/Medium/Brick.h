@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One box of the medium's tree: what is in it, and its samples.
+#pragma once
+
+#include "Medium/Interpolation.h"
+#include "Medium/Leaves.h"
+#include "Medium/MediumSource.h"
+#include "Schlieren.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// A box of the tree, see Leaves.h.
+struct NodePlace
+{
+  int level;
+  std::array<std::int32_t, 3> at; ///< in boxes of that level
+};
+
+/// What a box needs to become finer. All of nu or of a deflection, which have the same size.
+struct BrickFacts
+{
+  /// Of a ray's deflection over the box, because the samples are as far apart as they are; 0 along an axis on
+  /// which the cells are no finer than the samples.
+  std::array<double, 3> error{ 0, 0, 0 };
+  double hidden =
+    0; ///< the same, because of what lies between samples that are further apart than cells
+  double range = 0;         ///< of its samples, as the deflection that it may make
+  double besideWindow = 0;  ///< the same, because a window's edge is not where it should be
+  double neglected = 0;     ///< the larger of both, where nothing was made of them
+  bool hasWallEdge = false; ///< gas, or a window, ends at a wall in it
+  bool areEdgesFine = true; ///< with voxels much finer than cells, edges show nothing new
+  double largestNu = 0;     ///< |nu| of its coefficients
+  std::array<double, 3> slope{ 0, 0,
+    0 };               ///< largest difference of neighbouring coefficients, a voxel
+  double steepest = 0; ///< largest gradient, about; nu by data unit
+  std::array<double, 3> steepestAt{ 0, 0, 0 }; ///< index coordinates
+};
+
+template <class Real>
+struct Brick
+{
+  typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
+  Real offset = 0;
+  std::vector<Real> samples;              ///< empty: all are 0
+  std::vector<std::int16_t> gasDistances; ///< of Leaf::Mixed, laid out like samples
+  BrickFacts facts;
+};
+
+/// Makes bricks of a source, each without knowledge of any other.
+template <class Real>
+class BrickMaker
+{
+public:
+  static constexpr int edge = 16; ///< samples
+
+  /// `grid`: the tree's. `largestNu`: what is far below it is set to 0.
+  BrickMaker(const MediumSource& source, const Grid& grid, double ambient, double largestNu,
+    Interpolation interpolation);
+
+  /// What is `negligible`, as a deflection, needs no samples.
+  Brick<Real> make(const NodePlace& place, double negligible) const;
+
+  int apron() const { return apron_; }
+  std::int64_t samplesPerBrick() const;
+  Box boxOf(const NodePlace& place) const; ///< without apron; data units
+  std::array<double, 3> voxelOf(int level) const;
+
+private:
+  struct Samples;
+
+  Samples sample(const NodePlace& place, bool hasEdges) const;
+  bool findEdges(const NodePlace& place, const MediumSource::Content& content, Samples& samples,
+    double negligible, Brick<Real>& brick) const;
+  void findErrors(const NodePlace& place, const MediumSource::Content& content,
+    const Samples& samples, BrickFacts& facts) const;
+  void storeCoefficients(Samples& samples, Brick<Real>& brick) const;
+  void findBounds(const NodePlace& place, Brick<Real>& brick) const;
+  double nuOf(double refractivity) const { return (refractivity - ambient_) / (1 + ambient_); }
+
+  const MediumSource& source_;
+  Grid grid_;
+  Box bounds_;
+  double ambient_;
+  double smallest_; ///< |nu| of a coefficient that is not 0
+  Interpolation interpolation_;
+  int apron_;
+  int support_; ///< samples beyond a coefficient's place that it is made of
+};
+
+/// Value and gradient, by local coordinates, of a brick whose first stored sample is at `samples`. The place is
+/// taken to the nearest one in the leaf.
+template <class Scheme, class Real>
+Sample<Real> interpolateBrick(const Real* samples, int apron, const Vec3<Real>& place)
+{
+  constexpr int edge = 16;
+  const int stride = edge + 2 * apron;
+  const MediumView<Real> view{ samples, stride, std::int64_t{ stride } * stride, {}, nullptr };
+  const Real x[3] = { place.x, place.y, place.z };
+  const std::int64_t strides[3] = { 1, view.rowStride, view.planeStride };
+  const Real* corner = samples;
+  Real w[3][Scheme::points], d[3][Scheme::points];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    constexpr Real half = static_cast<Real>(0.5);
+    const Real within = lesser(greater(x[axis], -half), edge - half);
+    // Counted from -1, so that truncation is the same as floor.
+    const int i = lesser(static_cast<int>(within + (Scheme::nearest ? half : 0) + 1) - 1, edge - 1);
+    Scheme::weights(within - static_cast<Real>(i), w[axis], d[axis]);
+    corner += (i + apron + Scheme::first) * strides[axis];
+  }
+  return tensorProduct<Real, Scheme::points>(view, corner, w, d);
+}
+
+} // namespace schlieren

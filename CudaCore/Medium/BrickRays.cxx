@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Medium/BrickRays.h"
+
+#include "Device/Parallel.h"
+#include "Medium/Brick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr int latticeEdge = 48;
+
+struct Bend
+{
+  double deflection = 0;
+  bool isBlocked = false;
+};
+
+/// A ray x = start + s direction, in index coordinates, s from `entry` to `exit` in data units.
+struct StraightRay
+{
+  double start[3], direction[3];
+  double entry, exit;
+};
+
+StraightRay rayAt(const Grid& grid, const Column& column, double u, double v)
+{
+  const Vec3<double> w = cross(column.u, column.v);
+  const Vec3<double> start = u * column.u + v * column.v;
+  const double from[3] = { start.x, start.y, start.z };
+  const double along[3] = { w.x, w.y, w.z };
+  StraightRay ray{ {}, {}, -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity() };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    ray.start[axis] = (from[axis] - grid.origin[axis]) / grid.spacing[axis];
+    ray.direction[axis] = along[axis] / grid.spacing[axis];
+    const double last = static_cast<double>(grid.dimensions[axis] - 1);
+    if (ray.direction[axis] != 0)
+    {
+      const double a = -ray.start[axis] / ray.direction[axis];
+      const double b = (last - ray.start[axis]) / ray.direction[axis];
+      ray.entry = std::max(ray.entry, std::min(a, b));
+      ray.exit = std::min(ray.exit, std::max(a, b));
+    }
+    else if (!(ray.start[axis] >= 0 && ray.start[axis] <= last))
+    {
+      ray.exit = ray.entry;
+    }
+  }
+  return ray;
+}
+
+/// Of the nearest sample.
+template <class Real>
+std::int16_t gasDistanceAt(
+  const LeavesView<Real>& medium, const Leaf<Real>& leaf, const double (&local)[3])
+{
+  const int stride = 16 + 2 * medium.apron;
+  std::int64_t at = 0;
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    const int i = static_cast<int>(std::lround(std::clamp(local[axis], 0., 15.)));
+    at = at * stride + i + medium.apron;
+  }
+  return medium.gasDistances[leaf.map * medium.samplesPerBrick + at];
+}
+
+template <class Scheme, class Real>
+Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray)
+{
+  double gradient[3] = { 0, 0, 0 }; // summed up, nu by index times data units
+  Bend bend;
+  double s = ray.entry;
+  const auto at = [&](double where, int axis)
+  { return ray.start[axis] + where * ray.direction[axis]; };
+  while (s < ray.exit)
+  {
+    const std::int32_t found = medium.finder.at({ at(s, 0), at(s, 1), at(s, 2) });
+    const Leaf<Real>& leaf = medium.leaves[found];
+    double local[3], along[3], way = ray.exit - s, fastest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      local[axis] = (at(s, axis) - leaf.first[axis]) * leaf.perIndex;
+      along[axis] = ray.direction[axis] * leaf.perIndex; // samples by data unit
+      fastest = std::max(fastest, std::abs(along[axis]));
+      if (along[axis] != 0)
+      {
+        const double side = along[axis] > 0 ? 15.5 : -0.5;
+        way = std::min(way, std::max(0., (side - local[axis]) / along[axis]));
+      }
+    }
+    // Into the next leaf, whatever rounding does.
+    const double beyond = std::max(1e-4 / fastest, 1e-12 * std::abs(ray.exit));
+    if (leaf.kind == Leaf<Real>::Solid)
+    {
+      bend.isBlocked = true;
+      break;
+    }
+    if (leaf.kind != Leaf<Real>::Constant && way > 0)
+    {
+      const int steps = std::max(1, static_cast<int>(std::ceil(way * fastest)));
+      const double step = way / steps;
+      const Real* samples = medium.samples + leaf.brick * medium.samplesPerBrick;
+      for (int n = 0; n < steps; ++n)
+      {
+        const double middle = (n + 0.5) * step;
+        const double place[3] = { local[0] + middle * along[0], local[1] + middle * along[1],
+          local[2] + middle * along[2] };
+        if (leaf.kind == Leaf<Real>::Mixed)
+        {
+          const std::int16_t distance = gasDistanceAt(medium, leaf, place);
+          if (distance < 0)
+          {
+            bend.isBlocked = bend.isBlocked || (distance & 1) == 0;
+            continue;
+          }
+        }
+        const Sample<Real> sample = interpolateBrick<Scheme>(samples, medium.apron,
+          Vec3<Real>{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
+            static_cast<Real>(place[2]) });
+        gradient[0] += static_cast<double>(sample.gradient.x) * leaf.perIndex * step;
+        gradient[1] += static_cast<double>(sample.gradient.y) * leaf.perIndex * step;
+        gradient[2] += static_cast<double>(sample.gradient.z) * leaf.perIndex * step;
+      }
+      if (bend.isBlocked)
+      {
+        break;
+      }
+    }
+    s += way + beyond;
+  }
+  const Grid& grid = medium.grid;
+  const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
+    gradient[2] / grid.spacing[2] };
+  bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
+  return bend;
+}
+
+} // namespace
+
+template <class Real>
+double largestDeflection(const LeavesView<Real>& medium, const Column& column,
+  const std::vector<Vec3<double>>& places, int threads)
+{
+  // What of the column is over the box.
+  const Grid& grid = medium.grid;
+  const Vec3<double>* axes[2] = { &column.u, &column.v };
+  double low[2], high[2];
+  for (int side = 0; side < 2; ++side)
+  {
+    const double a[3] = { axes[side]->x, axes[side]->y, axes[side]->z };
+    double middle = 0, half = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double halfEdge =
+        0.5 * grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
+      middle += a[axis] * (grid.origin[axis] + halfEdge);
+      half += std::abs(a[axis]) * halfEdge;
+    }
+    low[side] = std::max(middle - half, column.middle[side] - column.halfWidth[side]);
+    high[side] = std::min(middle + half, column.middle[side] + column.halfWidth[side]);
+    if (!(low[side] < high[side]))
+    {
+      return 0;
+    }
+  }
+  constexpr int ofLattice = latticeEdge * latticeEdge;
+  const std::int64_t rays = ofLattice + static_cast<std::int64_t>(places.size());
+  std::vector<Bend> bends(static_cast<std::size_t>(rays));
+  parallelFor(rays, 16, threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t n = begin; n < end; ++n)
+      {
+        double u, v;
+        if (n < ofLattice)
+        {
+          u = low[0] +
+            (high[0] - low[0]) * (static_cast<double>(n % latticeEdge) + 0.5) / latticeEdge;
+          v = low[1] +
+            (high[1] - low[1]) * (static_cast<double>(n / latticeEdge) + 0.5) / latticeEdge;
+        }
+        else
+        {
+          const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
+          const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
+            grid.origin[1] + index.y * grid.spacing[1],
+            grid.origin[2] + index.z * grid.spacing[2] };
+          u = dot(x, column.u);
+          v = dot(x, column.v);
+          if (!(u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1]))
+          {
+            continue;
+          }
+        }
+        const StraightRay ray = rayAt(grid, column, u, v);
+        bends[static_cast<std::size_t>(n)] = visitScheme(medium.interpolation,
+          [&](auto scheme) { return trace<decltype(scheme)>(medium, column, ray); });
+      }
+    });
+  double largest[2] = { 0, 0 }; // of those that pass and those that do not
+  for (const Bend& bend : bends)
+  {
+    double& ofKind = largest[bend.isBlocked ? 1 : 0];
+    ofKind = std::max(ofKind, bend.deflection);
+  }
+  return largest[0] > 0 ? largest[0] : largest[1];
+}
+
+template double largestDeflection(
+  const LeavesView<float>&, const Column&, const std::vector<Vec3<double>>&, int);
+template double largestDeflection(
+  const LeavesView<double>&, const Column&, const std::vector<Vec3<double>>&, int);
+
+} // namespace schlieren

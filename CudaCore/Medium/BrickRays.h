@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Straight rays through the leaves of a tree: how much light may be bent, before any image is made.
+#pragma once
+
+#include "Medium/Leaves.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// What a view looks at: an orthographic column through the data; unbounded where the half widths are infinite.
+struct Column
+{
+  Vec3<double> u, v;   ///< of the image, unit vectors, along the source's axes
+  double middle[2];    ///< image coordinates, data units
+  double halfWidth[2]; ///< along u and v, data units
+  double finest; ///< no voxel needs to be smaller: data units, the pixel's size or a part of it
+};
+
+/// All that rays see of a tree.
+template <class Real>
+struct LeavesView
+{
+  const Grid& grid;
+  LeafFinder finder;
+  const Leaf<Real>* leaves;
+  const Real* samples;
+  const std::int16_t* gasDistances;
+  std::int64_t samplesPerBrick;
+  int apron;
+  Interpolation interpolation;
+};
+
+/// The largest deflection of straight rays that no wall stops; where walls stop all, of these. The rays: on a
+/// lattice over the column, and those through some places (index coordinates) as far as they are in it.
+template <class Real>
+double largestDeflection(const LeavesView<Real>& medium, const Column& column,
+  const std::vector<Vec3<double>>& places, int threads);
+
+} // namespace schlieren

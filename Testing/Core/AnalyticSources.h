@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Sources of a medium that are formulas, and straight rays through what is made of them.
+#pragma once
+
+#include "Medium/MediumTree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace schlieren
+{
+
+using Range = std::pair<double, double>;
+
+/// Of |x - centre| over a box.
+inline Range distancesTo(const std::array<double, 3>& centre, const Box& box)
+{
+  double nearest = 0, farthest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double below = box.low[axis] - centre[axis];
+    const double above = box.high[axis] - centre[axis];
+    const double least = below > 0 ? below : above < 0 ? -above : 0;
+    const double most = std::max(-below, above);
+    nearest += least * least;
+    farthest += most * most;
+  }
+  return { std::sqrt(nearest), std::sqrt(farthest) };
+}
+
+/// N by a formula, everywhere in a cube of half edge `half`. Derived classes say what is not gas.
+class AnalyticSource : public MediumSource
+{
+public:
+  explicit AnalyticSource(double half = 1)
+    : half_(half)
+  {
+  }
+
+  virtual double refractivity(double x, double y, double z) const = 0;
+  virtual Range rangeOver(const Box& box) const = 0;
+  virtual double cellSizeOver(const Box& box) const = 0;
+  virtual Place placeAt(double, double, double) const { return Place::Gas; }
+  /// To where gas ends, data units, positive in gas.
+  virtual double distanceAt(double, double, double) const
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  /// hasWall, hasGas and hasWindow.
+  virtual void findPlaces(const Box&, Content& content) const { content.hasGas = true; }
+
+  Box bounds() const override { return { { -half_, -half_, -half_ }, { half_, half_, half_ } }; }
+  double ambient() const override { return 0; }
+
+  Content contentOf(const Box& box) const override
+  {
+    const Range range = rangeOver(box);
+    const double cell = cellSizeOver(box);
+    Content content{ range.first, range.second, { cell, cell, cell }, false, false, false };
+    findPlaces(box, content);
+    if (!content.hasGas)
+    {
+      content.lowest = 1;
+      content.highest = 0;
+    }
+    return content;
+  }
+
+  void sample(
+    const Lattice& lattice, double* refractivities, Place* places, float* distances) const override
+  {
+    ++lattices;
+    std::size_t at = 0;
+    for (int k = 0; k < lattice.points[2]; ++k)
+    {
+      for (int j = 0; j < lattice.points[1]; ++j)
+      {
+        for (int i = 0; i < lattice.points[0]; ++i, ++at)
+        {
+          const double x = lattice.first[0] + i * lattice.spacing[0];
+          const double y = lattice.first[1] + j * lattice.spacing[1];
+          const double z = lattice.first[2] + k * lattice.spacing[2];
+          const bool isInside =
+            std::abs(x) <= half_ && std::abs(y) <= half_ && std::abs(z) <= half_;
+          places[at] = isInside ? placeAt(x, y, z) : Place::Window;
+          refractivities[at] = places[at] == Place::Gas ? refractivity(x, y, z)
+                                                        : std::numeric_limits<double>::quiet_NaN();
+          if (distances != nullptr)
+          {
+            const double outer = half_ - std::max({ std::abs(x), std::abs(y), std::abs(z) });
+            const double distance = std::min(distanceAt(x, y, z), outer) / lattice.spacing[0];
+            distances[at] = static_cast<float>(
+              std::clamp(distance, -static_cast<double>(reach), static_cast<double>(reach)));
+          }
+        }
+      }
+    }
+  }
+
+  mutable std::atomic<int> lattices{ 0 }; ///< that were sampled
+
+protected:
+  double half_;
+};
+
+struct Ball
+{
+  std::array<double, 3> centre;
+  double width, height; ///< N = height exp(-(r / width)^2)
+};
+
+/// Balls with Gaussian profiles. Cells are a share of a ball's width in it, and large elsewhere.
+class BallsSource : public AnalyticSource
+{
+public:
+  explicit BallsSource(std::vector<Ball> balls, double half = 1, double cellByWidth = 0.01)
+    : AnalyticSource(half)
+    , balls_(std::move(balls))
+    , cellByWidth_(cellByWidth)
+  {
+  }
+
+  double refractivity(double x, double y, double z) const override
+  {
+    double sum = 0;
+    for (const Ball& ball : balls_)
+    {
+      const double dx = x - ball.centre[0], dy = y - ball.centre[1], dz = z - ball.centre[2];
+      const double q = (dx * dx + dy * dy + dz * dz) / (ball.width * ball.width);
+      sum += q < 60 ? ball.height * std::exp(-q) : 0;
+    }
+    return sum;
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    Range sum{ 0, 0 };
+    for (const Ball& ball : balls_)
+    {
+      const Range r = distancesTo(ball.centre, box);
+      const auto profile = [&](double x)
+      { return ball.height * std::exp(-x * x / (ball.width * ball.width)); };
+      sum.first += std::min(profile(r.first), profile(r.second));
+      sum.second += std::max(profile(r.first), profile(r.second));
+    }
+    return sum;
+  }
+  double cellSizeOver(const Box& box) const override
+  {
+    double size = 0.1 * half_;
+    for (const Ball& ball : balls_)
+    {
+      size = distancesTo(ball.centre, box).first < 4 * ball.width
+        ? std::min(size, cellByWidth_ * ball.width)
+        : size;
+    }
+    return size;
+  }
+
+  /// Of a straight ray through a place: along u and v.
+  std::array<double, 2> deflectionAt(
+    const Vec3<double>& place, const Vec3<double>& u, const Vec3<double>& v) const
+  {
+    std::array<double, 2> sum{ 0, 0 };
+    for (const Ball& ball : balls_)
+    {
+      const Vec3<double> from =
+        place - Vec3<double>{ ball.centre[0], ball.centre[1], ball.centre[2] };
+      const double a = dot(from, u), b = dot(from, v);
+      const double slope = -2 * std::sqrt(std::acos(-1.)) * ball.height / ball.width *
+        std::exp(-(a * a + b * b) / (ball.width * ball.width));
+      sum[0] += slope * a;
+      sum[1] += slope * b;
+    }
+    return sum;
+  }
+  double largestDeflection() const
+  {
+    double largest = 0;
+    for (const Ball& ball : balls_)
+    {
+      largest = std::max(largest,
+        2 * std::sqrt(std::acos(-1.)) * std::abs(ball.height) * std::exp(-0.5) / std::sqrt(2.));
+    }
+    return largest;
+  }
+
+private:
+  std::vector<Ball> balls_;
+  double cellByWidth_;
+};
+
+/// Three balls: a wide, a small and a tiny one.
+inline std::vector<Ball> threeBalls(double height)
+{
+  return { { { -0.1, 0.05, 0.02 }, 0.25, height }, { { 0.42, -0.31, 0.2 }, 0.05, 0.5 * height },
+    { { -0.37, 0.44, -0.5 }, 0.02, 0.25 * height } };
+}
+
+/// A column that sees all.
+inline Column everything(
+  const Vec3<double>& u = { 1, 0, 0 }, const Vec3<double>& v = { 0, 1, 0 }, double finest = 0)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  return { u, v, { 0, 0 }, { infinite, infinite }, finest };
+}
+
+/// Axes across a direction that follows no axis of the grid.
+inline std::pair<Vec3<double>, Vec3<double>> obliqueAxes()
+{
+  const Vec3<double> w{ 0.36, 0.48, 0.8 };
+  const Vec3<double> u{ 0.8, -0.6, 0 };
+  return { u, cross(w, u) };
+}
+
+template <class Real>
+std::int32_t leafAt(const MediumTree<Real>& tree, const Vec3<double>& place)
+{
+  const Grid& grid = tree.grid();
+  return tree.finder().at({ (place.x - grid.origin[0]) / grid.spacing[0],
+    (place.y - grid.origin[1]) / grid.spacing[1], (place.z - grid.origin[2]) / grid.spacing[2] });
+}
+
+/// Value and gradient, by data units.
+template <class Real>
+Sample<double> sampleAt(
+  const MediumTree<Real>& tree, Interpolation interpolation, const Vec3<double>& place)
+{
+  const Grid& grid = tree.grid();
+  const Leaf<Real>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, place))];
+  const auto local = [&](double x, std::size_t axis) -> Real
+  {
+    return static_cast<Real>(
+      ((x - grid.origin[axis]) / grid.spacing[axis] - leaf.first[axis]) * leaf.perIndex);
+  };
+  const Vec3<Real> at{ local(place.x, 0), local(place.y, 1), local(place.z, 2) };
+  const Real* samples = tree.samples().data() + leaf.brick * tree.samplesPerBrick();
+  const Sample<Real> found = visitScheme(interpolation,
+    [&](auto scheme) { return interpolateBrick<decltype(scheme)>(samples, tree.apron(), at); });
+  return { static_cast<double>(leaf.offset) + static_cast<double>(found.value),
+    { static_cast<double>(found.gradient.x) * leaf.perIndex / grid.spacing[0],
+      static_cast<double>(found.gradient.y) * leaf.perIndex / grid.spacing[1],
+      static_cast<double>(found.gradient.z) * leaf.perIndex / grid.spacing[2] } };
+}
+
+/// Gradient summed up along the straight ray through a place, in steps of half a voxel.
+template <class Real>
+Vec3<double> bendAlong(const MediumTree<Real>& tree, Interpolation interpolation,
+  const Vec3<double>& place, const Vec3<double>& direction)
+{
+  const Grid& grid = tree.grid();
+  double entry = -std::numeric_limits<double>::infinity(), exit = -entry;
+  const double x[3] = { place.x, place.y, place.z };
+  const double d[3] = { direction.x, direction.y, direction.z };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double low = grid.origin[axis];
+    const double high = low + grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
+    const double a = (low - x[axis]) / d[axis], b = (high - x[axis]) / d[axis];
+    if (d[axis] != 0)
+    {
+      entry = std::max(entry, std::min(a, b));
+      exit = std::min(exit, std::max(a, b));
+    }
+  }
+  Vec3<double> sum{ 0, 0, 0 };
+  for (double s = entry; s < exit;)
+  {
+    const double look = s + 1e-7 * (exit - entry);
+    const Leaf<Real>& leaf =
+      tree.leaves()[static_cast<std::size_t>(leafAt(tree, place + look * direction))];
+    double step = exit - s;
+    double out = exit - s;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (d[axis] != 0)
+      {
+        const double voxel = grid.spacing[axis] / leaf.perIndex;
+        step = std::min(step, 0.5 * voxel / std::abs(d[axis]));
+        const double index = (x[axis] + s * d[axis] - grid.origin[axis]) / grid.spacing[axis];
+        const double local = (index - leaf.first[axis]) * leaf.perIndex;
+        out = std::min(out, std::abs(((d[axis] > 0 ? 15.5 : -0.5) - local) * voxel / d[axis]));
+      }
+    }
+    step = std::max(std::min(step, out), 2e-7 * (exit - entry));
+    if (leaf.kind != Leaf<Real>::Constant)
+    {
+      sum += step * sampleAt(tree, interpolation, place + (s + 0.5 * step) * direction).gradient;
+    }
+    s += step;
+  }
+  return sum;
+}
+
+} // namespace schlieren
