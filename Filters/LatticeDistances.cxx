@@ -59,6 +59,61 @@ bool prepare(const std::array<Point, 3>& corners, Prepared& prepared)
   return true;
 }
 
+/// A row of points along x. What is done for all lanes is in loops of its own, which compilers vectorise.
+class Row
+{
+public:
+  Row(const Prepared& t, float y, float z)
+    : height_(t.height.inRow(y, z))
+    , heightSlope_(t.height.slope[0])
+  {
+    for (int e = 0; e < 3; ++e)
+    {
+      const Edge& edge = t.edges[e];
+      edges_[e] = { edge.across.inRow(y, z), edge.across.slope[0], edge.before.inRow(y, z),
+        edge.before.slope[0], edge.behind.inRow(y, z), edge.behind.slope[0] };
+    }
+  }
+
+  void update(int first, int end, std::int32_t number, float* __restrict squared,
+    std::int32_t* __restrict nearest) const
+  {
+    const EdgeInRow e0 = edges_[0], e1 = edges_[1], e2 = edges_[2];
+    const float height0 = height_, heightSlope = heightSlope_;
+    for (int i = first; i < end; ++i)
+    {
+      const auto x = static_cast<float>(i);
+      const float inPlane =
+        std::min(std::min(squaredDistance(e0, x), squaredDistance(e1, x)), squaredDistance(e2, x));
+      const float outside =
+        std::max(std::max(e0.across + e0.acrossSlope * x, e1.across + e1.acrossSlope * x),
+          e2.across + e2.acrossSlope * x);
+      const float height = height0 + heightSlope * x;
+      const float found = height * height + (outside > 0 ? inPlane : 0);
+      const bool isNearer = found < squared[i];
+      squared[i] = isNearer ? found : squared[i];
+      nearest[i] = isNearer ? number : nearest[i];
+    }
+  }
+
+private:
+  struct EdgeInRow
+  {
+    float across, acrossSlope, before, beforeSlope, behind, behindSlope;
+  };
+  static float squaredDistance(const EdgeInRow& edge, float x)
+  {
+    const float across = edge.across + edge.acrossSlope * x;
+    const float before = edge.before + edge.beforeSlope * x;
+    const float behind = edge.behind + edge.behindSlope * x;
+    const float beyond = std::max(std::max(before, behind), 0.f);
+    return across * across + beyond * beyond;
+  }
+
+  float height_, heightSlope_;
+  EdgeInRow edges_[3];
+};
+
 } // namespace
 
 LatticeMetric::LatticeMetric(const schlieren::Lattice& lattice)
@@ -105,52 +160,32 @@ void LatticeDistances::add(const std::array<Point, 3>& corners, std::int32_t num
     first[axis] = static_cast<int>(std::clamp(std::ceil(low - this->Reach), 0., most));
     last[axis] = static_cast<int>(std::clamp(std::floor(high + this->Reach), -1., most - 1));
   }
-  const float firstX = static_cast<float>(first[0]), lastX = static_cast<float>(last[0]);
   for (int k = first[2]; k <= last[2]; ++k)
   {
     for (int j = first[1]; j <= last[1]; ++j)
     {
       const auto y = static_cast<float>(j), z = static_cast<float>(k);
+      // Where the row is within reach of the triangle's plane.
       const float height = t.height.inRow(y, z), slope = t.height.slope[0];
-      const float one = height + slope * firstX, other = height + slope * lastX;
-      if (std::min(one, other) > this->Reach || std::max(one, other) < -this->Reach)
+      float low = static_cast<float>(first[0]), high = static_cast<float>(last[0]);
+      if (std::abs(slope) > 1e-3f)
+      {
+        const float middle = -height / slope, half = this->Reach / std::abs(slope);
+        low = std::max(low, middle - half);
+        high = std::min(high, middle + half);
+      }
+      else if (std::abs(height) > this->Reach + 0.1f)
       {
         continue;
       }
-      float across[3], before[3], behind[3];
-      for (int e = 0; e < 3; ++e)
+      if (low > high)
       {
-        across[e] = t.edges[e].across.inRow(y, z);
-        before[e] = t.edges[e].before.inRow(y, z);
-        behind[e] = t.edges[e].behind.inRow(y, z);
+        continue;
       }
-      for (int start = first[0] / lanes * lanes; start <= last[0]; start += lanes)
-      {
-        float* squared = this->Squared.data() + this->place(start, j, k);
-        std::int32_t* nearest = this->Nearest.data() + this->place(start, j, k);
-        for (int lane = 0; lane < lanes; ++lane)
-        {
-          const auto x = static_cast<float>(start + lane);
-          const float h = height + slope * x;
-          float inPlane = 1e30f, outside = 0;
-          for (int e = 0; e < 3; ++e)
-          {
-            const float a = across[e] + t.edges[e].across.slope[0] * x;
-            const float b = before[e] + t.edges[e].before.slope[0] * x;
-            const float c = behind[e] + t.edges[e].behind.slope[0] * x;
-            float beyond = b > c ? b : c;
-            beyond = beyond > 0 ? beyond : 0;
-            const float d = a * a + beyond * beyond;
-            inPlane = d < inPlane ? d : inPlane;
-            outside = a > outside ? a : outside;
-          }
-          inPlane = outside > 0 ? inPlane : 0;
-          const float d = h * h + inPlane;
-          const bool isNearer = d < squared[lane];
-          squared[lane] = isNearer ? d : squared[lane];
-          nearest[lane] = isNearer ? number : nearest[lane];
-        }
-      }
+      const int start = static_cast<int>(low) / lanes * lanes;
+      const int end = (static_cast<int>(high) / lanes + 1) * lanes;
+      const std::size_t at = this->row(j, k);
+      Row(t, y, z).update(start, end, number, this->Squared.data() + at, this->Nearest.data() + at);
     }
   }
 }

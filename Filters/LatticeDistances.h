@@ -41,20 +41,22 @@ public:
   /// `number` is what nearest() returns.
   void add(const std::array<Point, 3>& corners, std::int32_t number);
 
-  /// At most the reach.
-  float at(int i, int j, int k) const { return std::sqrt(this->Squared[this->place(i, j, k)]); }
-  /// -1: none is within reach.
-  std::int32_t nearest(int i, int j, int k) const { return this->Nearest[this->place(i, j, k)]; }
+  /// Of a row of points along x: the squares of the distances, at most that of the reach, and the nearest
+  /// triangles; -1: none is within reach.
+  const float* squaredInRow(int j, int k) const { return this->Squared.data() + this->row(j, k); }
+  const std::int32_t* nearestInRow(int j, int k) const
+  {
+    return this->Nearest.data() + this->row(j, k);
+  }
+
+  static constexpr int lanes = 4; ///< points that are looked at together
 
 private:
-  static constexpr int lanes = 8;
-
-  std::size_t place(int i, int j, int k) const
+  std::size_t row(int j, int k) const
   {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(this->Points[1]) +
              static_cast<std::size_t>(j)) *
-      this->Stride +
-      static_cast<std::size_t>(i);
+      this->Stride;
   }
 
   std::array<int, 3> Points;

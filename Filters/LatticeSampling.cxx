@@ -15,7 +15,8 @@ constexpr float depthOfThin = 0.5f;
 constexpr float onSurface =
   1e-3f;                     // points so near to a surface are counted to the side of its normal
 constexpr float tie = 1e-3f; // of the distances to two faces
-constexpr float diagonal = 1.7321f;
+constexpr float squaredDiagonal = 3.001f; // of a voxel
+constexpr float cosineOfPlane = 0.9f;
 
 constexpr int steps[6][3] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 },
   { 0, 0, 1 } };
@@ -106,61 +107,29 @@ bool LatticeSampling::addBodies(const Triangles& surface, const TriangleTree& tr
   return this->Fields[Body] != nullptr;
 }
 
-float LatticeSampling::distanceTo(Kind kind, const Index& at) const
+template <class Visit>
+void LatticeSampling::forNeighbours(const Index& at, const Visit& visit) const
 {
-  return this->Fields[kind] ? this->Fields[kind]->at(at.i, at.j, at.k)
-                            : schlieren::MediumSource::reach;
-}
-
-std::int32_t LatticeSampling::nearestOf(Kind kind, const Index& at) const
-{
-  return this->Fields[kind] ? this->Fields[kind]->nearest(at.i, at.j, at.k) : -1;
-}
-
-float LatticeSampling::distanceToSolid(const Index& at) const
-{
-  return std::min(this->distanceTo(Wall, at), this->distanceTo(Body, at));
-}
-
-std::int32_t LatticeSampling::nearestSolid(const Index& at) const
-{
-  return this->nearestOf(this->distanceTo(Body, at) < this->distanceTo(Wall, at) ? Body : Wall, at);
-}
-
-/// The normal of the nearest wall, turned to the side on which the point is.
-Point LatticeSampling::normalTowards(const Index& at) const
-{
-  const std::int32_t nearest = this->nearestSolid(at);
-  if (nearest < 0)
+  for (const auto& step : steps)
   {
-    return { 0, 0, 0 };
+    const Index beside{ at.i + step[0], at.j + step[1], at.k + step[2] };
+    if (this->holds(beside))
+    {
+      visit(beside, this->numberOf(beside));
+    }
   }
-  const Near& near = this->Nearby[static_cast<std::size_t>(nearest)];
-  const Point place{ static_cast<double>(at.i), static_cast<double>(at.j),
-    static_cast<double>(at.k) };
-  const double height = dot(near.normal, place - near.corners[0]);
-  const bool isBehind = height < 0 && this->distanceToSolid(at) > onSurface;
-  return isBehind ? -1. * near.normal : near.normal;
 }
 
 /// Of a wall and a window that are equally near, at a common edge, the one whose plane is farther away faces the
 /// point more.
-bool LatticeSampling::isWallNearer(const Index& at) const
+bool LatticeSampling::isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const
 {
-  const float toWall = this->distanceTo(Wall, at), toWindow = this->distanceTo(Window, at);
-  if (std::abs(toWall - toWindow) > tie || this->nearestOf(Wall, at) < 0 ||
-    this->nearestOf(Window, at) < 0)
+  const auto heightOver = [&](std::int32_t number)
   {
-    return toWall < toWindow;
-  }
-  const Point place{ static_cast<double>(at.i), static_cast<double>(at.j),
-    static_cast<double>(at.k) };
-  const auto heightOver = [&](Kind kind)
-  {
-    const Near& near = this->Nearby[static_cast<std::size_t>(this->nearestOf(kind, at))];
-    return std::abs(dot(near.normal, place - near.corners[0]));
+    const Near& near = this->Nearby[static_cast<std::size_t>(number)];
+    return std::abs(dot(near.normal, placeOf(at) - near.corners[0]));
   };
-  return heightOver(Wall) >= heightOver(Window);
+  return heightOver(wall) >= heightOver(window);
 }
 
 void LatticeSampling::measure(
@@ -169,95 +138,165 @@ void LatticeSampling::measure(
   constexpr float reach = schlieren::MediumSource::reach;
   const auto size = static_cast<std::size_t>(this->Lattice.size());
   this->Distances.resize(size);
-  this->States.assign(size, InGas);
+  this->States.resize(size);
+  this->SquaredToSolid.resize(size);
+  this->NearestSolid.resize(size);
+  const std::vector<float> far(static_cast<std::size_t>(this->Lattice.points[0]), reach * reach);
+  const std::vector<std::int32_t> none(far.size(), -1);
+  for (int k = 0; k < this->Lattice.points[2]; ++k)
+  {
+    for (int j = 0; j < this->Lattice.points[1]; ++j)
+    {
+      const float* squared[3];
+      const std::int32_t* nearest[3];
+      for (const Kind kind : { Wall, Window, Body })
+      {
+        const LatticeDistances* field = this->Fields[kind].get();
+        squared[kind] = field ? field->squaredInRow(j, k) : far.data();
+        nearest[kind] = field ? field->nearestInRow(j, k) : none.data();
+      }
+      const std::size_t row = this->numberOf({ 0, j, k });
+      for (int i = 0; i < this->Lattice.points[0]; ++i)
+      {
+        const std::size_t p = row + static_cast<std::size_t>(i);
+        const float toWall = squared[Wall][i], toWindow = squared[Window][i],
+                    toBody = squared[Body][i];
+        const bool isBodyNearer = toBody < toWall;
+        this->SquaredToSolid[p] = isBodyNearer ? toBody : toWall;
+        this->NearestSolid[p] = nearest[isBodyNearer ? Body : Wall][i];
+
+        const bool isWithinBody = !isInBody.empty() && isInBody[p];
+        const float toMesh = std::max(std::sqrt(std::min(toWall, toWindow)), smallest);
+        const float fromBody = std::max(std::sqrt(toBody), smallest);
+        this->Distances[p] =
+          std::min(isInCell[p] ? toMesh : -toMesh, isWithinBody ? -fromBody : fromBody);
+        State state = isWithinBody ? InWall : InGas;
+        if (!isWithinBody && !isInCell[p])
+        {
+          const std::int32_t wall = nearest[Wall][i], window = nearest[Window][i];
+          const bool isTie =
+            wall >= 0 && window >= 0 && std::abs(std::sqrt(toWall) - std::sqrt(toWindow)) < tie;
+          const bool isWall =
+            isTie ? this->isWallNearer({ i, j, k }, wall, window) : wall >= 0 && toWall < toWindow;
+          state = isWall ? InWall : (window >= 0 ? InWindow : Unknown);
+        }
+        this->States[p] = state;
+      }
+    }
+  }
+}
+
+/// No face is near, and gas is beside: what seems to be outside is a gap between cells.
+void LatticeSampling::findGaps()
+{
   this->forPoints(
     [&](const Index& at)
     {
-      const std::size_t p = this->placeOf(at);
-      const bool isWithinBody = !isInBody.empty() && isInBody[p];
-      const float toWall = this->distanceTo(Wall, at), toWindow = this->distanceTo(Window, at);
-      const float toMesh = std::max(std::min(toWall, toWindow), smallest);
-      const float toBody = std::max(this->distanceTo(Body, at), smallest);
-      this->Distances[p] =
-        std::min(isInCell[p] ? toMesh : -toMesh, isWithinBody ? -toBody : toBody);
-      if (isWithinBody)
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] != Unknown)
       {
-        this->States[p] = InWall;
+        return;
       }
-      else if (!isInCell[p])
-      {
-        const bool isNear = std::min(toWall, toWindow) < reach;
-        this->States[p] = isNear ? (this->isWallNearer(at) ? InWall : InWindow) : Unknown;
-      }
+      this->forNeighbours(at,
+        [&](const Index&, std::size_t beside)
+        {
+          if (this->States[beside] == InGas)
+          {
+            this->States[p] = InWindow;
+            this->Distances[p] = -smallest;
+          }
+        });
     });
 }
 
 /// Outside points that are known tell those beside them that are not.
-void LatticeSampling::spread(std::vector<std::size_t>& known)
+void LatticeSampling::spread(std::vector<Index>& known)
 {
-  const auto points = this->Lattice.points;
   for (std::size_t next = 0; next < known.size(); ++next)
   {
-    const auto p = static_cast<int>(known[next]);
-    const Index at{ p % points[0], p / points[0] % points[1], p / points[0] / points[1] };
-    for (const auto& step : steps)
-    {
-      const Index beside{ at.i + step[0], at.j + step[1], at.k + step[2] };
-      if (this->holds(beside) && this->States[this->placeOf(beside)] == Unknown)
+    const unsigned char state = this->States[this->numberOf(known[next])];
+    this->forNeighbours(Index(known[next]),
+      [&](const Index& beside, std::size_t number)
       {
-        this->States[this->placeOf(beside)] = this->States[known[next]];
-        known.push_back(this->placeOf(beside));
-      }
-    }
+        if (this->States[number] == Unknown)
+        {
+          this->States[number] = state;
+          known.push_back(beside);
+        }
+      });
   }
   known.clear();
 }
 
 void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt)
 {
-  if (std::find(this->States.begin(), this->States.end(), Unknown) == this->States.end())
+  const auto hasAny = [&](State state)
+  { return std::find(this->States.begin(), this->States.end(), state) != this->States.end(); };
+  if (!hasAny(Unknown))
   {
     return;
   }
-  // No face is near, and gas is beside: what seems to be outside is a gap between cells.
-  std::vector<std::size_t> known;
+  const bool hasWall = hasAny(InWall), hasWindow = hasAny(InWindow);
+  if (hasAny(InGas))
+  {
+    this->findGaps();
+  }
+  if (hasWall != hasWindow)
+  {
+    std::replace(this->States.begin(), this->States.end(), static_cast<unsigned char>(Unknown),
+      static_cast<unsigned char>(hasWall ? InWall : InWindow));
+    return;
+  }
+  std::vector<Index> known;
   this->forPoints(
     [&](const Index& at)
     {
-      const std::size_t p = this->placeOf(at);
-      for (const auto& step : steps)
-      {
-        const Index beside{ at.i + step[0], at.j + step[1], at.k + step[2] };
-        if (this->States[p] == Unknown && this->holds(beside) &&
-          this->States[this->placeOf(beside)] == InGas)
-        {
-          this->States[p] = InWindow;
-          this->Distances[p] = -smallest;
-        }
-      }
-    });
-  this->forPoints(
-    [&](const Index& at)
-    {
-      const std::size_t p = this->placeOf(at);
+      const std::size_t p = this->numberOf(at);
       if (this->States[p] != InGas && this->States[p] != Unknown && this->Distances[p] < -smallest)
       {
-        known.push_back(p);
+        known.push_back(at);
       }
     });
   this->spread(known);
   this->forPoints(
     [&](const Index& at)
     {
-      const std::size_t p = this->placeOf(at);
+      const std::size_t p = this->numberOf(at);
       if (this->States[p] == Unknown)
       {
-        const Point place{ this->Lattice.first[0] + at.i * this->Lattice.spacing[0],
-          this->Lattice.first[1] + at.j * this->Lattice.spacing[1],
-          this->Lattice.first[2] + at.k * this->Lattice.spacing[2] };
-        this->States[p] = kindAt(place) == Place::Wall ? InWall : InWindow;
-        known.push_back(p);
+        const schlieren::Lattice& lattice = this->Lattice;
+        const bool isWall = kindAt({ lattice.first[0] + at.i * lattice.spacing[0],
+                              lattice.first[1] + at.j * lattice.spacing[1],
+                              lattice.first[2] + at.k * lattice.spacing[2] }) == Place::Wall;
+        this->States[p] = isWall ? InWall : InWindow;
+        known.push_back(at);
         this->spread(known);
+      }
+    });
+}
+
+/// On which side of the nearest solid each point is. What is farther away from it than from its neighbours does
+/// not need to know.
+void LatticeSampling::findSides()
+{
+  this->IsBeside.assign(this->States.size(), 0);
+  this->Sides.assign(this->States.size(), { 0, 0, 0 });
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
+      {
+        return;
+      }
+      this->IsBeside[p] = 1;
+      const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
+      const bool isBehind = dot(near.normal, placeOf(at) - near.corners[0]) < 0 &&
+        this->SquaredToSolid[p] > onSurface * onSurface;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        this->Sides[p][axis] =
+          static_cast<float>(isBehind ? -near.normal[axis] : near.normal[axis]);
       }
     });
 }
@@ -266,47 +305,37 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
 /// corners with gas.
 void LatticeSampling::separate(const Index& low)
 {
-  struct Corner
-  {
-    Index at;
-    Point place;
-    std::size_t side; // the first corner that is on the same one
-  };
-  std::array<Corner, 8> corners;
+  std::array<std::size_t, 8> numbers; // of the corners with gas
+  std::array<Point, 8> places;
   std::size_t count = 0;
+  const std::array<float, 3>* side = nullptr;
   bool mayBeCrossed = false;
-  Point firstNormal{ 0, 0, 0 };
-  float nearest = diagonal;
   for (int c = 0; c < 8; ++c)
   {
     const Index at{ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) };
-    if (this->States[this->placeOf(at)] != InGas)
+    const std::size_t p = this->numberOf(at);
+    if (this->States[p] != InGas)
     {
       continue;
     }
-    const float distance = this->distanceToSolid(at);
-    corners[count] = { at,
-      { static_cast<double>(at.i), static_cast<double>(at.j), static_cast<double>(at.k) }, count };
+    numbers[count] = p;
+    places[count] = placeOf(at);
+    if (this->IsBeside[p])
+    {
+      // On one side of a wall that is about plane there is nothing to do.
+      const std::array<float, 3>& own = this->Sides[p];
+      side = side ? side : &own;
+      mayBeCrossed = mayBeCrossed ||
+        (*side)[0] * own[0] + (*side)[1] * own[1] + (*side)[2] * own[2] < cosineOfPlane;
+      if (this->SquaredToSolid[p] <= onSurface * onSurface)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          places[count][axis] += double{ onSurface } * own[axis];
+        }
+      }
+    }
     ++count;
-    if (distance > diagonal)
-    {
-      continue;
-    }
-    // On one side of a wall that is about plane there is nothing to do.
-    const Point normal = this->normalTowards(at);
-    if (nearest + distance <= diagonal && dot(firstNormal, firstNormal) > 0)
-    {
-      mayBeCrossed = mayBeCrossed || dot(firstNormal, normal) < 0.9;
-    }
-    if (!(dot(firstNormal, firstNormal) > 0))
-    {
-      firstNormal = normal;
-    }
-    nearest = std::min(nearest, distance);
-    if (distance <= onSurface)
-    {
-      corners[count - 1].place = corners[count - 1].place + double{ onSurface } * normal;
-    }
   }
   if (!mayBeCrossed)
   {
@@ -339,6 +368,7 @@ void LatticeSampling::separate(const Index& low)
   {
     return;
   }
+  std::array<int, 8> sides{ 0, 1, 2, 3, 4, 5, 6, 7 }; // the same number: not separated
   double crossing[8][8]; // the mean of the first and the last one; negative: none
   for (std::size_t a = 0; a < count; ++a)
   {
@@ -347,8 +377,7 @@ void LatticeSampling::separate(const Index& low)
       double first = 2, last = -1;
       for (const Near* wall : walls)
       {
-        const double share =
-          crossingOf(wall->corners, wall->normal, corners[a].place, corners[b].place);
+        const double share = crossingOf(wall->corners, wall->normal, places[a], places[b]);
         if (share >= 0)
         {
           first = std::min(first, share);
@@ -358,11 +387,8 @@ void LatticeSampling::separate(const Index& low)
       crossing[a][b] = last < 0 ? -1 : 0.5 * (first + last);
       if (last < 0)
       {
-        const auto [one, other] = std::minmax({ corners[a].side, corners[b].side });
-        for (std::size_t c = 0; c < count; ++c)
-        {
-          corners[c].side = corners[c].side == other ? one : corners[c].side;
-        }
+        std::replace(
+          sides.begin(), sides.end(), std::max(sides[a], sides[b]), std::min(sides[a], sides[b]));
       }
     }
   }
@@ -370,15 +396,15 @@ void LatticeSampling::separate(const Index& low)
   {
     for (std::size_t b = a + 1; b < count; ++b)
     {
-      if (corners[a].side != corners[b].side)
+      if (sides[a] != sides[b])
       {
         if (crossing[a][b] < 0.5 + 1e-3)
         {
-          this->Marked[this->placeOf(corners[a].at)] = 1;
+          this->Marked[numbers[a]] = 1;
         }
         if (crossing[a][b] > 0.5 - 1e-3)
         {
-          this->Marked[this->placeOf(corners[b].at)] = 1;
+          this->Marked[numbers[b]] = 1;
         }
       }
     }
@@ -393,11 +419,14 @@ bool LatticeSampling::isThin(const Index& at) const
     const auto& step = steps[2 * axis];
     const Index one{ at.i + step[0], at.j + step[1], at.k + step[2] };
     const Index other{ at.i - step[0], at.j - step[1], at.k - step[2] };
-    if (this->holds(one) && this->holds(other) && this->States[this->placeOf(one)] == InGas &&
-      this->States[this->placeOf(other)] == InGas &&
-      dot(this->normalTowards(one), this->normalTowards(other)) < -0.5)
+    if (this->holds(one) && this->holds(other))
     {
-      return true;
+      const std::array<float, 3>&a = this->Sides[this->numberOf(one)],
+                              &b = this->Sides[this->numberOf(other)];
+      if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < -0.5f)
+      {
+        return true;
+      }
     }
   }
   return false;
@@ -405,22 +434,35 @@ bool LatticeSampling::isThin(const Index& at) const
 
 void LatticeSampling::thickenPlates()
 {
+  this->findSides();
   this->Marked.assign(this->States.size(), 0);
   const auto& points = this->Lattice.points;
   for (int k = 0; k + 1 < points[2]; ++k)
   {
     for (int j = 0; j + 1 < points[1]; ++j)
     {
+      const unsigned char* rows[4] = { &this->IsBeside[this->numberOf({ 0, j, k })],
+        &this->IsBeside[this->numberOf({ 0, j + 1, k })],
+        &this->IsBeside[this->numberOf({ 0, j, k + 1 })],
+        &this->IsBeside[this->numberOf({ 0, j + 1, k + 1 })] };
       for (int i = 0; i + 1 < points[0]; ++i)
       {
-        this->separate({ i, j, k });
+        int beside = 0;
+        for (const unsigned char* row : rows)
+        {
+          beside += row[i] + row[i + 1];
+        }
+        if (beside > 1)
+        {
+          this->separate({ i, j, k });
+        }
       }
     }
   }
   this->forPoints(
     [&](const Index& at)
     {
-      const std::size_t p = this->placeOf(at);
+      const std::size_t p = this->numberOf(at);
       if (this->States[p] == InWall && this->Distances[p] > -depthOfThin && this->isThin(at))
       {
         this->Marked[p] = 1;

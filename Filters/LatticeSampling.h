@@ -50,23 +50,25 @@ private:
   };
 
   void add(Kind kind, const Triangles& surface, std::int32_t triangle);
-  float distanceTo(Kind kind, const Index& at) const;
-  std::int32_t nearestOf(Kind kind, const Index& at) const;
-  std::int32_t nearestSolid(const Index& at) const;
-  float distanceToSolid(const Index& at) const;
-  Point normalTowards(const Index& at) const;
-  bool isWallNearer(const Index& at) const;
-
   void measure(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody);
+  bool isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const;
   void findKinds(const std::function<Place(const Point&)>& kindAt);
-  void spread(std::vector<std::size_t>& known);
+  void findGaps();
+  void spread(std::vector<Index>& known);
+  void findSides();
   void thickenPlates();
   void separate(const Index& low);
   bool isThin(const Index& at) const;
 
   template <class Visit>
   void forPoints(const Visit& visit) const;
-  std::size_t placeOf(const Index& at) const
+  template <class Visit>
+  void forNeighbours(const Index& at, const Visit& visit) const;
+  static Point placeOf(const Index& at)
+  {
+    return { static_cast<double>(at.i), static_cast<double>(at.j), static_cast<double>(at.k) };
+  }
+  std::size_t numberOf(const Index& at) const
   {
     return (static_cast<std::size_t>(at.k) * static_cast<std::size_t>(this->Lattice.points[1]) +
              static_cast<std::size_t>(at.j)) *
@@ -84,7 +86,8 @@ private:
   std::vector<Near> Nearby;
   std::array<std::unique_ptr<LatticeDistances>, 3> Fields; // of each kind; null: none within reach
   std::array<std::vector<std::int32_t>, 3> Numbers;        // of each kind
-  std::vector<float> Distances;
+
+  // Of each point.
   enum State : unsigned char
   {
     InGas,
@@ -93,7 +96,13 @@ private:
     Unknown // outside, of what kind?
   };
   std::vector<unsigned char> States;
-  std::vector<unsigned char> Marked; // to become walls
+  std::vector<float> Distances;
+  std::vector<float> SquaredToSolid;      // walls and bodies
+  std::vector<std::int32_t> NearestSolid; // -1: none within reach
+  std::vector<std::array<float, 3>>
+    Sides; // in gas near a solid: its normal, turned to the point; else 0
+  std::vector<unsigned char> IsBeside; // whether it has such a normal
+  std::vector<unsigned char> Marked;   // to become walls
 };
 
 } // namespace refractivity

@@ -908,16 +908,20 @@ TEST(GasBoundary, AmbientIsThatOfTheFarField)
 // A mesh as for a flow with a far field: what it takes to make, and to sample near the wall.
 TEST(GasBoundary, DISABLED_Speed)
 {
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto seconds = [&](auto since)
-  { return std::chrono::duration<double>(now() - since).count(); };
+  const auto now = []
+  {
+    timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const auto seconds = [&](double since) { return now() - since; };
   const Data mesh = curvilinear(
     108, 76, 151, [](double i, double j, double k) { return aroundSphere(i, j, k, 50); });
   auto start = now();
   const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
   std::cout << mesh->GetNumberOfCells() << " cells, " << boundary.surface().size()
             << " triangles: " << seconds(start) << " s\n";
-  for (const double h : { 0.005, 0.01, 0.02, 0.05, 0.1, 0.2 })
+  for (const double h : { 0.005, 0.01, 0.02, 0.04 })
   {
     for (const int points : { 20, 24 })
     {
@@ -925,7 +929,7 @@ TEST(GasBoundary, DISABLED_Speed)
       std::uniform_real_distribution<double> any(-1, 1);
       int bricks = 0;
       double time = 0;
-      for (int i = 0; i < 200; ++i)
+      for (int i = 0; i < 100; ++i)
       {
         const Vec middle = unit({ any(random), any(random), any(random) });
         Lattice lattice;
