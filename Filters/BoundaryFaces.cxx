@@ -37,8 +37,8 @@ namespace
 {
 
 constexpr double mergingPart = 1e-3; // of the smallest edge or cell beside a point
-constexpr double lookingPart =
-  1e-3;                         // of a face's or a cell's height: how far behind a face to look
+/// Of a cell's height: how far behind a face to look. Further than the tolerance with which cells hold points.
+constexpr double lookingPart = 4e-3;
 constexpr int subdivisions = 2; // of the faces of curved cells
 constexpr const char* ownersName = "OwnerOfFace";
 
@@ -474,7 +474,7 @@ void removeCovered(const Faces& faces, const CellTest& isInCell, std::vector<Kep
       for (vtkIdType i = begin; i < end; ++i)
       {
         const Kept& face = kept[static_cast<std::size_t>(i)];
-        const double step = lookingPart * std::min(face.sides.height, face.sides.width);
+        const double step = lookingPart * face.sides.height;
         const Point middle = face.sides.middle + step * face.sides.outward;
         bool areAll = std::isfinite(step) && isInCell(middle);
         for (const std::int32_t corner : face.corners)

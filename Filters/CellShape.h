@@ -5,6 +5,8 @@
 // tetrahedra, hexahedra, voxels, wedges, and pyramids, whose tops are hexahedra's faces collapsed to points.
 #pragma once
 
+#include "Vectors.h"
+
 #include "vtkCellType.h"
 
 #include <algorithm>
@@ -14,8 +16,6 @@
 
 namespace refractivity
 {
-
-using Vector = std::array<double, 3>;
 
 enum class CellShape : unsigned char
 {
@@ -137,16 +137,6 @@ inline Polynomial polynomialOf(CellShape shape, const double* corners)
     default:
       return polynomialOf<CellShape::Hexahedron>(corners);
   }
-}
-
-inline Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-inline double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// The rows of the inverse of a matrix of three columns. Whether there is one, rounding apart.

@@ -2,42 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Vectors.h"
+
 #include "Medium/MediumSource.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace refractivity
 {
-
-using Point = std::array<double, 3>;
-
-inline Point operator+(const Point& a, const Point& b)
-{
-  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
-}
-inline Point operator-(const Point& a, const Point& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-inline Point operator*(double s, const Point& a) { return { s * a[0], s * a[1], s * a[2] }; }
-inline double dot(const Point& a, const Point& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Point cross(const Point& a, const Point& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-inline double norm(const Point& a) { return std::sqrt(dot(a, a)); }
-inline Point unit(const Point& a)
-{
-  const double length = norm(a);
-  return length > 0 ? (1 / length) * a : Point{ 0, 0, 0 };
-}
 
 /// A surface. Points of which triangles make use are finite.
 struct Triangles

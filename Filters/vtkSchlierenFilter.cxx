@@ -883,17 +883,20 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
     if (vtkDataObject* input = vtkDataObject::GetData(inputVector[0]))
     {
       this->PassToMedium();
-      vtkSmartPointer<vtkImageData> grid = this->Inside->Refractivity;
+      schlieren::Grid grid;
       vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
-      if (!this->Inside->holdsRefractivityOf(
-      describeInputs(this, input, bodies), this->Medium, this->ColorByField))
+      if (this->Inside->holdsRefractivityOf(
+            describeInputs(this, input, bodies), this->Medium, this->ColorByField))
       {
-        grid = vtkSmartPointer<vtkImageData>::New();
-        this->Medium->ComputeGrid(input, grid);
+        grid = this->Inside->field().grid;
       }
-      const bool isSource = grid == this->Inside->Refractivity && this->Inside->Source;
-      const schlieren::Frame frame =
-        frameFrom(this, isSource ? this->Inside->field().grid : gridFrom(grid));
+      else
+      {
+        vtkNew<vtkImageData> planned;
+        this->Medium->ComputeGrid(input, planned);
+        grid = gridFrom(planned);
+      }
+      const schlieren::Frame frame = frameFrom(this, grid);
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
     }

@@ -474,7 +474,8 @@ MediumView<Real> viewOf(const MediumTree<Real>& tree)
   const std::int64_t plane = row * row;
   // Views begin at the first of the ghost points that all schemes have.
   const std::int64_t ghost = (tree.apron() - 1) * (plane + row + 1);
-  constexpr Real low = Real(-0.5), high = Real(edge - 0.5);
+  constexpr Real low = Real(-0.5);
+  const Real high = std::nextafter(Real(edge - 0.5), low); // its nearest sample is the last one
   const std::array<std::int64_t, 3>& points = tree.grid().dimensions;
   MediumView<Real> view{ tree.samples().data() + ghost, row, plane, { low, low, low },
     { high, high, high },

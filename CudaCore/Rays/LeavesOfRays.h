@@ -129,6 +129,160 @@ private:
   }
 };
 
+/// What is known of the leaves of a pack's rays.
+template <class Real>
+struct LeavesInPacks
+{
+  Vec3<Real> low, high; ///< the domain's corners, local coordinates
+  Real value;           ///< is to be added to what samples say
+  Real perIndex;        ///< local by index coordinates
+  Real step;            ///< the usual one; 0 for rays that are not under way
+  Real isConstant;      ///< 1 where nothing changes, else 0
+  bool someConstant;    ///< of the rays that are under way
+  bool someNearEdge;    ///< likewise: gas may end
+};
+
+// The functions from here on are no members of what holds the rays: it would be kept in memory, in every step.
+
+template <class Real>
+SCHLIEREN_HD Vec3<Real> packsOf(const NumberOf<Real> (&from)[3][lanesOf<Real>])
+{
+  return { fromArray<Real>(from[0]), fromArray<Real>(from[1]), fromArray<Real>(from[2]) };
+}
+
+template <class Real>
+SCHLIEREN_HD void toArrays(const Vec3<Real>& from, NumberOf<Real> (&to)[3][lanesOf<Real>])
+{
+  toArray(from.x, to[0]);
+  toArray(from.y, to[1]);
+  toArray(from.z, to[2]);
+}
+
+/// `step`: the steps so far, 0 for rays that are not under way.
+template <class Real>
+SCHLIEREN_APART void readLeaves(const MediumView<NumberOf<Real>>& medium,
+  const StepsInLeaves<NumberOf<Real>>& steps, const LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in,
+  const Real& step, LeavesInPacks<Real>& to)
+{
+  using Number = NumberOf<Real>;
+  constexpr int lanes = lanesOf<Real>;
+  Number value[lanes], perIndex[lanes], low[3][lanes], high[3][lanes], usual[lanes],
+    isConstant[lanes];
+  const double last[3] = { medium.last.x, medium.last.y, medium.last.z };
+  toArray(step, usual);
+  to.someConstant = false;
+  to.someNearEdge = false;
+  for (int i = 0; i < lanes; ++i)
+  {
+    const Leaf<Number>& leaf = medium.leaves[in.leaf[i]];
+    value[i] = leaf.offset;
+    perIndex[i] = static_cast<Number>(leaf.perIndex);
+    isConstant[i] = leaf.kind == Leaf<Number>::Constant ? Number(1) : Number(0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis][i] = static_cast<Number>(-leaf.first[axis] * leaf.perIndex);
+      high[axis][i] = static_cast<Number>((last[axis] - leaf.first[axis]) * leaf.perIndex);
+    }
+    if (usual[i] > 0)
+    {
+      usual[i] = steps.in(leaf);
+      to.someConstant = to.someConstant || leaf.kind == Leaf<Number>::Constant;
+      to.someNearEdge =
+        to.someNearEdge || leaf.kind == Leaf<Number>::Mixed || leaf.kind == Leaf<Number>::Solid;
+    }
+  }
+  to.value = fromArray<Real>(value);
+  to.perIndex = fromArray<Real>(perIndex);
+  to.low = packsOf<Real>(low);
+  to.high = packsOf<Real>(high);
+  to.step = fromArray<Real>(usual);
+  to.isConstant = fromArray<Real>(isConstant);
+}
+
+/// A pack of rays that is to change leaves.
+template <class Real>
+struct RaysBetweenLeaves
+{
+  Real isOut; ///< 1 for the rays in question, 0 for others
+  Vec3<Real> x, along;
+  Real step; ///< becomes as long as it may be
+  // Of rays that do change:
+  Vec3<Real> start; ///< where the length is 0
+  Real length;      ///< becomes 0
+  Real finer;       ///< the new local coordinates by the old ones; 1 for others
+};
+
+/// See LeavesOfRays::change. Whether any ray has changed its leaf.
+template <class Real>
+SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
+  const StepsInLeaves<NumberOf<Real>>& steps,
+  const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
+  LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, RaysBetweenLeaves<Real>& rays)
+{
+  using Number = NumberOf<Real>;
+  constexpr int lanes = lanesOf<Real>;
+  Number isOut[lanes], step[lanes], length[lanes], finer[lanes], x[3][lanes], along[3][lanes],
+    start[3][lanes];
+  toArray(rays.isOut, isOut);
+  toArray(rays.step, step);
+  toArray(rays.length, length);
+  toArrays(rays.x, x);
+  toArrays(rays.along, along);
+  toArrays(rays.start, start);
+  bool hasChanged = false;
+  for (int i = 0; i < lanes; ++i)
+  {
+    finer[i] = 1;
+    const double ratio = isOut[i] == 0
+      ? 0
+      : in.change(medium, i, steps, x, along, step[i], length[i], perLength);
+    if (ratio != 0)
+    {
+      hasChanged = true;
+      finer[i] = static_cast<Number>(ratio);
+      length[i] = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        start[axis][i] = static_cast<Number>(in.start[axis][i]);
+      }
+    }
+  }
+  rays.step = fromArray<Real>(step);
+  rays.length = fromArray<Real>(length);
+  rays.finer = fromArray<Real>(finer);
+  rays.start = packsOf<Real>(start);
+  return hasChanged;
+}
+
+/// Where a pack of places lies that may be in other leaves than the rays.
+template <class Real>
+struct PlacesElsewhere
+{
+  alignas(64) std::int64_t base[lanesOf<Real>];
+  Vec3<Real> at; ///< local coordinates of the leaf that each is in
+  Real value;    ///< see LeavesInPacks
+  Real finer;    ///< these local coordinates by those of the rays' leaves
+};
+template <class Real>
+SCHLIEREN_APART void findElsewhere(const MediumView<NumberOf<Real>>& medium,
+  const LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, const Vec3<Real>& at,
+  PlacesElsewhere<Real>& to)
+{
+  using Number = NumberOf<Real>;
+  constexpr int lanes = lanesOf<Real>;
+  Number x[3][lanes], value[lanes], finer[lanes];
+  toArrays(at, x);
+  for (int i = 0; i < lanes; ++i)
+  {
+    const Leaf<Number>& leaf = in.leafAt(medium, i, x, finer[i]);
+    to.base[i] = leaf.brick * medium.brickStride;
+    value[i] = leaf.offset;
+  }
+  to.at = packsOf<Real>(x);
+  to.value = fromArray<Real>(value);
+  to.finer = fromArray<Real>(finer);
+}
+
 /// What there is at a place in local coordinates of a leaf.
 template <class Number>
 SCHLIEREN_HD Place placeIn(
@@ -144,6 +298,34 @@ SCHLIEREN_HD Place placeIn(
   }
   const GasEdge edge = gasEdge(medium, leaf.map * medium.brickStride, at);
   return !(edge.distance < 0) ? Place::Gas : (edge.isWindow ? Place::Window : Place::Wall);
+}
+
+/// Sets `inGas` (1 or 0) of the rays that are under way and look at `places` in their leaves; returns 1 for those that
+/// are in a wall, 0 for others.
+template <class Real>
+SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
+  const LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, const Vec3<Real>& places,
+  const Real& isUnderWay, Real& inGas)
+{
+  using Number = NumberOf<Real>;
+  constexpr int lanes = lanesOf<Real>;
+  Number x[3][lanes], gas[lanes], mayMeet[lanes], isBlocked[lanes];
+  toArrays(places, x);
+  toArray(isUnderWay, mayMeet);
+  toArray(inGas, gas);
+  for (int i = 0; i < lanes; ++i)
+  {
+    isBlocked[i] = 0;
+    if (mayMeet[i] > 0)
+    {
+      const Place place = placeIn(
+        medium, medium.leaves[in.leaf[i]], Vec3<Number>{ x[0][i], x[1][i], x[2][i] });
+      isBlocked[i] = place == Place::Wall ? Number(1) : Number(0);
+      gas[i] = place == Place::Gas ? Number(1) : Number(0);
+    }
+  }
+  inGas = fromArray<Real>(gas);
+  return fromArray<Real>(isBlocked);
 }
 
 /// Whether light cannot be at a place of the domain, in index coordinates.

@@ -156,6 +156,7 @@ struct March
   Vec3<Real> domainLow, domainHigh; ///< in local coordinates
   Real baseValue;                   ///< of the leaf: is added to what its samples say
   Real inGas;                       ///< 0 outside of it, else 1
+  Real isConstant{};                ///< 1 in leaves where nothing changes, else 0
   bool someConstant = false;        ///< some rays are in a leaf where nothing changes
   bool someNearEdge = false;        ///< some rays are in a leaf where gas may end
   Vec3<Real> stepsToLast,
@@ -316,13 +317,17 @@ struct March
     return true;
   }
 
+  SCHLIEREN_HD StepsInLeaves<Number> stepsInLeaves() const
+  {
+    return { task.step, task.stepAtEdge };
+  }
+
   /// Puts all rays into the leaves where they start.
   SCHLIEREN_HD void enterTree()
   {
-    Number one[lanes], start[3][lanes];
+    Number start[3][lanes];
     for (int i = 0; i < lanes; ++i)
     {
-      one[i] = 1;
       in.enter(task.medium, i, batch.start);
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -330,51 +335,24 @@ struct March
       }
     }
     ray.start = packs(start);
-    takeLeaves(fromArray<Real>(one));
+    takeLeaves();
   }
 
-  SCHLIEREN_HD StepsInLeaves<Number> stepsInLeaves() const
+  SCHLIEREN_HD void takeLeaves()
   {
-    return { task.step, task.stepAtEdge };
-  }
-
-  /// What is known of the rays' leaves, as packs. `finer`: the new local coordinates by the old ones.
-  SCHLIEREN_HD void takeLeaves(const Real& finer)
-  {
-    Number value[lanes], perIndex[lanes], low[3][lanes], high[3][lanes], isUnderWay[lanes],
-      usual[lanes];
-    const StepsInLeaves<Number> stepsOf = stepsInLeaves();
-    const double last[3] = { task.medium.last.x, task.medium.last.y, task.medium.last.z };
-    toArray(cruise, isUnderWay);
-    someConstant = false;
-    someNearEdge = false;
-    for (int i = 0; i < lanes; ++i)
-    {
-      const Leaf<Number>& leaf = task.medium.leaves[in.leaf[i]];
-      value[i] = leaf.offset;
-      perIndex[i] = static_cast<Number>(leaf.perIndex);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        low[axis][i] = static_cast<Number>(-leaf.first[axis] * leaf.perIndex);
-        high[axis][i] = static_cast<Number>((last[axis] - leaf.first[axis]) * leaf.perIndex);
-      }
-      usual[i] = isUnderWay[i] > 0 ? stepsOf.in(leaf) : 0;
-      if (isUnderWay[i] > 0)
-      {
-        someConstant = someConstant || leaf.kind == Leaf<Number>::Constant;
-        someNearEdge =
-          someNearEdge || leaf.kind == Leaf<Number>::Mixed || leaf.kind == Leaf<Number>::Solid;
-      }
-    }
-    baseValue = fromArray<Real>(value);
-    domainLow = packs(low);
-    domainHigh = packs(high);
-    const Real scale = fromArray<Real>(perIndex);
-    light.indexScale = scaled(Vec3<Real>{ scale, scale, scale }, task.indexScale);
-    light.perLength = scale * packs(batch.perLength);
-    cruise = fromArray<Real>(usual);
-    ray.offset = finer * ray.offset;
+    LeavesInPacks<Real> leaves;
+    readLeaves(task.medium, stepsInLeaves(), in, cruise, leaves);
+    baseValue = leaves.value;
+    domainLow = leaves.low;
+    domainHigh = leaves.high;
+    isConstant = leaves.isConstant;
+    someConstant = leaves.someConstant;
+    someNearEdge = leaves.someNearEdge;
     inGas = someNearEdge ? inGas : Real{} + 1;
+    cruise = leaves.step;
+    light.indexScale = scaled(
+      Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
+    light.perLength = leaves.perIndex * packs(batch.perLength);
   }
 
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
@@ -387,110 +365,45 @@ struct March
     Real step = cruise;
     if (any(isOut))
     {
-      step = changeLeaves(isOut);
+      RaysBetweenLeaves<Real> rays{ isOut ? Real{} + 1 : Real{}, Path::position(ray, light),
+        Path::along(ray, light), cruise, ray.start, ray.length, {} };
+      if (changeLeaves(task.medium, stepsInLeaves(), batch.perLength, in, rays))
+      {
+        ray.start = rays.start;
+        ray.length = rays.length;
+        ray.offset = rays.finer * ray.offset;
+        takeLeaves();
+      }
+      step = rays.step;
     }
     if (someConstant && !isAdaptive)
     {
-      Number isConstant[lanes];
-      for (int i = 0; i < lanes; ++i)
-      {
-        isConstant[i] =
-          task.medium.leaves[in.leaf[i]].kind == Leaf<Number>::Constant ? Number(1) : Number(0);
-      }
       // A little beyond, so that the next leaf is found there.
       const Real out = wayOut(Path::position(ray, light), Path::along(ray, light),
         task.medium.leafLow, task.medium.leafHigh);
       const Real through = greater(out, Real{}) + Number(1e-3) * cruise;
-      step = (fromArray<Real>(isConstant) > 0) & (cruise > 0) ? through : step;
+      step = (isConstant > 0) & (cruise > 0) ? through : step;
     }
     return step;
-  }
-
-  template <class Mask>
-  SCHLIEREN_HD Real changeLeaves(const Mask& isOut)
-  {
-    Number which[lanes], step[lanes], length[lanes], finer[lanes], x[3][lanes], along[3][lanes],
-      start[3][lanes];
-    const auto unpack = [](const Vec3<Real>& from, Number(&to)[3][lanes])
-    {
-      toArray(from.x, to[0]);
-      toArray(from.y, to[1]);
-      toArray(from.z, to[2]);
-    };
-    toArray(isOut ? Real{} + 1 : Real{}, which);
-    toArray(cruise, step);
-    toArray(ray.length, length);
-    unpack(Path::position(ray, light), x);
-    unpack(Path::along(ray, light), along);
-    unpack(ray.start, start);
-    bool hasChanged = false;
-    for (int i = 0; i < lanes; ++i)
-    {
-      finer[i] = 1;
-      if (which[i] != 0)
-      {
-        const double from = in.change(
-          task.medium, i, stepsInLeaves(), x, along, step[i], length[i], batch.perLength);
-        finer[i] = static_cast<Number>(from);
-        if (from != 0)
-        {
-          hasChanged = true;
-          length[i] = 0;
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            start[axis][i] = static_cast<Number>(in.start[axis][i]);
-          }
-        }
-        else
-        {
-          finer[i] = 1;
-        }
-      }
-    }
-    if (hasChanged)
-    {
-      ray.start = packs(start);
-      ray.length = fromArray<Real>(length);
-      takeLeaves(fromArray<Real>(finer));
-    }
-    return fromArray<Real>(step);
   }
 
   /// The medium at places of which some are in other leaves than the rays.
   SCHLIEREN_HD Sample<Real> sampleElsewhere(const Vec3<Real>& at) const
   {
-    alignas(64) std::int64_t base[lanes];
-    Number x[3][lanes], value[lanes], finer[lanes];
-    toArray(at.x, x[0]);
-    toArray(at.y, x[1]);
-    toArray(at.z, x[2]);
-    for (int i = 0; i < lanes; ++i)
-    {
-      const Leaf<Number>& leaf = in.leafAt(task.medium, i, x, finer[i]);
-      base[i] = leaf.brick * task.medium.brickStride;
-      value[i] = leaf.offset;
-    }
-    Sample<Real> found = sampleApart<Scheme>(task.medium, base, withinLeaf(packs(x)));
-    found.value += fromArray<Real>(value);
-    found.gradient = fromArray<Real>(finer) * found.gradient;
+    PlacesElsewhere<Real> places;
+    findElsewhere(task.medium, in, at, places);
+    Sample<Real> found = sampleApart<Scheme>(task.medium, places.base, withinLeaf(places.at));
+    found.value += places.value;
+    found.gradient = places.finer * found.gradient;
     return onlyGas(found);
   }
 
   /// Ends the rays that have come to a wall, and finds out which are where there is no gas.
   SCHLIEREN_HD void lookForEdges(Real& step, const Vec3<Real>& middle)
   {
-    Number blocked[lanes]{}, gas[lanes];
-    toArray(inGas, gas);
-    forRays(middle, step,
-      [&](int i, const Vec3<Number>& at, Number)
-      {
-        const Leaf<Number>& leaf = task.medium.leaves[in.leaf[i]];
-        const Place place = placeIn(task.medium, leaf, at);
-        blocked[i] = place == Place::Wall ? 1 : 0;
-        gas[i] = place == Place::Gas ? 1 : 0;
-      });
-    inGas = fromArray<Real>(gas);
-    const auto which = fromArray<Real>(blocked) > 0;
+    Real gas = inGas;
+    const auto which = meetWalls(task.medium, in, middle, cruise, gas) > 0;
+    inGas = gas;
     if (any(which))
     {
       finish(which, RayFate::Blocked, steps);

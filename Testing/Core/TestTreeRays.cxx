@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays through the leaves of a tree.
+//
+// Rays through the leaves of a tree, against closed forms.
+#include "AnalyticSources.h"
 #include "Fields.h"
+#include "Medium/Medium.h"
+#include "Rays/Tracer.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace schlieren
 {
@@ -14,84 +20,320 @@ namespace schlieren
 namespace
 {
 
-class BallSource : public MediumSource
+Field fieldOf(const std::shared_ptr<const MediumSource>& source)
+{
+  static std::uint64_t versions = 0;
+  Field field;
+  field.source = source;
+  field.grid = coarsestGrid(*source);
+  field.version = ++versions;
+  return field;
+}
+
+Scene sceneOf(const Vector& direction, Device device = Device::Cpu)
+{
+  Scene scene;
+  scene.view.viewDirection = direction;
+  scene.view.viewUp = { 0.1, 1, 0.2 };
+  scene.view.width = 160;
+  scene.view.height = 120;
+  scene.view.parallelScale = 0.7;
+  scene.samplesPerPixel = 1;
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.screenDistance = 0;
+  scene.device = device;
+  return scene;
+}
+
+const std::vector<Vector> someDirections{ { 0, 0, -1 }, { 1, 0, 0 }, { 0.3, -0.5, -0.8 } };
+
+Vec3<double> vec(const Vector& a) { return { a[0], a[1], a[2] }; }
+
+/// A ball with a wall around gas that is the same everywhere.
+class BodySource : public AnalyticSource
 {
 public:
-  Box bounds() const override { return { { -1, -1, -1 }, { 1, 1, 1 } }; }
-  double ambient() const override { return 0; }
-  Content contentOf(const Box&) const override
+  explicit BodySource(double radius, double half)
+    : AnalyticSource(half)
+    , radius_(radius)
   {
-    return { 0, 1e-3, { 0.01, 0.01, 0.01 }, false, true, false };
   }
-  static double at(double x, double y, double z)
+  double refractivity(double, double, double) const override { return 1e-4; }
+  Range rangeOver(const Box&) const override { return { 1e-4, 1e-4 }; }
+  double cellSizeOver(const Box&) const override { return 0.01 * radius_; }
+  static double length(double a, double b, double c) { return std::sqrt(a * a + b * b + c * c); }
+  Place placeAt(double a, double b, double c) const override
   {
-    return 1e-3 * std::exp(-(x * x + y * y + z * z) / (2 * 0.25 * 0.25));
+    return length(a, b, c) < radius_ ? Place::Wall : Place::Gas;
   }
-  void sample(const Lattice& lattice, double* n, Place* places, float*) const override
+  double distanceAt(double a, double b, double c) const override
   {
-    std::size_t to = 0;
-    for (int k = 0; k < lattice.points[2]; ++k)
-      for (int j = 0; j < lattice.points[1]; ++j)
-        for (int i = 0; i < lattice.points[0]; ++i)
-        {
-          n[to] = at(lattice.first[0] + i * lattice.spacing[0],
-            lattice.first[1] + j * lattice.spacing[1], lattice.first[2] + k * lattice.spacing[2]);
-          places[to++] = Place::Gas;
-        }
+    return length(a, b, c) - radius_;
+  }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    content.hasWall = r.first < radius_;
+    content.hasGas = r.second > radius_;
+  }
+
+private:
+  double radius_;
+};
+
+/// Gas with a constant gradient along y where x < border, and nothing elsewhere.
+class LayerSource : public AnalyticSource
+{
+public:
+  static constexpr double border = 0.213, slope = 1e-4, middle = 5e-4;
+
+  double refractivity(double, double y, double) const override { return middle + slope * y; }
+  Range rangeOver(const Box& box) const override
+  {
+    return { middle + slope * box.low[1], middle + slope * box.high[1] };
+  }
+  double cellSizeOver(const Box&) const override { return 0.02; }
+  Place placeAt(double x, double, double) const override
+  {
+    return x < border ? Place::Gas : Place::Window;
+  }
+  double distanceAt(double x, double, double) const override { return border - x; }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    content.hasGas = box.low[0] < border;
+    content.hasWindow = box.high[0] > border;
   }
 };
 
 } // namespace
 
-TEST(TreeRays, FollowAGaussianBall)
+class RaysInATree : public OnDevice
 {
-  for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
-  for (const Vector& direction : { Vector{ 0, 0, -1 }, Vector{ 0.3, -0.5, -0.8 } })
+};
+
+TEST_P(RaysInATree, AreBentAsTheFormulaSays)
+{
+  const auto source = std::make_shared<BallsSource>(threeBalls(1e-7));
+  for (const Vector& direction : someDirections)
   {
-    Field ofTree;
-    const auto source = std::make_shared<BallSource>();
-    ofTree.source = source;
-    ofTree.grid = coarsestGrid(*source);
-    ofTree.version = 1;
-    Grid grid;
-    grid.dimensions = { 257, 257, 257 };
-    grid.origin = { -1, -1, -1 };
-    grid.spacing = { 1 / 128., 1 / 128., 1 / 128. };
-    static SampledField<float> uniform(grid, BallSource::at);
-    Scene scene;
-    scene.view.viewDirection = direction;
-    scene.view.width = scene.view.height = 256;
-    scene.view.parallelScale = 1;
-    scene.samplesPerPixel = 1;
-    scene.integrator = integrator;
-    scene.pathModel = PathModel::Refracted;
-    const auto run = [&](Field& field)
+    for (const double tolerance : { 1e-2, 2e-3 })
     {
-      Bench bench;
-      Image image = bench.render(field, scene);
-      field.version++;
-      const Image second = bench.render(field, scene);
-      std::printf("%g s, %g steps/ray, %g Msteps/s, lost %lld, drift %g\n", second.traceSeconds,
-        double(second.stepsTaken) / double(second.raysTraced),
-        double(second.stepsTaken) / second.traceSeconds * 1e-6, (long long)second.raysLost,
-        second.momentumDrift);
-      return second;
-    };
-    const Image a = run(ofTree);
-    const Image b = run(uniform.field);
-    double worst = 0, most = 0, worstPath = 0, mostPath = 0;
-    for (std::size_t i = 0; i < a.deflection.size(); ++i)
-    {
-      worst = std::max(worst, double(std::abs(a.deflection[i] - b.deflection[i])));
-      most = std::max(most, double(std::abs(b.deflection[i])));
+      for (const Precision precision : { Precision::Single, Precision::Double })
+      {
+        Scene scene = sceneOf(direction, GetParam());
+        scene.mediumTolerance = tolerance;
+        scene.precision = precision;
+        scene.pathModel = PathModel::Refracted;
+        const Image image = Bench().render(fieldOf(source), scene);
+        double worst = 0;
+        for (int row = 0; row < image.height; ++row)
+        {
+          for (int column = 0; column < image.width; ++column)
+          {
+            const PixelCentre at = centreOf(image, column, row);
+            const Vec3<double> u = vec(image.frame.u), v = vec(image.frame.v);
+            const auto expected = source->deflectionAt(at.u * u + at.v * v, u, v);
+            const std::size_t pixel = 2 * pixelOf(image, column, row);
+            for (std::size_t i = 0; i < 2; ++i)
+            {
+              worst = std::max(
+                worst, std::abs(static_cast<double>(image.deflection[pixel + i]) - expected[i]));
+            }
+          }
+        }
+        EXPECT_LT(worst, 2 * tolerance * source->largestDeflection())
+          << direction[0] << " tolerance " << tolerance;
+        EXPECT_GT(image.medium.finestLevel, image.medium.coarsestLevel);
+      }
     }
-    for (std::size_t i = 0; i < a.opticalPathDifference.size(); ++i)
-    {
-      worstPath = std::max(worstPath, std::abs(a.opticalPathDifference[i] - b.opticalPathDifference[i]));
-      mostPath = std::max(mostPath, std::abs(b.opticalPathDifference[i]));
-    }
-    std::printf("integrator %d: deflection %g, path %g\n", int(integrator), worst / most, worstPath / mostPath);
   }
+}
+
+TEST_P(RaysInATree, ConserveTheirMomentumInAStrongMedium)
+{
+  const auto source =
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0.1, 0, -0.05 }, 0.4, 0.05 } });
+  for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+  {
+    std::vector<Image> images;
+    for (const double step : { 1., 0.25 })
+    {
+      Scene scene = sceneOf({ 0.3, -0.5, -0.8 }, GetParam());
+      scene.precision = Precision::Double;
+      scene.mediumTolerance = 1e-3;
+      scene.integrator = integrator;
+      scene.adaptiveTolerance = 1e-7;
+      scene.stepSize = step;
+      images.push_back(Bench().render(fieldOf(source), scene));
+      EXPECT_EQ(images.back().raysLost, 0);
+      EXPECT_LT(images.back().momentumDrift, 2e-4) << static_cast<int>(integrator) << ' ' << step;
+    }
+    double largest = 0, difference = 0;
+    for (std::size_t i = 0; i < images[0].deflection.size(); ++i)
+    {
+      largest = std::max(largest, std::abs(static_cast<double>(images[1].deflection[i])));
+      difference = std::max(difference,
+        std::abs(static_cast<double>(images[0].deflection[i] - images[1].deflection[i])));
+    }
+    EXPECT_GT(largest, 0.05);
+    EXPECT_LT(difference, 2e-3 * largest) << static_cast<int>(integrator);
+  }
+}
+
+TEST_P(RaysInATree, EndAtWalls)
+{
+  const auto source = std::make_shared<BodySource>(0.4, 1);
+  Scene scene = sceneOf({ 0.3, -0.5, -0.8 }, GetParam());
+  scene.view.width = scene.view.height = 400;
+  scene.view.parallelScale = 0.5;
+  const Image image = Bench().render(fieldOf(source), scene);
+  double area = 0, worst = 0;
+  for (int row = 0; row < image.height; ++row)
+  {
+    for (int column = 0; column < image.width; ++column)
+    {
+      const PixelCentre at = centreOf(image, column, row);
+      const double blocked = image.blockedFraction[pixelOf(image, column, row)];
+      area += blocked;
+      const double outside = (std::hypot(at.u, at.v) - 0.4) / image.frame.pixelSize;
+      worst = (blocked > 0.5) != (outside < 0) ? std::max(worst, std::abs(outside)) : worst;
+    }
+  }
+  area *= image.frame.pixelSize * image.frame.pixelSize;
+  EXPECT_NEAR(area, std::acos(-1.) * 0.16, 3e-3 * area);
+  EXPECT_LT(worst, 0.1); // pixels
+}
+
+TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
+{
+  const auto source = std::make_shared<LayerSource>();
+  Field field = fieldOf(source);
+  field.ambient = 0;
+  Scene scene = sceneOf({ 0, 0, -1 }, GetParam());
+  scene.view.viewUp = { 0, 1, 0 };
+  for (const PathModel path : { PathModel::Straight, PathModel::Refracted })
+  {
+    scene.pathModel = path;
+    const Image image = Bench().render(field, scene);
+    for (int row = 0; row < image.height; row += 7)
+    {
+      for (int column = 0; column < image.width; column += 3)
+      {
+        const PixelCentre at = centreOf(image, column, row);
+        const std::size_t pixel = pixelOf(image, column, row);
+        if (std::abs(at.u - LayerSource::border) < image.frame.pixelSize || std::abs(at.u) > 0.99)
+        {
+          continue;
+        }
+        const bool isGas = at.u < LayerSource::border;
+        const double n = LayerSource::middle + LayerSource::slope * at.v;
+        EXPECT_NEAR(image.opticalPathDifference[pixel], isGas ? 2 * n : 0, 2e-7) << at.u;
+        EXPECT_NEAR(image.deflection[2 * pixel + 1], isGas ? 2 * LayerSource::slope : 0,
+          isGas ? 1e-6 : 0)
+          << at.u;
+      }
+    }
+  }
+  // Across the border: half of the voxel in which it lies is the error.
+  scene.view.viewDirection = { -1, 0, 0 };
+  scene.mediumTolerance = 1e-3;
+  const Image image = Bench().render(field, scene);
+  const std::size_t middle = pixelOf(image, image.width / 2, image.height / 2);
+  const double way = 1 + LayerSource::border;
+  EXPECT_NEAR(image.deflection[2 * middle + 1], way * LayerSource::slope,
+    LayerSource::slope * image.medium.smallestVoxel);
+  EXPECT_EQ(image.blockedFraction[middle], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Devices, RaysInATree, bothDevices(), deviceName);
+
+TEST(RaysSideBySideInATree, DoWhatOneDoes)
+{
+  const auto source = std::make_shared<BallsSource>(threeBalls(1e-3));
+  const Field field = fieldOf(source);
+  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512 };
+  all.resize(static_cast<std::size_t>(bestSimd()) + 1);
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    for (const Integrator integrator :
+      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    {
+      SCOPED_TRACE(
+        std::string(name(interpolation)) + " integrator " + std::to_string(static_cast<int>(integrator)));
+      TreeSettings settings;
+      settings.interpolation = interpolation;
+      Medium<float> medium = buildTree<float>(field, settings);
+      View view;
+      view.viewDirection = { 0.3, -0.5, -0.8 };
+      view.width = 37;
+      view.height = 29;
+      const Frame frame = frameOf(field.grid, view);
+      const Light light = collimatedLight(field.grid, frame);
+      refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
+      RaySettings rays;
+      rays.kernel = { PathModel::Refracted, integrator, interpolation };
+      const RayTask<float> task =
+        makeTask<float>(medium, nullptr, FieldGradientsView{}, light, rays);
+      const Pass pass{ 0, 0, 37, 29, { 0.25, -0.125 } };
+      std::vector<TracedPass> traced(all.size());
+      double largest = 0;
+      for (std::size_t n = 0; n < all.size(); ++n)
+      {
+        traced[n].resize(pass, 0);
+        ASSERT_TRUE(traceOnCpu(task, pass, traced[n], 2, {}, all[n]));
+        for (std::size_t i = 0; i < traced[n].exits.size(); ++i)
+        {
+          const RayExit& one = traced[0].exits[i];
+          const RayExit& other = traced[n].exits[i];
+          largest = std::max(largest, std::abs(one.deflection[0]));
+          EXPECT_EQ(one.fate, other.fate);
+          const double allowed = 3e-2 * 1e-3;
+          EXPECT_NEAR(one.deflection[0], other.deflection[0], allowed);
+          EXPECT_NEAR(one.deflection[1], other.deflection[1], allowed);
+          EXPECT_NEAR(one.opticalPathDifference, other.opticalPathDifference, allowed);
+        }
+      }
+      EXPECT_GT(largest, 1e-3);
+    }
+  }
+}
+
+TEST(RaysInATreeOf, AnyNumberOfThreadsAreTheSame)
+{
+  const auto source = std::make_shared<BallsSource>(threeBalls(1e-4));
+  std::vector<Image> images;
+  for (const int threads : { 1, 2, 5 })
+  {
+    Scene scene = sceneOf({ 0.3, -0.5, -0.8 });
+    scene.threads = threads;
+    images.push_back(Bench().render(fieldOf(source), scene));
+    const auto isSame = [&](const auto& a, const auto& b)
+    { return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin()); };
+    EXPECT_TRUE(isSame(images[0].deflection, images.back().deflection));
+    EXPECT_TRUE(isSame(images[0].intensity, images.back().intensity));
+  }
+}
+
+TEST(ViewsOfATree, AddLeavesAndTraceAnew)
+{
+  const auto source = std::make_shared<BallsSource>(threeBalls(1e-4));
+  const Field field = fieldOf(source);
+  Bench bench;
+  Scene scene = sceneOf({ 0, 0, -1 });
+  const Image first = bench.render(field, scene);
+  scene.kScale = 100;
+  scene.cutoff = Cutoff::KnifeEdge;
+  bench.render(field, scene);
+  EXPECT_EQ(bench.work().raySets, 1); // another cutoff traces nothing
+  scene.view.parallelScale = 0.05;
+  scene.view.focalPoint = Vector{ -0.37, 0.44, -0.5 };
+  const Image near = bench.render(field, scene);
+  EXPECT_GT(near.medium.finestLevel, first.medium.finestLevel);
+  EXPECT_EQ(bench.work().mediumBuilds, 1);
+  scene.mediumTolerance = 0.5;
+  bench.render(field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, 2);
 }
 
 } // namespace schlieren
