@@ -26,9 +26,6 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// How far curved cells may reach out of the box of their points, in parts of its lengths.
-constexpr double bulge = 0.05;
-
 /// Steps along each axis: as many as there are in 32 bits, with room for sums.
 constexpr double steps = 1 << 30;
 
@@ -63,34 +60,6 @@ double overshootOf(int order)
   constexpr double norms[] = { 1, 1, 1.25, 1.64, 2.21, 3.11, 4.55, 6.93, 10.95 };
   const double norm = norms[std::min(order, 8)];
   return (norm * norm * norm - 1) / 2;
-}
-
-/// The corners of a curved cell come first among its points, as those of a linear one.
-CellShape skeletonOf(int type)
-{
-  switch (type)
-  {
-    case VTK_QUADRATIC_HEXAHEDRON:
-    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-    case VTK_LAGRANGE_HEXAHEDRON:
-    case VTK_BEZIER_HEXAHEDRON:
-      return CellShape::Hexahedron;
-    case VTK_QUADRATIC_TETRA:
-    case VTK_LAGRANGE_TETRAHEDRON:
-    case VTK_BEZIER_TETRAHEDRON:
-      return CellShape::Tetrahedron;
-    case VTK_QUADRATIC_WEDGE:
-    case VTK_QUADRATIC_LINEAR_WEDGE:
-    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-    case VTK_LAGRANGE_WEDGE:
-    case VTK_BEZIER_WEDGE:
-      return CellShape::Wedge;
-    case VTK_QUADRATIC_PYRAMID:
-      return CellShape::Pyramid;
-    default:
-      return shapeOf(type);
-  }
 }
 
 /// Into how many parts a curved cell's points divide its edges.
