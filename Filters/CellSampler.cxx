@@ -207,7 +207,6 @@ bool Brick::addNormal(const CellTree::Cell& cell)
   }
   NormalCell normal;
   normal.shape = shape;
-  normal.value = polynomialOf<shape>(corners[3]);
   normal.isAffine = true;
   if constexpr (shape == CellShape::Hexahedron)
   {
@@ -262,6 +261,31 @@ bool Brick::addNormal(const CellTree::Cell& cell)
       normal.bend[i][k] = dot(rows[i], factor);
     }
   }
+  normal.hasSlopes = cell.block->gradients() != nullptr;
+  if (normal.hasSlopes)
+  {
+    // The mean of the corners' linear polynomials with half of the gradients there, as the cell weighs them, is
+    // exact for quadratic fields. Apart from what is the same everywhere in them, they are slopes.
+    double slopes[3][8];
+    for (int i = 0; i < count; ++i)
+    {
+      const float* half = cell.block->gradients() + 3 * points[i];
+      const Vector gradient = { 0.5 * half[0], 0.5 * half[1], 0.5 * half[2] };
+      corners[3][i] -= gradient[0] * (corners[0][i] - place[0][0]) +
+        gradient[1] * (corners[1][i] - place[1][0]) + gradient[2] * (corners[2][i] - place[2][0]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        slopes[axis][i] = dot(gradient, columns[axis]);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Polynomial slope = polynomialOf<shape>(slopes[axis]);
+      std::copy(slope.begin(), slope.end(), normal.slope[axis]);
+    }
+  }
+  const Polynomial value = polynomialOf<shape>(corners[3]);
+  std::copy(value.begin(), value.end(), normal.value);
   const Vector middle = { origin[0] + place[0][0], origin[1] + place[1][0],
     origin[2] + place[2][0] };
   this->scan(normal, middle, rows);

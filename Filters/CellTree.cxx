@@ -3,6 +3,7 @@
 #include "CellTree.h"
 
 #include "CellTypes.h"
+#include "PointGradients.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
@@ -122,7 +123,7 @@ std::uint64_t placeOnCurve(const std::int32_t middle[3])
 
 } // namespace
 
-CellTree::CellTree(const std::vector<vtkDataSet*>& blocks)
+CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction)
 {
   vtkIdType cells = 0;
   this->Blocks.reserve(blocks.size());
@@ -146,6 +147,10 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks)
   }
   this->FirstNumbers.push_back(static_cast<Number>(cells));
   this->findCells();
+  if (reconstruction == Reconstruction::Smooth)
+  {
+    this->setGradients();
+  }
   this->sortCells();
   this->makeGroups();
 }
@@ -271,6 +276,67 @@ void CellTree::findCells()
     this->Step[axis] = length > 0 && length < infinity ? length / (steps - 4) : 1;
     this->Origin[axis] = this->Whole.low[axis] - 2 * this->Step[axis];
   }
+}
+
+void CellTree::setGradients()
+{
+  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
+  {
+    const Number first = this->FirstNumbers[block];
+    MeshArrays& mesh = this->Blocks[block];
+    std::vector<bool> isThere(static_cast<std::size_t>(mesh.cells()));
+    for (auto i = std::lower_bound(this->Numbers.begin(), this->Numbers.end(), first);
+         i != this->Numbers.end() && *i < this->FirstNumbers[block + 1]; ++i)
+    {
+      isThere[*i - first] = true;
+    }
+    mesh.setGradients(pointGradients(
+      mesh, [&](vtkIdType cell) { return isThere[static_cast<std::size_t>(cell)]; }));
+  }
+}
+
+/// Of what is interpolated in a cell whose values and points are finite.
+std::array<double, 2> CellTree::rangeOf(const Cell& one) const
+{
+  double low = infinity, high = -infinity;
+  const double* values = one.block->values();
+  const float* gradients = one.block->gradients();
+  const CellShape shape = shapeOf(one.block->type(one.id));
+  if (!gradients || shape == CellShape::Other)
+  {
+    one.block->forPoints(one.id,
+      [&](vtkIdType point)
+      {
+        low = std::min(low, values[point]);
+        high = std::max(high, values[point]);
+      });
+    return { low, high };
+  }
+  // Each corner's polynomial is linear: in the cell it lies between what it is at the other corners.
+  vtkIdType points[8];
+  const int count = cornersOf(shape);
+  one.block->points(one.id, count, points);
+  double x[8][3];
+  for (int i = 0; i < count; ++i)
+  {
+    one.block->coordinates(points[i], x[i]);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const float* gradient = gradients + 3 * points[i];
+    for (int k = 0; k < count; ++k)
+    {
+      double value = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        value += gradient[axis] * (x[k][axis] - x[i][axis]);
+      }
+      value = values[points[i]] + value / 2;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  return { low, high };
 }
 
 CellTree::Steps CellTree::stepsOf(const Bounds& box) const
@@ -437,13 +503,7 @@ void CellTree::makeGroups()
         {
           const Cell one = this->cell(this->Numbers[i]);
           this->Boxes[i] = this->stepsOf(this->boundsOf(one));
-          double low = infinity, high = -infinity;
-          one.block->forPoints(one.id,
-            [&](vtkIdType point)
-            {
-              low = std::min(low, one.block->values()[point]);
-              high = std::max(high, one.block->values()[point]);
-            });
+          const auto [low, high] = this->rangeOf(one);
           const int order = orderOf(one, curved);
           const double more = overshootOf(order) * (high - low);
           lowest = std::min(lowest, low - more);

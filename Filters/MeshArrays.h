@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 class vtkDataSet;
@@ -28,7 +29,15 @@ public:
 
   vtkDataSet* data() const { return this->Data; }
   vtkIdType cells() const { return this->CellCount; }
+  vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
+
+  /// Of the values, three numbers for each point; null where nobody has set them.
+  const float* gradients() const
+  {
+    return this->Gradients.empty() ? nullptr : this->Gradients.data();
+  }
+  void setGradients(std::vector<float> gradients) { this->Gradients = std::move(gradients); }
 
   /// The VTK cell type, whether or not the cell is hidden.
   int type(vtkIdType cell) const
@@ -137,9 +146,10 @@ private:
   }
 
   vtkDataSet* Data;
-  vtkIdType CellCount;
+  vtkIdType CellCount, PointCount;
   const double* Values = nullptr;
   const unsigned char* Ghosts = nullptr;
+  std::vector<float> Gradients;
 
   const float* Floats = nullptr;
   const double* Doubles = nullptr;

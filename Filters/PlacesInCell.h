@@ -18,8 +18,10 @@ struct NormalCell
 {
   CellShape shape;
   bool isAffine;
-  double bend[3][4]; // factors of uv, vw, uw and uvw
-  Polynomial value;
+  bool hasSlopes;
+  double bend[3][4];  // factors of uv, vw, uw and uvw
+  double value[8];    // a polynomial
+  double slope[3][8]; // polynomials, that normal coordinates times which are added to the value
 };
 
 /// Points of one cell, each number for all of them.

@@ -490,9 +490,10 @@ TEST(CellSampler, CurvedCellsOfOrder3AreExact)
 // Each point is itself, whatever is computed along with it.
 TEST(CellSampler, AllInstructionsGiveTheSame)
 {
-  refractivity::NormalCell cell{ refractivity::CellShape::Hexahedron, false,
+  refractivity::NormalCell cell{ refractivity::CellShape::Hexahedron, false, true,
     { { 0.1, -0.2, 0.15, 0.05 }, { 0.2, 0.1, 0.1, -0.1 }, { -0.1, 0.1, 0.05, 0.2 } },
-    { 1, 2, 3, 4, 5, 6, 7, 8 } };
+    { 1, 2, 3, 4, 5, 6, 7, 8 },
+    { { 2, 1, 1, 2, 1, 3, 1, 2 }, { 3, 2, 1, 1, 2, 1, 2, 1 }, { 1, 3, 2, 2, 1, 1, 1, 3 } } };
   const auto all = refractivity::functionsToLocate();
   ASSERT_GE(all.size(), 1u);
   const auto setPoints = [](refractivity::CellPoints& points, int first, int count)
