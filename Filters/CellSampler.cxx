@@ -261,27 +261,35 @@ bool Brick::addNormal(const CellTree::Cell& cell)
       normal.bend[i][k] = dot(rows[i], factor);
     }
   }
-  normal.hasSlopes = cell.block->gradients() != nullptr;
-  if (normal.hasSlopes)
+  normal.isSmooth = cell.block->trends() != nullptr;
+  if (normal.isSmooth)
   {
     // The mean of the corners' linear polynomials with half of the gradients there, as the cell weighs them, is
     // exact for quadratic fields. Apart from what is the same everywhere in them, they are slopes.
-    double slopes[3][8];
+    double slopes[3][8], limits[2][8];
     for (int i = 0; i < count; ++i)
     {
-      const float* half = cell.block->gradients() + 3 * points[i];
-      const Vector gradient = { 0.5 * half[0], 0.5 * half[1], 0.5 * half[2] };
-      corners[3][i] -= gradient[0] * (corners[0][i] - place[0][0]) +
-        gradient[1] * (corners[1][i] - place[1][0]) + gradient[2] * (corners[2][i] - place[2][0]);
+      const PointTrend& trend = cell.block->trends()[points[i]];
+      limits[0][i] = corners[3][i] + trend.lowest;
+      limits[1][i] = corners[3][i] + trend.highest;
+      const Vector half = { 0.5 * trend.gradient[0], 0.5 * trend.gradient[1],
+        0.5 * trend.gradient[2] };
+      corners[3][i] -= half[0] * (corners[0][i] - place[0][0]) +
+        half[1] * (corners[1][i] - place[1][0]) + half[2] * (corners[2][i] - place[2][0]);
       for (int axis = 0; axis < 3; ++axis)
       {
-        slopes[axis][i] = dot(gradient, columns[axis]);
+        slopes[axis][i] = dot(half, columns[axis]);
       }
     }
-    for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 3; ++i)
     {
-      const Polynomial slope = polynomialOf<shape>(slopes[axis]);
-      std::copy(slope.begin(), slope.end(), normal.slope[axis]);
+      const Polynomial slope = polynomialOf<shape>(slopes[i]);
+      std::copy(slope.begin(), slope.end(), normal.slope[i]);
+    }
+    for (int i = 0; i < 2; ++i)
+    {
+      const Polynomial limit = polynomialOf<shape>(limits[i]);
+      std::copy(limit.begin(), limit.end(), normal.limit[i]);
     }
   }
   const Polynomial value = polynomialOf<shape>(corners[3]);

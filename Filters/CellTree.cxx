@@ -3,7 +3,7 @@
 #include "CellTree.h"
 
 #include "CellTypes.h"
-#include "PointGradients.h"
+#include "PointTrends.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
@@ -149,7 +149,7 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   this->findCells();
   if (reconstruction == Reconstruction::Smooth)
   {
-    this->setGradients();
+    this->setTrends();
   }
   this->sortCells();
   this->makeGroups();
@@ -278,7 +278,7 @@ void CellTree::findCells()
   }
 }
 
-void CellTree::setGradients()
+void CellTree::setTrends()
 {
   for (std::size_t block = 0; block < this->Blocks.size(); ++block)
   {
@@ -290,8 +290,8 @@ void CellTree::setGradients()
     {
       isThere[*i - first] = true;
     }
-    mesh.setGradients(pointGradients(
-      mesh, [&](vtkIdType cell) { return isThere[static_cast<std::size_t>(cell)]; }));
+    mesh.setTrends(
+      pointTrends(mesh, [&](vtkIdType cell) { return isThere[static_cast<std::size_t>(cell)]; }));
   }
 }
 
@@ -300,9 +300,9 @@ std::array<double, 2> CellTree::rangeOf(const Cell& one) const
 {
   double low = infinity, high = -infinity;
   const double* values = one.block->values();
-  const float* gradients = one.block->gradients();
+  const PointTrend* trends = one.block->trends();
   const CellShape shape = shapeOf(one.block->type(one.id));
-  if (!gradients || shape == CellShape::Other)
+  if (!trends || shape == CellShape::Other)
   {
     one.block->forPoints(one.id,
       [&](vtkIdType point)
@@ -316,14 +316,17 @@ std::array<double, 2> CellTree::rangeOf(const Cell& one) const
   vtkIdType points[8];
   const int count = cornersOf(shape);
   one.block->points(one.id, count, points);
-  double x[8][3];
+  double x[8][3], least = infinity, most = -infinity;
   for (int i = 0; i < count; ++i)
   {
     one.block->coordinates(points[i], x[i]);
+    const PointTrend& trend = trends[points[i]];
+    least = std::min(least, values[points[i]] + trend.lowest);
+    most = std::max(most, values[points[i]] + trend.highest);
   }
   for (int i = 0; i < count; ++i)
   {
-    const float* gradient = gradients + 3 * points[i];
+    const float* gradient = trends[points[i]].gradient;
     for (int k = 0; k < count; ++k)
     {
       double value = 0;
@@ -336,7 +339,7 @@ std::array<double, 2> CellTree::rangeOf(const Cell& one) const
       high = std::max(high, value);
     }
   }
-  return { low, high };
+  return { std::max(low, least), std::min(high, most) };
 }
 
 CellTree::Steps CellTree::stepsOf(const Bounds& box) const

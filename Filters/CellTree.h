@@ -32,7 +32,7 @@ public:
   enum class Reconstruction
   {
     Linear, // these functions
-    Smooth  // exact for quadratic fields: with gradients at the points (see PointGradients.h)
+    Smooth  // exact for quadratic fields, by gradients at the points (see PointTrends.h)
   };
 
   /// Each dataset has one double scalar at each point. They must outlive the tree. Throws where there are
@@ -149,7 +149,7 @@ private:
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
   void findCells();
-  void setGradients();
+  void setTrends();
   std::array<double, 2> rangeOf(const Cell& cell) const;
   void sortCells();
   void makeGroups();

@@ -15,6 +15,13 @@ class vtkUnsignedCharArray;
 namespace refractivity
 {
 
+/// How values go on around a point, and between which limits, counted from its own value.
+struct PointTrend
+{
+  float gradient[3] = {};
+  float lowest = 0, highest = 0;
+};
+
 /**
  * The points and cells of a dataset as plain arrays, for many threads at once.
  *
@@ -32,12 +39,9 @@ public:
   vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
 
-  /// Of the values, three numbers for each point; null where nobody has set them.
-  const float* gradients() const
-  {
-    return this->Gradients.empty() ? nullptr : this->Gradients.data();
-  }
-  void setGradients(std::vector<float> gradients) { this->Gradients = std::move(gradients); }
+  /// Of each point; null where nobody has set them.
+  const PointTrend* trends() const { return this->Trends.empty() ? nullptr : this->Trends.data(); }
+  void setTrends(std::vector<PointTrend> trends) { this->Trends = std::move(trends); }
 
   /// The VTK cell type, whether or not the cell is hidden.
   int type(vtkIdType cell) const
@@ -149,7 +153,7 @@ private:
   vtkIdType CellCount, PointCount;
   const double* Values = nullptr;
   const unsigned char* Ghosts = nullptr;
-  std::vector<float> Gradients;
+  std::vector<PointTrend> Trends;
 
   const float* Floats = nullptr;
   const double* Doubles = nullptr;

@@ -175,7 +175,7 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
     };
     Real value;
     polynomial(cell.value, value);
-    if (cell.hasSlopes)
+    if (cell.isSmooth)
     {
       Real slope;
       polynomial(cell.slope[0], slope);
@@ -184,6 +184,11 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
       value += y * slope;
       polynomial(cell.slope[2], slope);
       value += z * slope;
+      Real limit;
+      polynomial(cell.limit[0], limit);
+      value = value > limit ? value : limit;
+      polynomial(cell.limit[1], limit);
+      value = value < limit ? value : limit;
     }
     store(value, points.value + first);
   }

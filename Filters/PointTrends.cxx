@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PointGradients.h"
+#include "PointTrends.h"
 
 #include "CellShape.h"
 
 #include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +20,10 @@ namespace
 
 // How much of the differences of values, squared, a polynomial may leave: gradients up to the first are
 // taken as they are, from the second on they are limited in full.
-constexpr double goodFit = 0.01;
-constexpr double poorFit = 0.04;
+constexpr double goodFit = 0.002;
+constexpr double poorFit = 0.01;
 
-/// Limited gradients lead as far out of the range of the values, in parts of it.
+/// Values may leave the range of those around by this part of it.
 constexpr double overshoot = 0.01;
 
 /// Added to the matrix for second derivatives, in parts of their mean: where points are too few they are
@@ -32,6 +33,7 @@ constexpr double leastSecond = 1e-5;
 constexpr double leastFirst = 1e-12;
 
 constexpr int unknowns = 9; // three first derivatives, six second ones
+constexpr std::size_t fewNeighbours = 14;
 
 /// Which cells have a point: those of point i are cells[starts[i]] to cells[starts[i + 1]].
 struct CellsOfPoints
@@ -74,6 +76,24 @@ CellsOfPoints cellsOfPoints(
   }
   result.starts.pop_back();
   return result;
+}
+
+/// Adds the points of all cells that have one of the points. They are sorted then.
+void addNeighbours(
+  const MeshArrays& mesh, const CellsOfPoints& known, std::vector<vtkIdType>& points)
+{
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto point = static_cast<std::size_t>(points[i]);
+    for (std::size_t k = known.starts[point]; k < known.starts[point + 1]; ++k)
+    {
+      mesh.forPoints(static_cast<vtkIdType>(known.cells[k]),
+        [&](vtkIdType neighbour) { points.push_back(neighbour); });
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
 /// Solves matrix * x = right for a positive definite matrix, of which the lower half is used. False where it is none.
@@ -163,8 +183,21 @@ bool spreadOf(const std::vector<Neighbour>& neighbours, double spread[3][3])
   return true;
 }
 
+/// Lowest and highest value, counted from the point's own.
+std::array<double, 2> rangeOf(const std::vector<Neighbour>& neighbours)
+{
+  std::array<double, 2> range = { 0, 0 };
+  for (const Neighbour& neighbour : neighbours)
+  {
+    range[0] = std::min(range[0], neighbour.value);
+    range[1] = std::max(range[1], neighbour.value);
+  }
+  const double more = overshoot * (range[1] - range[0]);
+  return { range[0] - more, range[1] + more };
+}
+
 /// Zero where there is no good one.
-Vector gradientOf(const std::vector<Neighbour>& neighbours)
+Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<double, 2>& range)
 {
   double spread[3][3];
   if (neighbours.size() < 3 || !spreadOf(neighbours, spread))
@@ -237,20 +270,13 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours)
   const double unfit = all > 0 ? left / all : 0;
   if (unfit > goodFit)
   {
-    double lowest = 0, highest = 0;
-    for (const Neighbour& neighbour : neighbours)
-    {
-      lowest = std::min(lowest, neighbour.value);
-      highest = std::max(highest, neighbour.value);
-    }
-    const double more = overshoot * (highest - lowest);
     double least = 1;
     for (const Neighbour& neighbour : neighbours)
     {
       const double reached = dot(gradient, neighbour.x) / 2;
-      if (reached > highest + more || reached < lowest - more)
+      if (reached > range[1] || reached < range[0])
       {
-        least = std::min(least, (reached > 0 ? highest + more : lowest - more) / reached);
+        least = std::min(least, range[reached > 0] / reached);
       }
     }
     const double limited = std::min(1., (unfit - goodFit) / (poorFit - goodFit));
@@ -264,11 +290,11 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours)
 
 } // namespace
 
-std::vector<float> pointGradients(
+std::vector<PointTrend> pointTrends(
   const MeshArrays& mesh, const std::function<bool(vtkIdType)>& isCellUsed)
 {
   const vtkIdType points = mesh.points();
-  std::vector<float> gradients(3 * static_cast<std::size_t>(points), 0);
+  std::vector<PointTrend> trends(static_cast<std::size_t>(points));
   const CellsOfPoints known = cellsOfPoints(mesh, points, isCellUsed);
   vtkSMPTools::For(0, points, 4096,
     [&](vtkIdType begin, vtkIdType end)
@@ -278,20 +304,12 @@ std::vector<float> pointGradients(
       for (vtkIdType point = begin; point < end; ++point)
       {
         const auto at = static_cast<std::size_t>(point);
-        ids.clear();
-        for (std::size_t i = known.starts[at]; i < known.starts[at + 1]; ++i)
+        ids.assign(1, point);
+        addNeighbours(mesh, known, ids);
+        if (ids.size() <= fewNeighbours)
         {
-          mesh.forPoints(static_cast<vtkIdType>(known.cells[i]),
-            [&](vtkIdType neighbour)
-            {
-              if (neighbour != point)
-              {
-                ids.push_back(neighbour);
-              }
-            });
+          addNeighbours(mesh, known, ids);
         }
-        std::sort(ids.begin(), ids.end());
-        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
         Vector x;
         mesh.coordinates(point, x.data());
         neighbours.clear();
@@ -306,19 +324,22 @@ std::vector<float> pointGradients(
             distance += std::abs(neighbour.x[axis]);
           }
           neighbour.value = mesh.values()[id] - mesh.values()[point];
-          if (distance > 0) // but for points that are doubled
+          if (distance > 0) // not the point itself, nor a double of it
           {
             neighbours.push_back(neighbour);
           }
         }
-        const Vector gradient = gradientOf(neighbours);
+        const std::array<double, 2> range = rangeOf(neighbours);
+        const Vector gradient = gradientOf(neighbours, range);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          gradients[3 * at + axis] = static_cast<float>(gradient[axis]);
+          trends[at].gradient[axis] = static_cast<float>(gradient[axis]);
         }
+        trends[at].lowest = static_cast<float>(range[0]);
+        trends[at].highest = static_cast<float>(range[1]);
       }
     });
-  return gradients;
+  return trends;
 }
 
 } // namespace refractivity
