@@ -47,6 +47,8 @@ private:
   template <CellShape shape>
   bool addNormal(const CellTree::Cell& cell);
   void addOther(const CellTree::Cell& cell);
+  void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
+  void locateInOther();
   void scan(const NormalCell& cell, const Vector& middle, const Vector rows[3]);
   void flush(const NormalCell& cell);
   bool isSettled(std::size_t point) const
@@ -75,6 +77,7 @@ private:
   std::size_t Places[CellPoints::most];
   int Count = 0;
   std::unique_ptr<MeshCell> Other;
+  const double* OtherValues = nullptr;
 };
 
 Brick::Brick(
@@ -125,7 +128,7 @@ bool Brick::enter(const CellTree::Steps& box)
 
 void Brick::set(std::size_t point, double miss, double value)
 {
-  if (miss > this->Tolerance)
+  if (!(miss <= this->Tolerance) || miss == std::numeric_limits<double>::infinity())
   {
     return;
   }
@@ -204,7 +207,6 @@ bool Brick::addNormal(const CellTree::Cell& cell)
   }
   NormalCell normal;
   normal.shape = shape;
-  normal.value = polynomialOf<shape>(corners[3]);
   normal.isAffine = true;
   if constexpr (shape == CellShape::Hexahedron)
   {
@@ -259,6 +261,39 @@ bool Brick::addNormal(const CellTree::Cell& cell)
       normal.bend[i][k] = dot(rows[i], factor);
     }
   }
+  normal.isSmooth = cell.block->trends() != nullptr;
+  if (normal.isSmooth)
+  {
+    // The mean of the corners' linear polynomials with half of the gradients there, as the cell weighs them, is
+    // exact for quadratic fields. Apart from what is the same everywhere in them, they are slopes.
+    double slopes[3][8], limits[2][8];
+    for (int i = 0; i < count; ++i)
+    {
+      const PointTrend& trend = cell.block->trends()[points[i]];
+      limits[0][i] = corners[3][i] + trend.lowest;
+      limits[1][i] = corners[3][i] + trend.highest;
+      const Vector half = { 0.5 * trend.gradient[0], 0.5 * trend.gradient[1],
+        0.5 * trend.gradient[2] };
+      corners[3][i] -= half[0] * (corners[0][i] - place[0][0]) +
+        half[1] * (corners[1][i] - place[1][0]) + half[2] * (corners[2][i] - place[2][0]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        slopes[axis][i] = dot(half, columns[axis]);
+      }
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      const Polynomial slope = polynomialOf<shape>(slopes[i]);
+      std::copy(slope.begin(), slope.end(), normal.slope[i]);
+    }
+    for (int i = 0; i < 2; ++i)
+    {
+      const Polynomial limit = polynomialOf<shape>(limits[i]);
+      std::copy(limit.begin(), limit.end(), normal.limit[i]);
+    }
+  }
+  const Polynomial value = polynomialOf<shape>(corners[3]);
+  std::copy(value.begin(), value.end(), normal.value);
   const Vector middle = { origin[0] + place[0][0], origin[1] + place[1][0],
     origin[2] + place[2][0] };
   this->scan(normal, middle, rows);
@@ -343,15 +378,22 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
 
 void Brick::flush(const NormalCell& cell)
 {
-  // The rest of the last pack: any finite numbers.
-  for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
+  if (cell.shape == CellShape::Other)
   {
-    for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
-    {
-      of[i] = of[this->Count - 1];
-    }
+    this->locateInOther();
   }
-  locateInCell(cell, this->Count, this->Points);
+  else
+  {
+    // The rest of the last pack: any finite numbers.
+    for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
+    {
+      for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
+      {
+        of[i] = of[this->Count - 1];
+      }
+    }
+    locateInCell(cell, this->Count, this->Points);
+  }
   for (int i = 0; i < this->Count; ++i)
   {
     this->set(this->Places[i], this->Points.miss[i], this->Points.value[i]);
@@ -359,35 +401,110 @@ void Brick::flush(const NormalCell& cell)
   this->Count = 0;
 }
 
+/// Places in the cell are MeshCell's business. What saves it most points that are not there: where a cell with
+/// the same corners has its edges, curved ones do not reach far out of the box of their points.
 void Brick::addOther(const CellTree::Cell& cell)
 {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Vector rows[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  Vector origin = {};
+  std::fill_n(this->Low, 4, -infinity);
+  std::fill_n(this->High, 4, infinity);
+  const CellShape skeleton = skeletonOf(cell.block->type(cell.id));
+  if (skeleton != CellShape::Other)
+  {
+    const int count = cornersOf(skeleton);
+    vtkIdType points[8];
+    cell.block->points(cell.id, count, points);
+    double corners[3][8];
+    cell.block->coordinates(points[0], origin.data());
+    for (int i = 0; i < count; ++i)
+    {
+      double x[3];
+      cell.block->coordinates(points[i], x);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        corners[axis][i] = x[axis] - origin[axis];
+      }
+    }
+    Vector columns[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const Polynomial place = polynomialOf(skeleton, corners[axis]);
+      for (std::size_t along = 0; along < 3; ++along)
+      {
+        columns[along][axis] = place[along + 1];
+      }
+    }
+    if (invert(columns, rows))
+    {
+      this->setLimits(cell, origin, rows);
+    }
+    else
+    {
+      rows[0] = { 1, 0, 0 };
+      rows[1] = { 0, 1, 0 };
+      rows[2] = { 0, 0, 1 };
+    }
+  }
   if (!this->Other)
   {
     this->Other = std::make_unique<MeshCell>(-1);
   }
-  this->Tolerance = std::numeric_limits<double>::infinity(); // MeshCell has its own
   this->Other->set(cell.block->data(), cell.id);
-  const schlieren::Lattice& lattice = this->Lattice;
-  for (int k = this->First[2]; k <= this->Last[2]; ++k)
-  {
-    for (int j = this->First[1]; j <= this->Last[1]; ++j)
+  this->OtherValues = cell.block->values();
+  this->Tolerance = infinity; // MeshCell has its own
+  NormalCell other{};
+  other.shape = CellShape::Other;
+  this->scan(other, origin, rows);
+}
+
+/// From all points of a cell.
+void Brick::setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3])
+{
+  std::fill_n(this->Low, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(this->High, 3, -std::numeric_limits<double>::infinity());
+  cell.block->forPoints(cell.id,
+    [&](vtkIdType point)
     {
-      for (int i = this->First[0]; i <= this->Last[0]; ++i)
+      Vector x;
+      cell.block->coordinates(point, x.data());
+      for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        const std::size_t point =
-          (static_cast<std::size_t>(k) * static_cast<std::size_t>(lattice.points[1]) +
-            static_cast<std::size_t>(j)) *
-            static_cast<std::size_t>(lattice.points[0]) +
-          static_cast<std::size_t>(i);
-        const double x[3] = { lattice.first[0] + i * lattice.spacing[0],
-          lattice.first[1] + j * lattice.spacing[1], lattice.first[2] + k * lattice.spacing[2] };
-        double coordinates[3], outside;
-        if (!this->isSettled(point) && this->Other->find(x, coordinates, outside))
-        {
-          this->set(point, outside, this->Other->valueAt(x, coordinates, cell.block->values()));
-        }
+        x[axis] -= origin[axis];
       }
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double at = dot(rows[axis], x);
+        this->Low[axis] = std::min(this->Low[axis], at);
+        this->High[axis] = std::max(this->High[axis], at);
+      }
+    });
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double more = bulge * (this->High[axis] - this->Low[axis]);
+    this->Low[axis] -= more;
+    this->High[axis] += more;
+  }
+}
+
+void Brick::locateInOther()
+{
+  const auto row = static_cast<std::size_t>(this->Lattice.points[0]);
+  const std::size_t layer = row * static_cast<std::size_t>(this->Lattice.points[1]);
+  for (int i = 0; i < this->Count; ++i)
+  {
+    const std::size_t point = this->Places[i];
+    const std::size_t index[3] = { point % row, point % layer / row, point / layer };
+    double x[3], coordinates[3], miss;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      x[axis] =
+        this->Lattice.first[axis] + static_cast<double>(index[axis]) * this->Lattice.spacing[axis];
     }
+    const bool isFound = this->Other->find(x, coordinates, miss);
+    this->Points.miss[i] = isFound ? miss : std::numeric_limits<double>::infinity();
+    this->Points.value[i] = isFound ? this->Other->valueAt(x, coordinates, this->OtherValues) : 0;
   }
 }
 

@@ -17,6 +17,9 @@
 namespace refractivity
 {
 
+/// How far curved cells may reach out of the box of their points, in parts of its lengths.
+constexpr double bulge = 0.05;
+
 enum class CellShape : unsigned char
 {
   Tetrahedron,
@@ -43,6 +46,34 @@ inline CellShape shapeOf(int type)
       return CellShape::Voxel;
     default:
       return CellShape::Other;
+  }
+}
+
+/// The shape of the corners of a curved cell, which come first among its points.
+inline CellShape skeletonOf(int type)
+{
+  switch (type)
+  {
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+      return CellShape::Hexahedron;
+    case VTK_QUADRATIC_TETRA:
+    case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
+      return CellShape::Tetrahedron;
+    case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
+      return CellShape::Wedge;
+    case VTK_QUADRATIC_PYRAMID:
+      return CellShape::Pyramid;
+    default:
+      return shapeOf(type);
   }
 }
 

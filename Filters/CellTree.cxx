@@ -3,6 +3,7 @@
 #include "CellTree.h"
 
 #include "CellTypes.h"
+#include "PointTrends.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
@@ -25,9 +26,6 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// How far curved cells may reach out of the box of their points, in parts of its lengths.
-constexpr double bulge = 0.05;
 
 /// Steps along each axis: as many as there are in 32 bits, with room for sums.
 constexpr double steps = 1 << 30;
@@ -63,34 +61,6 @@ double overshootOf(int order)
   constexpr double norms[] = { 1, 1, 1.25, 1.64, 2.21, 3.11, 4.55, 6.93, 10.95 };
   const double norm = norms[std::min(order, 8)];
   return (norm * norm * norm - 1) / 2;
-}
-
-/// The corners of a curved cell come first among its points, as those of a linear one.
-CellShape skeletonOf(int type)
-{
-  switch (type)
-  {
-    case VTK_QUADRATIC_HEXAHEDRON:
-    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-    case VTK_LAGRANGE_HEXAHEDRON:
-    case VTK_BEZIER_HEXAHEDRON:
-      return CellShape::Hexahedron;
-    case VTK_QUADRATIC_TETRA:
-    case VTK_LAGRANGE_TETRAHEDRON:
-    case VTK_BEZIER_TETRAHEDRON:
-      return CellShape::Tetrahedron;
-    case VTK_QUADRATIC_WEDGE:
-    case VTK_QUADRATIC_LINEAR_WEDGE:
-    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-    case VTK_LAGRANGE_WEDGE:
-    case VTK_BEZIER_WEDGE:
-      return CellShape::Wedge;
-    case VTK_QUADRATIC_PYRAMID:
-      return CellShape::Pyramid;
-    default:
-      return shapeOf(type);
-  }
 }
 
 /// Into how many parts a curved cell's points divide its edges.
@@ -153,7 +123,7 @@ std::uint64_t placeOnCurve(const std::int32_t middle[3])
 
 } // namespace
 
-CellTree::CellTree(const std::vector<vtkDataSet*>& blocks)
+CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction)
 {
   vtkIdType cells = 0;
   this->Blocks.reserve(blocks.size());
@@ -177,6 +147,10 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks)
   }
   this->FirstNumbers.push_back(static_cast<Number>(cells));
   this->findCells();
+  if (reconstruction == Reconstruction::Smooth)
+  {
+    this->setTrends();
+  }
   this->sortCells();
   this->makeGroups();
 }
@@ -302,6 +276,70 @@ void CellTree::findCells()
     this->Step[axis] = length > 0 && length < infinity ? length / (steps - 4) : 1;
     this->Origin[axis] = this->Whole.low[axis] - 2 * this->Step[axis];
   }
+}
+
+void CellTree::setTrends()
+{
+  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
+  {
+    const Number first = this->FirstNumbers[block];
+    MeshArrays& mesh = this->Blocks[block];
+    std::vector<bool> isThere(static_cast<std::size_t>(mesh.cells()));
+    for (auto i = std::lower_bound(this->Numbers.begin(), this->Numbers.end(), first);
+         i != this->Numbers.end() && *i < this->FirstNumbers[block + 1]; ++i)
+    {
+      isThere[*i - first] = true;
+    }
+    mesh.setTrends(
+      pointTrends(mesh, [&](vtkIdType cell) { return isThere[static_cast<std::size_t>(cell)]; }));
+  }
+}
+
+/// Of what is interpolated in a cell whose values and points are finite.
+std::array<double, 2> CellTree::rangeOf(const Cell& one) const
+{
+  double low = infinity, high = -infinity;
+  const double* values = one.block->values();
+  const PointTrend* trends = one.block->trends();
+  const CellShape shape = shapeOf(one.block->type(one.id));
+  if (!trends || shape == CellShape::Other)
+  {
+    one.block->forPoints(one.id,
+      [&](vtkIdType point)
+      {
+        low = std::min(low, values[point]);
+        high = std::max(high, values[point]);
+      });
+    return { low, high };
+  }
+  // Each corner's polynomial is linear: in the cell it lies between what it is at the other corners.
+  vtkIdType points[8];
+  const int count = cornersOf(shape);
+  one.block->points(one.id, count, points);
+  double x[8][3], least = infinity, most = -infinity;
+  for (int i = 0; i < count; ++i)
+  {
+    one.block->coordinates(points[i], x[i]);
+    const PointTrend& trend = trends[points[i]];
+    least = std::min(least, values[points[i]] + trend.lowest);
+    most = std::max(most, values[points[i]] + trend.highest);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const float* gradient = trends[points[i]].gradient;
+    for (int k = 0; k < count; ++k)
+    {
+      double value = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        value += gradient[axis] * (x[k][axis] - x[i][axis]);
+      }
+      value = values[points[i]] + value / 2;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  return { std::max(low, least), std::min(high, most) };
 }
 
 CellTree::Steps CellTree::stepsOf(const Bounds& box) const
@@ -468,13 +506,7 @@ void CellTree::makeGroups()
         {
           const Cell one = this->cell(this->Numbers[i]);
           this->Boxes[i] = this->stepsOf(this->boundsOf(one));
-          double low = infinity, high = -infinity;
-          one.block->forPoints(one.id,
-            [&](vtkIdType point)
-            {
-              low = std::min(low, one.block->values()[point]);
-              high = std::max(high, one.block->values()[point]);
-            });
+          const auto [low, high] = this->rangeOf(one);
           const int order = orderOf(one, curved);
           const double more = overshootOf(order) * (high - low);
           lowest = std::min(lowest, low - more);

@@ -28,9 +28,17 @@ namespace refractivity
 class CellTree
 {
 public:
+  /// What is interpolated in cells whose own functions are linear along each edge.
+  enum class Reconstruction
+  {
+    Linear, // these functions
+    Smooth  // exact for quadratic fields, by gradients at the points (see PointTrends.h)
+  };
+
   /// Each dataset has one double scalar at each point. They must outlive the tree. Throws where there are
   /// too many cells.
-  explicit CellTree(const std::vector<vtkDataSet*>& blocks);
+  explicit CellTree(
+    const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction = Reconstruction::Linear);
 
   /// Cells by numbers that count through all blocks, hidden ones too.
   using Number = std::uint32_t;
@@ -141,6 +149,8 @@ private:
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
   void findCells();
+  void setTrends();
+  std::array<double, 2> rangeOf(const Cell& cell) const;
   void sortCells();
   void makeGroups();
 

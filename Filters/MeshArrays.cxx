@@ -41,6 +41,7 @@ const Number* numbersOf(vtkDataArray* array)
 MeshArrays::MeshArrays(vtkDataSet* data)
   : Data(data)
   , CellCount(data->GetNumberOfCells())
+  , PointCount(data->GetNumberOfPoints())
 {
   this->Values = vtkDoubleArray::SafeDownCast(data->GetPointData()->GetScalars())->GetPointer(0);
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
@@ -86,10 +87,9 @@ void MeshArrays::setPoints()
   }
   if (!this->Floats && !this->Doubles)
   {
-    const vtkIdType count = this->Data->GetNumberOfPoints();
-    this->OwnPoints.resize(3 * static_cast<std::size_t>(count) + 3);
+    this->OwnPoints.resize(3 * static_cast<std::size_t>(this->PointCount) + 3);
     this->Doubles = this->OwnPoints.data();
-    for (vtkIdType i = 0; i < count; ++i)
+    for (vtkIdType i = 0; i < this->PointCount; ++i)
     {
       this->Data->GetPoint(i, this->OwnPoints.data() + 3 * i);
     }

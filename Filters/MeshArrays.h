@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 class vtkDataSet;
@@ -13,6 +14,13 @@ class vtkUnsignedCharArray;
 
 namespace refractivity
 {
+
+/// How values go on around a point, and between which limits, counted from its own value.
+struct PointTrend
+{
+  float gradient[3] = {};
+  float lowest = 0, highest = 0;
+};
 
 /**
  * The points and cells of a dataset as plain arrays, for many threads at once.
@@ -28,7 +36,12 @@ public:
 
   vtkDataSet* data() const { return this->Data; }
   vtkIdType cells() const { return this->CellCount; }
+  vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
+
+  /// Of each point; null where nobody has set them.
+  const PointTrend* trends() const { return this->Trends.empty() ? nullptr : this->Trends.data(); }
+  void setTrends(std::vector<PointTrend> trends) { this->Trends = std::move(trends); }
 
   /// The VTK cell type, whether or not the cell is hidden.
   int type(vtkIdType cell) const
@@ -137,9 +150,10 @@ private:
   }
 
   vtkDataSet* Data;
-  vtkIdType CellCount;
+  vtkIdType CellCount, PointCount;
   const double* Values = nullptr;
   const unsigned char* Ghosts = nullptr;
+  std::vector<PointTrend> Trends;
 
   const float* Floats = nullptr;
   const double* Doubles = nullptr;

@@ -18,8 +18,11 @@ struct NormalCell
 {
   CellShape shape;
   bool isAffine;
-  double bend[3][4]; // factors of uv, vw, uw and uvw
-  Polynomial value;
+  bool isSmooth;      // else there are no slopes and limits
+  double bend[3][4];  // factors of uv, vw, uw and uvw
+  double value[8];    // a polynomial
+  double slope[3][8]; // polynomials, to be added to the value, times the normal coordinates
+  double limit[2][8]; // polynomials, which the sum lies between
 };
 
 /// Points of one cell, each number for all of them.

@@ -167,9 +167,29 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
     const Real infinite = zero + std::numeric_limits<double>::infinity();
     choose(isFound, miss, infinite, miss);
     store(miss, points.miss + first);
-    const Polynomial& n = cell.value;
-    const Real value = n[0] + n[1] * u + n[2] * v + n[3] * w + n[4] * (u * v) + n[5] * (v * w) +
-      n[6] * (u * w) + n[7] * (u * v * w);
+    const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
+    const auto polynomial = [&](const double* n, Real& result)
+    {
+      result =
+        n[0] + n[1] * u + n[2] * v + n[3] * w + n[4] * uv + n[5] * vw + n[6] * uw + n[7] * uvw;
+    };
+    Real value;
+    polynomial(cell.value, value);
+    if (cell.isSmooth)
+    {
+      Real slope;
+      polynomial(cell.slope[0], slope);
+      value += x * slope;
+      polynomial(cell.slope[1], slope);
+      value += y * slope;
+      polynomial(cell.slope[2], slope);
+      value += z * slope;
+      Real limit;
+      polynomial(cell.limit[0], limit);
+      value = value > limit ? value : limit;
+      polynomial(cell.limit[1], limit);
+      value = value < limit ? value : limit;
+    }
     store(value, points.value + first);
   }
 }

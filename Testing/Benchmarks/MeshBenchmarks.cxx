@@ -38,6 +38,7 @@ namespace
 {
 
 using Mesh = vtkSmartPointer<vtkDataSet>;
+using Reconstruction = refractivity::CellTree::Reconstruction;
 
 vtkSmartPointer<vtkImageData> cube(int points)
 {
@@ -343,8 +344,8 @@ void addBricks(const refractivity::CellTree& tree, const schlieren::Box& box, do
 
 /// Argument: threads. The tree of the cells, and the bricks that a view of the middle needs. Seconds by the
 /// clock and of all processors.
-void bricks(
-  benchmark::State& state, const std::function<Mesh()>& make, double column, double finest)
+void bricks(benchmark::State& state, const std::function<Mesh()>& make, double column,
+  double finest, Reconstruction reconstruction)
 {
   const Mesh mesh = make();
   vtkNew<vtkDoubleArray> values;
@@ -360,7 +361,10 @@ void bricks(
   std::vector<schlieren::Lattice> all;
   std::vector<std::size_t> found;
   const auto build = [&]
-  { tree = std::make_unique<refractivity::CellTree>(std::vector<vtkDataSet*>{ mesh }); };
+  {
+    tree =
+      std::make_unique<refractivity::CellTree>(std::vector<vtkDataSet*>{ mesh }, reconstruction);
+  };
   const auto ask = [&]
   {
     all.clear();
@@ -384,7 +388,7 @@ void bricks(
     found.assign(all.size(), 0);
     vtkSMPTools::For(0, static_cast<vtkIdType>(all.size()), 16, sampleSome);
   };
-  double built = 1e30, asked = 1e30, sampled = 1e30, processors = 1e30;
+  double built = 1e30, buildProcessors = 1e30, asked = 1e30, sampled = 1e30, processors = 1e30;
   const vtkSMPTools::Config threads(static_cast<int>(state.range(0)), "STDThread", false);
   for (auto _ : state)
   {
@@ -392,6 +396,7 @@ void bricks(
       [&]
       {
         built = std::min(built, secondsOf(build));
+        buildProcessors = std::min(buildProcessors, processorSecondsOf(build));
         asked = std::min(asked, secondsOf(ask));
         sampled = std::min(sampled, secondsOf(sample));
         processors = std::min(processors, processorSecondsOf(sample));
@@ -399,6 +404,7 @@ void bricks(
   }
   const double points = static_cast<double>(all.size()) * 8000;
   state.counters["build/s"] = built;
+  state.counters["build/s*cores"] = buildProcessors;
   state.counters["bytes/cell"] =
     static_cast<double>(tree->bytes()) / static_cast<double>(tree->size());
   state.counters["ask/s"] = asked;
@@ -410,38 +416,26 @@ void bricks(
 }
 
 constexpr double everywhere = 1e9;
-BENCHMARK_CAPTURE(
-  bricks, sphere_1200000, [] { return aroundSphere(120, 80, 125); }, 1.2, 0.0125)
-  ->ArgName("threads")
-  ->Arg(1)
-  ->Arg(2)
-  ->Iterations(2)
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(
-  bricks, tetrahedra_1080000, [] { return tetrahedra(60); }, everywhere, 1. / 256)
-  ->ArgName("threads")
-  ->Arg(1)
-  ->Arg(2)
-  ->Iterations(2)
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(
-  bricks, tetrahedra_1080000_coarse, [] { return tetrahedra(60); }, everywhere, 1. / 64)
-  ->ArgName("threads")
-  ->Arg(1)
-  ->Iterations(2)
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(
-  bricks, hexahedra_262144, [] { return hexahedra(64, true); }, everywhere, 1. / 128)
-  ->ArgName("threads")
-  ->Arg(1)
-  ->Iterations(2)
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(
-  bricks, parallelepipeds_262144, [] { return hexahedra(64, false); }, everywhere, 1. / 128)
-  ->ArgName("threads")
-  ->Arg(1)
-  ->Iterations(2)
-  ->Unit(benchmark::kMillisecond);
+Mesh sphere() { return aroundSphere(120, 80, 125); }
+Mesh tetrahedra60() { return tetrahedra(60); }
+Mesh bentHexahedra() { return hexahedra(64, true); }
+Mesh parallelepipeds() { return hexahedra(64, false); }
+
+#define BRICKS(name, ...)                      \
+  BENCHMARK_CAPTURE(bricks, name, __VA_ARGS__) \
+    ->ArgName("threads")                       \
+    ->Arg(1)                                   \
+    ->Arg(2)                                   \
+    ->Iterations(2)                            \
+    ->Unit(benchmark::kMillisecond)
+BRICKS(sphere_1200000, sphere, 1.2, 0.0125, Reconstruction::Linear);
+BRICKS(sphere_1200000_smooth, sphere, 1.2, 0.0125, Reconstruction::Smooth);
+BRICKS(tetrahedra_1080000, tetrahedra60, everywhere, 1. / 256, Reconstruction::Linear);
+BRICKS(tetrahedra_1080000_smooth, tetrahedra60, everywhere, 1. / 256, Reconstruction::Smooth);
+BRICKS(tetrahedra_1080000_coarse, tetrahedra60, everywhere, 1. / 64, Reconstruction::Linear);
+BRICKS(hexahedra_262144, bentHexahedra, everywhere, 1. / 128, Reconstruction::Linear);
+BRICKS(hexahedra_262144_smooth, bentHexahedra, everywhere, 1. / 128, Reconstruction::Smooth);
+BRICKS(parallelepipeds_262144, parallelepipeds, everywhere, 1. / 128, Reconstruction::Linear);
 
 BENCHMARK(amr)->ArgName("n")->Arg(22)->Arg(44)->Iterations(2)->Unit(benchmark::kMillisecond);
 

@@ -6,6 +6,8 @@
 
 #include "Fixtures.h"
 
+#include "Medium/MediumSource.h"
+
 #include "vtkCellType.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
@@ -142,3 +144,37 @@ inline const Frames kuhn = []
   } while (std::next_permutation(order.begin(), order.end()));
   return frames;
 }();
+
+struct CellKind
+{
+  std::string name;
+  int type;
+  std::vector<std::vector<Vec>> cells; // that a box is cut into
+};
+
+/// Of those cells in which fields are linear along each edge.
+inline std::vector<CellKind> linearKinds()
+{
+  const auto c = unitCell(VTK_HEXAHEDRON, 8);
+  const Vec middle = { 0.5, 0.5, 0.5 };
+  return { { "Tetrahedra", VTK_TETRA, cut(unitCell(VTK_TETRA, 4), kuhn) },
+    { "Hexahedra", VTK_HEXAHEDRON, { c } },
+    { "Wedges", VTK_WEDGE, cut(unitCell(VTK_WEDGE, 6), prisms) },
+    { "Pyramids", VTK_PYRAMID,
+      { { c[0], c[1], c[2], c[3], middle }, { c[4], c[7], c[6], c[5], middle },
+        { c[0], c[4], c[5], c[1], middle }, { c[3], c[2], c[6], c[7], middle },
+        { c[0], c[3], c[7], c[4], middle }, { c[1], c[5], c[6], c[2], middle } } } };
+}
+
+inline Vec pointOf(const schlieren::Lattice& lattice, std::size_t i)
+{
+  const auto row = static_cast<std::size_t>(lattice.points[0]),
+             layer = row * static_cast<std::size_t>(lattice.points[1]);
+  const std::size_t index[3] = { i % row, i % layer / row, i / layer };
+  Vec x;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    x[axis] = lattice.first[axis] + static_cast<double>(index[axis]) * lattice.spacing[axis];
+  }
+  return x;
+}

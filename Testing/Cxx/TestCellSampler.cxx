@@ -36,19 +36,6 @@ Found sampled(const std::vector<vtkDataSet*>& blocks, const Lattice& lattice)
   return result;
 }
 
-Vec pointOf(const Lattice& lattice, std::size_t i)
-{
-  const auto row = static_cast<std::size_t>(lattice.points[0]),
-             layer = row * static_cast<std::size_t>(lattice.points[1]);
-  const std::size_t index[3] = { i % row, i % layer / row, i / layer };
-  Vec x;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    x[axis] = lattice.first[axis] + static_cast<double>(index[axis]) * lattice.spacing[axis];
-  }
-  return x;
-}
-
 /// A lattice whose points at the ends lie on the faces of the unit cube.
 Lattice unitLattice(int n)
 {
@@ -123,31 +110,17 @@ double difference(const Found& a, const Found& b)
   return most;
 }
 
-struct Kind
+std::vector<CellKind> kinds()
 {
-  std::string name;
-  int type;
-  std::vector<std::vector<Vec>> cells;
-};
-
-std::vector<Kind> kinds()
-{
-  const auto c = unitCell(VTK_HEXAHEDRON, 8);
-  const Vec middle = { 0.5, 0.5, 0.5 };
-  return { { "Tetrahedra", VTK_TETRA, cut(unitCell(VTK_TETRA, 4), kuhn) },
-    { "Hexahedra", VTK_HEXAHEDRON, { c } },
-    { "Wedges", VTK_WEDGE, cut(unitCell(VTK_WEDGE, 6), prisms) },
-    { "Pyramids", VTK_PYRAMID,
-      { { c[0], c[1], c[2], c[3], middle }, { c[4], c[7], c[6], c[5], middle },
-        { c[0], c[4], c[5], c[1], middle }, { c[3], c[2], c[6], c[7], middle },
-        { c[0], c[3], c[7], c[4], middle }, { c[1], c[5], c[6], c[2], middle } } },
-    { "QuadraticHexahedra", VTK_QUADRATIC_HEXAHEDRON,
-      cut(unitCell(VTK_QUADRATIC_HEXAHEDRON, 20), boxes) },
-    { "LagrangeTetrahedra", VTK_LAGRANGE_TETRAHEDRON,
-      cut(unitCell(VTK_LAGRANGE_TETRAHEDRON, 20), kuhn) } };
+  std::vector<CellKind> all = linearKinds();
+  all.push_back({ "QuadraticHexahedra", VTK_QUADRATIC_HEXAHEDRON,
+    cut(unitCell(VTK_QUADRATIC_HEXAHEDRON, 20), boxes) });
+  all.push_back({ "LagrangeTetrahedra", VTK_LAGRANGE_TETRAHEDRON,
+    cut(unitCell(VTK_LAGRANGE_TETRAHEDRON, 20), kuhn) });
+  return all;
 }
 
-class CellsOnLattices : public testing::TestWithParam<Kind>
+class CellsOnLattices : public testing::TestWithParam<CellKind>
 {
 };
 
@@ -301,7 +274,7 @@ TEST(CellSampler, TheFirstOfOverlappingBlocksCounts)
   std::vector<vtkDataSet*> all;
   for (int i = 0; i < 3; ++i)
   {
-    const Kind kind = kinds()[static_cast<std::size_t>(i)];
+    const CellKind kind = kinds()[static_cast<std::size_t>(i)];
     const Mesh mesh = meshOf(kind.type, 2 + i, kind.cells, 0.1, false);
     setN(mesh, [i](const Vec&) { return 1 + i; });
     blocks.emplace_back(mesh);
@@ -420,7 +393,7 @@ TEST(CellSampler, CollapsedHexahedraLeaveNoHoles)
 // Boundary layers: a thousandth as thick as wide, sheared and bent.
 TEST(CellSampler, TakesStretchedCells)
 {
-  for (const Kind& kind : kinds())
+  for (const CellKind& kind : kinds())
   {
     const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0.1, false);
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
@@ -446,7 +419,7 @@ TEST(CellSampler, TakesStretchedCells)
 
 TEST(CellSampler, TakesCellsFarAway)
 {
-  for (const Kind& kind : kinds())
+  for (const CellKind& kind : kinds())
   {
     const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0.1, false);
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
@@ -490,9 +463,11 @@ TEST(CellSampler, CurvedCellsOfOrder3AreExact)
 // Each point is itself, whatever is computed along with it.
 TEST(CellSampler, AllInstructionsGiveTheSame)
 {
-  refractivity::NormalCell cell{ refractivity::CellShape::Hexahedron, false,
+  refractivity::NormalCell cell{ refractivity::CellShape::Hexahedron, false, true,
     { { 0.1, -0.2, 0.15, 0.05 }, { 0.2, 0.1, 0.1, -0.1 }, { -0.1, 0.1, 0.05, 0.2 } },
-    { 1, 2, 3, 4, 5, 6, 7, 8 } };
+    { 1, 2, 3, 4, 5, 6, 7, 8 },
+    { { 2, 1, 1, 2, 1, 3, 1, 2 }, { 3, 2, 1, 1, 2, 1, 2, 1 }, { 1, 3, 2, 2, 1, 1, 1, 3 } },
+    { { -2, 0, 0, 1, 0, 0, 0, 0 }, { 9, 0, 1, 1, 0, 0, 0, 0 } } };
   const auto all = refractivity::functionsToLocate();
   ASSERT_GE(all.size(), 1u);
   const auto setPoints = [](refractivity::CellPoints& points, int first, int count)

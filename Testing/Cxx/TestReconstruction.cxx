@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is made of values at points, in cells: smoother than what is linear along each edge.
+#include "CellMeshes.h"
+
+#include "CellSampler.h"
+
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkSMPTools.h"
+
+#include <random>
+
+using refractivity::CellSampler;
+using refractivity::CellTree;
+using schlieren::Lattice;
+using Reconstruction = refractivity::CellTree::Reconstruction;
+
+namespace
+{
+
+void setN(vtkDataSet* data, const ScalarField& field)
+{
+  data->GetPointData()->SetScalars(addPointArray(data, "N", field));
+}
+
+/// n^3 boxes in the unit cube, each cut into five tetrahedra, their points moved at random by so many cells.
+Mesh jittered(int n, double by)
+{
+  vtkNew<vtkDataSetTriangleFilter> toTetrahedra;
+  toTetrahedra->SetInputData(cube(n + 1));
+  toTetrahedra->Update();
+  Mesh mesh = toTetrahedra->GetOutput();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> move(-by / n, by / n);
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    mesh->GetPoint(i, x.data());
+    for (double& along : x)
+    {
+      along = (along + 1) / 2;
+      const double moved = move(random);
+      along += along > 1e-6 && along < 1 - 1e-6 ? moved : 0;
+    }
+    points->InsertNextPoint(x.data());
+  }
+  mesh->SetPoints(points);
+  return mesh;
+}
+
+struct Found
+{
+  std::vector<double> values;
+  std::vector<unsigned char> found;
+};
+
+Found sampled(vtkDataSet* mesh, Reconstruction reconstruction, const Lattice& lattice)
+{
+  const CellTree tree({ mesh }, reconstruction);
+  const auto size = static_cast<std::size_t>(lattice.size());
+  Found result{ std::vector<double>(size), std::vector<unsigned char>(size) };
+  CellSampler(tree).sample(lattice, result.values.data(), result.found.data());
+  return result;
+}
+
+struct Errors
+{
+  double deflection, divergence; // rms, of the largest
+};
+
+/// Of light along z through what is interpolated in the middle of the unit cube, against that of the field itself.
+Errors errorsOf(vtkDataSet* mesh, Reconstruction reconstruction, const ScalarField& field, int n)
+{
+  const CellTree tree({ mesh }, reconstruction);
+  const CellSampler sampler(tree);
+  const double h = 1. / n;
+  const auto size = static_cast<std::size_t>(n);
+  std::vector<double> errors(size * size, 0), truth(size * size, 0);
+  std::vector<double> layer(size * size);
+  std::vector<unsigned char> found(size * size);
+  for (int k = 0; k < n; ++k)
+  {
+    const Lattice lattice = { { h / 2, h / 2, (k + 0.5) * h }, { h, h, h }, { n, n, 1 } };
+    sampler.sample(lattice, layer.data(), found.data());
+    for (std::size_t i = 0; i < layer.size(); ++i)
+    {
+      EXPECT_EQ(found[i], 1);
+      const double exact = field({ (static_cast<double>(i % size) + 0.5) * h,
+        (static_cast<double>(i / size) + 0.5) * h, (k + 0.5) * h });
+      errors[i] += h * (layer[i] - exact);
+      truth[i] += h * exact;
+    }
+  }
+  double sums[2] = { 0, 0 }, most[2] = { 0, 0 };
+  int count = 0;
+  for (std::size_t j = 1; j + 1 < size; ++j)
+  {
+    for (std::size_t i = 1; i + 1 < size; ++i)
+    {
+      const std::size_t at = j * size + i;
+      const auto derivatives = [&](const std::vector<double>& of)
+      {
+        const double right = of[at + 1], left = of[at - 1], up = of[at + size],
+                     down = of[at - size];
+        return std::array<double, 2>{ std::hypot(right - left, up - down) / (2 * h),
+          (right + left + up + down - 4 * of[at]) / (h * h) };
+      };
+      const auto wrong = derivatives(errors), right = derivatives(truth);
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        sums[d] += wrong[d] * wrong[d];
+        most[d] = std::max(most[d], std::abs(right[d]));
+      }
+      ++count;
+    }
+  }
+  return { std::sqrt(sums[0] / count) / most[0], std::sqrt(sums[1] / count) / most[1] };
+}
+
+} // namespace
+
+TEST(Reconstruction, ABallOnTetrahedraIsSmooth)
+{
+  const auto ball = [](const Vec& x)
+  {
+    const double s = 0.25; // ten cells
+    const Vec r = { (x[0] - 0.5) / s, (x[1] - 0.5) / s, (x[2] - 0.5) / s };
+    return 3e-4 * std::exp(-dot(r, r));
+  };
+  const Mesh mesh = jittered(40, 0.2);
+  setN(mesh, ball);
+  for (const int n : { 40, 60 })
+  {
+    const Errors linear = errorsOf(mesh, Reconstruction::Linear, ball, n);
+    EXPECT_GT(linear.deflection, 3e-3); // what there is to gain
+    EXPECT_GT(linear.divergence, 8e-3);
+    const Errors smooth = errorsOf(mesh, Reconstruction::Smooth, ball, n);
+    EXPECT_LT(smooth.deflection, 3e-4);
+    EXPECT_LT(smooth.divergence, 4e-3);
+  }
+}
+
+// Where a point has neighbours on all sides.
+TEST(Reconstruction, QuadraticFieldsAreExact)
+{
+  const auto field = [](const Vec& x)
+  { return 1 + x[0] - x[1] * x[2] + 2 * x[2] * x[2] - 3 * x[0] * x[1] + x[1] * x[1]; };
+  const Lattice lattice = { { 0.31, 0.32, 0.33 }, { 0.021, 0.022, 0.023 }, { 18, 17, 16 } };
+  for (const CellKind& kind : linearKinds())
+  {
+    for (const double by : { 0., 0.1 })
+    {
+      const Mesh mesh = meshOf(kind.type, 6, kind.cells, by, false);
+      setN(mesh, field);
+      const Found linear = sampled(mesh, Reconstruction::Linear, lattice);
+      const Found smooth = sampled(mesh, Reconstruction::Smooth, lattice);
+      double error = 0, wrong = 0;
+      for (std::size_t i = 0; i < smooth.values.size(); ++i)
+      {
+        ASSERT_EQ(smooth.found[i], 1);
+        error = std::max(error, std::abs(smooth.values[i] - field(pointOf(lattice, i))));
+        wrong = std::max(wrong, std::abs(linear.values[i] - field(pointOf(lattice, i))));
+      }
+      EXPECT_LT(error, 2e-6) << kind.name;
+      EXPECT_GT(wrong, 1e-3) << kind.name;
+    }
+  }
+}
+
+TEST(Reconstruction, PointsKeepTheirValues)
+{
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0.1, false);
+    setN(mesh, [](const Vec& x) { return std::sin(1e4 * (x[0] + x[1] + 2 * x[2])); });
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      Vec x;
+      mesh->GetPoint(i, x.data());
+      const Found found = sampled(mesh, Reconstruction::Smooth, { x, { 1, 1, 1 }, { 1, 1, 1 } });
+      EXPECT_EQ(found.found[0], 1);
+      EXPECT_NEAR(found.values[0], mesh->GetPointData()->GetScalars()->GetComponent(i, 0), 1e-11);
+    }
+  }
+}
+
+// Across faces, too: no step along a line is larger than the slopes make it.
+TEST(Reconstruction, IsContinuous)
+{
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 4, kind.cells, 0.1, false);
+    setN(mesh, [](const Vec& x) { return std::sin(9 * x[0]) * std::cos(7 * x[1] + 5 * x[2]); });
+    const Lattice lattice = { { 5e-6, 0.345, 0.456 }, { 1e-5, 0.1, 0.1 }, { 100000, 2, 2 } };
+    const Found found = sampled(mesh, Reconstruction::Smooth, lattice);
+    double most = 0;
+    for (std::size_t i = 1; i < found.values.size(); ++i)
+    {
+      most =
+        i % 100000 == 0 ? most : std::max(most, std::abs(found.values[i] - found.values[i - 1]));
+    }
+    EXPECT_LT(most, 1e-3) << kind.name;
+  }
+}
+
+TEST(Reconstruction, ShocksHaveNoOvershoots)
+{
+  for (const double jump : { 0.5, 0.27 })
+  {
+    const auto shock = [jump](const Vec& x) { return x[0] + 0.2 * x[1] * x[1] < jump ? 0. : 1.; };
+    std::vector<Mesh> meshes = { jittered(16, 0.2) };
+    for (const CellKind& kind : linearKinds())
+    {
+      meshes.push_back(meshOf(kind.type, 8, kind.cells, 0.05, false));
+    }
+    for (const Mesh& mesh : meshes)
+    {
+      setN(mesh, shock);
+      double low = 0, high = 1;
+      const Lattice lattice = { { 0, 0, 0 }, { 0.02, 0.02, 0.02 }, { 51, 51, 51 } };
+      for (const double value : sampled(mesh, Reconstruction::Smooth, lattice).values)
+      {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      EXPECT_GT(low, -0.0101);
+      EXPECT_LT(high, 1.0101);
+    }
+  }
+}
+
+// What the tree says of a box is true of all that is interpolated there.
+TEST(Reconstruction, StaysInTheKnownRange)
+{
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 5, kind.cells, 0.1, false);
+    setN(mesh, [](const Vec& x) { return std::sin(9 * x[0]) * std::cos(12 * x[1] + 5 * x[2]); });
+    const CellTree tree({ mesh }, Reconstruction::Smooth);
+    for (double at = 0.05; at < 0.9; at += 0.04)
+    {
+      Found found{ std::vector<double>(4096), std::vector<unsigned char>(4096) };
+      CellSampler(tree).sample({ { at, 0.94 - at, at }, { 0.004, 0.004, 0.004 }, { 16, 16, 16 } },
+        found.values.data(), found.found.data());
+      const CellTree::Content content =
+        tree.content({ { at, 0.94 - at, at }, { at + 0.06, 1 - at, at + 0.06 } });
+      for (std::size_t i = 0; i < found.values.size(); ++i)
+      {
+        if (found.found[i])
+        {
+          ASSERT_GE(found.values[i], content.lowest - 1e-12);
+          ASSERT_LE(found.values[i], content.highest + 1e-12);
+        }
+      }
+    }
+  }
+}
+
+// Cells a thousandth as thick as wide: quadratic fields stay exact, in their thickness, too.
+TEST(Reconstruction, TakesStretchedCells)
+{
+  const auto field = [](const Vec& x)
+  {
+    const double z = 1e3 * (x[2] - 0.3 * x[0]);
+    return 1 + x[0] * x[1] + z * z - x[1] * z;
+  };
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 6, kind.cells, 0.1, false);
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      double x[3];
+      mesh->GetPoint(i, x);
+      mesh->GetPoints()->SetPoint(i, x[0], x[1], 1e-3 * x[2] + 0.3 * x[0]);
+    }
+    setN(mesh, field);
+    const Lattice lattice = { { 0.5, 0.32, 0.15036 }, { 1e-4, 0.022, 3e-5 }, { 5, 17, 10 } };
+    const Found found = sampled(mesh, Reconstruction::Smooth, lattice);
+    int inside = 0;
+    for (std::size_t i = 0; i < found.values.size(); ++i)
+    {
+      if (found.found[i])
+      {
+        ++inside;
+        ASSERT_NEAR(found.values[i], field(pointOf(lattice, i)), 1e-5) << kind.name;
+      }
+    }
+    EXPECT_GT(inside, 600);
+  }
+}
+
+TEST(Reconstruction, IsTheSameForAnyNumberOfThreads)
+{
+  const Mesh mesh = jittered(12, 0.2);
+  setN(mesh, [](const Vec& x) { return std::sin(9 * x[0]) * std::cos(12 * x[1] + 5 * x[2]); });
+  const Lattice lattice = { { 0, 0, 0 }, { 0.05, 0.05, 0.05 }, { 21, 21, 21 } };
+  std::vector<Found> results;
+  for (const int threads : { 1, 2, 7 })
+  {
+    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
+      [&] { results.push_back(sampled(mesh, Reconstruction::Smooth, lattice)); });
+  }
+  EXPECT_EQ(results[1].values, results[0].values);
+  EXPECT_EQ(results[2].values, results[0].values);
+}
