@@ -101,7 +101,7 @@ Sample<Real> interpolateBrick(const Real* samples, int apron, const Vec3<Real>& 
 {
   constexpr int edge = 16;
   const int stride = edge + 2 * apron;
-  const MediumView<Real> view{ samples, stride, std::int64_t{ stride } * stride, {}, nullptr };
+  const MediumView<Real> view{ samples, stride, std::int64_t{ stride } * stride, {}, {}, {} };
   const Real x[3] = { place.x, place.y, place.z };
   const std::int64_t strides[3] = { 1, view.rowStride, view.planeStride };
   const Real* corner = samples;

@@ -34,8 +34,8 @@ constexpr int usualLevels = 10;
 /// Of the memory, for what turns out to be worse than what was divided before.
 constexpr std::size_t partsOfReserve = 16;
 
-/// Nodes between two looks at the monitor's answer, at most.
-constexpr std::size_t nodesAtOnce = 64;
+/// Bricks that are made before they are put into the tree.
+constexpr std::size_t bricksAtOnce = 512;
 
 /// Leaves whose steepest places rays are sent through.
 constexpr std::size_t steepestLeaves = 192;
@@ -97,6 +97,13 @@ double largestNuOf(const MediumSource::Content& content, double ambient)
 {
   return std::max(std::abs(content.lowest - ambient), std::abs(content.highest - ambient)) /
     (1 + ambient);
+}
+
+NodePlace childOf(const NodePlace& place, std::int32_t child)
+{
+  return { place.level + 1,
+    { 2 * place.at[0] + (child & 1), 2 * place.at[1] + (child >> 1 & 1),
+      2 * place.at[2] + (child >> 2) } };
 }
 
 bool isSame(const Column& a, const Column& b)
@@ -426,83 +433,97 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
   tasks.resize(fitting);
 }
 
+/// The bricks that the next tasks are about.
+template <class Real>
+void MediumTree<Real>::findBricks(const View& view)
+{
+  work_.bricks.clear();
+  work_.bricksDone = 0;
+  work_.tasksBegun = work_.tasksDone;
+  while (work_.tasksBegun < work_.tasks.size() && work_.bricks.size() < bricksAtOnce)
+  {
+    const Task& task = work_.tasks[work_.tasksBegun++];
+    const NodePlace& place = nodes_[static_cast<std::size_t>(task.node)].place;
+    for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
+    {
+      const NodePlace ofOne = task.divides ? childOf(place, child) : place;
+      if (!task.divides || view.sees(ofOne))
+      {
+        work_.bricks.push_back({ ofOne, {} });
+      }
+    }
+  }
+}
+
+/// Puts bricks that are made into the tree.
+template <class Real>
+void MediumTree<Real>::keepBricks(const View& view)
+{
+  auto next = work_.bricks.begin();
+  for (; work_.tasksDone < work_.tasksBegun; ++work_.tasksDone)
+  {
+    const Task& task = work_.tasks[work_.tasksDone];
+    const auto at = static_cast<std::size_t>(task.node);
+    forget(nodes_[at]);
+    if (!task.divides)
+    {
+      keep(nodes_[at], (next++)->second);
+      continue;
+    }
+    nodes_[at].children = static_cast<std::int32_t>(nodes_.size());
+    const NodePlace place = nodes_[at].place;
+    for (std::int32_t child = 0; child < 8; ++child)
+    {
+      nodes_.push_back({ childOf(place, child) });
+      if (view.sees(nodes_.back().place))
+      {
+        keep(nodes_.back(), (next++)->second);
+      }
+    }
+  }
+  work_.bricks.clear();
+}
+
 /// Works off the tasks of this round. Returns false where the monitor says stop.
 template <class Real>
 bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
 {
-  const auto childOf = [](const NodePlace& place, std::int32_t child) -> NodePlace
-  {
-    return { place.level + 1,
-      { 2 * place.at[0] + (child & 1), 2 * place.at[1] + (child >> 1 & 1),
-        2 * place.at[2] + (child >> 2) } };
-  };
   while (work_.tasksDone < work_.tasks.size())
   {
-    const std::size_t begin = work_.tasksDone;
-    const std::size_t count = std::min(nodesAtOnce, work_.tasks.size() - begin);
-    std::vector<std::array<Brick<Real>, 8>> made(count);
-    std::vector<std::array<bool, 8>> isMade(count);
-    const auto report = [&](double fraction)
+    if (work_.bricks.empty())
     {
-      const double done = static_cast<double>(begin) + fraction * static_cast<double>(count);
-      work_.progress =
-        std::max(work_.progress, view.progressAt(done / static_cast<double>(work_.tasks.size())));
-      monitor.progress(work_.progress);
-    };
-    const auto makeOne = [&](std::size_t n)
-    {
-      const Task& task = work_.tasks[begin + n];
-      const NodePlace& place = nodes_[static_cast<std::size_t>(task.node)].place;
-      for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
-      {
-        const NodePlace ofOne = task.divides ? childOf(place, child) : place;
-        const auto c = static_cast<std::size_t>(child);
-        isMade[n][c] = !task.divides || view.sees(ofOne);
-        if (isMade[n][c])
-        {
-          made[n][c] = maker_.make(ofOne, view.negligible());
-        }
-      }
-    };
+      findBricks(view);
+    }
+    const auto count = static_cast<std::int64_t>(work_.bricks.size());
     Monitor ofThese{ {}, monitor.aborted, monitor.paused };
     if (monitor.progress)
     {
-      ofThese.progress = report;
+      ofThese.progress = [&](double fraction)
+      {
+        const double done = static_cast<double>(work_.tasksDone) +
+          fraction * static_cast<double>(work_.tasksBegun - work_.tasksDone);
+        work_.progress =
+          std::max(work_.progress, view.progressAt(done / static_cast<double>(work_.tasks.size())));
+        monitor.progress(work_.progress);
+      };
     }
-    const auto done = static_cast<std::size_t>(parallelFrom(
-      0, static_cast<std::int64_t>(count), 1, settings_.threads,
+    work_.bricksDone = parallelFrom(
+      work_.bricksDone, count, 1, settings_.threads,
       [&](std::int64_t first, std::int64_t last)
       {
         for (std::int64_t n = first; n < last; ++n)
         {
-          makeOne(static_cast<std::size_t>(n));
+          auto& [place, brick] = work_.bricks[static_cast<std::size_t>(n)];
+          brick = maker_.make(place, view.negligible());
         }
       },
-      ofThese));
-    for (std::size_t n = 0; n < done; ++n)
+      ofThese);
+    if (work_.bricksDone < count)
     {
-      const Task& task = work_.tasks[begin + n];
-      const auto at = static_cast<std::size_t>(task.node);
-      forget(nodes_[at]);
-      if (!task.divides)
-      {
-        keep(nodes_[at], made[n][0]);
-        continue;
-      }
-      nodes_[at].children = static_cast<std::int32_t>(nodes_.size());
-      const NodePlace place = nodes_[at].place;
-      for (std::int32_t child = 0; child < 8; ++child)
-      {
-        nodes_.push_back({ childOf(place, child) });
-        if (isMade[n][static_cast<std::size_t>(child)])
-        {
-          keep(nodes_.back(), made[n][static_cast<std::size_t>(child)]);
-        }
-      }
+      return false;
     }
-    work_.tasksDone += done;
-    if (done < count || (monitor.aborted && monitor.aborted()) ||
-      (monitor.paused && monitor.paused()))
+    keepBricks(view);
+    if ((monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused()))
     {
       return false;
     }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -107,6 +108,9 @@ private:
     bool hasBegunAnew = false;
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
+    std::size_t tasksBegun = 0;
+    std::vector<std::pair<NodePlace, Brick<Real>>> bricks; ///< of the tasks that are begun
+    std::int64_t bricksDone = 0;
   };
   class View;
 
@@ -116,6 +120,8 @@ private:
   std::vector<Task> tasksOf(const View& view) const;
   std::size_t costOf(const Task& task) const;
   void chooseWhatFits(std::size_t available);
+  void findBricks(const View& view);
+  void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
   void keep(Node& node, const Brick<Real>& brick);
   void forget(Node& node);
