@@ -34,14 +34,11 @@ constexpr int usualLevels = 10;
 /// Of the memory, for what turns out to be worse than what was divided before.
 constexpr std::size_t partsOfReserve = 16;
 
-/// Nodes between two looks at the monitor's answer, at most.
-constexpr std::size_t nodesAtOnce = 64;
+/// Bricks that are made before they are put into the tree.
+constexpr std::size_t bricksAtOnce = 512;
 
 /// Leaves whose steepest places rays are sent through.
 constexpr std::size_t steepestLeaves = 192;
-
-/// Address space that is asked for at once; what is not used of it costs nothing.
-constexpr std::size_t mostReserved = std::size_t{ 1 } << 30;
 
 std::array<std::int32_t, 3> rootCellsOf(const Box& box, const std::array<double, 3>& voxelShape)
 {
@@ -102,51 +99,20 @@ double largestNuOf(const MediumSource::Content& content, double ambient)
     (1 + ambient);
 }
 
-/// Puts what is in place order[n] into place n, for pieces of `size` values.
-template <class Value>
-void permute(std::vector<Value>& values, std::size_t size, const std::vector<std::int32_t>& order)
+NodePlace childOf(const NodePlace& place, std::int32_t child)
 {
-  const auto piece = [&](std::int32_t n)
-  { return values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(n) * size); };
-  std::vector<Value> first(size);
-  std::vector<bool> isDone(order.size(), false);
-  for (std::size_t n = 0; n < order.size(); ++n)
-  {
-    if (isDone[n] || order[n] == static_cast<std::int32_t>(n))
-    {
-      continue;
-    }
-    const auto start = static_cast<std::int32_t>(n);
-    std::copy_n(piece(start), size, first.begin());
-    std::int32_t to = start;
-    while (order[static_cast<std::size_t>(to)] != start)
-    {
-      const std::int32_t from = order[static_cast<std::size_t>(to)];
-      std::copy_n(piece(from), size, piece(to));
-      isDone[static_cast<std::size_t>(to)] = true;
-      to = from;
-    }
-    std::copy_n(first.begin(), size, piece(to));
-    isDone[static_cast<std::size_t>(to)] = true;
-  }
+  return { place.level + 1,
+    { 2 * place.at[0] + (child & 1), 2 * place.at[1] + (child >> 1 & 1),
+      2 * place.at[2] + (child >> 2) } };
 }
 
-/// The places that are used, in this order, and then all others below `count`.
-std::vector<std::int32_t> completed(std::vector<std::int32_t> used, std::size_t count)
+bool isSame(const Column& a, const Column& b)
 {
-  std::vector<bool> isUsed(count, false);
-  for (const std::int32_t n : used)
-  {
-    isUsed[static_cast<std::size_t>(n)] = true;
-  }
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    if (!isUsed[n])
-    {
-      used.push_back(static_cast<std::int32_t>(n));
-    }
-  }
-  return used;
+  const auto isSameVector = [](const Vec3<double>& p, const Vec3<double>& q)
+  { return p.x == q.x && p.y == q.y && p.z == q.z; };
+  return isSameVector(a.u, b.u) && isSameVector(a.v, b.v) && a.finest == b.finest &&
+    std::equal(a.middle, a.middle + 2, b.middle) &&
+    std::equal(a.halfWidth, a.halfWidth + 2, b.halfWidth);
 }
 
 } // namespace
@@ -156,13 +122,12 @@ template <class Real>
 class MediumTree<Real>::View
 {
 public:
-  View(const MediumTree& tree, const Column& column)
+  explicit View(const MediumTree& tree)
     : tree_(tree)
-    , column_(column)
+    , work_(tree.work_)
+    , column_(tree.work_.column)
   {
   }
-
-  const Column& column() const { return column_; }
 
   bool sees(const NodePlace& place) const
   {
@@ -199,33 +164,24 @@ public:
     if (hasEdge && !node.facts.areEdgesFine && allows(node.place.level))
     {
       // A shadow's edge that is wrong by a voxel is as wrong as can be.
-      urgency = std::max({ urgency, largest, std::numeric_limits<double>::min() });
+      urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
     }
     return urgency;
   }
 
-  double negligible() const { return tree_.settings_.tolerance * largest; }
+  double negligible() const { return tree_.settings_.tolerance * work_.largest; }
 
   /// How far refining has come, when so much of this round is done. Each level takes some four times as long as
   /// the one before; there may be less of them than the view allows, and rounds that refine no level.
-  double progressAt(double ofRound)
+  double progressAt(double ofRound) const
   {
     int levels = 1;
     while (levels < usualLevels && allows(levels))
     {
       ++levels;
     }
-    const double left = std::max(0., levels - (rounds - 1) - ofRound);
-    progress_ = std::max(progress_, std::pow(4, -left));
-    return progress_;
+    return std::pow(4, -std::max(0., levels - (work_.rounds - 1) - ofRound));
   }
-
-  double largest = 0; ///< deflection
-  int rounds = 0;     ///< begun
-  double leastUrgent =
-    std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
-  bool hasForgotten = false;
-  bool hasBegunAnew = false;
 
 private:
   bool sees(const Vec3<double>& direction, int side, const Box& box) const
@@ -241,8 +197,8 @@ private:
   }
 
   const MediumTree& tree_;
+  const Work& work_;
   const Column& column_;
-  double progress_ = 0;
 };
 
 template <class Real>
@@ -255,6 +211,7 @@ MediumTree<Real>::MediumTree(
   , rootCells_(rootCellsOf(source_->bounds(), source_->voxelShape()))
   , maker_(*source_, grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
       settings.interpolation)
+  , store_(maker_.samplesPerBrick(), settings.memory)
 {
   static_assert(brickEdge == BrickMaker<Real>::edge);
   const MediumSource::Content content = contentOfAll(*source_, ambient);
@@ -278,11 +235,7 @@ void MediumTree<Real>::makeRoots()
       }
     }
   }
-  samples_.assign(
-    static_cast<std::size_t>(samplesPerBrick() + PaddedVolume<Real>::readTogether), 0);
-  gasDistances_.clear();
-  freeBricks_.clear();
-  freeMaps_.clear();
+  store_.clear();
   isMeasured_ = false;
 }
 
@@ -303,50 +256,74 @@ LeafFinder MediumTree<Real>::finder() const
 template <class Real>
 bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
 {
-  View view(*this, column);
+  if (work_.isFinished || !isSame(work_.column, column))
+  {
+    work_ = {};
+    work_.column = column;
+    work_.isFinished = false;
+  }
+  const View view(*this);
   bool hasChanged = false;
   bool goesOn = true;
   while (goesOn)
   {
-    numberLeaves();
-    std::vector<std::pair<double, std::int32_t>> steepest;
-    for (std::size_t n = 0; n < leaves_.size(); ++n)
+    if (work_.tasksDone == work_.tasks.size())
     {
-      const Node& node = nodes_[static_cast<std::size_t>(leafNodes_[n])];
-      if (node.brick != 0 && view.sees(node.place))
+      numberLeaves();
+      work_.largest = measure(view);
+      if (!isMeasured_ && work_.largest > 0)
       {
-        steepest.push_back(
-          { -std::ldexp(node.facts.steepest, -node.place.level), static_cast<std::int32_t>(n) });
+        forgetNegligible(view);
+        isMeasured_ = true;
       }
+      hasChanged = plan(view) || hasChanged;
+      work_.isFinished = work_.tasks.empty();
     }
-    const std::size_t count = std::min(steepest.size(), steepestLeaves);
-    std::partial_sort(
-      steepest.begin(), steepest.begin() + static_cast<std::ptrdiff_t>(count), steepest.end());
-    std::vector<Vec3<double>> places;
-    for (std::size_t n = 0; n < count; ++n)
-    {
-      const std::array<double, 3>& at =
-        nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(steepest[n].second)])]
-          .facts.steepestAt;
-      places.push_back({ at[0], at[1], at[2] });
-    }
-    view.largest = largestDeflection<Real>(
-      { grid_, finder(), leaves_.data(), samples_.data(), gasDistances_.data(), samplesPerBrick(),
-        apron(), settings_.interpolation },
-      column, places, settings_.threads);
-    if (!isMeasured_ && view.largest > 0)
-    {
-      forgetNegligible(view);
-      isMeasured_ = true;
-    }
-    hasChanged = refineOnce(view, monitor, goesOn) || hasChanged;
+    const std::size_t before = work_.tasksDone;
+    goesOn = !work_.isFinished && doTasks(view, monitor);
+    hasChanged = hasChanged || work_.tasksDone != before;
   }
-  if (hasChanged)
+  isArranged_ = isArranged_ && !hasChanged;
+  if (!work_.isFinished)
+  {
+    numberLeaves();
+  }
+  else if (!isArranged_)
   {
     arrange();
+    hasChanged = true;
   }
   summarize(view);
   return hasChanged;
+}
+
+/// The largest deflection in the tree as it is.
+template <class Real>
+double MediumTree<Real>::measure(const View& view) const
+{
+  std::vector<std::pair<double, std::int32_t>>
+    steepest; // sorts by the deflection over a leaf, about
+  for (const std::int32_t n : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(n)];
+    if (node.brick != 0 && view.sees(node.place))
+    {
+      steepest.push_back({ -std::ldexp(node.facts.steepest, -node.place.level), n });
+    }
+  }
+  const std::size_t count = std::min(steepest.size(), steepestLeaves);
+  std::partial_sort(
+    steepest.begin(), steepest.begin() + static_cast<std::ptrdiff_t>(count), steepest.end());
+  std::vector<Vec3<double>> places;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const auto& at = nodes_[static_cast<std::size_t>(steepest[n].second)].facts.steepestAt;
+    places.push_back({ at[0], at[1], at[2] });
+  }
+  return largestDeflection<Real>(
+    { grid_, finder(), leaves_.data(), samples().data(), gasDistances().data(), samplesPerBrick(),
+      apron(), settings_.interpolation },
+    work_.column, places, settings_.threads);
 }
 
 /// What there is to do: leaves to be made, and leaves to be divided.
@@ -373,204 +350,196 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
   return tasks;
 }
 
-/// One round: what there is to do, as far as memory allows and the monitor does not stop it.
+/// Bytes that a task takes at most.
 template <class Real>
-bool MediumTree<Real>::refineOnce(View& view, const Monitor& monitor, bool& goesOn)
+std::size_t MediumTree<Real>::costOf(const Task& task) const
 {
-  std::vector<Task> tasks = tasksOf(view);
-  const auto costOf = [&](const Task& task) -> std::size_t
+  const Node& node = nodes_[static_cast<std::size_t>(task.node)];
+  const std::size_t ofOne =
+    store_.bytesOfBrick() + (node.map >= 0 || !node.isKnown ? store_.bytesOfMap() : 0);
+  return task.divides ? 8 * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
+}
+
+/// Finds the tasks of the next round: those that memory suffices for. Returns whether it has thrown something away
+/// for them.
+template <class Real>
+bool MediumTree<Real>::plan(const View& view)
+{
+  bool hasThrownAway = false;
+  for (;;)
   {
-    const Node& node = nodes_[static_cast<std::size_t>(task.node)];
-    const std::size_t ofOne = bytesOfBrick() + (node.map >= 0 || !node.isKnown ? bytesOfMap() : 0);
-    return task.divides ? 8 * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
-  };
-  const std::size_t used = bytesUsed();
-  const std::size_t available = settings_.memory > used ? settings_.memory - used : 0;
-  std::size_t cost = 0, costOfNew = 0;
-  for (const Task& task : tasks)
-  {
-    cost += costOf(task);
-    costOfNew += task.divides ? 0 : costOf(task);
-  }
-  if (cost > available)
-  {
-    if (!view.hasForgotten)
+    work_.tasks = tasksOf(view);
+    work_.tasksDone = 0;
+    ++work_.rounds;
+    const std::size_t used = bytesUsed();
+    const std::size_t available = settings_.memory > used ? settings_.memory - used : 0;
+    std::size_t cost = 0, costOfNew = 0;
+    for (const Task& task : work_.tasks)
     {
-      view.hasForgotten = true;
-      if (forgetUnneeded(view))
-      {
-        return true;
-      }
-    }
-    if (costOfNew > available && !view.hasBegunAnew)
-    {
-      view.hasBegunAnew = true;
-      makeRoots();
-      return true;
-    }
-    std::stable_sort(tasks.begin(), tasks.end(),
-      [&](const Task& a, const Task& b)
-      {
-        const int levelOfA = nodes_[static_cast<std::size_t>(a.node)].place.level;
-        const int levelOfB = nodes_[static_cast<std::size_t>(b.node)].place.level;
-        return a.urgency != b.urgency ? a.urgency > b.urgency : levelOfA < levelOfB;
-      });
-    // Only half of what fits: what comes of the worst leaves may be worse than the others. Where all that is left is
-    // the reserve, only what is.
-    const std::size_t reserve = settings_.memory / partsOfReserve;
-    std::size_t fitting = 0;
-    for (cost = 0; fitting < tasks.size(); ++fitting)
-    {
-      const Task& task = tasks[fitting];
       cost += costOf(task);
-      if (!task.divides)
-      {
-        if (cost > available && nodes_[static_cast<std::size_t>(task.node)].place.level > 0)
-        {
-          break;
-        }
-        continue;
-      }
-      const bool isWorse = task.urgency > 2 * view.leastUrgent;
-      const std::size_t left = isWorse ? available : available - std::min(available, reserve);
-      if (cost > (fitting == 0 ? left : left / 2))
-      {
-        break;
-      }
-      view.leastUrgent = std::min(view.leastUrgent, task.urgency);
+      costOfNew += task.divides ? 0 : costOf(task);
     }
-    tasks.resize(fitting);
-  }
-  goesOn = !tasks.empty();
-  ++view.rounds;
-  bool hasChanged = false;
-  for (std::size_t begin = 0; goesOn && begin < tasks.size(); begin += nodesAtOnce)
-  {
-    const std::size_t count = std::min(nodesAtOnce, tasks.size() - begin);
-    std::vector<std::array<Brick<Real>, 8>> made(count);
-    std::vector<std::array<bool, 8>> isMade(count);
-    const auto childOf = [](const NodePlace& place, std::int32_t child) -> NodePlace
+    if (cost <= available)
     {
-      return { place.level + 1,
-        { 2 * place.at[0] + (child & 1), 2 * place.at[1] + (child >> 1 & 1),
-          2 * place.at[2] + (child >> 2) } };
-    };
-    const Monitor ofThese{ [&](double fraction)
+      return hasThrownAway;
+    }
+    if (!work_.hasForgotten)
+    {
+      work_.hasForgotten = true;
+      hasThrownAway = forgetUnneeded(view) || hasThrownAway;
+    }
+    else if (costOfNew > available && !work_.hasBegunAnew)
+    {
+      work_.hasBegunAnew = true;
+      hasThrownAway = true;
+      makeRoots();
+    }
+    else
+    {
+      chooseWhatFits(available);
+      return hasThrownAway;
+    }
+    numberLeaves();
+  }
+}
+
+/// Where memory is short: the worst leaves first, and only half of what fits, as what comes of them may be worse
+/// than the others. Of the reserve, which is left in the end, only what is.
+template <class Real>
+void MediumTree<Real>::chooseWhatFits(std::size_t available)
+{
+  std::vector<Task>& tasks = work_.tasks;
+  const auto levelOf = [&](const Task& task)
+  { return nodes_[static_cast<std::size_t>(task.node)].place.level; };
+  std::stable_sort(tasks.begin(), tasks.end(),
+    [&](const Task& a, const Task& b)
+    { return a.urgency != b.urgency ? a.urgency > b.urgency : levelOf(a) < levelOf(b); });
+  const std::size_t reserve = settings_.memory / partsOfReserve;
+  std::size_t fitting = 0, cost = 0;
+  for (bool fits = true; fits && fitting < tasks.size(); fitting += fits ? 1 : 0)
+  {
+    const Task& task = tasks[fitting];
+    cost += costOf(task);
+    if (!task.divides)
+    {
+      fits = cost <= available || levelOf(task) == 0; // there must be something
+      continue;
+    }
+    const bool isWorse = task.urgency > 2 * work_.leastUrgent;
+    const std::size_t left = isWorse ? available : available - std::min(available, reserve);
+    fits = cost <= (fitting == 0 ? left : left / 2);
+    work_.leastUrgent = fits ? std::min(work_.leastUrgent, task.urgency) : work_.leastUrgent;
+  }
+  tasks.resize(fitting);
+}
+
+/// The bricks that the next tasks are about.
+template <class Real>
+void MediumTree<Real>::findBricks(const View& view)
+{
+  work_.bricks.clear();
+  work_.bricksDone = 0;
+  work_.tasksBegun = work_.tasksDone;
+  while (work_.tasksBegun < work_.tasks.size() && work_.bricks.size() < bricksAtOnce)
+  {
+    const Task& task = work_.tasks[work_.tasksBegun++];
+    const NodePlace& place = nodes_[static_cast<std::size_t>(task.node)].place;
+    for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
+    {
+      const NodePlace ofOne = task.divides ? childOf(place, child) : place;
+      if (!task.divides || view.sees(ofOne))
       {
-        if (monitor.progress)
-        {
-          const double done = static_cast<double>(begin) + fraction * static_cast<double>(count);
-          monitor.progress(view.progressAt(done / static_cast<double>(tasks.size())));
-        }
-      },
-      monitor.aborted, monitor.paused };
-    const std::int64_t done = parallelFrom(
-      0, static_cast<std::int64_t>(count), 1, settings_.threads,
+        work_.bricks.push_back({ ofOne, {} });
+      }
+    }
+  }
+}
+
+/// Puts bricks that are made into the tree.
+template <class Real>
+void MediumTree<Real>::keepBricks(const View& view)
+{
+  auto next = work_.bricks.begin();
+  for (; work_.tasksDone < work_.tasksBegun; ++work_.tasksDone)
+  {
+    const Task& task = work_.tasks[work_.tasksDone];
+    const auto at = static_cast<std::size_t>(task.node);
+    forget(nodes_[at]);
+    if (!task.divides)
+    {
+      keep(nodes_[at], (next++)->second);
+      continue;
+    }
+    nodes_[at].children = static_cast<std::int32_t>(nodes_.size());
+    const NodePlace place = nodes_[at].place;
+    for (std::int32_t child = 0; child < 8; ++child)
+    {
+      nodes_.push_back({ childOf(place, child) });
+      if (view.sees(nodes_.back().place))
+      {
+        keep(nodes_.back(), (next++)->second);
+      }
+    }
+  }
+  work_.bricks.clear();
+}
+
+/// Works off the tasks of this round. Returns false where the monitor says stop.
+template <class Real>
+bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
+{
+  while (work_.tasksDone < work_.tasks.size())
+  {
+    if (work_.bricks.empty())
+    {
+      findBricks(view);
+    }
+    const auto count = static_cast<std::int64_t>(work_.bricks.size());
+    Monitor ofThese{ {}, monitor.aborted, monitor.paused };
+    if (monitor.progress)
+    {
+      ofThese.progress = [&](double fraction)
+      {
+        const double done = static_cast<double>(work_.tasksDone) +
+          fraction * static_cast<double>(work_.tasksBegun - work_.tasksDone);
+        work_.progress =
+          std::max(work_.progress, view.progressAt(done / static_cast<double>(work_.tasks.size())));
+        monitor.progress(work_.progress);
+      };
+    }
+    work_.bricksDone = parallelFrom(
+      work_.bricksDone, count, 1, settings_.threads,
       [&](std::int64_t first, std::int64_t last)
       {
-        for (auto n = static_cast<std::size_t>(first); n < static_cast<std::size_t>(last); ++n)
+        for (std::int64_t n = first; n < last; ++n)
         {
-          const Task& task = tasks[begin + n];
-          const NodePlace& place = nodes_[static_cast<std::size_t>(task.node)].place;
-          for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
-          {
-            const NodePlace ofOne = task.divides ? childOf(place, child) : place;
-            const auto c = static_cast<std::size_t>(child);
-            isMade[n][c] = !task.divides || view.sees(ofOne);
-            if (isMade[n][c])
-            {
-              made[n][c] = maker_.make(ofOne, view.negligible());
-            }
-          }
+          auto& [place, brick] = work_.bricks[static_cast<std::size_t>(n)];
+          brick = maker_.make(place, view.negligible());
         }
       },
       ofThese);
-    for (std::size_t n = 0; n < static_cast<std::size_t>(done); ++n)
+    if (work_.bricksDone < count)
     {
-      const Task& task = tasks[begin + n];
-      const auto at = static_cast<std::size_t>(task.node);
-      forget(nodes_[at]);
-      if (!task.divides)
-      {
-        keep(nodes_[at], std::move(made[n][0]));
-        continue;
-      }
-      nodes_[at].children = static_cast<std::int32_t>(nodes_.size());
-      const NodePlace place = nodes_[at].place;
-      for (std::int32_t child = 0; child < 8; ++child)
-      {
-        nodes_.push_back({ childOf(place, child) });
-        if (isMade[n][static_cast<std::size_t>(child)])
-        {
-          keep(nodes_.back(), std::move(made[n][static_cast<std::size_t>(child)]));
-        }
-      }
+      return false;
     }
-    hasChanged = hasChanged || done > 0;
-    goesOn = done == static_cast<std::int64_t>(count) &&
-      !((monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused()));
+    keepBricks(view);
+    if ((monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused()))
+    {
+      return false;
+    }
   }
-  return hasChanged;
+  return true;
 }
 
 template <class Real>
-void MediumTree<Real>::keep(Node& node, Brick<Real>&& brick)
+void MediumTree<Real>::keep(Node& node, const Brick<Real>& brick)
 {
   node.isKnown = true;
   node.kind = brick.kind;
   node.offset = brick.offset;
   node.facts = brick.facts;
-  node.brick = 0;
-  node.map = -1;
-  const auto ofBrick = static_cast<std::size_t>(samplesPerBrick());
-  constexpr auto behind = static_cast<std::size_t>(PaddedVolume<Real>::readTogether);
-  if (!brick.samples.empty())
-  {
-    if (freeBricks_.empty())
-    {
-      const std::size_t needed = samples_.size() + ofBrick;
-      if (samples_.capacity() < needed)
-      {
-        const std::size_t wanted =
-          std::max(std::min(settings_.memory, mostReserved) / sizeof(Real), 2 * samples_.size());
-        try
-        {
-          samples_.reserve(std::max(needed, wanted));
-          askForHugePages(samples_.data(), samples_.capacity() * sizeof(Real));
-        }
-        catch (const std::bad_alloc&)
-        {
-          // As resize() finds it.
-        }
-      }
-      node.brick = static_cast<std::int32_t>((samples_.size() - behind) / ofBrick);
-      samples_.resize(needed);
-    }
-    else
-    {
-      node.brick = freeBricks_.back();
-      freeBricks_.pop_back();
-    }
-    std::copy(brick.samples.begin(), brick.samples.end(),
-      samples_.begin() +
-        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node.brick) * ofBrick));
-  }
-  if (!brick.gasDistances.empty())
-  {
-    if (freeMaps_.empty())
-    {
-      node.map = static_cast<std::int32_t>(gasDistances_.size() / ofBrick);
-      gasDistances_.resize(gasDistances_.size() + ofBrick);
-    }
-    else
-    {
-      node.map = freeMaps_.back();
-      freeMaps_.pop_back();
-    }
-    std::copy(brick.gasDistances.begin(), brick.gasDistances.end(),
-      gasDistances_.begin() +
-        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node.map) * ofBrick));
-  }
+  node.brick = brick.samples.empty() ? 0 : store_.addBrick(brick.samples);
+  node.map = brick.gasDistances.empty() ? -1 : store_.addMap(brick.gasDistances);
 }
 
 /// Takes a node's samples from it.
@@ -579,11 +548,11 @@ void MediumTree<Real>::forget(Node& node)
 {
   if (node.brick > 0)
   {
-    freeBricks_.push_back(node.brick);
+    store_.removeBrick(node.brick);
   }
   if (node.map >= 0)
   {
-    freeMaps_.push_back(node.map);
+    store_.removeMap(node.map);
   }
   const NodePlace place = node.place;
   const std::int32_t children = node.children;
@@ -601,14 +570,14 @@ void MediumTree<Real>::forgetNegligible(const View& view)
     if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= view.negligible())
     {
       facts.neglected = std::max(facts.neglected, facts.besideWindow);
-      freeMaps_.push_back(node.map);
+      store_.removeMap(node.map);
       node.map = -1;
       node.kind = Leaf<Real>::Samples;
     }
     if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= view.negligible())
     {
       facts.neglected = std::max(facts.neglected, facts.range);
-      freeBricks_.push_back(node.brick);
+      store_.removeBrick(node.brick);
       node.brick = 0;
       node.kind = Leaf<Real>::Constant;
     }
@@ -663,11 +632,7 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
 template <class Real>
 std::size_t MediumTree<Real>::bytesUsed() const
 {
-  const std::size_t samples =
-    samples_.size() - freeBricks_.size() * static_cast<std::size_t>(samplesPerBrick());
-  const std::size_t distances =
-    gasDistances_.size() - freeMaps_.size() * static_cast<std::size_t>(samplesPerBrick());
-  return samples * sizeof(Real) + distances * sizeof(std::int16_t) + nodes_.size() * sizeof(Node) +
+  return store_.bytesUsed() + nodes_.size() * sizeof(Node) +
     leaves_.size() * (sizeof(Leaf<Real>) + 2 * sizeof(std::int32_t));
 }
 
@@ -751,15 +716,8 @@ void MediumTree<Real>::arrange()
       node.map = static_cast<std::int32_t>(maps.size()) - 1;
     }
   }
-  const auto ofBrick = static_cast<std::size_t>(samplesPerBrick());
-  constexpr auto behind = static_cast<std::size_t>(PaddedVolume<Real>::readTogether);
-  permute(samples_, ofBrick, completed(bricks, (samples_.size() - behind) / ofBrick));
-  permute(gasDistances_, ofBrick, completed(maps, gasDistances_.size() / ofBrick));
-  samples_.resize(bricks.size() * ofBrick);
-  samples_.resize(bricks.size() * ofBrick + behind, Real(0));
-  gasDistances_.resize(maps.size() * ofBrick);
-  freeBricks_.clear();
-  freeMaps_.clear();
+  store_.arrange(bricks, maps);
+  isArranged_ = true;
   numberLeaves();
 }
 
@@ -798,8 +756,8 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.smallestVoxel = *std::min_element(voxel.begin(), voxel.end());
   statistics_.voxels = statistics_.bricks * brickEdge * brickEdge * brickEdge;
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
-  statistics_.largestDeflection = view.largest;
-  statistics_.estimatedError = view.largest > 0 ? error / view.largest : 0;
+  statistics_.largestDeflection = work_.largest;
+  statistics_.estimatedError = work_.largest > 0 ? error / work_.largest : 0;
 }
 
 template class MediumTree<float>;

@@ -4,12 +4,15 @@
 
 #include "Medium/Brick.h"
 #include "Medium/BrickRays.h"
+#include "Medium/BrickStore.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
 #include "Schlieren.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -43,8 +46,10 @@ public:
     std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings);
 
   /// Makes the leaves that a view needs and that are not there; keeps the others while memory allows. Returns
-  /// whether anything has changed. Where `monitor` says stop, what has been made stays, and the same call goes on.
+  /// whether anything has changed. Where `monitor` says stop, what has been made stays, and the same call goes on: to
+  /// the last bit as if there had been no stop.
   bool refine(const Column& column, const Monitor& monitor = {});
+  bool isUnfinished() const { return !work_.isFinished; } ///< the monitor has stopped the last call
 
   // What rays see. Grid::dimensions of the whole domain are those of its coarsest level.
   const Grid& grid() const { return grid_; }
@@ -53,12 +58,13 @@ public:
   const std::vector<std::int32_t>& children() const { return children_; }
   LeafFinder finder() const;
   int apron() const { return maker_.apron(); } ///< samples around each brick
-  /// All bricks, one after the other; brick 0 is 0 everywhere.
-  const std::vector<Real>& samples() const { return samples_; }
+  /// All bricks, one after the other; brick 0 is 0 everywhere. It is that of leaves that are uniform, even of
+  /// Leaf::Mixed ones. Where no view has looked, leaves are Leaf::Constant with 0.
+  const std::vector<Real>& samples() const { return store_.samples(); }
   std::int64_t samplesPerBrick() const { return maker_.samplesPerBrick(); }
   /// One for each sample of the maps of Leaf::Mixed, laid out like the samples: the distance to where gas ends, in
   /// 1/8192 of a voxel, positive in gas; the lowest bit tells what is outside: 0 a wall, 1 a window.
-  const std::vector<std::int16_t>& gasDistances() const { return gasDistances_; }
+  const std::vector<std::int16_t>& gasDistances() const { return store_.gasDistances(); }
 
   // What is known of it.
   double largestNu() const { return largestNu_; }
@@ -88,20 +94,42 @@ private:
     bool divides;
     double urgency;
   };
+  /// What there is to do for a view, and how far that has come.
+  struct Work
+  {
+    Column column{};
+    bool isFinished = true;
+    double largest = 0;  ///< deflection
+    int rounds = 0;      ///< begun
+    double progress = 0; ///< reported
+    double leastUrgent =
+      std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
+    bool hasForgotten = false;                 ///< what the view does not need
+    bool hasBegunAnew = false;
+    std::vector<Task> tasks; ///< of this round
+    std::size_t tasksDone = 0;
+    std::size_t tasksBegun = 0;
+    std::vector<std::pair<NodePlace, Brick<Real>>> bricks; ///< of the tasks that are begun
+    std::int64_t bricksDone = 0;
+  };
   class View;
 
   void makeRoots();
-  bool refineOnce(View& view, const Monitor& monitor, bool& goesOn);
+  double measure(const View& view) const;
+  bool plan(const View& view);
   std::vector<Task> tasksOf(const View& view) const;
-  void keep(Node& node, Brick<Real>&& brick);
+  std::size_t costOf(const Task& task) const;
+  void chooseWhatFits(std::size_t available);
+  void findBricks(const View& view);
+  void keepBricks(const View& view);
+  bool doTasks(const View& view, const Monitor& monitor);
+  void keep(Node& node, const Brick<Real>& brick);
   void forget(Node& node);
   void forgetNegligible(const View& view);
   void forgetBelow(Node& node);
   bool forgetUnneeded(const View& view);
   bool forgetUnneeded(std::int32_t node, const View& view);
   std::size_t bytesUsed() const;
-  std::size_t bytesOfBrick() const { return samplesPerBrick() * sizeof(Real); }
-  std::size_t bytesOfMap() const { return samplesPerBrick() * sizeof(std::int16_t); }
 
   void numberLeaves();
   void number(std::int32_t node, std::int32_t& code);
@@ -121,9 +149,9 @@ private:
   std::vector<std::int32_t> leafNodes_; ///< of each leaf
   std::vector<std::int32_t> roots_;
   std::vector<std::int32_t> children_;
-  std::vector<Real> samples_;
-  std::vector<std::int16_t> gasDistances_;
-  std::vector<std::int32_t> freeBricks_, freeMaps_;
+  BrickStore<Real> store_;
+  Work work_;
+  bool isArranged_ = false;
   bool isMeasured_ = false; ///< false: leaves have been made without knowing what is negligible
 
   double largestNu_ = 0;

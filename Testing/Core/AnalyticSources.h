@@ -196,6 +196,150 @@ private:
   double cellByWidth_;
 };
 
+/// A sphere of radius 1 in a flow that fades away, in a round domain with nothing around it.
+class SphereSource : public AnalyticSource
+{
+public:
+  explicit SphereSource(double radius = 20)
+    : AnalyticSource(radius)
+  {
+  }
+
+  static double profile(double r) { return 1e-4 * std::exp(-(std::max(r, 1.) - 1)); }
+  static double radius(double a, double b, double c) { return std::sqrt(a * a + b * b + c * c); }
+
+  double refractivity(double a, double b, double c) const override
+  {
+    return profile(radius(a, b, c));
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    return { profile(r.second), profile(r.first) };
+  }
+  double cellSizeOver(const Box& box) const override
+  {
+    return 0.04 * std::max(distancesTo({ 0, 0, 0 }, box).first, 1.);
+  }
+  Place placeAt(double a, double b, double c) const override
+  {
+    const double r = radius(a, b, c);
+    return r < 1 ? Place::Wall : r < half_ ? Place::Gas : Place::Window;
+  }
+  double distanceAt(double a, double b, double c) const override
+  {
+    const double r = radius(a, b, c);
+    return std::min(r - 1, half_ - r);
+  }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    content.hasWall = r.first < 1;
+    content.hasGas = r.second > 1 && r.first < half_;
+    content.hasWindow = r.second > half_;
+  }
+};
+
+/// A shell at r = 0.5, 0.01 thick, of another N inside.
+class ShellSource : public AnalyticSource
+{
+public:
+  static double profile(double r) { return 5e-5 * (1 - std::tanh((r - 0.5) / 0.01)); }
+  double refractivity(double a, double b, double c) const override
+  {
+    return profile(SphereSource::radius(a, b, c));
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    return { profile(r.second), profile(r.first) };
+  }
+  double cellSizeOver(const Box& box) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    return r.first < 0.55 && r.second > 0.45 ? 0.002 : 0.05;
+  }
+};
+
+/// A sphere of radius 1 with a bow shock, 0.03 thick, in a round domain of radius 50 with nothing around it. Cells
+/// grow with the distance from the body and are fine in the shock.
+class BowShockSource : public AnalyticSource
+{
+public:
+  BowShockSource()
+    : AnalyticSource(51.2)
+  {
+  }
+
+  static constexpr double radius = 50, thickness = 0.03, far = 2.27e-4 * 1.2;
+
+  double ambient() const override { return far; }
+  double refractivity(double a, double b, double c) const override
+  {
+    return jump(shockDistance(a, b * b + c * c), SphereSource::radius(a, b, c));
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    const Range s = shockDistances(box);
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    return { jump(s.second, r.second), jump(s.first, r.first) };
+  }
+  double cellSizeOver(const Box& box) const override
+  {
+    const Range s = shockDistances(box);
+    const double r = distancesTo({ 0, 0, 0 }, box).first;
+    const double ofShock =
+      r < 8 && s.first < 3 * thickness && s.second > -3 * thickness ? 0.25 * thickness : 1e9;
+    return std::min(ofShock, 0.02 * std::max(r, 1.));
+  }
+  Place placeAt(double a, double b, double c) const override
+  {
+    const double r = SphereSource::radius(a, b, c);
+    return r < 1 ? Place::Wall : r < radius ? Place::Gas : Place::Window;
+  }
+  double distanceAt(double a, double b, double c) const override
+  {
+    const double r = SphereSource::radius(a, b, c);
+    return std::min(r - 1, radius - r);
+  }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    content.hasWall = r.first < 1;
+    content.hasGas = r.second > 1 && r.first < radius;
+    content.hasWindow = r.second > radius;
+  }
+
+  /// d nu / dx
+  double slopeAt(double a, double b, double c) const
+  {
+    const double r = SphereSource::radius(a, b, c);
+    const double t = std::tanh(shockDistance(a, b * b + c * c) / thickness);
+    const double fade = std::exp(-(r - 1) / 4);
+    return far / (1 + far) * 1.25 * fade * (-(1 - t * t) / thickness - (1 - t) / 4 * a / r);
+  }
+
+private:
+  static double shockDistance(double a, double squares) { return a - (1.4 - squares / 5); }
+  static double jump(double s, double r)
+  {
+    return far * (1 + 1.25 * (1 - std::tanh(s / thickness)) * std::exp(-(std::max(r, 1.) - 1) / 4));
+  }
+  static Range shockDistances(const Box& box)
+  {
+    double least = 0, most = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      const double low = box.low[axis], high = box.high[axis];
+      const double nearest = low > 0 ? low : high < 0 ? -high : 0;
+      const double farthest = std::max(-low, high);
+      least += nearest * nearest;
+      most += farthest * farthest;
+    }
+    return { shockDistance(box.low[0], least), shockDistance(box.high[0], most) };
+  }
+};
+
 /// Three balls: a wide, a small and a tiny one.
 inline std::vector<Ball> threeBalls(double height)
 {
