@@ -304,8 +304,9 @@ struct LightBalance
 /// What the medium of a Field's source consists of.
 struct MediumStatistics
 {
-  int coarsestLevel = 0, finestLevel = 0; ///< of leaves with voxels; those of the next level are half as large
-  std::int64_t bricks = 0;                ///< leaves with voxels
+  int coarsestLevel = 0,
+      finestLevel = 0;     ///< of leaves with voxels; those of the next level are half as large
+  std::int64_t bricks = 0; ///< leaves with voxels
   std::int64_t constantLeaves = 0;
   std::int64_t voxels = 0;
   std::int64_t bytes = 0;
@@ -359,8 +360,8 @@ struct Image
   /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it tells
   /// the error of steps and interpolation.
   double momentumDrift = 0;
-  MediumStatistics medium;  ///< of a Field's source
-  bool aborted = false; ///< the monitor asked to stop; all arrays are empty
+  MediumStatistics medium; ///< of a Field's source
+  bool aborted = false;    ///< the monitor asked to stop; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume goes on. The arrays then hold the picture of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.

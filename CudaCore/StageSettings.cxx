@@ -108,7 +108,8 @@ Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
   const auto margin = static_cast<double>(mostMargin(scene.view));
   for (int i = 0; i < 2; ++i)
   {
-    column.middle[i] = frame.origin[static_cast<std::size_t>(i)] + 0.5 * (size[i] - 1) * frame.pixelSize;
+    column.middle[i] =
+      frame.origin[static_cast<std::size_t>(i)] + 0.5 * (size[i] - 1) * frame.pixelSize;
     column.halfWidth[i] = (0.5 * size[i] + margin) * frame.pixelSize +
       0.5 * light.steepest[i] * (frame.exit - frame.entry);
   }

@@ -39,9 +39,9 @@ CellTest testOf(const CellSampler& cells)
 } // namespace
 
 MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-  vtkDataObject* bodies, Outside outside)
+  vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction)
   : Leaves(leaves)
-  , Cells(pointersTo(leaves))
+  , Cells(pointersTo(leaves), reconstruction)
   , Values(this->Cells)
   , Boundary(pointersTo(leaves), bodies, outside, testOf(this->Values))
 {

@@ -25,7 +25,7 @@ public:
   /// `leaves`: with N at their points, see prepared(). `bodies`: may be null. Throws std::runtime_error where there
   /// is no gas.
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* bodies,
-    Outside outside);
+    Outside outside, CellTree::Reconstruction reconstruction);
 
   schlieren::Box bounds() const override;
   double ambient() const override;

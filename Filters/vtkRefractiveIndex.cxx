@@ -156,6 +156,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
   os << indent << "Outside: " << this->Outside << "\n";
+  os << indent << "Reconstruction: " << this->Reconstruction << "\n";
   os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -343,16 +344,19 @@ const GridPlan& vtkRefractiveIndex::PlanGrid(const Source& source, vtkDataObject
 }
 
 //------------------------------------------------------------------------------
+bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
+{
+  const Source source = chooseSource(this, input);
+  const int* given = this->SamplingDimensions;
+  return !source.image && std::all_of(given, given + 3, [](int count) { return count == 0; }) &&
+    flatAxisOf(source) < 0 && !planAmr(source, given);
+}
+
+//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning)
 {
   Source source = chooseSource(this, input);
-  const int* given = this->SamplingDimensions;
-  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }) ||
-    flatAxisOf(source) >= 0 || planAmr(source, given))
-  {
-    return nullptr;
-  }
   this->Grid.clear();
   this->Search->release();
   Tally tally;
@@ -366,7 +370,9 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       }
       const GridPlan& plan = this->PlanGrid(source, input);
       made = std::make_shared<MeshSource>(preparedLeaves(plan.resampling, source, tally), bodies,
-        static_cast<refractivity::Outside>(this->Outside));
+        static_cast<refractivity::Outside>(this->Outside),
+        this->Reconstruction == LINEAR_IN_CELLS ? CellTree::Reconstruction::Linear
+                                                : CellTree::Reconstruction::Smooth);
     });
   warning = warningFrom(source.model, tally);
   if (source.noteOnGases != this->ToldOfGases)
@@ -420,7 +426,8 @@ std::string vtkRefractiveIndex::Convert(
         note = plan.resampling.note;
         const bool wasSeries = this->Search->isSeries;
         tally = resample(
-          plan.resampling, source, this->DoublePrecision, this->GetOutsideBlocksLight(), *this->Search,
+          plan.resampling, source, this->DoublePrecision, this->GetOutsideBlocksLight(),
+          *this->Search,
           [this](double done)
           {
             this->UpdateProgress(0.05 + 0.95 * done);

@@ -380,6 +380,24 @@ public:
   void OutsideBlocksLightOff() { this->SetOutsideBlocksLight(0); }
   ///@}
 
+  /// What lies between the points of a mesh.
+  enum Reconstructions
+  {
+    SMOOTH = 0,
+    LINEAR_IN_CELLS = 1
+  };
+
+  ///@{
+  /**
+   * What lies between the points of a mesh, one of Reconstructions, for vtkSchlierenFilter: SMOOTH (the default) is
+   * exact for quadratic fields, by gradients at the points (least squares), and stays within the values around a
+   * cell; LINEAR_IN_CELLS is the cells' own interpolation, whose gradient jumps from cell to cell, which a
+   * shadowgraph shows. The grid of this filter's output is made by the latter.
+   */
+  vtkSetClampMacro(Reconstruction, int, SMOOTH, LINEAR_IN_CELLS);
+  vtkGetMacro(Reconstruction, int);
+  ///@}
+
   ///@{
   /**
    * Whether `Refractivity` is a double array. Default: false (float).
@@ -414,10 +432,12 @@ public:
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
 
   /**
-   * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. Null where the
-   * input is to be made a grid by Convert(): images, uniform AMR, 2-D data, and where SamplingDimensions are given.
-   * `warning`: what the user should be warned of. Throws as Convert() does.
+   * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
+   * the user should be warned of. Throws as Convert() does. CanMakeSource() tells whether the input is for that;
+   * what else there is is to be made a grid by Convert(): images, AMR, 2-D data, and where SamplingDimensions
+   * are given.
    */
+  VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
 
@@ -500,6 +520,7 @@ private:
   double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
   int Outside = OUTSIDE_AUTO;
+  int Reconstruction = SMOOTH;
   std::string Grid;
   bool DoublePrecision = false;
   int NumberOfThreads = 0;

@@ -657,12 +657,12 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
   }
-  inside.IsOnGrid = this->ColorByField;
+  inside.IsOnGrid = this->ColorByField && this->Medium->CanMakeSource(input);
   inside.Source.reset();
   inside.Grid.clear();
   inside.Refractivity->Initialize();
   std::string warning;
-  if (!inside.IsOnGrid)
+  if (!this->ColorByField && this->Medium->CanMakeSource(input))
   {
     inside.Source = this->Medium->MakeSource(input, bodies, warning);
     inside.SourceTime.Modified();

@@ -227,6 +227,7 @@ public:
   virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
   vtkSchlierenMediumMacro(RefractivityScale, double);
   vtkSchlierenMediumMacro(Outside, int);
+  vtkSchlierenMediumMacro(Reconstruction, int);
   vtkSchlierenMediumMacro(OutsideBlocksLight, int);
   virtual void SetSamplingDimensions(int x, int y, int z)
   {

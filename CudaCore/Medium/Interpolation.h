@@ -24,7 +24,7 @@ struct MediumView
   std::int64_t planeStride; ///< from (i, j, k) to (i, j, k + 1)
   Vec3<Real> leafLow;       ///< a leaf's corners, in local coordinates
   Vec3<Real> leafHigh;
-  Vec3<double> last;        ///< far corner of the domain, in index coordinates; the near one is 0
+  Vec3<double> last; ///< far corner of the domain, in index coordinates; the near one is 0
   /// One bit per point of an image, 1 in solids, laid out like the samples; null where there are no solids.
   const std::uint32_t* solid = nullptr;
   /// From a sample to what the ray that looks at it will look at some steps later: a processor can be told
@@ -202,8 +202,8 @@ auto visitScheme(Interpolation interpolation, const Visit& visit)
 /// Value and gradient, by local coordinates, at a position within a leaf whose samples begin at `base`
 /// (null: an image's).
 template <class Scheme, class Real>
-SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* base,
-  const Vec3<Real>& position) -> Sample<Real>
+SCHLIEREN_HD auto interpolate(
+  const MediumView<Real>& m, const std::int64_t* base, const Vec3<Real>& position) -> Sample<Real>
 {
   const Real x[3] = { position.x, position.y, position.z };
   const Real high[3] = { m.leafHigh.x, m.leafHigh.y, m.leafHigh.z };
@@ -271,8 +271,8 @@ SCHLIEREN_HD GasEdge gasEdge(
   float distance = 0;
   for (int k = 0; k < 8; ++k)
   {
-    const std::int64_t at = corner + (k & 1) * strides[0] + (k >> 1 & 1) * strides[1] +
-      (k >> 2) * strides[2];
+    const std::int64_t at =
+      corner + (k & 1) * strides[0] + (k >> 1 & 1) * strides[1] + (k >> 2) * strides[2];
     const float weight = ((k & 1) != 0 ? f[0] : 1 - f[0]) * ((k & 2) != 0 ? f[1] : 1 - f[1]) *
       ((k & 4) != 0 ? f[2] : 1 - f[2]);
     distance += weight * static_cast<float>(m.gasDistances[at] >> 1);

@@ -27,11 +27,11 @@ struct Leaf
     Solid     ///< a body everywhere
   };
 
-  double first[3];     ///< index coordinates of its first sample
-  double perIndex;     ///< local by index coordinates
-  Real offset;         ///< is added to the samples' values
-  std::int32_t brick;  ///< of the samples
-  std::int32_t map;    ///< brick of gasDistance, where its kind is Mixed
+  double first[3];    ///< index coordinates of its first sample
+  double perIndex;    ///< local by index coordinates
+  Real offset;        ///< is added to the samples' values
+  std::int32_t brick; ///< of the samples
+  std::int32_t map;   ///< brick of gasDistance, where its kind is Mixed
   Kind kind;
 };
 

@@ -19,8 +19,8 @@ namespace schlieren
 template <class Real>
 struct Medium
 {
-  PaddedVolume<Real> volume;        ///< of an image
-  std::vector<std::uint32_t> solid; ///< one bit per sample, ghosts too; empty without solids
+  PaddedVolume<Real> volume;              ///< of an image
+  std::vector<std::uint32_t> solid;       ///< one bit per sample, ghosts too; empty without solids
   std::unique_ptr<MediumTree<Real>> tree; ///< of a source, instead of both
 
   double ambient = 0;            ///< N_ref

@@ -31,10 +31,7 @@ struct Lattice
   std::array<double, 3> first, spacing;
   std::array<int, 3> points;
 
-  std::int64_t size() const
-  {
-    return std::int64_t{ points[0] } * points[1] * points[2];
-  }
+  std::int64_t size() const { return std::int64_t{ points[0] } * points[1] * points[2]; }
 };
 
 class MediumSource
@@ -58,8 +55,9 @@ public:
   /// something wrong: a wider range, smaller cells, more kinds of places.
   struct Content
   {
-    double lowest, highest;         ///< N of all data in the box; lowest > highest: it has no data
-    std::array<double, 3> cellSize; ///< along each axis the smallest edge of cells in the box; infinite: no cells
+    double lowest, highest; ///< N of all data in the box; lowest > highest: it has no data
+    std::array<double, 3>
+      cellSize; ///< along each axis the smallest edge of cells in the box; infinite: no cells
     bool hasWall, hasGas, hasWindow;
   };
   virtual Content contentOf(const Box& box) const = 0;
@@ -68,7 +66,8 @@ public:
   /// is. `distances` (may be null): to the nearest place where gas ends, in spacings of the lattice (the
   /// metric in which its spacings are all 1), positive in gas, negative outside of it, limited to
   /// -`reach` ... `reach`; linear across the surface, so that its zero is where the surface is.
-  virtual void sample(const Lattice& lattice, double* refractivity, Place* places, float* distances) const = 0;
+  virtual void sample(
+    const Lattice& lattice, double* refractivity, Place* places, float* distances) const = 0;
   static constexpr float reach = 3;
 };
 

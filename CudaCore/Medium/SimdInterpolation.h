@@ -243,9 +243,8 @@ SCHLIEREN_HD Sample<Pack> sumGathered(const MediumView<Real>& m,
 /// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
 /// the sums over x are done on packs of rays again.
 template <class Scheme, class Real, class Pack>
-SCHLIEREN_HD auto interpolate(
-  const MediumView<Real>& m, const std::int64_t* base, const Vec3<Pack>& position)
-  -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
+SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* base,
+  const Vec3<Pack>& position) -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
 {
   const Stencil<Scheme, Real, Pack> stencil(m, position);
   const int ghosts = Stencil<Scheme, Real, Pack>::countsFromGhosts(m) ? 0 : 1;

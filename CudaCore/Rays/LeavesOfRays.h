@@ -58,8 +58,7 @@ struct LeavesOfRays
       const double at = now.first[axis] + static_cast<double>(x[axis][i]) / now.perIndex;
       index[axis] = at > 0 ? (at < last[axis] ? at : last[axis]) : 0;
     }
-    const Leaf<Number>& found =
-      medium.leaves[medium.finder.at({ index[0], index[1], index[2] })];
+    const Leaf<Number>& found = medium.leaves[medium.finder.at({ index[0], index[1], index[2] })];
     finer = static_cast<Number>(found.perIndex / now.perIndex);
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -215,8 +214,7 @@ struct RaysBetweenLeaves
 /// See LeavesOfRays::change. Whether any ray has changed its leaf.
 template <class Real>
 SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
-  const StepsInLeaves<NumberOf<Real>>& steps,
-  const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
+  const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
   LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, RaysBetweenLeaves<Real>& rays)
 {
   using Number = NumberOf<Real>;
@@ -233,9 +231,8 @@ SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   for (int i = 0; i < lanes; ++i)
   {
     finer[i] = 1;
-    const double ratio = isOut[i] == 0
-      ? 0
-      : in.change(medium, i, steps, x, along, step[i], length[i], perLength);
+    const double ratio =
+      isOut[i] == 0 ? 0 : in.change(medium, i, steps, x, along, step[i], length[i], perLength);
     if (ratio != 0)
     {
       hasChanged = true;
@@ -318,8 +315,8 @@ SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
     isBlocked[i] = 0;
     if (mayMeet[i] > 0)
     {
-      const Place place = placeIn(
-        medium, medium.leaves[in.leaf[i]], Vec3<Number>{ x[0][i], x[1][i], x[2][i] });
+      const Place place =
+        placeIn(medium, medium.leaves[in.leaf[i]], Vec3<Number>{ x[0][i], x[1][i], x[2][i] });
       isBlocked[i] = place == Place::Wall ? Number(1) : Number(0);
       gas[i] = place == Place::Gas ? Number(1) : Number(0);
     }

@@ -50,7 +50,8 @@ template <class Number, int Lanes>
 struct RayBatch
 {
   double start[3][Lanes]; ///< index coordinates within the domain
-  alignas(Lanes * sizeof(Number)) Number direction[3][Lanes]; ///< of undisturbed light, along the grid's axes
+  alignas(Lanes *
+    sizeof(Number)) Number direction[3][Lanes]; ///< of undisturbed light, along the grid's axes
   Number perLength[3][Lanes]; ///< the same in index coordinates per unit of length
   Number q[3][Lanes];         ///< at the end, as all that follows
   Number offset[3][Lanes];    ///< index coordinates
@@ -152,7 +153,7 @@ struct March
   const bool isTree;
   StraightLight<Real> light;
   Ray<Real> ray;
-  LeavesOfRays<Number, lanes> in; ///< of a tree
+  LeavesOfRays<Number, lanes> in;   ///< of a tree
   Vec3<Real> domainLow, domainHigh; ///< in local coordinates
   Real baseValue;                   ///< of the leaf: is added to what its samples say
   Real inGas;                       ///< 0 outside of it, else 1
@@ -174,8 +175,7 @@ struct March
     : task(ofTask)
     , batch(ofBatch)
     , isTree(ofTask.medium.leaves != nullptr)
-    , light{ packs(ofBatch.direction), packs(ofBatch.perLength),
-      Vec3<Real>{} + ofTask.indexScale }
+    , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
     , ray{}
     , domainLow{}
     , domainHigh(Vec3<Real>{} + static_cast<Vec3<Number>>(ofTask.medium.last))
@@ -350,8 +350,8 @@ struct March
     someNearEdge = leaves.someNearEdge;
     inGas = someNearEdge ? inGas : Real{} + 1;
     cruise = leaves.step;
-    light.indexScale = scaled(
-      Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
+    light.indexScale =
+      scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
     light.perLength = leaves.perIndex * packs(batch.perLength);
   }
 

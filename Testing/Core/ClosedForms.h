@@ -220,8 +220,8 @@ inline RayState leapfrogged(
 inline Point asPoint(const Vector& a) { return { a[0], a[1], a[2] }; }
 
 /// The light of a pixel where it enters the box, with |p| = n; false if it misses it.
-inline bool entering(
-  const ClosedForm& form, const GridBox& box, const Frame& frame, const PixelCentre& at, RayState& ray)
+inline bool entering(const ClosedForm& form, const GridBox& box, const Frame& frame,
+  const PixelCentre& at, RayState& ray)
 {
   const Point w = asPoint(frame.w);
   const Point start = at.u * asPoint(frame.u) + at.v * asPoint(frame.v) + frame.entry * w;

@@ -113,7 +113,9 @@ class RaysInATree : public OnDevice
 
 TEST_P(RaysInATree, AreBentAsTheFormulaSays)
 {
-  const auto source = std::make_shared<BallsSource>(threeBalls(1e-7));
+  // Ten pixels wide and more.
+  const auto source = std::make_shared<BallsSource>(std::vector<Ball>{
+    { { -0.1, 0.05, 0.02 }, 0.25, 1e-7 }, { { 0.32, -0.31, 0.2 }, 0.12, 0.5e-7 } });
   for (const Vector& direction : someDirections)
   {
     for (const double tolerance : { 1e-2, 2e-3 })
@@ -153,7 +155,8 @@ TEST_P(RaysInATree, ConserveTheirMomentumInAStrongMedium)
 {
   const auto source =
     std::make_shared<BallsSource>(std::vector<Ball>{ { { 0.1, 0, -0.05 }, 0.4, 0.05 } });
-  for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+  for (const Integrator integrator :
+    { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
   {
     std::vector<Image> images;
     for (const double step : { 1., 0.25 })
@@ -221,15 +224,15 @@ TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
       {
         const PixelCentre at = centreOf(image, column, row);
         const std::size_t pixel = pixelOf(image, column, row);
-        if (std::abs(at.u - LayerSource::border) < image.frame.pixelSize || std::abs(at.u) > 0.99)
+        if (std::abs(at.u - LayerSource::border) < 2 * image.frame.pixelSize)
         {
           continue;
         }
         const bool isGas = at.u < LayerSource::border;
         const double n = LayerSource::middle + LayerSource::slope * at.v;
         EXPECT_NEAR(image.opticalPathDifference[pixel], isGas ? 2 * n : 0, 2e-7) << at.u;
-        EXPECT_NEAR(image.deflection[2 * pixel + 1], isGas ? 2 * LayerSource::slope : 0,
-          isGas ? 1e-6 : 0)
+        EXPECT_NEAR(
+          image.deflection[2 * pixel + 1], isGas ? 2 * LayerSource::slope : 0, isGas ? 1e-6 : 0)
           << at.u;
       }
     }
@@ -245,8 +248,7 @@ TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
   EXPECT_EQ(image.blockedFraction[middle], 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-  Devices, RaysInATree, bothDevices(), deviceName);
+INSTANTIATE_TEST_SUITE_P(Devices, RaysInATree, bothDevices(), deviceName);
 
 TEST(RaysSideBySideInATree, DoWhatOneDoes)
 {
@@ -259,8 +261,8 @@ TEST(RaysSideBySideInATree, DoWhatOneDoes)
     for (const Integrator integrator :
       { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
     {
-      SCOPED_TRACE(
-        std::string(name(interpolation)) + " integrator " + std::to_string(static_cast<int>(integrator)));
+      SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
+        std::to_string(static_cast<int>(integrator)));
       TreeSettings settings;
       settings.interpolation = interpolation;
       Medium<float> medium = buildTree<float>(field, settings);

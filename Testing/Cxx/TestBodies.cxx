@@ -474,7 +474,10 @@ TEST(Bodies, UniformGasOfAMeshAroundABodyBendsNothing)
     filter->SetOutsideBlocksLight(outsideBlocks);
     filter->SetViewDirection(0.2, -0.3, -1);
     const Shadow shadow = shadowOf(filter);
-    EXPECT_NEAR(std::sqrt(shadow.area / pi), 0.5, outsideBlocks ? 0.05 : 0.02);
+    // The hole that the cells leave is jagged: it reaches out by up to a cell, to its corner.
+    const double radius = std::sqrt(shadow.area / pi);
+    EXPECT_GT(radius, 0.5 - 0.02);
+    EXPECT_LT(radius, outsideBlocks ? 0.5 + std::sqrt(3.) / 15 : 0.5 + 0.02);
     EXPECT_EQ(largest(valuesOf(filter, "Deflection")), 0);
     EXPECT_LT(largest(valuesOf(filter, "OpticalPathDifference")), 1e-15);
   }

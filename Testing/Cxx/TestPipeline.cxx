@@ -416,7 +416,7 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   std::ostringstream text;
   filter->Print(text);
   for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale",
-         "SamplingDimensions", "OutsideBlocksLight", "LengthScale", "AutoAmbientRefractivity",
+         "SamplingDimensions", "Outside", "Reconstruction", "MediumTolerance", "MediumMemory", "LengthScale", "AutoAmbientRefractivity",
          "AmbientRefractivity", "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale",
          "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff",
          "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics", "FocalLength", "SourceWidth",

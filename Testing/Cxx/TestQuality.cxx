@@ -22,7 +22,8 @@ std::map<std::string, double> settingsOf(Filter* filter)
     { "SamplesPerPixel", filter->GetSamplesPerPixel() },
     { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
     { "AdaptiveTolerance", filter->GetAdaptiveTolerance() },
-    { "PathTolerance", filter->GetPathTolerance() } };
+    { "PathTolerance", filter->GetPathTolerance() },
+    { "MediumTolerance", filter->GetMediumTolerance() } };
 }
 
 std::map<std::string, double> settingsOf(int preset)
@@ -78,7 +79,8 @@ TEST(Quality, AnotherValueOfAnySettingMakesItCustom)
     { "FilmEstimator", [](Filter* f) { f->SetFilmEstimator(Filter::PHOTON); } },
     { "Precision", [](Filter* f) { f->SetPrecision(1 - f->GetPrecision()); } },
     { "AdaptiveTolerance", [](Filter* f) { f->SetAdaptiveTolerance(0.3); } },
-    { "PathTolerance", [](Filter* f) { f->SetPathTolerance(0.3); } }
+    { "PathTolerance", [](Filter* f) { f->SetPathTolerance(0.3); } },
+    { "MediumTolerance", [](Filter* f) { f->SetMediumTolerance(0.3); } }
   };
   for (const int preset : presets)
   {

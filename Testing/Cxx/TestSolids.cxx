@@ -263,10 +263,12 @@ TEST(Solids, WhatIsOutsideIsHandedOn)
 {
   auto direct = bench(shell(), 40);
   direct->SetOutsideBlocksLight(false);
+  direct->SetSamplingDimensions(61, 61, 61);
   direct->SetViewDirection(0.3, 0.4, -1);
   direct->Update();
   vtkNew<vtkRefractiveIndex> index;
   index->SetInputDataObject(direct->GetInputDataObject(0, 0));
+  index->SetSamplingDimensions(61, 61, 61);
   index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   index->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");

@@ -15,7 +15,7 @@ MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "Den
           "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
           "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
           "Fields": [], "TransferFunctions": [], "FieldRanges": [], "RefractivityScale": 3e-4,
-          "OutsideBlocksLight": 1, "Bodies": None}
+          "Outside": "Auto", "OutsideBlocksLight": -1, "Reconstruction": "Smooth", "Bodies": None}
 BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
@@ -27,7 +27,7 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "SourceDistance": 0.0, "SourceShape": "Point", "BackgroundPattern": "Dots",
          "BackgroundDistance": -1.0, "BackgroundPeriod": 0.0, "BackgroundAngle": 0.0,
          "BackgroundImage": "", "FilmEstimator": "Sheet", "NoiseFilter": "None",
-         "NoiseFilterRadius": 2.0, "HistogramSize": 256, "MemoryBudget": 1024,
+         "NoiseFilterRadius": 2.0, "HistogramSize": 256, "MemoryBudget": 1024, "MediumMemory": 1024,
          "ColorByField": 0, "FieldColors": [],
          "Quality": "Interactive", "Seed": 1,
          "Device": "Auto", "NumberOfThreads": 0}
@@ -135,9 +135,10 @@ assert picture(with_body, "BlockedFraction").max() == 1
 mesh = Clip(AppendDatasets(source), ClipType="Sphere")
 mesh.ClipType.Radius = 0.8
 outside = Schlieren(mesh, Density=["POINTS", "rho"], ImageSize=[16, 16])
-assert picture(outside, "BlockedFraction")[8, 1] == 1
-outside.OutsideBlocksLight = 0
-assert picture(outside, "BlockedFraction").max() == 0
+for name, value, blocked in (("Outside", "Blocks", 1), ("Outside", "Passes", 0), ("OutsideBlocksLight", 1, 1),
+                             ("OutsideBlocksLight", 0, 0)):
+    setattr(outside, name, value)
+    assert picture(outside, "BlockedFraction")[8, 1] == blocked, (name, value)
 
 # A shadowgraph's screen.
 bench.Cutoff = "Shadowgraph"

@@ -72,7 +72,7 @@ check(bench, "Reference")
 for name, value in (("PathModel", "Straight"), ("Integrator", "Euler"), ("StepSize", 0.3),
                     ("HomogeneityTolerance", 0.3), ("Interpolation", "Central"),
                     ("SamplesPerPixel", 7), ("FilmEstimator", "Photon"), ("Precision", "Single"), ("AdaptiveTolerance", 0.3),
-                    ("PathTolerance", 0.3)):
+                    ("PathTolerance", 0.3), ("MediumTolerance", 0.3)):
     before = bench.GetProperty(name).GetData()
     setattr(bench, name, value)
     check(bench, "Custom", preset="Reference", **{name: value})
