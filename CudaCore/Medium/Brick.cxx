@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace schlieren
 {
@@ -22,9 +23,10 @@ constexpr double deflectionByRange = 8;
 /// voxel.
 constexpr double errorByThirdDifference = 1. / 12;
 
-/// Voxels of the size of a cell are the finest that data which are linear in cells deserve: finer ones see the
-/// facets. (What is refined is halved, so that voxels are 0.5 ... 1 cell in the end.)
-constexpr double voxelByCell = 1;
+/// Boxes whose voxels are no larger than this share of a cell are not divided, so that voxels have 0.7 ... 1.4 cells
+/// in the end. Of data that are linear in cells, finer voxels show the facets (a ball of width 0.2 and cells of 0.025,
+/// rays along both: rms error 1.3e-2 with half a cell, 3.4e-3 with one, 5.9e-3 with 1.4; oblique 3e-3 with all).
+constexpr double voxelByCell = 1.4;
 
 /// Voxels this much coarser than cells may miss what cells have.
 constexpr double coarseByCell = 2;
@@ -45,6 +47,66 @@ int apronOf(Interpolation interpolation)
 {
   return interpolation == Interpolation::Quadratic || interpolation == Interpolation::Linear ? 1
                                                                                              : 2;
+}
+
+/// Numbers that are looked at side by side, so that the compiler does so, too.
+constexpr std::size_t lanes = 8;
+
+struct Range
+{
+  double lowest, highest;
+};
+
+/// Of all values; not finite where one of them is not.
+Range rangeOf(const std::vector<double>& values)
+{
+  std::array<double, lanes> lowest{}, highest{}, defects{};
+  lowest.fill(values.front());
+  highest.fill(values.front());
+  const auto look = [&](std::size_t lane, double value)
+  {
+    lowest[lane] = value < lowest[lane] ? value : lowest[lane];
+    highest[lane] = value > highest[lane] ? value : highest[lane];
+    defects[lane] += value - value; // NaN where it is not finite
+  };
+  std::size_t n = 0;
+  for (; n + lanes <= values.size(); n += lanes)
+  {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      look(lane, values[n + lane]);
+    }
+  }
+  for (; n < values.size(); ++n)
+  {
+    look(0, values[n]);
+  }
+  const double defect = std::accumulate(defects.begin(), defects.end(), 0.);
+  return { *std::min_element(lowest.begin(), lowest.end()) + defect,
+    *std::max_element(highest.begin(), highest.end()) + defect };
+}
+
+/// The larger of `most` and a row's third differences, place by place; `s` is the way to the next sample.
+void widenByThirdDifferences(const double* p, std::ptrdiff_t s, int count, double* most)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const double third = std::abs(p[i + 3 * s] - p[i] - 3 * (p[i + 2 * s] - p[i + s]));
+    most[i] = most[i] < third ? third : most[i];
+  }
+}
+
+/// The same of those between places that all count.
+void widenByThirdDifferences(
+  const double* p, const unsigned char* counts, std::ptrdiff_t s, int count, double* most)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    if ((counts[i] & counts[i + s] & counts[i + 2 * s] & counts[i + 3 * s]) != 0)
+    {
+      widenByThirdDifferences(p + i, s, 1, most + i);
+    }
+  }
 }
 
 } // namespace
@@ -160,7 +222,20 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
 template <class Real>
 void BrickMaker<Real>::Samples::findGas()
 {
-  bool areAllGas = true;
+  // As a rule there is nothing else.
+  bool areAllGas = isAllWithin() &&
+    std::all_of(places.begin(), places.end(), [](Place place) { return place == Place::Gas; });
+  if (areAllGas)
+  {
+    const Range range = rangeOf(nu);
+    areAllGas = std::isfinite(range.lowest) && std::isfinite(range.highest);
+    if (areAllGas)
+    {
+      lowest = range.lowest;
+      highest = range.highest;
+      return;
+    }
+  }
   isGas.resize(nu.size());
   for (int k = 0; k < n; ++k)
   {
@@ -173,15 +248,10 @@ void BrickMaker<Real>::Samples::findGas()
         const bool is = isRowWithin && i >= begin[0] && i < end[0] && places[at] == Place::Gas &&
           std::isfinite(nu[at]);
         isGas[at] = is ? 1 : 0;
-        areAllGas = areAllGas && is;
         lowest = is && nu[at] < lowest ? nu[at] : lowest;
         highest = is && nu[at] > highest ? nu[at] : highest;
       }
     }
-  }
-  if (areAllGas)
-  {
-    isGas.clear();
   }
 }
 
@@ -374,23 +444,24 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
     std::array<int, 3> to{ points, points, points };
     to[axis] -= 3;
     const std::ptrdiff_t s = strides[axis];
-    double largest = 0;
+    std::array<double, edge + 2> most{};
     for (int k = 0; k < to[2]; ++k)
     {
       for (int j = 0; j < to[1]; ++j)
       {
         const std::size_t row = samples.index(first, first + j, first + k);
-        const double* p = samples.nu.data() + row;
-        const unsigned char* gas = samples.isGas.empty() ? nullptr : samples.isGas.data() + row;
-        for (int i = 0; i < to[0]; ++i)
+        if (samples.isGas.empty())
         {
-          const double third = std::abs(p[i + 3 * s] - p[i] - 3 * (p[i + 2 * s] - p[i + s]));
-          const bool counts =
-            gas == nullptr || (gas[i] & gas[i + s] & gas[i + 2 * s] & gas[i + 3 * s]) != 0;
-          largest = counts && third > largest ? third : largest;
+          widenByThirdDifferences(samples.nu.data() + row, s, to[0], most.data());
+        }
+        else
+        {
+          widenByThirdDifferences(
+            samples.nu.data() + row, samples.isGas.data() + row, s, to[0], most.data());
         }
       }
     }
+    const double largest = *std::max_element(most.begin(), most.end());
     // Along the ray the box may be longer than along this axis.
     double longest = 0;
     for (std::size_t other = 0; other < 3; ++other)
@@ -463,43 +534,47 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
   {
     std::array<int, 3> to{ stored, stored, stored };
     to[axis] -= 1;
+    const auto rowAt = [&](int j, int k)
+    { return brick.samples.data() + k * strides[2] + j * strides[1]; };
+    const std::ptrdiff_t toNext = strides[axis];
     Real largest = 0;
-    std::array<int, 3> largestAt{ 0, 0, 0 };
+    int steepestPlane = 0;
     for (int k = 0; k < to[2]; ++k)
     {
+      std::array<Real, edge + 4> most{};
       for (int j = 0; j < to[1]; ++j)
       {
-        const Real* row = brick.samples.data() + k * strides[2] + j * strides[1];
-        const Real* next = row + strides[axis];
-        Real ofRow = 0;
+        const Real* row = rowAt(j, k);
         for (int i = 0; i < to[0]; ++i)
         {
-          const Real difference = std::abs(next[i] - row[i]);
-          ofRow = difference > ofRow ? difference : ofRow;
-        }
-        if (ofRow > largest)
-        {
-          largest = ofRow;
-          int i = 0;
-          while (std::abs(next[i] - row[i]) < largest)
-          {
-            ++i;
-          }
-          largestAt = { i, j, k };
+          const Real difference = std::abs(row[i + toNext] - row[i]);
+          most[static_cast<std::size_t>(i)] = most[static_cast<std::size_t>(i)] < difference
+            ? difference
+            : most[static_cast<std::size_t>(i)];
         }
       }
+      const Real ofPlane = *std::max_element(most.begin(), most.end());
+      steepestPlane = ofPlane > largest ? k : steepestPlane;
+      largest = ofPlane > largest ? ofPlane : largest;
     }
     facts.slope[axis] = static_cast<double>(largest);
-    if (facts.slope[axis] / voxel[axis] > facts.steepest)
+    if (facts.slope[axis] / voxel[axis] <= facts.steepest)
     {
-      facts.steepest = facts.slope[axis] / voxel[axis];
-      for (std::size_t other = 0; other < 3; ++other)
-      {
-        const double local =
-          std::clamp(largestAt[other] - apron_ + (other == axis ? 0.5 : 0), -0.49, edge - 0.51);
-        facts.steepestAt[other] =
-          std::ldexp(edge * static_cast<double>(place.at[other]) + 0.5 + local, -place.level);
-      }
+      continue;
+    }
+    facts.steepest = facts.slope[axis] / voxel[axis];
+    std::array<int, 3> at{ 0, 0, steepestPlane };
+    while (std::abs(rowAt(at[1], at[2])[at[0] + toNext] - rowAt(at[1], at[2])[at[0]]) < largest)
+    {
+      at[1] += at[0] + 1 == to[0] ? 1 : 0;
+      at[0] = at[0] + 1 == to[0] ? 0 : at[0] + 1;
+    }
+    for (std::size_t other = 0; other < 3; ++other)
+    {
+      const double local =
+        std::clamp(at[other] - apron_ + (other == axis ? 0.5 : 0), -0.49, edge - 0.51);
+      facts.steepestAt[other] =
+        std::ldexp(edge * static_cast<double>(place.at[other]) + 0.5 + local, -place.level);
     }
   }
 }
