@@ -20,8 +20,8 @@ namespace
 
 // How much of the differences of values, squared, a polynomial may leave: gradients up to the first are
 // taken as they are, from the second on they are limited in full.
-constexpr double goodFit = 0.002;
-constexpr double poorFit = 0.01;
+constexpr double goodFit = 0.005;
+constexpr double poorFit = 0.02;
 
 /// Values may leave the range of those around by this part of it.
 constexpr double overshoot = 0.01;

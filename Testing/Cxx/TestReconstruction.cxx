@@ -143,6 +143,18 @@ TEST(Reconstruction, ABallOnTetrahedraIsSmooth)
   }
 }
 
+// Limits that know no smooth extrema from shocks flatten them.
+TEST(Reconstruction, WavesKeepTheirCrests)
+{
+  const auto wave = [](const Vec& x) { return std::sin(4 * pi * (x[0] + 0.1 * x[1])); };
+  const Mesh mesh = jittered(40, 0.2);
+  setN(mesh, wave);
+  EXPECT_GT(errorsOf(mesh, Reconstruction::Linear, wave, 60).divergence, 0.15);
+  const Errors smooth = errorsOf(mesh, Reconstruction::Smooth, wave, 60);
+  EXPECT_LT(smooth.deflection, 1.5e-3);
+  EXPECT_LT(smooth.divergence, 1.5e-2);
+}
+
 // Where a point has neighbours on all sides.
 TEST(Reconstruction, QuadraticFieldsAreExact)
 {
