@@ -37,9 +37,8 @@ namespace
 {
 
 constexpr double mergingPart = 1e-3; // of the smallest edge or cell beside a point
-constexpr double lookingPart =
-  1e-3;                         // of a face's or a cell's height: how far behind a face to look
-constexpr int subdivisions = 2; // of the faces of curved cells
+constexpr double lookingPart = 0.05; // of a cell's height or a face's edge: how far behind to look
+constexpr int subdivisions = 2;      // of the faces of curved cells
 constexpr const char* ownersName = "OwnerOfFace";
 
 enum class State : unsigned char
@@ -243,10 +242,17 @@ void addUnstructured(vtkDataSet* data, const std::vector<State>& states, State s
     cells->CopyStructure(extract->GetOutput());
     cells->GetPointData()->SetScalars(extract->GetOutput()->GetPointData()->GetScalars());
   }
+  // Not by PassThroughCellIds: VTK 9.2 gives wrong numbers to the faces of curved cells.
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName(ownersName);
+  numbers->SetNumberOfValues(cells->GetNumberOfCells());
+  for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
+  {
+    numbers->SetValue(i, i);
+  }
+  cells->GetCellData()->AddArray(numbers);
   vtkNew<vtkGeometryFilter> surface;
   surface->SetInputData(cells);
-  surface->PassThroughCellIdsOn();
-  surface->SetOriginalCellIdsName(ownersName);
   surface->SetNonlinearSubdivisionLevel(subdivisions);
   surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   surface->Update();
