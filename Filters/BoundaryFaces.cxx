@@ -37,9 +37,9 @@ namespace
 {
 
 constexpr double mergingPart = 1e-3; // of the smallest edge or cell beside a point
-/// Of a cell's height: how far behind a face to look. Further than the tolerance with which cells hold points.
-constexpr double lookingPart = 4e-3;
-constexpr int subdivisions = 2; // of the faces of curved cells
+constexpr double lookingPart = 0.05; // of a cell's height or a face's edge: how far behind to look
+constexpr int subdivisions = 2;      // of the faces of curved cells
+constexpr double cellTolerance = 4e-3; // of a cell's height: no cell holds what is further from it
 constexpr const char* ownersName = "OwnerOfFace";
 
 enum class State : unsigned char
@@ -243,10 +243,17 @@ void addUnstructured(vtkDataSet* data, const std::vector<State>& states, State s
     cells->CopyStructure(extract->GetOutput());
     cells->GetPointData()->SetScalars(extract->GetOutput()->GetPointData()->GetScalars());
   }
+  // Not by PassThroughCellIds: VTK 9.2 gives wrong numbers to the faces of curved cells.
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName(ownersName);
+  numbers->SetNumberOfValues(cells->GetNumberOfCells());
+  for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
+  {
+    numbers->SetValue(i, i);
+  }
+  cells->GetCellData()->AddArray(numbers);
   vtkNew<vtkGeometryFilter> surface;
   surface->SetInputData(cells);
-  surface->PassThroughCellIdsOn();
-  surface->SetOriginalCellIdsName(ownersName);
   surface->SetNonlinearSubdivisionLevel(subdivisions);
   surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   surface->Update();
@@ -474,7 +481,8 @@ void removeCovered(const Faces& faces, const CellTest& isInCell, std::vector<Kep
       for (vtkIdType i = begin; i < end; ++i)
       {
         const Kept& face = kept[static_cast<std::size_t>(i)];
-        const double step = lookingPart * face.sides.height;
+        const double step = std::max(lookingPart * std::min(face.sides.height, face.sides.width),
+          cellTolerance * face.sides.height);
         const Point middle = face.sides.middle + step * face.sides.outward;
         bool areAll = std::isfinite(step) && isInCell(middle);
         for (const std::int32_t corner : face.corners)

@@ -30,8 +30,11 @@ struct BoundaryFaces
 /// Faces with the same points count as one, also where the points are there twice (blocks; the seam of an O-grid;
 /// the wake cut of a C-grid): points are one if they lie within 1e-3 of the smallest edge or cell beside them, or
 /// within the rounding of the coordinates. Faces without area, at a pole or an axis, are left out. With a
-/// `isInCell`, so are faces that have cells on both sides without the same points: blocks that overlap,
-/// hanging nodes.
+/// `isInCell`, so are faces that have cells on both sides without the same points: blocks that overlap, hanging
+/// nodes, curved sides of blocks with a gap of up to 0.05 of the cell's height or the face's smallest edge.
+///
+/// Sheets without thickness within a mesh, whose cells meet at the same points, are not known to be there: give them
+/// as Bodies.
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell);
 
 /// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.

@@ -186,14 +186,14 @@ void LatticeSampling::measure(
   }
 }
 
-/// No face is near, and gas is beside: what seems to be outside is a gap between cells.
+/// Outside points with gas beside them, from which no face separates them, are gaps between cells.
 void LatticeSampling::findGaps()
 {
   this->forPoints(
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
-      if (this->States[p] != Unknown)
+      if (this->States[p] == InGas || this->Distances[p] >= -1)
       {
         return;
       }
@@ -230,18 +230,14 @@ void LatticeSampling::spread(std::vector<Index>& known)
 
 void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt)
 {
+  this->findGaps();
   const auto hasAny = [&](State state)
   { return std::find(this->States.begin(), this->States.end(), state) != this->States.end(); };
   if (!hasAny(Unknown))
   {
     return;
   }
-  const bool hasWall = hasAny(InWall), hasWindow = hasAny(InWindow);
-  if (hasAny(InGas))
-  {
-    this->findGaps();
-  }
-  if (hasWall != hasWindow)
+  if (const bool hasWall = hasAny(InWall); hasWall != hasAny(InWindow))
   {
     std::replace(this->States.begin(), this->States.end(), static_cast<unsigned char>(Unknown),
       static_cast<unsigned char>(hasWall ? InWall : InWindow));

@@ -85,9 +85,14 @@ private:
         neighbours[one].push_back(static_cast<std::int32_t>(other));
         neighbours[other].push_back(static_cast<std::int32_t>(one));
       });
+    // The larger a triangle is, the less rounding turns its plane: they come first.
+    std::vector<std::size_t> sorted(surface_.size());
+    std::iota(sorted.begin(), sorted.end(), std::size_t{ 0 });
+    std::stable_sort(sorted.begin(), sorted.end(),
+      [&](std::size_t a, std::size_t b) { return heights_[a] > heights_[b]; });
     std::vector<unsigned char> isKnown(surface_.size(), 0);
     std::vector<std::size_t> waiting;
-    for (std::size_t first = 0; first < surface_.size(); ++first)
+    for (const std::size_t first : sorted)
     {
       if (isKnown[first])
       {
@@ -110,7 +115,7 @@ private:
         for (const std::int32_t neighbour : neighbours[t])
         {
           const auto other = static_cast<std::size_t>(neighbour);
-          if (!isOnHull_[other] && isInPlane(other, normal, offset))
+          if (!isOnHull_[other] && isInPlane(other, first))
           {
             isKnown[other] = 1;
             isOnHull_[other] = 1;
@@ -121,17 +126,19 @@ private:
     }
   }
 
-  bool isInPlane(std::size_t t, const Point& normal, double offset) const
+  bool isInPlane(std::size_t t, std::size_t reference) const
   {
-    const double most = 4 * roundingAt(t) + 1e-4 * heights_[t];
+    const double turn = 4 * roundingAt(reference) / heights_[reference];
     for (std::size_t i = 0; i < 3; ++i)
     {
-      if (std::abs(dot(normal, surface_.corner(t, i)) - offset) > most)
+      const Point from = surface_.corner(t, i) - surface_.corner(reference, 0);
+      const double most = 4 * roundingAt(t) + 1e-4 * heights_[t] + turn * norm(from);
+      if (std::abs(dot(normals_[reference], from)) > most)
       {
         return false;
       }
     }
-    return dot(normals_[t], normal) > cosineOfSmooth;
+    return isSmooth(t, reference);
   }
 
   bool isSmooth(std::size_t one, std::size_t other) const
