@@ -87,6 +87,19 @@ GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const
   return kinds;
 }
 
+bool GasBoundary::hasBodiesIn(const schlieren::Box& box) const
+{
+  if (!this->Bodies)
+  {
+    return false;
+  }
+  bool has = this->Bodies->isInside(0.5 * (Point(box.low) + Point(box.high)));
+  this->Bodies->tree().forTrianglesAt(box,
+    [&](std::int32_t triangle)
+    { has = has || meets(this->Bodies->surface(), static_cast<std::size_t>(triangle), box); });
+  return has;
+}
+
 GasBoundary::Place GasBoundary::kindAt(const Point& place, bool isInCell) const
 {
   if (this->Bodies && this->Bodies->isInside(place))

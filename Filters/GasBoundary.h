@@ -49,6 +49,8 @@ public:
     bool wall, window;
   };
   Kinds facesIn(const schlieren::Box& box) const;
+  /// Whether any of the Bodies reach into a box.
+  bool hasBodiesIn(const schlieren::Box& box) const;
 
   /// What there is at a place, given whether a visible cell holds it. Of a place outside, the nearest face counts
   /// (or one that is farther away by no more than a twentieth).

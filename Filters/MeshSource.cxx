@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace refractivity
 {
@@ -45,10 +44,11 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , Values(this->Cells)
   , Boundary(pointersTo(leaves), bodies, outside, testOf(this->Values))
 {
-  if (this->Cells.size() == 0)
-  {
-    throw std::runtime_error("no cells with gas");
-  }
+}
+
+bool MeshSource::meetsBodies() const
+{
+  return this->Boundary.hasBodiesIn(this->bounds());
 }
 
 schlieren::Box MeshSource::bounds() const

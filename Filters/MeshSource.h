@@ -22,10 +22,13 @@ namespace refractivity
 class MeshSource : public schlieren::MediumSource
 {
 public:
-  /// `leaves`: with N at their points, see prepared(). `bodies`: may be null. Throws std::runtime_error where there
-  /// is no gas.
+  /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null.
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* bodies,
     Outside outside, CellTree::Reconstruction reconstruction);
+
+  bool hasGas() const { return this->Cells.size() > 0; }
+  /// Whether the bodies reach into the box of the gas.
+  bool meetsBodies() const;
 
   schlieren::Box bounds() const override;
   double ambient() const override;

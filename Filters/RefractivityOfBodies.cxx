@@ -215,10 +215,7 @@ std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
         }
       });
   }
-  return isMet
-    ? ""
-    : "The Bodies lie outside the data, so they stop no light. Do both have the same unit "
-      "of length and the same origin?";
+  return isMet ? "" : bodiesAreOutside;
 }
 
 } // namespace refractivity

@@ -14,6 +14,11 @@ class vtkPolyData;
 namespace refractivity
 {
 
+/// What to warn of where they are outside of the data.
+constexpr const char* bodiesAreOutside =
+  "The Bodies lie outside the data, so they stop no light. Do both have the same unit "
+  "of length and the same origin?";
+
 /// Clears mask and refractivity of `output` inside the closed surfaces among `bodies` (vtkPolyData, or a
 /// composite of them), and where open ones are. Returns what to warn the user of, mostly nothing.
 /// Throws std::runtime_error where they are no surfaces.

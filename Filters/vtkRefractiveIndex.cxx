@@ -53,6 +53,13 @@ vtkStandardNewMacro(vtkRefractiveIndex);
 namespace
 {
 
+std::string noGas(const Source& source)
+{
+  return "There is no valid value in the " + source.label +
+    " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
+    "to cross. Choose another array or check the data.";
+}
+
 void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
 {
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
@@ -360,7 +367,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   this->Grid.clear();
   this->Search->release();
   Tally tally;
-  std::shared_ptr<const schlieren::MediumSource> made;
+  std::shared_ptr<const MeshSource> made;
   vtkSMPTools::LocalScope(threadsOfLoops(this),
     [&]()
     {
@@ -374,11 +381,21 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
         this->Reconstruction == LINEAR_IN_CELLS ? CellTree::Reconstruction::Linear
                                                 : CellTree::Reconstruction::Smooth);
     });
+  if (!made->hasGas())
+  {
+    throw std::runtime_error(noGas(source));
+  }
   warning = warningFrom(source.model, tally);
+  const auto warn = [&warning](const std::string& text)
+  { warning += (warning.empty() || text.empty() ? "" : " ") + text; };
+  if (bodies && !made->meetsBodies())
+  {
+    warn(bodiesAreOutside);
+  }
   if (source.noteOnGases != this->ToldOfGases)
   {
     this->ToldOfGases = source.noteOnGases;
-    warning += (warning.empty() || source.noteOnGases.empty() ? "" : " ") + source.noteOnGases;
+    warn(source.noteOnGases);
   }
   return made;
 }
@@ -455,9 +472,7 @@ std::string vtkRefractiveIndex::Convert(
   };
   if (!hasGas())
   {
-    throw std::runtime_error("There is no valid value in the " + source.label +
-      " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
-      "to cross. Choose another array or check the data.");
+    throw std::runtime_error(noGas(source));
   }
   std::string warning = warningFrom(source.model, tally);
   const auto warn = [&warning](const std::string& text)
