@@ -240,6 +240,29 @@ public:
   }
 };
 
+/// Of a straight ray through a place, along u and v, by a midpoint rule from -`far` to `far`, in steps of `step`
+/// within `near`.
+template <class Gradient>
+std::array<double, 2> summedUp(const Gradient& gradient, const Vec3<double>& place,
+  const Vec3<double>& u, const Vec3<double>& v, double near, double step, double far)
+{
+  const Vec3<double> w = cross(u, v);
+  const Vec3<double> start = place - dot(place, w) * w;
+  Vec3<double> sum{ 0, 0, 0 };
+  const auto add = [&](double from, double to, int steps)
+  {
+    const double length = (to - from) / steps;
+    for (int n = 0; n < steps; ++n)
+    {
+      sum += length * gradient(start + (from + (n + 0.5) * length) * w);
+    }
+  };
+  add(-far, -near, 400);
+  add(-near, near, static_cast<int>(2 * near / step));
+  add(near, far, 400);
+  return { dot(sum, u), dot(sum, v) };
+}
+
 /// A shell at r = 0.5, 0.01 thick, of another N inside.
 class ShellSource : public AnalyticSource
 {
@@ -258,6 +281,19 @@ public:
   {
     const Range r = distancesTo({ 0, 0, 0 }, box);
     return r.first < 0.55 && r.second > 0.45 ? 0.002 : 0.05;
+  }
+
+  std::array<double, 2> deflectionAt(
+    const Vec3<double>& place, const Vec3<double>& u, const Vec3<double>& v) const
+  {
+    return summedUp(
+      [](const Vec3<double>& at)
+      {
+        const double r = length(at);
+        const double t = std::tanh((r - 0.5) / 0.01);
+        return (-5e-5 / 0.01 * (1 - t * t) / r) * at;
+      },
+      place, u, v, 0.6, 5e-4, 1.8);
   }
 };
 
@@ -310,13 +346,20 @@ public:
     content.hasWindow = r.second > radius;
   }
 
-  /// d nu / dx
-  double slopeAt(double a, double b, double c) const
+  std::array<double, 2> deflectionAt(
+    const Vec3<double>& place, const Vec3<double>& u, const Vec3<double>& v) const
   {
-    const double r = SphereSource::radius(a, b, c);
-    const double t = std::tanh(shockDistance(a, b * b + c * c) / thickness);
-    const double fade = std::exp(-(r - 1) / 4);
-    return far / (1 + far) * 1.25 * fade * (-(1 - t * t) / thickness - (1 - t) / 4 * a / r);
+    return summedUp(
+      [](const Vec3<double>& at) -> Vec3<double>
+      {
+        const double r = length(at);
+        const double t = std::tanh(shockDistance(at.x, at.y * at.y + at.z * at.z) / thickness);
+        const double height = far / (1 + far) * 1.25 * std::exp(-(std::max(r, 1.) - 1) / 4);
+        const double ofShock = -height * (1 - t * t) / thickness;
+        const double ofFading = -height * (1 - t) / 4 / r;
+        return ofShock * Vec3<double>{ 1, 0.4 * at.y, 0.4 * at.z } + ofFading * at;
+      },
+      place, u, v, 25, 2.5e-3, radius);
   }
 
 private:

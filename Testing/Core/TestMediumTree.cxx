@@ -396,6 +396,49 @@ TEST(MediumTree, NoVoxelIsMuchFinerThanTheCells)
   EXPECT_GT(tree.statistics().smallestVoxel, 0.7 * 0.1 * 0.02);
 }
 
+TEST(MediumTree, FacetsOfLinearCellsAreNotResolved)
+{
+  static constexpr double cell = 0.025;
+  /// A ball that is linear in cubic cells.
+  class Cells : public BallsSource
+  {
+  public:
+    Cells()
+      : BallsSource({ { { 0.013, -0.021, 0.007 }, 0.2, 1e-4 } }, 0.6)
+    {
+    }
+    double refractivity(double a, double b, double c) const override
+    {
+      const double at[3] = { a / cell + 0.37, b / cell + 0.11, c / cell + 0.73 };
+      double sum = 0;
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        double weight = 1, point[3];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double low = std::floor(at[axis]);
+          const bool isUpper = (corner >> axis & 1) != 0;
+          weight *= isUpper ? at[axis] - low : 1 + low - at[axis];
+          point[axis] = low + (isUpper ? 1 : 0);
+        }
+        sum += weight *
+          BallsSource::refractivity(
+            (point[0] - 0.37) * cell, (point[1] - 0.11) * cell, (point[2] - 0.73) * cell);
+      }
+      return sum;
+    }
+    double cellSizeOver(const Box&) const override { return cell; }
+  };
+  const auto source = std::make_shared<Cells>();
+  Tree tree(source, 0, settingsOf(0));
+  tree.refine(everything());
+  EXPECT_GT(tree.statistics().smallestVoxel, 0.7 * cell);
+  EXPECT_LE(tree.statistics().smallestVoxel, 1.4 * cell);
+  EXPECT_LT(worstError(tree, *source, Interpolation::Quadratic, x, y, 0.45), 0.06);
+  const auto [u, v] = obliqueAxes();
+  EXPECT_LT(worstError(tree, *source, Interpolation::Quadratic, u, v, 0.45), 0.011);
+}
+
 TEST(MediumTree, ConstantDataNeedNoSamples)
 {
   const auto source = std::make_shared<ConstantSource>(3e-4);
