@@ -80,41 +80,47 @@ struct Faces
   }
 };
 
-bool isDefined(vtkDataSet* data, vtkDataArray* scalars, vtkIdType cell, vtkIdList* ids)
+/// What a cell with such a point is.
+std::vector<State> statesOfPoints(vtkDataSet* data)
 {
-  if (!scalars)
+  std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfPoints()), State::Visible);
+  vtkDataArray* scalars = data->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
-    return true;
-  }
-  data->GetCellPoints(cell, ids);
-  for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-  {
-    if (!std::isfinite(scalars->GetComponent(ids->GetId(i), 0)))
+    Point x;
+    data->GetPoint(i, x.data());
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
     {
-      return false;
+      states[static_cast<std::size_t>(i)] = State::None; // it is nowhere
+    }
+    else if (scalars && !std::isfinite(scalars->GetComponent(i, 0)))
+    {
+      states[static_cast<std::size_t>(i)] = State::Hidden;
     }
   }
-  return true;
+  return states;
 }
 
 /// `is3d`: whether all cells are 3-D. (VTK says that hidden ones of structured data have no dimension.)
 std::vector<State> statesOf(vtkDataSet* data, bool is3d)
 {
+  const std::vector<State> ofPoints = statesOfPoints(data);
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  vtkDataArray* scalars = data->GetPointData()->GetScalars();
   vtkNew<vtkIdList> ids;
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
     State& state = states[static_cast<std::size_t>(i)];
     if (!is3d && dimensionOfCell(data, i) != 3)
     {
-      state = State::None;
+      continue;
     }
-    else
+    const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
+    state = isHidden ? State::Hidden : State::Visible;
+    data->GetCellPoints(i, ids);
+    for (vtkIdType point = 0; point < ids->GetNumberOfIds(); ++point)
     {
-      const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
-      state = isHidden || !isDefined(data, scalars, i, ids) ? State::Hidden : State::Visible;
+      state = std::min(state, ofPoints[static_cast<std::size_t>(ids->GetId(point))]);
     }
   }
   return states;

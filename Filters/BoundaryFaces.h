@@ -25,7 +25,8 @@ struct BoundaryFaces
 };
 
 /// The boundary of all leaves together: datasets with a double scalar at each point, NaN where there is no gas.
-/// Cells are visible if they are 3-D, not hidden by a ghost array (hiddenCellBits), and have no point that is NaN.
+/// Cells are visible if they are 3-D and not hidden by a ghost array (hiddenCellBits). Those with a point without gas
+/// count as hidden; those with a point that is nowhere (NaN) are not there.
 ///
 /// Faces with the same points count as one, also where the points are there twice (blocks; the seam of an O-grid;
 /// the wake cut of a C-grid): points are one if they lie within 1e-3 of the smallest edge or cell beside them, or

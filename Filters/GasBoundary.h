@@ -57,7 +57,9 @@ public:
   Place kindAt(const Point& place, bool isInCell) const;
 
   /// Fills `places` and `distances` (may be null), see MediumSource::sample(), given which points visible cells
-  /// hold. Distances are never 0: points in cells have at least 1/4096, others at most -1/4096.
+  /// hold. Distances are never 0: points in cells have at least 1/4096, others at most -1/4096. Points outside and
+  /// beyond reach of faces are what those beside them are. Points outside without a face between them and gas beside
+  /// them, in gaps between cells, are windows.
   ///
   /// Where a wall is thinner than a voxel, so that there are points with gas on both sides, the nearer one becomes
   /// a wall, half a voxel deep. So the points with gas that are corners of the same voxel are all on one side of

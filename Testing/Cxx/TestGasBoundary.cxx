@@ -439,6 +439,21 @@ TEST(GasBoundary, WhatIsHiddenIsAWall)
   expectAreas(areasOf({ Data(holed) }, Outside::Passes), 2 * 0.3 + 0.4, 6 - 0.4 - 2 * 0.12);
 }
 
+// Cells that are nowhere are not there.
+TEST(GasBoundary, PointsThatAreNowhereMakeNoFaces)
+{
+  const auto grid = curvilinear(5, 5, 5,
+    [](double i, double j, double k) {
+      return i == 0.5 && j == 0.5 && k == 0.5 ? Vec{ std::nan(""), 0, 0 } : Vec{ i, j, k };
+    });
+  const Data mesh = blocks({ 4, 4, 4 }, { 1, 1, 1 }, [](const Vec&) { return true; });
+  asPoints(mesh)->GetPoints()->SetPoint(62, 0, std::nan(""), 0);
+  for (const Data& data : { Data(grid), mesh })
+  {
+    expectAreas(areasOf({ data }), 6 * 0.25, 6); // a cube of 2^3 cells is missing
+  }
+}
+
 TEST(GasBoundary, FacesBetweenBlocksAreNone)
 {
   const auto half = [](double from, double to, int n)
