@@ -174,6 +174,10 @@ std::size_t CellTree::bytes() const
   {
     sum += level.size() * sizeof(Group);
   }
+  for (const MeshArrays& block : this->Blocks)
+  {
+    sum += block.bytes();
+  }
   return sum;
 }
 

@@ -50,7 +50,7 @@ public:
   Cell cell(Number number) const;
 
   std::size_t size() const { return this->Numbers.size(); } // cells that are there
-  std::size_t bytes() const;
+  std::size_t bytes() const;                                // of memory, without the datasets'
 
   struct Bounds // low > high: none
   {

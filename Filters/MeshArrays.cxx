@@ -55,6 +55,13 @@ bool MeshArrays::isVisible(vtkIdType cell) const
   return !this->Ghosts || (this->Ghosts[cell] & hiddenCellBits) == 0;
 }
 
+std::size_t MeshArrays::bytes() const
+{
+  return this->OwnPoints.size() * sizeof(double) + this->Types.size() +
+    (this->OwnOffsets.size() + this->OwnCells.size()) * sizeof(vtkTypeInt64) +
+    this->Trends.size() * sizeof(PointTrend);
+}
+
 std::vector<int> MeshArrays::types() const
 {
   if (this->Types.empty())

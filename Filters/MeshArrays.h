@@ -39,6 +39,9 @@ public:
   vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
 
+  /// Memory of what is not the dataset's own.
+  std::size_t bytes() const;
+
   /// Of each point; null where nobody has set them.
   const PointTrend* trends() const { return this->Trends.empty() ? nullptr : this->Trends.data(); }
   void setTrends(std::vector<PointTrend> trends) { this->Trends = std::move(trends); }

@@ -417,6 +417,7 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
 
 constexpr double everywhere = 1e9;
 Mesh sphere() { return aroundSphere(120, 80, 125); }
+Mesh finerSphere() { return aroundSphere(240, 160, 250); }
 Mesh tetrahedra60() { return tetrahedra(60); }
 Mesh bentHexahedra() { return hexahedra(64, true); }
 Mesh parallelepipeds() { return hexahedra(64, false); }
@@ -430,6 +431,7 @@ Mesh parallelepipeds() { return hexahedra(64, false); }
     ->Unit(benchmark::kMillisecond)
 BRICKS(sphere_1200000, sphere, 1.2, 0.0125, Reconstruction::Linear);
 BRICKS(sphere_1200000_smooth, sphere, 1.2, 0.0125, Reconstruction::Smooth);
+BRICKS(sphere_9600000, finerSphere, 1.2, 0.0125, Reconstruction::Linear);
 BRICKS(tetrahedra_1080000, tetrahedra60, everywhere, 1. / 256, Reconstruction::Linear);
 BRICKS(tetrahedra_1080000_smooth, tetrahedra60, everywhere, 1. / 256, Reconstruction::Smooth);
 BRICKS(tetrahedra_1080000_coarse, tetrahedra60, everywhere, 1. / 64, Reconstruction::Linear);

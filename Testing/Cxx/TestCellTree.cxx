@@ -137,6 +137,18 @@ TEST(CellTree, HasAllCellsOnce)
   }
 }
 
+TEST(CellTree, NeedsLittleMemory)
+{
+  const auto grid = turnedBoxes({ 1, 1, 1 }, 30);
+  for (const auto& [reconstruction, most] : { std::pair(CellTree::Reconstruction::Linear, 40u),
+         std::pair(CellTree::Reconstruction::Smooth, 68u) })
+  {
+    const CellTree tree({ grid }, reconstruction);
+    EXPECT_LT(tree.bytes(), most * tree.size());
+    EXPECT_GT(tree.bytes(), 28 * tree.size());
+  }
+}
+
 TEST(CellTree, IsEmptyWhereNoCellIs)
 {
   const Mesh mesh = hexahedra(2, 0);
