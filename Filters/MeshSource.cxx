@@ -46,10 +46,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
 {
 }
 
-bool MeshSource::meetsBodies() const
-{
-  return this->Boundary.hasBodiesIn(this->bounds());
-}
+bool MeshSource::meetsBodies() const { return this->Boundary.hasBodiesIn(this->bounds()); }
 
 schlieren::Box MeshSource::bounds() const
 {

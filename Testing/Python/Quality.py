@@ -14,7 +14,7 @@ PRESETS = ("Interactive", "Draft", "Publication", "Reference")
 SETTINGS = []
 while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
     SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
-assert len(SETTINGS) == 10
+assert len(SETTINGS) == 11
 
 source = gaussian_column(16)
 
