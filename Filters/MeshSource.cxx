@@ -82,16 +82,28 @@ schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box
   content.cellSize.fill(std::numeric_limits<double>::infinity());
   if (!content.hasGas)
   {
-    // All of it is like any place of it.
-    std::array<double, 3> middle{};
+    // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.
+    std::array<double, 3> place{};
+    const auto look = [&]
+    {
+      const schlieren::Place found = this->placeAt(place);
+      content.hasGas = found == schlieren::Place::Gas;
+      content.hasWall = content.hasWall || found == schlieren::Place::Wall;
+      content.hasWindow = content.hasWindow || found == schlieren::Place::Window;
+    };
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      middle[axis] = 0.5 * (box.low[axis] + box.high[axis]);
+      place[axis] = 0.5 * (box.low[axis] + box.high[axis]);
     }
-    const schlieren::Place place = this->placeAt(middle);
-    content.hasGas = place == schlieren::Place::Gas;
-    content.hasWall = place == schlieren::Place::Wall;
-    content.hasWindow = place == schlieren::Place::Window;
+    look();
+    for (unsigned corner = 0; corner < 8 && !content.hasGas; ++corner)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        place[axis] = ((corner >> axis) & 1u) != 0 ? box.high[axis] : box.low[axis];
+      }
+      look();
+    }
   }
   if (content.hasGas)
   {
