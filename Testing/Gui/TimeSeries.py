@@ -61,6 +61,7 @@ user = ViewsSession()
 
 def vcr(name):
     user.event("pqClientMainWindow/VCRToolbar/actionVCR" + name, "activate")
+    user.idle()
 
 
 user.press("OnePicture")
