@@ -109,7 +109,7 @@ until(lambda: plane.property("side") == {side})
         """Steps that do nothing, after one that loads a state or plays an animation. ParaView lets the window go on
         in the middle of that, and on a busy machine the player takes this for a dialog and plays the next step
         inside: it must not wait for images, which are not made before that other step has ended."""
-        for _ in range(3):
+        for _ in range(10):
             self.python("")
 
     def drag_view(self, frame, *places, button=1):
