@@ -98,6 +98,11 @@ void pqCutoffLightFetcher::fetch()
   {
     return;
   }
+  if (pqPictureRefiner::instance()->isAnimationStep())
+  {
+    this->Timer.start();
+    return;
+  }
   const int picture = informationOf(this->Filter, "PictureCount");
   Q_EMIT this->pictureChanged();
   if (picture != this->FetchedPicture && isWhole(this->Filter))

@@ -26,6 +26,7 @@ public:
   /// Whether the next rendering of a view answers the user's movements: the last one of them, or a new size.
   bool isAnsweredBy(vtkObject* view) const { return this->Moved.contains(view); }
   void setAnswered(vtkObject* view) { this->Moved.remove(view); }
+  void setAllAnswered() { this->Moved.clear(); }
 
 Q_SIGNALS:
   void ended();

@@ -5,6 +5,7 @@
 #include "PicturesInViews.h"
 #include "pqInteraction.h"
 
+#include "pqAnimationScene.h"
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
 #include "pqProgressManager.h"
@@ -270,6 +271,12 @@ pqPictureRefiner::pqPictureRefiner(QObject* parentObject)
   {
     this->watch(view);
   }
+  QObject::connect(
+    model, &pqServerManagerModel::proxyAdded, this, &pqPictureRefiner::watchAnimation);
+  for (pqAnimationScene* scene : model->findItems<pqAnimationScene*>())
+  {
+    this->watchAnimation(scene);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -294,6 +301,32 @@ void pqPictureRefiner::watch(pqView* view)
     SLOT(onStartRender(vtkObject*, unsigned long, void*, void*)), nullptr, 1);
   this->Connection->Connect(
     view->getProxy(), vtkCommand::EndEvent, this, SLOT(onEndRender(vtkObject*)));
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::watchAnimation(pqProxy* item)
+{
+  auto* scene = qobject_cast<pqAnimationScene*>(item);
+  auto* cue = scene ? vtkObject::SafeDownCast(scene->getProxy()->GetClientSideObject()) : nullptr;
+  if (cue)
+  {
+    // ParaView answers this event by an event loop, since 6.0 before it updates views to the new time.
+    this->Connection->Connect(
+      cue, vtkCommand::AnimationCueTickEvent, this, SLOT(onAnimationStep()), nullptr, 1);
+    this->Connection->Connect(
+      cue, vtkCommand::AnimationCueTickEvent, this, SLOT(onAnimationStepOver()), nullptr, -1);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::onAnimationStep() { this->IsAnimationStep = true; }
+
+//------------------------------------------------------------------------------
+void pqPictureRefiner::onAnimationStepOver()
+{
+  this->IsAnimationStep = false;
+  // What follows at once is the rendering of a frame, which may be saved, and no answer to the user.
+  pqInteraction::instance()->setAllAnswered();
 }
 
 //------------------------------------------------------------------------------
@@ -394,7 +427,8 @@ void pqPictureRefiner::takeTurn()
   const auto next = this->nextJob();
   const bool isJob = next != this->Jobs.end();
   pqPipelineSource* source = sourceOf(isJob ? next->Filter : this->Untold.value(0));
-  if (this->IsBusy || (source && source->getServer()->isProcessingPending()))
+  if (this->IsBusy || this->IsAnimationStep ||
+    (source && source->getServer()->isProcessingPending()))
   {
     // This is an event loop within someone's update or rendering.
     this->Timer.start(10);
@@ -654,7 +688,8 @@ void pqPictureRefiner::onStartRender(vtkObject* proxy, unsigned long, void*, voi
   const bool isForUser = *static_cast<int*>(isInteractive) != 0 ||
     interaction->isAnsweredBy(proxy) || (view && isRenderingLater(view));
   interaction->setAnswered(proxy);
-  if (this->IsBusy || this->NumberOfShortUpdates > 0 || !view || !isForUser)
+  if (this->IsBusy || this->IsAnimationStep || this->NumberOfShortUpdates > 0 || !view ||
+    !isForUser)
   {
     return;
   }

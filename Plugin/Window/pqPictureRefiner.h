@@ -15,6 +15,7 @@
 #include <QTimer>
 
 class pqPipelineSource;
+class pqProxy;
 class pqView;
 class vtkEventQtSlotConnect;
 class vtkObject;
@@ -57,6 +58,10 @@ public:
   /// Whether there are ShortUpdates.
   bool isShort() const { return this->NumberOfShortUpdates > 0; }
 
+  /// Whether this is an event loop within a step of an animation: what updates a filter now updates it to the new
+  /// time, and the frame that is then rendered, and perhaps saved, has nothing else.
+  bool isAnimationStep() const { return this->IsAnimationStep; }
+
   /// While there is one, updates of all filters are as short as turns, and what they leave unfinished is
   /// refined afterwards. Filters' properties are not to be pushed meanwhile: the undo stack would keep the limit.
   class ShortUpdates
@@ -82,6 +87,9 @@ private Q_SLOTS:
   void takeTurn();
   void wakeUp();
   void watch(pqView* view);
+  void watchAnimation(pqProxy* item);
+  void onAnimationStep();
+  void onAnimationStepOver();
   void forget(pqPipelineSource* source);
   void onStartRender(vtkObject* view, unsigned long event, void* client, void* isInteractive);
   void onEndRender(vtkObject* view);
@@ -113,6 +121,7 @@ private:
   QList<vtkWeakPointer<vtkSMSourceProxy>> Untold; // updated, and panels do not know it yet
   QTimer Timer;
   bool IsBusy = false;
+  bool IsAnimationStep = false;
   QList<vtkWeakPointer<vtkSMSourceProxy>>
     Limited; // while a view answers the user, and by ShortUpdates
   int NumberOfShortUpdates = 0;

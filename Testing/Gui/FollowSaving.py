@@ -32,6 +32,7 @@ def reference(camera, name):
     SaveScreenshot(os.path.join(FOLDER, name), shown, ImageResolution=SIZE)
     Hide(scripted, shown)
     Show(bench, shown)
+    Render(shown)  # from here on this view follows the camera again
 """
 
 user = Session()

@@ -38,6 +38,7 @@ user = ViewsSession()
 def load_state(name):
     user.menu("menu_File", "actionFileLoadServerState")
     user.event("pqClientMainWindow/FileLoadServerStateDialog", "filesSelected", os.path.join(FOLDER, name))
+    user.idle()
 
 
 def keep(step):

@@ -9,11 +9,10 @@ import os
 import numpy as np
 from views_testing import FOLDER, ViewsSession, filters, load, png, simple, views
 from plugin_testing import Schlieren
+from series_testing import write_series
 from window_testing import PANEL
 from follow_testing import saved
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 TIMES = [0, 0.1, 0.3, 0.7]
 SIZE = [240, 180]  # of the saved animation
@@ -22,30 +21,10 @@ NOTES = os.path.join(FOLDER, "notes.txt")
 SERIES, LOG = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "shown.txt")
 
 
-def write_series(points=25):
-    """A warm blob that moves to the right and grows."""
-    x = np.linspace(-1, 1, points)
-    z, y, x = np.meshgrid(x, x, x, indexing="ij")
-    entries = []
-    for step, time in enumerate(TIMES):
-        square = (x + 0.35 - time)**2 + y**2 + z**2
-        blob = (0.1 + 0.2 * time) * np.maximum(0, 1 - square / 0.6**2)**2
-        values = numpy_to_vtk((AIR - blob).ravel(), deep=True)
-        values.SetName("rho")
-        image = vtkImageData()
-        image.SetDimensions(3 * [points])
-        image.SetOrigin(-1, -1, -1)
-        image.SetSpacing(3 * [2 / (points - 1)])
-        image.GetPointData().AddArray(values)
-        writer = vtkXMLImageDataWriter()
-        writer.SetFileName(os.path.join(FOLDER, f"flow{step}.vti"))
-        writer.SetDataModeToBinary()
-        writer.SetInputData(image)
-        assert writer.Write() == 1
-        entries.append(f'<DataSet timestep="{time}" file="flow{step}.vti"/>')
-    with open(SERIES, "w", encoding="utf-8") as file:
-        file.write("\n".join(['<VTKFile type="Collection" version="0.1">', "<Collection>", *entries,
-                              "</Collection>", "</VTKFile>", ""]))
+def blob(x, y, z, time):
+    """Warm; moves to the right and grows."""
+    square = (x + 0.35 - time)**2 + y**2 + z**2
+    return AIR - (0.1 + 0.2 * time) * np.maximum(0, 1 - square / 0.6**2)**2
 
 
 FIND = """
@@ -73,13 +52,14 @@ def begin(name):
     return f"with open({LOG!r}, 'a') as file: file.write('= {name}\\n')\n"
 
 
-write_series()
+write_series(SERIES, TIMES, 25, blob)
 open(LOG, "w", encoding="utf-8").close()
 user = ViewsSession()
 
 
 def vcr(name):
     user.event("pqClientMainWindow/VCRToolbar/actionVCR" + name, "activate")
+    user.idle()
 
 
 user.press("OnePicture")

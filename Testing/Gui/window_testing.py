@@ -105,6 +105,13 @@ until(lambda: plane.property("side") == {side})
             file.write("from paraview.simple import *\nfrom inside_window import *\n" + script)
         self.event(f"pqClientMainWindow/Steps/step{self.scripts}", "activate")
 
+    def idle(self):
+        """Steps that do nothing, after one that loads a state or plays an animation. ParaView lets the window go on
+        in the middle of that, and on a busy machine the player takes this for a dialog and plays the next step
+        inside: it must not wait for images, which are not made before that other step has ended."""
+        for _ in range(10):
+            self.python("")
+
     def drag_view(self, frame, *places, button=1):
         """Drags with a button (1 left, 2 right) from place to place in the view of a frame, whose sides are
         0 to 1."""

@@ -8,35 +8,15 @@ import os
 import numpy as np
 from paraview import simple, smstate
 from plugin_testing import Schlieren, output, picture
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from series_testing import write_series
 
 TIMES = [0, 1, 2]
 SERIES = os.path.abspath("series.pvd")
 
 
-def write_series(points=16):
-    """A column that is 1, 2 and 3 times as strong."""
-    z, y, x = np.meshgrid(*3 * [np.linspace(-1, 1, points)], indexing="ij")
-    entries = []
-    for time in TIMES:
-        values = numpy_to_vtk((1 + (1 + time) * np.exp(-(x**2 + z**2) / 0.09)).ravel(), deep=True)
-        values.SetName("rho")
-        image = vtkImageData()
-        image.SetDimensions(3 * [points])
-        image.SetOrigin(-1, -1, -1)
-        image.SetSpacing(3 * [2 / (points - 1)])
-        image.GetPointData().AddArray(values)
-        writer = vtkXMLImageDataWriter()
-        writer.SetFileName(f"series{time}.vti")
-        writer.SetDataModeToBinary()
-        writer.SetInputData(image)
-        assert writer.Write() == 1
-        entries.append(f'<DataSet timestep="{time}" file="series{time}.vti"/>')
-    with open(SERIES, "w", encoding="utf-8") as file:
-        file.write("\n".join(['<VTKFile type="Collection" version="0.1">', "<Collection>", *entries,
-                              "</Collection>", "</VTKFile>", ""]))
+def column(x, _, z, time):
+    """1, 2 and 3 times as strong."""
+    return 1 + (1 + time) * np.exp(-(x**2 + z**2) / 0.09)
 
 
 def k_at(bench, time):
@@ -45,7 +25,7 @@ def k_at(bench, time):
     return bench.GetProperty("KScaleUsed").GetData()
 
 
-write_series()
+write_series(SERIES, TIMES, 16, column)
 flow = simple.PVDReader(FileName=SERIES, registrationName="flow")
 flow.UpdatePipeline()
 settings = {"Input": flow, "Density": ["POINTS", "rho"], "ImageSize": [24, 24]}
