@@ -27,7 +27,30 @@ GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* 
       (outside == Outside::Auto && !isOuter[t]);
     this->Walls[t] = isWall ? 1 : 0;
   }
+  if (outside == Outside::Auto)
+  {
+    this->Windows.points = this->Faces.surface.points;
+    for (std::size_t t = 0; t < this->Walls.size(); ++t)
+    {
+      if (!this->Walls[t])
+      {
+        this->Windows.corners.push_back(this->Faces.surface.corners[t]);
+      }
+    }
+    this->TreeOfWindows = std::make_unique<TriangleTree>(this->Windows);
+  }
   this->findAmbient(isOuter);
+}
+
+bool GasBoundary::isBeyondAll(const Point& place) const
+{
+  const int nearest = this->TreeOfWindows ? this->TreeOfWindows->nearlyNearest(place) : -1;
+  if (nearest < 0)
+  {
+    return false;
+  }
+  const auto t = static_cast<std::size_t>(nearest);
+  return dot(this->Windows.normal(t), place - this->Windows.corner(t, 0)) < 0;
 }
 
 void GasBoundary::findAmbient(const std::vector<unsigned char>& isOuter)
@@ -115,7 +138,9 @@ GasBoundary::Place GasBoundary::kindAt(const Point& place, bool isInCell) const
   {
     return this->Far;
   }
-  return this->Walls[static_cast<std::size_t>(nearest)] ? Place::Wall : Place::Window;
+  return this->Walls[static_cast<std::size_t>(nearest)] && !this->isBeyondAll(place)
+    ? Place::Wall
+    : Place::Window;
 }
 
 void GasBoundary::sample(const schlieren::Lattice& lattice, const unsigned char* isInCell,

@@ -53,7 +53,8 @@ public:
   bool hasBodiesIn(const schlieren::Box& box) const;
 
   /// What there is at a place, given whether a visible cell holds it. Of a place outside, the nearest face counts
-  /// (or one that is farther away by no more than a twentieth).
+  /// (or one that is farther away by no more than a twentieth); but what is beyond the nearest window is one, though
+  /// the wall of a hole that opens there be nearer.
   Place kindAt(const Point& place, bool isInCell) const;
 
   /// Fills `places` and `distances` (may be null), see MediumSource::sample(), given which points visible cells
@@ -74,10 +75,14 @@ public:
 private:
   void findAmbient(const std::vector<unsigned char>& isOuter);
 
+  bool isBeyondAll(const Point& place) const;
+
   BoundaryFaces Faces;
   TriangleTree Tree;
   std::vector<unsigned char> Walls; // of each triangle
-  Place Far;                        // where there are no faces at all
+  Triangles Windows;                // the other triangles, with Outside::Auto
+  std::unique_ptr<TriangleTree> TreeOfWindows;
+  Place Far; // where there are no faces at all
   std::unique_ptr<BodySurfaces> Bodies;
   double Ambient;
 };

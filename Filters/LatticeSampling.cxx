@@ -237,8 +237,36 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
   {
     return;
   }
+  const schlieren::Lattice& lattice = this->Lattice;
+  const auto isWallAt = [&](const Index& at)
+  {
+    return kindAt({ lattice.first[0] + at.i * lattice.spacing[0],
+             lattice.first[1] + at.j * lattice.spacing[1],
+             lattice.first[2] + at.k * lattice.spacing[2] }) == Place::Wall;
+  };
   if (const bool hasWall = hasAny(InWall); hasWall != hasAny(InWindow))
   {
+    bool areAll = true; // of the same kind as those that are known, by the corners
+    for (int corner = 0; corner < 8 && areAll && hasWall; ++corner)
+    {
+      const Index at{ (corner & 1) != 0 ? lattice.points[0] - 1 : 0,
+        (corner & 2) != 0 ? lattice.points[1] - 1 : 0,
+        (corner & 4) != 0 ? lattice.points[2] - 1 : 0 };
+      areAll = this->States[this->numberOf(at)] != Unknown || isWallAt(at);
+    }
+    if (!areAll)
+    {
+      this->forPoints(
+        [&](const Index& at)
+        {
+          unsigned char& state = this->States[this->numberOf(at)];
+          if (state == Unknown)
+          {
+            state = isWallAt(at) ? InWall : InWindow;
+          }
+        });
+      return;
+    }
     std::replace(this->States.begin(), this->States.end(), static_cast<unsigned char>(Unknown),
       static_cast<unsigned char>(hasWall ? InWall : InWindow));
     return;
@@ -260,11 +288,7 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
       const std::size_t p = this->numberOf(at);
       if (this->States[p] == Unknown)
       {
-        const schlieren::Lattice& lattice = this->Lattice;
-        const bool isWall = kindAt({ lattice.first[0] + at.i * lattice.spacing[0],
-                              lattice.first[1] + at.j * lattice.spacing[1],
-                              lattice.first[2] + at.k * lattice.spacing[2] }) == Place::Wall;
-        this->States[p] = isWall ? InWall : InWindow;
+        this->States[p] = isWallAt(at) ? InWall : InWindow;
         known.push_back(at);
         this->spread(known);
       }

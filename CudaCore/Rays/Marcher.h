@@ -378,9 +378,17 @@ struct March
     }
     if (someConstant && !isAdaptive)
     {
-      // A little beyond, so that the next leaf is found there.
-      const Real out = wayOut(Path::position(ray, light), Path::along(ray, light),
-        task.medium.leafLow, task.medium.leafHigh);
+      // A little beyond, so that the next leaf is found there. A ray that runs along a side of the leaf may be on
+      // it for ever, by rounding: an axis on which it hardly moves does not count.
+      const auto moved = [this](const Real& along)
+      {
+        const Real inAStep = along * cruise;
+        return inAStep * inAStep < Number(1e-8) ? Real{} : along;
+      };
+      const Vec3<Real> along = Path::along(ray, light);
+      const Real out = wayOut(Path::position(ray, light),
+        Vec3<Real>{ moved(along.x), moved(along.y), moved(along.z) }, task.medium.leafLow,
+        task.medium.leafHigh);
       const Real through = greater(out, Real{}) + Number(1e-3) * cruise;
       step = (isConstant > 0) & (cruise > 0) ? through : step;
     }
