@@ -248,6 +248,26 @@ TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
   EXPECT_EQ(image.blockedFraction[middle], 0);
 }
 
+// Where rounding may keep a ray on a side of the domain, or of a leaf.
+TEST_P(RaysInATree, ArriveAlongTheSidesOfLeaves)
+{
+  const auto source = std::make_shared<BallsSource>(
+    std::vector<Ball>{ { { 0, 0.5, -0.9 }, 0.05, -1e-8 }, { { 0, 0.5, 0.1 }, 0.05, -1e-8 } });
+  for (const double side : { -1., 0., 0.125 })
+  {
+    Scene scene = sceneOf({ 0, 1, 0 }, GetParam());
+    scene.view.viewUp = { 0, 0, 1 };
+    scene.view.width = 65;
+    scene.view.height = 5;
+    scene.view.focalPoint = Vector{ 0, 0, side };
+    scene.view.parallelScale = 0.04;
+    scene.pathModel = PathModel::Refracted;
+    const Image image = Bench().render(fieldOf(source), scene);
+    EXPECT_EQ(image.raysLost, 0) << side;
+    EXPECT_LT(image.stepsTaken, 400 * image.raysTraced) << side;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, RaysInATree, bothDevices(), deviceName);
 
 TEST(RaysSideBySideInATree, DoWhatOneDoes)
