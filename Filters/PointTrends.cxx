@@ -48,11 +48,11 @@ CellsOfPoints cellsOfPoints(
 {
   CellsOfPoints result;
   result.starts.assign(static_cast<std::size_t>(points) + 2, 0);
-  std::vector<bool> isUsed(static_cast<std::size_t>(mesh.cells()));
+  std::vector<unsigned char> isUsed(static_cast<std::size_t>(mesh.cells()), 0);
   for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
   {
-    isUsed[static_cast<std::size_t>(cell)] = isCellUsed(cell);
-    if (isUsed[static_cast<std::size_t>(cell)])
+    isUsed[static_cast<std::size_t>(cell)] = isCellUsed(cell) ? 1 : 0;
+    if (isUsed[static_cast<std::size_t>(cell)] != 0)
     {
       mesh.forPoints(
         cell, [&](vtkIdType point) { ++result.starts[static_cast<std::size_t>(point) + 2]; });
@@ -65,7 +65,7 @@ CellsOfPoints cellsOfPoints(
   result.cells.resize(result.starts.back());
   for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
   {
-    if (isUsed[static_cast<std::size_t>(cell)])
+    if (isUsed[static_cast<std::size_t>(cell)] != 0)
     {
       mesh.forPoints(cell,
         [&](vtkIdType point)
