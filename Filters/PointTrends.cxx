@@ -4,7 +4,6 @@
 
 #include "CellShape.h"
 
-#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -48,11 +47,11 @@ CellsOfPoints cellsOfPoints(
 {
   CellsOfPoints result;
   result.starts.assign(static_cast<std::size_t>(points) + 2, 0);
-  std::vector<unsigned char> isUsed(static_cast<std::size_t>(mesh.cells()), 0);
+  std::vector<bool> isUsed(static_cast<std::size_t>(mesh.cells()));
   for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
   {
-    isUsed[static_cast<std::size_t>(cell)] = isCellUsed(cell) ? 1 : 0;
-    if (isUsed[static_cast<std::size_t>(cell)] != 0)
+    isUsed[static_cast<std::size_t>(cell)] = isCellUsed(cell);
+    if (isUsed[static_cast<std::size_t>(cell)])
     {
       mesh.forPoints(
         cell, [&](vtkIdType point) { ++result.starts[static_cast<std::size_t>(point) + 2]; });
@@ -65,7 +64,7 @@ CellsOfPoints cellsOfPoints(
   result.cells.resize(result.starts.back());
   for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
   {
-    if (isUsed[static_cast<std::size_t>(cell)] != 0)
+    if (isUsed[static_cast<std::size_t>(cell)])
     {
       mesh.forPoints(cell,
         [&](vtkIdType point)
@@ -79,56 +78,22 @@ CellsOfPoints cellsOfPoints(
   return result;
 }
 
-/// Which points have been seen, of one thread.
-class Marks
-{
-public:
-  /// Before the first point, and to forget all.
-  void begin(vtkIdType points)
-  {
-    this->Stamps.resize(static_cast<std::size_t>(points), 0);
-    ++this->Now;
-  }
-  /// Whether it had not been seen.
-  bool add(vtkIdType point)
-  {
-    std::uint32_t& stamp = this->Stamps[static_cast<std::size_t>(point)];
-    const bool isNew = stamp != this->Now;
-    stamp = this->Now;
-    return isNew;
-  }
-
-private:
-  std::vector<std::uint32_t> Stamps;
-  std::uint32_t Now = 0; // points are fewer than stamps
-};
-
 /// Adds the points of all cells that have one of the points. They are sorted then.
 void addNeighbours(
-  const MeshArrays& mesh, const CellsOfPoints& known, Marks& marks, std::vector<vtkIdType>& points)
+  const MeshArrays& mesh, const CellsOfPoints& known, std::vector<vtkIdType>& points)
 {
   const std::size_t count = points.size();
-  marks.begin(mesh.points());
-  for (const vtkIdType point : points)
-  {
-    marks.add(point);
-  }
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto point = static_cast<std::size_t>(points[i]);
     for (std::size_t k = known.starts[point]; k < known.starts[point + 1]; ++k)
     {
       mesh.forPoints(static_cast<vtkIdType>(known.cells[k]),
-        [&](vtkIdType neighbour)
-        {
-          if (marks.add(neighbour))
-          {
-            points.push_back(neighbour);
-          }
-        });
+        [&](vtkIdType neighbour) { points.push_back(neighbour); });
     }
   }
   std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
 /// Solves matrix * x = right for a positive definite matrix, of which the lower half is used. False where it is none.
@@ -331,21 +296,19 @@ std::vector<PointTrend> pointTrends(
   const vtkIdType points = mesh.points();
   std::vector<PointTrend> trends(static_cast<std::size_t>(points));
   const CellsOfPoints known = cellsOfPoints(mesh, points, isCellUsed);
-  vtkSMPThreadLocal<Marks> ofThreads;
   vtkSMPTools::For(0, points, 4096,
     [&](vtkIdType begin, vtkIdType end)
     {
-      Marks& marks = ofThreads.Local();
       std::vector<vtkIdType> ids;
       std::vector<Neighbour> neighbours;
       for (vtkIdType point = begin; point < end; ++point)
       {
         const auto at = static_cast<std::size_t>(point);
         ids.assign(1, point);
-        addNeighbours(mesh, known, marks, ids);
+        addNeighbours(mesh, known, ids);
         if (ids.size() <= fewNeighbours)
         {
-          addNeighbours(mesh, known, marks, ids);
+          addNeighbours(mesh, known, ids);
         }
         Vector x;
         mesh.coordinates(point, x.data());
