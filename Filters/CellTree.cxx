@@ -9,7 +9,6 @@
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
-#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -492,15 +491,10 @@ void CellTree::makeGroups()
   }
   this->Boxes.resize(count);
   this->Levels.emplace_back((count + width - 1) / width);
-  vtkSMPThreadLocal<vtkSmartPointer<vtkGenericCell>> curvedCells;
   vtkSMPTools::For(0, static_cast<vtkIdType>(this->Levels[0].size()), 512,
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkSmartPointer<vtkGenericCell>& curved = curvedCells.Local();
-      if (!curved)
-      {
-        curved = vtkSmartPointer<vtkGenericCell>::New();
-      }
+      vtkNew<vtkGenericCell> curved;
       for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
            ++group)
       {
