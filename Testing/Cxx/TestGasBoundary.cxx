@@ -903,9 +903,9 @@ TEST(GasBoundary, PlacesOutsideAreOfTheNearestFace)
   const Samples far(boundary, latticeAround({ 4.2, 0, 0 }, { 1, 1, 1 }, 0.1), isIn);
   const Samples near(boundary, latticeAround({ 0, 0, 0 }, { 1.5, 1.5, 1.5 }, 0.1), isIn);
   const Samples gas(boundary, latticeAround({ 2.5, 0, 0 }, { 0.4, 0.4, 0.4 }, 0.1), isIn);
-  for (const auto [samples, kind] : { std::make_pair(&inside, Place::Wall),
-         std::make_pair(&outside, Place::Window), std::make_pair(&far, Place::Window),
-         std::make_pair(&near, Place::Wall), std::make_pair(&gas, Place::Gas) })
+  for (const auto& [samples, kind] :
+    { std::pair(&inside, Place::Wall), std::pair(&outside, Place::Window),
+      std::pair(&far, Place::Window), std::pair(&near, Place::Wall), std::pair(&gas, Place::Gas) })
   {
     for (std::size_t i = 0; i < samples->places.size(); ++i)
     {
