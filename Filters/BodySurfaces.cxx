@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodySurfaces.h"
 
+#include "BodyVoxels.h"
 #include "BoundaryFaces.h"
 #include "LatticeDistances.h"
 #include "RefractivityOfBodies.h"
@@ -179,21 +180,6 @@ void turnOutward(
       std::swap(surface.corners[t][1], surface.corners[t][2]);
     }
   }
-}
-
-/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both
-/// triangles that share it, to the last bit, so that no line slips through between them.
-bool isPassed(Point a, Point b, double y, double z)
-{
-  if ((a[2] > z) == (b[2] > z))
-  {
-    return false;
-  }
-  if (b[2] < a[2])
-  {
-    std::swap(a, b);
-  }
-  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodyVoxels.h"
 
+#include "Vectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,20 +15,7 @@ namespace refractivity
 namespace
 {
 
-using Point = std::array<double, 3>;
 using Index = std::array<int, 3>;
-
-Point operator-(const Point& a, const Point& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-Point cross(const Point& a, const Point& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The reach of a voxel from its centre along a direction (times the direction's length).
 double reach(const Point& direction)
@@ -112,21 +101,6 @@ struct Corners
   double lowest(std::size_t axis) const { return std::min({ a[axis], b[axis], c[axis] }); }
   double highest(std::size_t axis) const { return std::max({ a[axis], b[axis], c[axis] }); }
 };
-
-/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both
-/// triangles that share it, to the last bit, so that no line slips through between them.
-bool isPassed(Point a, Point b, double y, double z)
-{
-  if ((a[2] > z) == (b[2] > z))
-  {
-    return false;
-  }
-  if (b[2] < a[2])
-  {
-    std::swap(a, b);
-  }
-  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
-}
 
 /// The points inside a closed surface: those before which, along x, there is an odd number of crossings
 /// (Nooruddin & Turk 2003).
@@ -265,6 +239,19 @@ std::pair<Index, Index> boxAround(const Surface& surface, const Index& dimension
 }
 
 } // namespace
+
+bool isPassed(std::array<double, 3> a, std::array<double, 3> b, double y, double z)
+{
+  if ((a[2] > z) == (b[2] > z))
+  {
+    return false;
+  }
+  if (b[2] < a[2])
+  {
+    std::swap(a, b);
+  }
+  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
+}
 
 bool isClosed(const Surface& surface)
 {

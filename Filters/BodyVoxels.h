@@ -19,6 +19,10 @@ struct Surface
   std::vector<Triangle> triangles;
 };
 
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both
+/// triangles that share it, to the last bit, so that no line slips through between them.
+bool isPassed(std::array<double, 3> a, std::array<double, 3> b, double y, double z);
+
 /// Whether every edge belongs to an even number of triangles, so that there is an inside.
 bool isClosed(const Surface& surface);
 

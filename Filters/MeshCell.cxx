@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshCell.h"
 
+#include "Vectors.h"
+
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkHexahedron.h"
@@ -25,15 +27,6 @@ constexpr double toleranceOfCurvedFaces = 1e-3;
 constexpr int mostSteps = 15;
 constexpr double lastStep = 1e-7;
 constexpr double farthest = 1; // from the range
-
-using Vector = std::array<double, 3>;
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The rows of the inverse of a matrix of three columns; not finite where there is none.
 void invert(const Vector columns[3], double inverse[3][3])

@@ -18,21 +18,13 @@ std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet
   return { leaves.begin(), leaves.end() };
 }
 
-/// A lattice of one point.
-schlieren::Lattice latticeAt(const std::array<double, 3>& point)
+/// Whether a cell holds a place.
+bool holds(const CellSampler& cells, const Point& place)
 {
-  return { point, { 1, 1, 1 }, { 1, 1, 1 } };
-}
-
-CellTest testOf(const CellSampler& cells)
-{
-  return [&cells](const Point& place)
-  {
-    double value = 0;
-    unsigned char isFound = 0;
-    cells.sample(latticeAt({ place[0], place[1], place[2] }), &value, &isFound);
-    return isFound != 0;
-  };
+  double value = 0;
+  unsigned char isFound = 0;
+  cells.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isFound);
+  return isFound != 0;
 }
 
 } // namespace
@@ -42,7 +34,8 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   : Leaves(leaves)
   , Cells(pointersTo(leaves), reconstruction)
   , Values(this->Cells)
-  , Boundary(pointersTo(leaves), bodies, outside, testOf(this->Values))
+  , Boundary(pointersTo(leaves), bodies, outside,
+      [this](const Point& place) { return holds(this->Values, place); })
 {
 }
 
@@ -67,12 +60,9 @@ double MeshSource::ambient() const
 
 std::array<double, 3> MeshSource::voxelShape() const { return this->Cells.voxelShape(); }
 
-schlieren::Place MeshSource::placeAt(const std::array<double, 3>& point) const
+schlieren::Place MeshSource::placeAt(const Point& place) const
 {
-  double value = 0;
-  unsigned char isFound = 0;
-  this->Values.sample(latticeAt(point), &value, &isFound);
-  return this->Boundary.kindAt({ point[0], point[1], point[2] }, isFound != 0);
+  return this->Boundary.kindAt(place, holds(this->Values, place));
 }
 
 schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box) const
@@ -83,7 +73,7 @@ schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box
   if (!content.hasGas)
   {
     // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.
-    std::array<double, 3> place{};
+    Point place{};
     const auto look = [&]
     {
       const schlieren::Place found = this->placeAt(place);

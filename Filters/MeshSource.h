@@ -38,7 +38,7 @@ public:
     float* distances) const override;
 
 private:
-  schlieren::Place placeAt(const std::array<double, 3>& point) const;
+  schlieren::Place placeAt(const Point& place) const;
 
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;

@@ -60,6 +60,11 @@ std::string noGas(const Source& source)
     "to cross. Choose another array or check the data.";
 }
 
+void addText(std::string& text, const std::string& more)
+{
+  text += (text.empty() || more.empty() ? "" : " ") + more;
+}
+
 void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
 {
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
@@ -351,6 +356,17 @@ const GridPlan& vtkRefractiveIndex::PlanGrid(const Source& source, vtkDataObject
 }
 
 //------------------------------------------------------------------------------
+std::string vtkRefractiveIndex::NewNoteOnGases(const Source& source)
+{
+  if (source.noteOnGases == this->ToldOfGases)
+  {
+    return "";
+  }
+  this->ToldOfGases = source.noteOnGases;
+  return source.noteOnGases;
+}
+
+//------------------------------------------------------------------------------
 bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
@@ -386,17 +402,11 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, tally);
-  const auto warn = [&warning](const std::string& text)
-  { warning += (warning.empty() || text.empty() ? "" : " ") + text; };
   if (bodies && !made->meetsBodies())
   {
-    warn(bodiesAreOutside);
+    addText(warning, bodiesAreOutside);
   }
-  if (source.noteOnGases != this->ToldOfGases)
-  {
-    this->ToldOfGases = source.noteOnGases;
-    warn(source.noteOnGases);
-  }
+  addText(warning, this->NewNoteOnGases(source));
   return made;
 }
 
@@ -475,11 +485,9 @@ std::string vtkRefractiveIndex::Convert(
     throw std::runtime_error(noGas(source));
   }
   std::string warning = warningFrom(source.model, tally);
-  const auto warn = [&warning](const std::string& text)
-  { warning += (warning.empty() || text.empty() ? "" : " ") + text; };
   if (bodies)
   {
-    warn(placeBodies(bodies, output));
+    addText(warning, placeBodies(bodies, output));
     if (!hasGas())
     {
       throw std::runtime_error("The Bodies cover all of the gas, so there is none for light to "
@@ -497,14 +505,10 @@ std::string vtkRefractiveIndex::Convert(
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
-  if (source.noteOnGases != this->ToldOfGases)
-  {
-    this->ToldOfGases = source.noteOnGases;
-    warn(source.noteOnGases);
-  }
+  addText(warning, this->NewNoteOnGases(source));
   if (const int flat = flatAxisOf(source); flat >= 0)
   {
-    warn(warningOfExtrusion(flat));
+    addText(warning, warningOfExtrusion(flat));
   }
   return warning;
 }

@@ -494,6 +494,7 @@ private:
 
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;
+  std::string NewNoteOnGases(const refractivity::Source& source);
 
   std::shared_ptr<InputOnRank0> Ranks;
 

@@ -657,17 +657,18 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
   }
-  inside.IsOnGrid = this->ColorByField && this->Medium->CanMakeSource(input);
+  const bool isMesh = this->Medium->CanMakeSource(input);
+  inside.IsOnGrid = isMesh && this->ColorByField;
   inside.Source.reset();
   inside.Grid.clear();
   inside.Refractivity->Initialize();
   std::string warning;
-  if (!this->ColorByField && this->Medium->CanMakeSource(input))
+  if (isMesh && !this->ColorByField)
   {
     inside.Source = this->Medium->MakeSource(input, bodies, warning);
     inside.SourceTime.Modified();
   }
-  if (!inside.Source)
+  else
   {
     warning = this->Medium->Convert(input, inside.Refractivity, bodies);
   }

@@ -67,6 +67,16 @@ SCHLIEREN_HD Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b)
   return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 
+/// Into the box [low, high]; NaN becomes `low`.
+template <class Real, class Number>
+SCHLIEREN_HD Vec3<Real> clampTo(
+  const Vec3<Real>& x, const Vec3<Number>& low, const Vec3<Number>& high)
+{
+  return { lesser(greater(x.x, Real{} + low.x), Real{} + high.x),
+    lesser(greater(x.y, Real{} + low.y), Real{} + high.y),
+    lesser(greater(x.z, Real{} + low.z), Real{} + high.z) };
+}
+
 template <class Real>
 SCHLIEREN_HD Real length(const Vec3<Real>& a)
 {

@@ -99,23 +99,8 @@ private:
 template <class Scheme, class Real>
 Sample<Real> interpolateBrick(const Real* samples, int apron, const Vec3<Real>& place)
 {
-  constexpr int edge = 16;
-  const int stride = edge + 2 * apron;
-  const MediumView<Real> view{ samples, stride, std::int64_t{ stride } * stride, {}, {}, {} };
-  const Real x[3] = { place.x, place.y, place.z };
-  const std::int64_t strides[3] = { 1, view.rowStride, view.planeStride };
-  const Real* corner = samples;
-  Real w[3][Scheme::points], d[3][Scheme::points];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    constexpr Real half = static_cast<Real>(0.5);
-    const Real within = lesser(greater(x[axis], -half), edge - half);
-    // Counted from -1, so that truncation is the same as floor.
-    const int i = lesser(static_cast<int>(within + (Scheme::nearest ? half : 0) + 1) - 1, edge - 1);
-    Scheme::weights(within - static_cast<Real>(i), w[axis], d[axis]);
-    corner += (i + apron + Scheme::first) * strides[axis];
-  }
-  return tensorProduct<Real, Scheme::points>(view, corner, w, d);
+  const MediumView<Real> view = viewOfBricks(samples, BrickMaker<Real>::edge, apron);
+  return interpolate<Scheme>(view, clampTo(place, view.leafLow, view.leafHigh));
 }
 
 } // namespace schlieren

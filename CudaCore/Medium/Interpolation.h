@@ -6,6 +6,7 @@
 #include "Medium/Leaves.h"
 #include "Schlieren.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace schlieren
@@ -34,10 +35,25 @@ struct MediumView
   // Of a tree.
   const Leaf<Real>* leaves = nullptr; ///< null: an image
   LeafFinder finder{};
-  std::int64_t brickStride = 0; ///< samples from one brick to the next
+  std::int64_t brickStride = 0; ///< samples from one brick to the next; 0: an image
   /// Laid out like the samples, but with bricks of their own: see MediumTree::gasDistances.
   const std::int16_t* gasDistances = nullptr;
 };
+
+/// Of bricks of edge^3 samples with `apron` ghost points around each; `samples`: the first of them.
+template <class Real>
+MediumView<Real> viewOfBricks(const Real* samples, int edge, int apron)
+{
+  const std::int64_t row = edge + 2 * apron;
+  const std::int64_t plane = row * row;
+  // Views begin at the first of the ghost points that all schemes have.
+  const std::int64_t ghost = (apron - 1) * (plane + row + 1);
+  constexpr Real low = Real(-0.5);
+  const Real high = std::nextafter(Real(edge - 0.5), low); // its nearest sample is the last one
+  MediumView<Real> view{ samples + ghost, row, plane, { low, low, low }, { high, high, high }, {} };
+  view.brickStride = row * plane;
+  return view;
+}
 
 /// A value and its derivatives by the index coordinates.
 template <class Real>
@@ -217,7 +233,7 @@ SCHLIEREN_HD auto interpolate(
     {
       --i; // bricks begin half a voxel before their first sample
     }
-    if (Scheme::points == 4 && m.leaves == nullptr && i >= static_cast<int>(high[axis]))
+    if (Scheme::points == 4 && m.brickStride == 0 && i >= static_cast<int>(high[axis]))
     {
       i = static_cast<int>(high[axis]) - 1; // the last point ends the last cell
     }

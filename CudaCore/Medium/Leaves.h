@@ -33,6 +33,16 @@ struct Leaf
   std::int32_t brick; ///< of the samples
   std::int32_t map;   ///< brick of gasDistance, where its kind is Mixed
   Kind kind;
+
+  /// From index to local coordinates along an axis, and back.
+  SCHLIEREN_HD double toLocal(int axis, double index) const
+  {
+    return (index - first[axis]) * perIndex;
+  }
+  SCHLIEREN_HD double toIndex(int axis, double local) const
+  {
+    return first[axis] + local / perIndex;
+  }
 };
 
 /// Finds leaves. Roots and children are numbers of inner nodes (0, 1, 2 ...) or, as ~number, of leaves.

@@ -469,22 +469,15 @@ namespace
 template <class Real>
 MediumView<Real> viewOf(const MediumTree<Real>& tree)
 {
-  constexpr int edge = MediumTree<Real>::brickEdge;
-  const std::int64_t row = edge + 2 * tree.apron();
-  const std::int64_t plane = row * row;
-  // Views begin at the first of the ghost points that all schemes have.
-  const std::int64_t ghost = (tree.apron() - 1) * (plane + row + 1);
-  constexpr Real low = Real(-0.5);
-  const Real high = std::nextafter(Real(edge - 0.5), low); // its nearest sample is the last one
+  const Real* samples = tree.samples().data();
+  MediumView<Real> view = viewOfBricks(samples, MediumTree<Real>::brickEdge, tree.apron());
   const std::array<std::int64_t, 3>& points = tree.grid().dimensions;
-  MediumView<Real> view{ tree.samples().data() + ghost, row, plane, { low, low, low },
-    { high, high, high },
-    { static_cast<double>(points[0] - 1), static_cast<double>(points[1] - 1),
-      static_cast<double>(points[2] - 1) } };
+  view.last = { static_cast<double>(points[0] - 1), static_cast<double>(points[1] - 1),
+    static_cast<double>(points[2] - 1) };
   view.leaves = tree.leaves().data();
   view.finder = tree.finder();
-  view.brickStride = tree.samplesPerBrick();
-  view.gasDistances = tree.gasDistances().empty() ? nullptr : tree.gasDistances().data() + ghost;
+  view.gasDistances =
+    tree.gasDistances().empty() ? nullptr : tree.gasDistances().data() + (view.samples - samples);
   return view;
 }
 

@@ -70,7 +70,7 @@ struct Stencil
   /// Bricks begin half a voxel before their first sample: in a cell whose lower end is a ghost point.
   SCHLIEREN_HD static bool countsFromGhosts(const MediumView<Real>& m)
   {
-    return !Scheme::nearest && m.leaves != nullptr;
+    return !Scheme::nearest && m.brickStride != 0;
   }
 
   SCHLIEREN_HD Stencil(const MediumView<Real>& m, const Vec3<Pack>& position)

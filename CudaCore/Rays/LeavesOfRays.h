@@ -41,7 +41,7 @@ struct LeavesOfRays
     travelled[i] = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      start[axis][i] = (index[axis][i] - now.first[axis]) * now.perIndex;
+      start[axis][i] = now.toLocal(axis, index[axis][i]);
     }
   }
 
@@ -55,14 +55,14 @@ struct LeavesOfRays
     double index[3];
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double at = now.first[axis] + static_cast<double>(x[axis][i]) / now.perIndex;
+      const double at = now.toIndex(axis, static_cast<double>(x[axis][i]));
       index[axis] = at > 0 ? (at < last[axis] ? at : last[axis]) : 0;
     }
     const Leaf<Number>& found = medium.leaves[medium.finder.at({ index[0], index[1], index[2] })];
     finer = static_cast<Number>(found.perIndex / now.perIndex);
     for (int axis = 0; axis < 3; ++axis)
     {
-      x[axis][i] = static_cast<Number>((index[axis] - found.first[axis]) * found.perIndex);
+      x[axis][i] = static_cast<Number>(found.toLocal(axis, index[axis]));
     }
     return found;
   }
@@ -80,9 +80,8 @@ struct LeavesOfRays
       double index[3];
       for (int axis = 0; axis < 3; ++axis)
       {
-        index[axis] = now.first[axis] +
-          (static_cast<double>(x[axis][i]) + 0.5 * ofStep * static_cast<double>(along[axis][i])) /
-            now.perIndex;
+        index[axis] = now.toIndex(axis,
+          static_cast<double>(x[axis][i]) + 0.5 * ofStep * static_cast<double>(along[axis][i]));
       }
       return medium.finder.at({ index[0], index[1], index[2] });
     };
@@ -102,7 +101,7 @@ struct LeavesOfRays
     {
       const double local = start[axis][i] +
         static_cast<double>(length) * static_cast<double>(perLength[axis][i]) * now.perIndex;
-      start[axis][i] = (now.first[axis] + local / now.perIndex - then.first[axis]) * then.perIndex;
+      start[axis][i] = then.toLocal(axis, now.toIndex(axis, local));
     }
     travelled[i] += static_cast<double>(length);
     const double ratio = then.perIndex / now.perIndex;
@@ -179,8 +178,8 @@ SCHLIEREN_APART void readLeaves(const MediumView<NumberOf<Real>>& medium,
     isConstant[i] = leaf.kind == Leaf<Number>::Constant ? Number(1) : Number(0);
     for (int axis = 0; axis < 3; ++axis)
     {
-      low[axis][i] = static_cast<Number>(-leaf.first[axis] * leaf.perIndex);
-      high[axis][i] = static_cast<Number>((last[axis] - leaf.first[axis]) * leaf.perIndex);
+      low[axis][i] = static_cast<Number>(leaf.toLocal(axis, 0));
+      high[axis][i] = static_cast<Number>(leaf.toLocal(axis, last[axis]));
     }
     if (usual[i] > 0)
     {
@@ -334,11 +333,7 @@ SCHLIEREN_HD bool isWallAt(const MediumView<Number>& medium, const Vec3<double>&
     return medium.solid != nullptr && isSolid(medium, static_cast<Vec3<Number>>(index));
   }
   const Leaf<Number>& leaf = medium.leaves[medium.finder.at(index)];
-  const auto local = [&](double x, int axis)
-  {
-    const double at = (x - leaf.first[axis]) * leaf.perIndex;
-    return static_cast<Number>(at);
-  };
+  const auto local = [&](double x, int axis) { return static_cast<Number>(leaf.toLocal(axis, x)); };
   const Vec3<Number> at = { local(index.x, 0), local(index.y, 1), local(index.z, 2) };
   return placeIn(medium, leaf, at) == Place::Wall;
 }

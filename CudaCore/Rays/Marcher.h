@@ -78,16 +78,6 @@ SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Number>& last)
   return { clampTo(x.x, last.x), clampTo(x.y, last.y), clampTo(x.z, last.z) };
 }
 
-/// Into the box [low, high]; NaN becomes `low`.
-template <class Real, class Number>
-SCHLIEREN_HD Vec3<Real> clampTo(
-  const Vec3<Real>& x, const Vec3<Number>& low, const Vec3<Number>& high)
-{
-  return { lesser(greater(x.x, Real{} + low.x), Real{} + high.x),
-    lesser(greater(x.y, Real{} + low.y), Real{} + high.y),
-    lesser(greater(x.z, Real{} + low.z), Real{} + high.z) };
-}
-
 /// As an integer from 0 to `most`, which many numbers of steps cannot be: they are estimates, of any size.
 template <class Number>
 SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)

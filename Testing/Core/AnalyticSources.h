@@ -240,6 +240,39 @@ public:
   }
 };
 
+/// Gas with a constant gradient along y where x < border, and nothing elsewhere.
+class HalfSource : public AnalyticSource
+{
+public:
+  HalfSource(double n, double slope, double border, double cell)
+    : n_(n)
+    , slope_(slope)
+    , border_(border)
+    , cell_(cell)
+  {
+  }
+
+  double refractivity(double, double b, double) const override { return n_ + slope_ * b; }
+  Range rangeOver(const Box& box) const override
+  {
+    return { n_ + slope_ * box.low[1], n_ + slope_ * box.high[1] };
+  }
+  double cellSizeOver(const Box&) const override { return cell_; }
+  Place placeAt(double a, double, double) const override
+  {
+    return a < border_ ? Place::Gas : Place::Window;
+  }
+  double distanceAt(double a, double, double) const override { return border_ - a; }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    content.hasGas = box.low[0] < border_;
+    content.hasWindow = box.high[0] > border_;
+  }
+
+private:
+  double n_, slope_, border_, cell_;
+};
+
 /// Of a straight ray through a place, along u and v, by a midpoint rule from -`far` to `far`, in steps of `step`
 /// within `near`.
 template <class Gradient>

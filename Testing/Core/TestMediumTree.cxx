@@ -73,38 +73,6 @@ void expectIdentical(const MediumTree<Real>& a, const MediumTree<Real>& b)
   }
 }
 
-/// Gas of a given N for negative x, nothing elsewhere.
-class HalfSource : public AnalyticSource
-{
-public:
-  explicit HalfSource(double n)
-    : n_(n)
-  {
-  }
-
-  double refractivity(double, double b, double) const override { return n_ * (1 + 0.1 * b); }
-  Range rangeOver(const Box& box) const override
-  {
-    return { n_ * (1 + 0.1 * box.low[1]), n_ * (1 + 0.1 * box.high[1]) };
-  }
-  double cellSizeOver(const Box&) const override { return 0.1; }
-  Place placeAt(double a, double, double) const override
-  {
-    return a < border ? Place::Gas : Place::Window;
-  }
-  double distanceAt(double a, double, double) const override { return border - a; }
-  void findPlaces(const Box& box, Content& content) const override
-  {
-    content.hasGas = box.low[0] < border;
-    content.hasWindow = box.high[0] > border;
-  }
-
-  static constexpr double border = 0.013;
-
-private:
-  double n_;
-};
-
 /// N everywhere the same.
 class ConstantSource : public AnalyticSource
 {
@@ -596,21 +564,22 @@ TEST(MediumTree, ContinuedValuesDoNotDependOnTheBrick)
 TEST(MediumTree, WindowsLetNothingBeSeen)
 {
   constexpr double finest = 0.01;
-  const auto source = std::make_shared<HalfSource>(1e-4);
+  constexpr double border = 0.013;
+  const auto source = std::make_shared<HalfSource>(1e-4, 1e-5, border, 0.1);
   Tree tree(source, 0, settingsOf(1e-2));
   tree.refine(everything(x, y, finest));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-0.9, 0.9);
   for (int n = 0; n < 500; ++n)
   {
-    const Vec3<double> at{ HalfSource::border, anywhere(random), anywhere(random) };
+    const Vec3<double> at{ border, anywhere(random), anywhere(random) };
     ASSERT_EQ(tree.leaves()[static_cast<std::size_t>(leafAt(tree, at))].kind, Leaf<float>::Mixed);
     EXPECT_NEAR(gasDistanceAt(tree, at), 0, 0.01);
     const Vec3<double> beyond{ 0.5, at.y, at.z };
     const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, beyond))];
     EXPECT_EQ(leaf.kind, Leaf<float>::Constant);
     EXPECT_EQ(leaf.offset, 0);
-    const Vec3<double> before{ HalfSource::border - 1e-4, at.y, at.z };
+    const Vec3<double> before{ border - 1e-4, at.y, at.z };
     const Sample<double> sample = sampleAt(tree, Interpolation::Quadratic, before);
     EXPECT_NEAR(sample.value, 1e-4 * (1 + 0.1 * at.y), 1e-9);
     EXPECT_NEAR(sample.gradient.y, 1e-5, 1e-7);

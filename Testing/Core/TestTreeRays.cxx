@@ -81,30 +81,6 @@ private:
   double radius_;
 };
 
-/// Gas with a constant gradient along y where x < border, and nothing elsewhere.
-class LayerSource : public AnalyticSource
-{
-public:
-  static constexpr double border = 0.213, slope = 1e-4, middle = 5e-4;
-
-  double refractivity(double, double y, double) const override { return middle + slope * y; }
-  Range rangeOver(const Box& box) const override
-  {
-    return { middle + slope * box.low[1], middle + slope * box.high[1] };
-  }
-  double cellSizeOver(const Box&) const override { return 0.02; }
-  Place placeAt(double x, double, double) const override
-  {
-    return x < border ? Place::Gas : Place::Window;
-  }
-  double distanceAt(double x, double, double) const override { return border - x; }
-  void findPlaces(const Box& box, Content& content) const override
-  {
-    content.hasGas = box.low[0] < border;
-    content.hasWindow = box.high[0] > border;
-  }
-};
-
 } // namespace
 
 class RaysInATree : public OnDevice
@@ -209,7 +185,8 @@ TEST_P(RaysInATree, EndAtWalls)
 
 TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
 {
-  const auto source = std::make_shared<LayerSource>();
+  constexpr double border = 0.213, slope = 1e-4, n0 = 5e-4;
+  const auto source = std::make_shared<HalfSource>(n0, slope, border, 0.02);
   Field field = fieldOf(source);
   field.ambient = 0;
   Scene scene = sceneOf({ 0, 0, -1 }, GetParam());
@@ -224,15 +201,14 @@ TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
       {
         const PixelCentre at = centreOf(image, column, row);
         const std::size_t pixel = pixelOf(image, column, row);
-        if (std::abs(at.u - LayerSource::border) < 2 * image.frame.pixelSize)
+        if (std::abs(at.u - border) < 2 * image.frame.pixelSize)
         {
           continue;
         }
-        const bool isGas = at.u < LayerSource::border;
-        const double n = LayerSource::middle + LayerSource::slope * at.v;
+        const bool isGas = at.u < border;
+        const double n = n0 + slope * at.v;
         EXPECT_NEAR(image.opticalPathDifference[pixel], isGas ? 2 * n : 0, 2e-7) << at.u;
-        EXPECT_NEAR(
-          image.deflection[2 * pixel + 1], isGas ? 2 * LayerSource::slope : 0, isGas ? 1e-6 : 0)
+        EXPECT_NEAR(image.deflection[2 * pixel + 1], isGas ? 2 * slope : 0, isGas ? 1e-6 : 0)
           << at.u;
       }
     }
@@ -242,9 +218,8 @@ TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
   scene.mediumTolerance = 1e-3;
   const Image image = Bench().render(field, scene);
   const std::size_t middle = pixelOf(image, image.width / 2, image.height / 2);
-  const double way = 1 + LayerSource::border;
-  EXPECT_NEAR(image.deflection[2 * middle + 1], way * LayerSource::slope,
-    LayerSource::slope * image.medium.smallestVoxel);
+  const double way = 1 + border;
+  EXPECT_NEAR(image.deflection[2 * middle + 1], way * slope, slope * image.medium.smallestVoxel);
   EXPECT_EQ(image.blockedFraction[middle], 0);
 }
 

@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bodies that are given as surfaces.
-#include "Fixtures.h"
+#include "Surfaces.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
-#include "vtkCubeSource.h"
 #include "vtkCylinderSource.h"
 #include "vtkLineSource.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPlaneSource.h"
 #include "vtkPolyData.h"
 #include "vtkReverseSense.h"
 #include "vtkSphereSource.h"
@@ -39,28 +37,6 @@ vtkSmartPointer<vtkPolyData> sphere(double radius, const Vec& centre = { 0, 0, 0
   source->SetCenter(centre.data());
   source->SetThetaResolution(120);
   source->SetPhiResolution(80);
-  source->Update();
-  return source->GetOutput();
-}
-
-vtkSmartPointer<vtkPolyData> box(const Vec& lengths, const Vec& centre = { 0, 0, 0 })
-{
-  vtkNew<vtkCubeSource> source;
-  source->SetXLength(lengths[0]);
-  source->SetYLength(lengths[1]);
-  source->SetZLength(lengths[2]);
-  source->SetCenter(centre[0], centre[1], centre[2]);
-  source->Update();
-  return source->GetOutput();
-}
-
-/// A parallelogram with corners at o, p and q.
-vtkSmartPointer<vtkPolyData> plate(const Vec& o, const Vec& p, const Vec& q)
-{
-  vtkNew<vtkPlaneSource> source;
-  source->SetOrigin(o[0], o[1], o[2]);
-  source->SetPoint1(p[0], p[1], p[2]);
-  source->SetPoint2(q[0], q[1], q[2]);
   source->Update();
   return source->GetOutput();
 }

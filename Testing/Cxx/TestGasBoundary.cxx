@@ -3,18 +3,16 @@
 //
 // Where gas ends: which faces bound meshes, which of them are walls, and how far from them the points of lattices
 // are.
-#include "Fixtures.h"
+#include "Surfaces.h"
 
 #include "GasBoundary.h"
 
 #include "vtkCellArray.h"
-#include "vtkCubeSource.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiBlockPLOT3DReader.h"
 #include "vtkOpenFOAMReader.h"
-#include "vtkPlaneSource.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkReverseSense.h"
@@ -24,7 +22,6 @@
 #include "vtkThreshold.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
-#include "vtkTriangleFilter.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLStructuredGridReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
@@ -705,29 +702,6 @@ TEST(GasBoundary, SphereIsWhereItIs)
 namespace
 {
 
-vtkSmartPointer<vtkPolyData> boxSurface(const Vec& lengths, const Vec& middle = { 0, 0, 0 })
-{
-  vtkNew<vtkCubeSource> source;
-  source->SetXLength(lengths[0]);
-  source->SetYLength(lengths[1]);
-  source->SetZLength(lengths[2]);
-  source->SetCenter(middle[0], middle[1], middle[2]);
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(source->GetOutputPort());
-  triangles->Update();
-  return triangles->GetOutput();
-}
-
-vtkSmartPointer<vtkPolyData> plate(const Vec& o, const Vec& p, const Vec& q)
-{
-  vtkNew<vtkPlaneSource> source;
-  source->SetOrigin(o[0], o[1], o[2]);
-  source->SetPoint1(p[0], p[1], p[2]);
-  source->SetPoint2(q[0], q[1], q[2]);
-  source->Update();
-  return source->GetOutput();
-}
-
 Data gasAround()
 {
   auto image = cube(5, 10);
@@ -752,7 +726,7 @@ TEST(GasBoundary, NothingLeaksThroughThinPlates)
     {
       // A box of gas with a plate left out, or a sheet in the gas.
       const double h = 0.1;
-      auto body = thickness > 0 ? boxSurface({ 1.6, 1.6, thickness * h })
+      auto body = thickness > 0 ? box({ 1.6, 1.6, thickness * h })
                                 : plate({ -0.8, -0.8, 0 }, { 0.8, -0.8, 0 }, { -0.8, 0.8, 0 });
       const Vec axis = unit({ any(random), any(random), any(random) });
       const Vec shift{ 0.1 * any(random), 0.1 * any(random), 0.1 * any(random) };
@@ -821,7 +795,7 @@ TEST(GasBoundary, ABoxKeepsItsFacesAndEdges)
     return std::max({ std::abs(x[0]), std::abs(x[1]), std::abs(x[2]) }) > 0.5;
   };
   const Data gas = gasAround();
-  const GasBoundary boundary({ gas }, boxSurface({ 1, 1, 1 }), Outside::Auto, {});
+  const GasBoundary boundary({ gas }, box({ 1, 1, 1 }), Outside::Auto, {});
   const Lattice lattice = latticeAround({ 0, 0, 0 }, { 1, 1, 1 }, h);
   const Samples samples(boundary, lattice, always);
   for (std::size_t i = 0; i < samples.places.size(); ++i)
@@ -863,8 +837,8 @@ TEST(GasBoundary, ClosedBodiesAreSolidHoweverTheyAreTurned)
   reverse->Update();
   vtkNew<vtkMultiBlockDataSet> nested;
   nested->SetBlock(0, source->GetOutput());
-  nested->SetBlock(1, boxSurface({ 0.5, 0.5, 0.5 }));
-  nested->SetBlock(2, boxSurface({ 1, 0.2, 0.2 }, { 1, 0, 0 }));
+  nested->SetBlock(1, box({ 0.5, 0.5, 0.5 }));
+  nested->SetBlock(2, box({ 1, 0.2, 0.2 }, { 1, 0, 0 }));
   const Lattice lattice = latticeAround({ 0, 0, 0 }, { 1.3, 1.3, 1.3 }, 0.1);
   const GasBoundary one({ gas }, source->GetOutput(), Outside::Auto, {});
   const GasBoundary turned({ gas }, reverse->GetOutput(), Outside::Auto, {});
@@ -1066,7 +1040,7 @@ TEST(GasBoundary, ResultsDependNeitherOnThreadsNorOnBricks)
 {
   vtkNew<vtkMultiBlockDataSet> bodies;
   bodies->SetBlock(0, plate({ -0.8, -0.8, 0.3 }, { 0.8, -0.7, 0.1 }, { -0.8, 0.8, 0 }));
-  bodies->SetBlock(1, boxSurface({ 0.4, 0.4, 0.9 }, { 0.5, 0.2, -0.1 }));
+  bodies->SetBlock(1, box({ 0.4, 0.4, 0.9 }, { 0.5, 0.2, -0.1 }));
   const GasBoundary boundary({ gasAround() }, bodies, Outside::Auto, {});
   Lattice whole{ { -1, -1, -1 }, { 0.0625, 0.0625, 0.0625 }, { 33, 33, 33 } };
   const Samples all(boundary, whole, always);
