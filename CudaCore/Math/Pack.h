@@ -47,12 +47,12 @@ SCHLIEREN_HD void toArray(const Real& pack, NumberOf<Real> (&array)[lanesOf<Real
 }
 
 template <class Real>
-SCHLIEREN_HD Real lesser(const Real& a, const Real& b)
+SCHLIEREN_HD Real minimum(const Real& a, const Real& b)
 {
   return a < b ? a : b;
 }
 template <class Real>
-SCHLIEREN_HD Real greater(const Real& a, const Real& b)
+SCHLIEREN_HD Real maximum(const Real& a, const Real& b)
 {
   return a > b ? a : b;
 }

@@ -88,11 +88,11 @@ SCHLIEREN_HD auto any(const Mask& mask) -> decltype(mask[0] != 0)
 
 // Of these the compiler does not see that they are single instructions.
 #if defined(__AVX512F__)
-SCHLIEREN_HD SimdPack<float, 16> lesser(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)
+SCHLIEREN_HD SimdPack<float, 16> minimum(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)
 {
   return (SimdPack<float, 16>)_mm512_min_ps((__m512)a, (__m512)b);
 }
-SCHLIEREN_HD SimdPack<float, 16> greater(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)
+SCHLIEREN_HD SimdPack<float, 16> maximum(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)
 {
   return (SimdPack<float, 16>)_mm512_max_ps((__m512)a, (__m512)b);
 }

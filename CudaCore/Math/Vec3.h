@@ -72,9 +72,9 @@ template <class Real, class Number>
 SCHLIEREN_HD Vec3<Real> clampTo(
   const Vec3<Real>& x, const Vec3<Number>& low, const Vec3<Number>& high)
 {
-  return { lesser(greater(x.x, Real{} + low.x), Real{} + high.x),
-    lesser(greater(x.y, Real{} + low.y), Real{} + high.y),
-    lesser(greater(x.z, Real{} + low.z), Real{} + high.z) };
+  return { minimum(maximum(x.x, Real{} + low.x), Real{} + high.x),
+    minimum(maximum(x.y, Real{} + low.y), Real{} + high.y),
+    minimum(maximum(x.z, Real{} + low.z), Real{} + high.z) };
 }
 
 template <class Real>

@@ -69,7 +69,7 @@ struct RayBatch
 template <class Real, class Number>
 SCHLIEREN_HD Real clampTo(const Real& x, const Number& last)
 {
-  return lesser(greater(x, Real{}), Real{} + last);
+  return minimum(maximum(x, Real{}), Real{} + last);
 }
 
 template <class Real, class Number>
@@ -87,17 +87,17 @@ SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
   {
     return 0;
   }
-  return steps < beyond ? lesser(static_cast<std::int32_t>(steps), most) : most;
+  return steps < beyond ? minimum(static_cast<std::int32_t>(steps), most) : most;
 }
 
 /// How far inside the box [low, high] a place is, along the axis where that is least.
 template <class Real, class Box>
 SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Box>& low, const Vec3<Box>& high)
 {
-  const Real ofX = lesser(x.x - low.x, high.x - x.x);
-  const Real ofY = lesser(x.y - low.y, high.y - x.y);
-  const Real ofZ = lesser(x.z - low.z, high.z - x.z);
-  return lesser(ofX, lesser(ofY, ofZ));
+  const Real ofX = minimum(x.x - low.x, high.x - x.x);
+  const Real ofY = minimum(x.y - low.y, high.y - x.y);
+  const Real ofZ = minimum(x.z - low.z, high.z - x.z);
+  return minimum(ofX, minimum(ofY, ofZ));
 }
 
 /// The way along a line from x to where it leaves the box [low, high] on one axis; negative if it has.
@@ -113,8 +113,8 @@ template <class Real, class Box>
 SCHLIEREN_HD Real wayOut(
   const Vec3<Real>& x, const Vec3<Real>& along, const Vec3<Box>& low, const Vec3<Box>& high)
 {
-  return lesser(wayOut(x.x, along.x, low.x, high.x),
-    lesser(wayOut(x.y, along.y, low.y, high.y), wayOut(x.z, along.z, low.z, high.z)));
+  return minimum(wayOut(x.x, along.x, low.x, high.x),
+    minimum(wayOut(x.y, along.y, low.y, high.y), wayOut(x.z, along.z, low.z, high.z)));
 }
 
 /// A function of its own where a step takes several samples: in line, their code would be too much.
@@ -303,7 +303,7 @@ struct March
     const Real far = wayOut(x, along, lows, lows + Vec3<Real>{ edges, edges, edges });
     // Not quite there: on the side itself a method that looks there would see the next cube.
     const Real within = Integrator::samplesBeyond ? far - Number(1e-3) * cruise : far;
-    step = isIn ? greater(step, within) : step;
+    step = isIn ? maximum(step, within) : step;
     return true;
   }
 
@@ -379,7 +379,7 @@ struct March
       const Real out = wayOut(Path::position(ray, light),
         Vec3<Real>{ moved(along.x), moved(along.y), moved(along.z) }, task.medium.leafLow,
         task.medium.leafHigh);
-      const Real through = greater(out, Real{}) + Number(1e-3) * cruise;
+      const Real through = maximum(out, Real{}) + Number(1e-3) * cruise;
       step = (isConstant > 0) & (cruise > 0) ? through : step;
     }
     return step;
@@ -478,7 +478,7 @@ struct March
     // Scaled first: in a faint medium the square of what is allowed is no float.
     const auto squared = [](const Vec3<Real>& a) { return dot(a, a); };
     const Real perStep = step > 0 ? 1 / step : Real{};
-    error = greater(squared(perStep * ((1 / task.allowedBend) * trial.qError)),
+    error = maximum(squared(perStep * ((1 / task.allowedBend) * trial.qError)),
       squared(perStep * ((1 / task.allowedOffset) * trial.offsetError)));
     return trial.ray;
   }
@@ -504,8 +504,8 @@ struct March
       }
       const Real rest =
         wayOut(Path::position(there, light), Path::along(there, light), domainLow, domainHigh);
-      const Real longest = greater(2 * cruise, 2 * step);
-      step = leaving ? lesser(greater(step + rest, Real{}), longest) : step;
+      const Real longest = maximum(2 * cruise, 2 * step);
+      step = leaving ? minimum(maximum(step + rest, Real{}), longest) : step;
     }
     return step;
   }
@@ -519,7 +519,7 @@ struct March
     // The error of a step of the second order, which is what is compared, goes by its cube.
     const Real factor = Number(0.9) / squareRoot(squareRoot(error));
     const Real kept = factor > Number(0.2) ? factor : Real{} + Number(0.2);
-    nextStep = greater(shortest, step * (kept < 4 ? kept : Real{} + 4));
+    nextStep = maximum(shortest, step * (kept < 4 ? kept : Real{} + 4));
     return good;
   }
 
@@ -574,7 +574,7 @@ struct March
   SCHLIEREN_HD Real stepsPerIndex(const Real& along, const Number& indexScale) const
   {
     constexpr Number slowest = Number(1e-9);
-    return 1 / greater(task.step * (along + task.largestQ * indexScale), Real{} + slowest);
+    return 1 / maximum(task.step * (along + task.largestQ * indexScale), Real{} + slowest);
   }
   SCHLIEREN_HD Vec3<Real> stepsPerIndex(const Vec3<Real>& along) const
   {
@@ -588,8 +588,8 @@ struct March
     const Vec3<Real> x = Path::position(ray, light);
     const Vec3<Real> toLast = scaled(task.medium.leafHigh - x, stepsToLast);
     const Vec3<Real> toFirst = scaled(x - task.medium.leafLow, stepsToFirst);
-    const Real least = lesser(lesser(lesser(toLast.x, toFirst.x), lesser(toLast.y, toFirst.y)),
-      lesser(toLast.z, toFirst.z));
+    const Real least = minimum(minimum(minimum(toLast.x, toFirst.x), minimum(toLast.y, toFirst.y)),
+      minimum(toLast.z, toFirst.z));
     Number most[lanes];
     toArray(least, most);
     const std::int32_t left = task.stepLimit - steps;
@@ -628,7 +628,7 @@ struct March
     const Real usual = isTree ? settle() : cruise;
     const Vec3<Real> x = Path::position(ray, light);
     const Vec3<Real> along = Path::along(ray, light);
-    Real step = isAdaptive ? lesser(usual, nextStep) : usual;
+    Real step = isAdaptive ? minimum(usual, nextStep) : usual;
     if (!isAdaptive && task.map.levels != nullptr && steps >= nextLook)
     {
       nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
@@ -637,7 +637,7 @@ struct March
     const bool someLeave = any(leaving);
     if (someLeave)
     {
-      const Real out = lesser(step, wayOut(x, along, domainLow, domainHigh));
+      const Real out = minimum(step, wayOut(x, along, domainLow, domainHigh));
       step = leaving ? (out > 0 ? out : Real{}) : step;
       if constexpr (isExact)
       {
@@ -708,7 +708,7 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
   {
     if (a.steps >= next && a.isPlain() && b.isPlain())
     {
-      const std::int32_t inside = lesser(a.stepsInside(), b.stepsInside());
+      const std::int32_t inside = minimum(a.stepsInside(), b.stepsInside());
       next = a.steps + (inside < worthIt ? pause : inside);
       while (a.steps < next && inside >= worthIt)
       {

@@ -37,8 +37,8 @@ SCHLIEREN_HD void clip(Chord& chord, double start, double along, double per, dou
   }
   const double a = (0 - start) * per;
   const double b = (last - start) * per;
-  chord.from = greater(chord.from, lesser(a, b));
-  chord.to = lesser(chord.to, greater(a, b));
+  chord.from = maximum(chord.from, minimum(a, b));
+  chord.to = minimum(chord.to, maximum(a, b));
 }
 
 /// A ray where it enters the grid.
