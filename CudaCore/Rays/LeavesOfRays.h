@@ -24,17 +24,20 @@ struct StepsInLeaves
 
 /// Which leaves of a tree some rays are in. The undisturbed rays are followed in doubles from leaf to leaf, so
 /// that nothing is lost however many there are.
-template <class Number, int Lanes>
+template <class Real>
 struct LeavesOfRays
 {
-  alignas(64) std::int64_t base[Lanes]; ///< where each leaf's samples begin
-  std::int32_t leaf[Lanes];
-  double start[3][Lanes];  ///< local coordinates where the ray's length is 0
-  double travelled[Lanes]; ///< up to there, since the ray entered the domain
+  using Number = NumberOf<Real>;
+  static constexpr int lanes = lanesOf<Real>;
+
+  alignas(64) std::int64_t base[lanes]; ///< where each leaf's samples begin
+  std::int32_t leaf[lanes];
+  double start[3][lanes];  ///< local coordinates where the ray's length is 0
+  double travelled[lanes]; ///< up to there, since the ray entered the domain
 
   using View = MediumView<Number>;
 
-  SCHLIEREN_HD void enter(const View& medium, int i, const double (&index)[3][Lanes])
+  SCHLIEREN_HD void enter(const View& medium, int i, const double (&index)[3][lanes])
   {
     set(medium, i, medium.finder.at({ index[0][i], index[1][i], index[2][i] }));
     const Leaf<Number>& now = medium.leaves[leaf[i]];
@@ -48,7 +51,7 @@ struct LeavesOfRays
   /// The leaf of a place in local coordinates of ray i's leaf. The place is made one of the found leaf's
   /// coordinates; `finer`: these by the old ones.
   SCHLIEREN_HD const Leaf<Number>& leafAt(
-    const View& medium, int i, Number (&x)[3][Lanes], Number& finer) const
+    const View& medium, int i, Number (&x)[3][lanes], Number& finer) const
   {
     const Leaf<Number>& now = medium.leaves[leaf[i]];
     const double last[3] = { medium.last.x, medium.last.y, medium.last.z };
@@ -71,8 +74,8 @@ struct LeavesOfRays
   /// step. Where steps are shorter there (`usual`), so is this one. Returns the new local coordinates by the old
   /// ones, or 0 if it stays where it is.
   SCHLIEREN_HD double change(const View& medium, int i, const StepsInLeaves<Number>& usual,
-    const Number (&x)[3][Lanes], const Number (&along)[3][Lanes], Number& step, Number length,
-    const Number (&perLength)[3][Lanes])
+    const Number (&x)[3][lanes], const Number (&along)[3][lanes], Number& step, Number length,
+    const Number (&perLength)[3][lanes])
   {
     const Leaf<Number>& now = medium.leaves[leaf[i]];
     const auto leafOfMiddle = [&](double ofStep)
@@ -110,7 +113,7 @@ struct LeavesOfRays
   }
 
   /// An offset in the leaf's local coordinates, in index coordinates.
-  SCHLIEREN_HD void toIndexCoordinates(const View& medium, int i, Number (&offset)[3][Lanes]) const
+  SCHLIEREN_HD void toIndexCoordinates(const View& medium, int i, Number (&offset)[3][lanes]) const
   {
     const double perIndex = medium.leaves[leaf[i]].perIndex;
     for (int axis = 0; axis < 3; ++axis)
@@ -159,8 +162,8 @@ SCHLIEREN_HD void toArrays(const Vec3<Real>& from, NumberOf<Real> (&to)[3][lanes
 /// `step`: the steps so far, 0 for rays that are not under way.
 template <class Real>
 SCHLIEREN_APART void readLeaves(const MediumView<NumberOf<Real>>& medium,
-  const StepsInLeaves<NumberOf<Real>>& steps, const LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in,
-  const Real& step, LeavesInPacks<Real>& to)
+  const StepsInLeaves<NumberOf<Real>>& steps, const LeavesOfRays<Real>& in, const Real& step,
+  LeavesInPacks<Real>& to)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
@@ -214,7 +217,7 @@ struct RaysBetweenLeaves
 template <class Real>
 SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
-  LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, RaysBetweenLeaves<Real>& rays)
+  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
@@ -261,8 +264,7 @@ struct PlacesElsewhere
 };
 template <class Real>
 SCHLIEREN_APART void findElsewhere(const MediumView<NumberOf<Real>>& medium,
-  const LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, const Vec3<Real>& at,
-  PlacesElsewhere<Real>& to)
+  const LeavesOfRays<Real>& in, const Vec3<Real>& at, PlacesElsewhere<Real>& to)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
@@ -300,8 +302,7 @@ SCHLIEREN_HD Place placeIn(
 /// are in a wall, 0 for others.
 template <class Real>
 SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
-  const LeavesOfRays<NumberOf<Real>, lanesOf<Real>>& in, const Vec3<Real>& places,
-  const Real& isUnderWay, Real& inGas)
+  const LeavesOfRays<Real>& in, const Vec3<Real>& places, const Real& isUnderWay, Real& inGas)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;

@@ -143,7 +143,7 @@ struct March
   const bool isTree;
   StraightLight<Real> light;
   Ray<Real> ray;
-  LeavesOfRays<Number, lanes> in;   ///< of a tree
+  LeavesOfRays<Real> in;            ///< of a tree
   Vec3<Real> domainLow, domainHigh; ///< in local coordinates
   Real baseValue;                   ///< of the leaf: is added to what its samples say
   Real inGas;                       ///< 0 outside of it, else 1
