@@ -5,6 +5,7 @@
 #include "Film/CudaFilm.h"
 
 #include "Device/CudaBuffer.h"
+#include "Device/CudaLaunch.h"
 #include "Film/Sheet.h"
 
 #include <type_traits>
@@ -277,7 +278,7 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
       const auto kernel = estimator == FilmEstimator::Sheet
         ? exposeKernel<FilmEstimator::Sheet, Kind>
         : exposeKernel<FilmEstimator::Photon, Kind>;
-      kernel<<<blocks, threadsPerBlock>>>(kind, projection, rays, sums);
+      launchKernel(kernel, blocks, threadsPerBlock, 0, nullptr, kind, projection, rays, sums);
     },
     cutoff);
   checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Device/CudaBuffer.h"
+#include "Device/CudaLaunch.h"
 #include "Medium/CudaHomogeneityMap.h"
 
 #include <optional>
@@ -90,13 +91,17 @@ HomogeneityMap<Real> buildHomogeneityMapOnCuda(
   const unsigned blocks = blocksFor(pyramid.size(0));
   visitScheme(interpolation,
     [&](auto scheme)
-    { brickKernel<decltype(scheme)><<<blocks, threadsPerBlock>>>(view, pyramid, ranges.data()); });
+    {
+      launchKernel(brickKernel<decltype(scheme), Real>, blocks, threadsPerBlock, 0, nullptr, view,
+        pyramid, ranges.data());
+    });
   for (int level = 1; level < pyramid.levels; ++level)
   {
-    cubeKernel<<<blocksFor(pyramid.size(level)), threadsPerBlock>>>(pyramid, level, ranges.data());
+    launchKernel(cubeKernel<Real>, blocksFor(pyramid.size(level)), threadsPerBlock, 0, nullptr,
+      pyramid, level, ranges.data());
   }
-  levelKernel<<<blocks, threadsPerBlock>>>(
-    static_cast<const NuRange<Real>*>(ranges.data()), pyramid, tolerance, levels.data());
+  launchKernel(levelKernel<Real>, blocks, threadsPerBlock, 0, nullptr, ranges.data(), pyramid,
+    tolerance, levels.data());
   checkCuda<DeviceError>(cudaGetLastError(), "Starting the homogeneity map's kernels");
   copyToHost(map.ranges, ranges.data());
   copyToHost(map.levels, levels.data());

@@ -3,6 +3,7 @@
 #include "Rays/CudaTracer.h"
 
 #include "Device/CudaBuffer.h"
+#include "Device/CudaLaunch.h"
 
 #include <algorithm>
 #include <array>
@@ -285,7 +286,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const 
       {
         const auto start = [&](auto* function)
         {
-          function<<<blocks, threadsPerBlock, 0, streamOf(number).get()>>>(onDevice, pass,
+          launchKernel(function, blocks, threadsPerBlock, 0, streamOf(number).get(), onDevice, pass,
             number * rowsPerLaunch, there->exits(), gathered ? gathered->data() : nullptr,
             memory_->totals.data());
         };
