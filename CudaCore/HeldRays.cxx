@@ -104,20 +104,24 @@ void HeldRays::ask(
   }
   const bool isKWanted = number == 0 && fullScaleOf(scene.cutoff) > 0 && !scene.kScale && !strong_;
   const bool isHistogramWanted = scene.histogramSize > 0 && histogram_->passes() == number;
-  std::vector<RayExit> fetched;
-  if (traced.onDevice && (isKWanted || isHistogramWanted))
+  if (isHistogramWanted && traced.onDevice)
   {
-    fetched = traced.onDevice->toHost();
-    rays.exits = fetched.data();
+    histogram_->add(*traced.onDevice, rays.pass, scene.view.width, scene.view.height);
+  }
+  else if (isHistogramWanted)
+  {
+    histogram_->add(rays, scene.view.width, scene.view.height, scene.threads);
   }
   if (isKWanted)
   {
+    std::vector<RayExit> fetched;
+    if (traced.onDevice)
+    {
+      fetched = traced.onDevice->toHost();
+      rays.exits = fetched.data();
+    }
     strong_ =
       schlieren::strongDeflection(rays, scene.view.width, scene.view.height, noise, scene.threads);
-  }
-  if (isHistogramWanted)
-  {
-    histogram_->add(rays, scene.view.width, scene.view.height, scene.threads);
   }
 }
 

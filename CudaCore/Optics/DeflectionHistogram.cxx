@@ -18,7 +18,7 @@ namespace
 
 constexpr int exponentAtRest = -20;
 
-/// Calls use(deflection) for the rays of some rows of a picture that reach the film.
+/// Calls use(exit) for the rays of some rows of a picture that reach the film.
 template <class Use>
 void forEachDeflection(const TracedRays& rays, std::int64_t firstRow, std::int64_t endRow,
   std::int64_t width, const Use& use)
@@ -29,10 +29,9 @@ void forEachDeflection(const TracedRays& rays, std::int64_t firstRow, std::int64
     std::for_each(exits, exits + width,
       [&use](const RayExit& exit)
       {
-        const double* eps = exit.deflection;
-        if (exit.reachesFilm() && std::isfinite(eps[0]) && std::isfinite(eps[1]))
+        if (DeflectionBins::counts(exit))
         {
-          use(eps);
+          use(exit);
         }
       });
   }
@@ -51,38 +50,40 @@ void DeflectionHistogram::add(const TracedRays& rays, int width, int height, int
     {
       double here = 0;
       forEachDeflection(rays, begin, end, width,
-        [&here](const double* eps)
-        { here = std::max(here, std::max(std::abs(eps[0]), std::abs(eps[1]))); });
+        [&here](const RayExit& exit) {
+          here =
+            std::max(here, std::max(std::abs(exit.deflection[0]), std::abs(exit.deflection[1])));
+        });
       const std::lock_guard<std::mutex> guard(lock);
       largest = std::max(largest, here);
     });
-  int exponent = noRange;
-  if (largest > 0)
-  {
-    std::frexp(largest, &exponent); // largest < 2^exponent
-  }
-  growTo(exponent);
-
-  const std::int64_t bins = finest();
-  // Powers of two round nothing, so that all ranges agree on where a ray belongs.
-  const double half = static_cast<double>(bins / 2);
-  const int shift = exponent_ == noRange ? 0 : -exponent_;
-  const auto binOf = [&](double eps)
-  { return static_cast<std::int64_t>(std::floor(std::ldexp(eps * half, shift)) + half); };
+  growToHold(largest);
+  const DeflectionBins bins = this->bins();
   parallelFor(height, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       std::vector<std::int64_t> here(counts_.size());
       forEachDeflection(rays, begin, end, width,
-        [&](const double* eps)
-        { ++here[static_cast<std::size_t>(binOf(eps[1]) * bins + binOf(eps[0]))]; });
+        [&](const RayExit& exit) { ++here[static_cast<std::size_t>(bins.of(exit))]; });
       const std::lock_guard<std::mutex> guard(lock);
       std::transform(here.begin(), here.end(), counts_.begin(), counts_.begin(), std::plus<>());
     });
 }
 
-void DeflectionHistogram::growTo(int exponent)
+void DeflectionHistogram::add(const CudaPass& rays, const Pass& pass, int width, int height)
 {
+  ++passes_;
+  growToHold(rays.largestDeflection(pass, width, height));
+  rays.countDeflections(pass, width, height, bins(), counts_);
+}
+
+void DeflectionHistogram::growToHold(double largest)
+{
+  int exponent = noRange;
+  if (largest > 0)
+  {
+    std::frexp(largest, &exponent); // largest < 2^exponent
+  }
   const std::int64_t bins = finest();
   if (counts_.empty())
   {
@@ -106,6 +107,11 @@ void DeflectionHistogram::growTo(int exponent)
     }
     counts_ = std::move(merged);
   }
+}
+
+DeflectionBins DeflectionHistogram::bins() const
+{
+  return { finest(), exponent_ == noRange ? 0 : exponent_ };
 }
 
 Histogram DeflectionHistogram::histogram() const

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rays/CudaPass.h"
+#include "Rays/DeflectionBins.h"
 #include "Rays/TracedRays.h"
 #include "Schlieren.h"
 
@@ -28,12 +30,16 @@ public:
 
   /// Adds the rays of a pass that start in the picture and reach the film.
   void add(const TracedRays& rays, int width, int height, int threads);
+  /// The same of rays on the device, where they are counted. Throws DeviceError.
+  void add(const CudaPass& rays, const Pass& pass, int width, int height);
 
   /// Where nothing bends, the range is 2^-20, 0.2 seconds of arc.
   Histogram histogram() const;
 
 private:
-  void growTo(int exponent);
+  /// Makes the range large enough for a component of deflection.
+  void growToHold(double largest);
+  DeflectionBins bins() const;
 
   /// Bins that are counted: halves where `size_` is odd, because only even numbers can merge.
   std::int64_t finest() const { return size_ % 2 == 0 ? size_ : 2 * std::int64_t{ size_ }; }

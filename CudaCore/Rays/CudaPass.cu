@@ -3,9 +3,100 @@
 #include "Rays/CudaPass.h"
 
 #include "Device/CudaBuffer.h"
+#include "Device/CudaLaunch.h"
+
+#include <cstring>
 
 namespace schlieren
 {
+
+namespace
+{
+
+constexpr int threadsPerBlock = 128;
+
+/// The rays of a pass that start in a picture.
+struct RaysOfPicture
+{
+  const RayExit* first;
+  std::int64_t perRow; ///< of the pass
+  std::int64_t width, count;
+
+  RaysOfPicture(const RayExit* exits, const Pass& pass, int pictureWidth, int height)
+    : first(exits - pass.firstRow * pass.columns - pass.firstColumn)
+    , perRow(pass.columns)
+    , width(pictureWidth)
+    , count(std::int64_t{ pictureWidth } * height)
+  {
+  }
+  unsigned blocks() const
+  {
+    return static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
+  }
+  /// The ray of this thread; null if there is none that is counted.
+  __device__ const RayExit* ofThread() const
+  {
+    const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(threadsPerBlock) + threadIdx.x;
+    if (n >= count)
+    {
+      return nullptr;
+    }
+    const RayExit* ray = first + n / width * perRow + n % width;
+    return DeflectionBins::counts(*ray) ? ray : nullptr;
+  }
+};
+
+/// All threads of a block come to its end.
+__global__ void largestKernel(const RaysOfPicture rays, long long* largest)
+{
+  const RayExit* ray = rays.ofThread();
+  double here = ray == nullptr ? 0 : fmax(fabs(ray->deflection[0]), fabs(ray->deflection[1]));
+  for (int lanes = 16; lanes > 0; lanes /= 2)
+  {
+    constexpr unsigned all = 0xffffffff;
+    here = fmax(here, __shfl_down_sync(all, here, lanes));
+  }
+  if (threadIdx.x % 32 == 0 && here > 0)
+  {
+    atomicMax(largest, __double_as_longlong(here)); // bits grow with the number
+  }
+}
+
+/// All threads of a block come to its end.
+__global__ void countKernel(
+  const RaysOfPicture rays, const DeflectionBins bins, unsigned long long* counts)
+{
+  const RayExit* ray = rays.ofThread();
+  std::int64_t bin = ray == nullptr ? -1 : bins.of(*ray);
+  // Most rays are hardly bent: the four bins in the middle get one sum of each block.
+  for (int quarter = 0; quarter < 4; ++quarter)
+  {
+    const std::int64_t middle =
+      (bins.count / 2 - quarter / 2) * bins.count + bins.count / 2 - quarter % 2;
+    const int rest = __syncthreads_count(bin == middle ? 1 : 0);
+    if (threadIdx.x == 0 && rest > 0)
+    {
+      atomicAdd(counts + middle, static_cast<unsigned long long>(rest));
+    }
+    bin = bin == middle ? -1 : bin;
+  }
+  if (bin >= 0)
+  {
+    atomicAdd(counts + bin, 1ull);
+  }
+}
+
+template <class T>
+std::vector<T> toHost(const CudaBuffer<T, DeviceError>& values, std::size_t count)
+{
+  std::vector<T> fetched(count);
+  checkCuda<DeviceError>(
+    cudaMemcpy(fetched.data(), values.data(), count * sizeof(T), cudaMemcpyDeviceToHost),
+    "Counting rays");
+  return fetched;
+}
+
+} // namespace
 
 CudaPass::CudaPass(std::size_t rays)
   : exits_(allocateOnCuda<RayExit, DeviceError>(rays))
@@ -30,6 +121,35 @@ std::vector<RayExit> CudaPass::toHost() const
     cudaMemcpy(exits.data(), exits_, size_ * sizeof(RayExit), cudaMemcpyDeviceToHost),
     "Fetching rays");
   return exits;
+}
+
+double CudaPass::largestDeflection(const Pass& pass, int width, int height) const
+{
+  const CudaBuffer<long long, DeviceError> largest(1);
+  checkCuda<DeviceError>(cudaMemset(largest.data(), 0, sizeof(long long)), "Counting rays");
+  const RaysOfPicture rays(exits_, pass, width, height);
+  launchKernel(largestKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, largest.data());
+  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  double value = 0;
+  const long long bits = schlieren::toHost(largest, 1)[0];
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+void CudaPass::countDeflections(const Pass& pass, int width, int height, const DeflectionBins& bins,
+  std::vector<std::int64_t>& counts) const
+{
+  const CudaBuffer<unsigned long long, DeviceError> here(counts.size());
+  checkCuda<DeviceError>(
+    cudaMemset(here.data(), 0, counts.size() * sizeof(unsigned long long)), "Counting rays");
+  const RaysOfPicture rays(exits_, pass, width, height);
+  launchKernel(countKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bins, here.data());
+  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  const std::vector<unsigned long long> fetched = schlieren::toHost(here, counts.size());
+  for (std::size_t n = 0; n < counts.size(); ++n)
+  {
+    counts[n] += static_cast<std::int64_t>(fetched[n]);
+  }
 }
 
 } // namespace schlieren

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Device/DeviceError.h"
+#include "Rays/DeflectionBins.h"
 #include "Rays/RayExit.h"
 
 #include <cstddef>
@@ -25,6 +26,13 @@ public:
   RayExit* exits() const { return exits_; } ///< in the device's memory
   std::size_t size() const { return size_; }
   std::vector<RayExit> toHost() const;
+
+  /// The largest component of deflection of the rays that start in a picture of this size and reach the film; the rays
+  /// are those of `pass`.
+  double largestDeflection(const Pass& pass, int width, int height) const;
+  /// Adds these rays to `counts`, which has `bins` times `bins`, by their deflection: see DeflectionHistogram.
+  void countDeflections(const Pass& pass, int width, int height, const DeflectionBins& bins,
+    std::vector<std::int64_t>& counts) const;
 
 private:
   RayExit* exits_ = nullptr;

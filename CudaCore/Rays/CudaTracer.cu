@@ -3,7 +3,7 @@
 #include "Rays/CudaTracer.h"
 
 #include "Device/CudaBuffer.h"
-#include "Device/CudaLaunch.h"
+#include "Rays/CudaMarch.h"
 
 #include <algorithm>
 #include <array>
@@ -15,82 +15,8 @@ namespace schlieren
 namespace
 {
 
-// A warp traces the rays of 8 x 4 pixels, a block those of 16 x 8: near each other, they look at the same
-// part of the medium.
-constexpr int warpColumns = 8, warpRows = 4;
-constexpr int warpsAlong = 2, warpsUp = 2;
-constexpr int blockColumns = warpsAlong * warpColumns;
-constexpr int blockRows = warpsUp * warpRows;
-constexpr int threadsPerWarp = 32;
-constexpr int threadsPerBlock = warpsAlong * warpsUp * threadsPerWarp;
-static_assert(warpColumns * warpRows == threadsPerWarp);
-
 /// So few that progress is told and an abort is heard often enough.
 constexpr std::int64_t raysPerLaunch = std::int64_t{ 1 } << 20;
-
-/// Of all rays of a pass.
-struct Totals
-{
-  long long worstDrift; ///< as the bits of a double, which grow with it
-  unsigned long long crossed;
-};
-
-enum class Gather
-{
-  Nothing,
-  Fields
-};
-
-/// Launched for some rows of a pass, from `firstRow` on. `gathered`: the sums of each ray's fields. All
-/// threads of a block come to its end.
-template <class Kernel, Gather gather, class Real>
-__global__ void traceKernel(const RayTask<Real> given, const Pass pass, std::int64_t firstRow,
-  RayExit* exits, float* gathered, Totals* totals)
-{
-  const int warp = static_cast<int>(threadIdx.x) / threadsPerWarp;
-  const int lane = static_cast<int>(threadIdx.x) % threadsPerWarp;
-  const std::int64_t column = std::int64_t{ blockIdx.x } * blockColumns +
-    warp % warpsAlong * warpColumns + lane % warpColumns;
-  const std::int64_t row = firstRow + std::int64_t{ blockIdx.y } * blockRows +
-    warp / warpsAlong * warpRows + lane / warpColumns;
-
-  RayTask<Real> task = given;
-  if constexpr (gather == Gather::Nothing)
-  {
-    task.gradients.count = 0; // the compiler leaves out what this makes unreachable
-  }
-  bool hasCrossed = false;
-  double worstDrift = 0;
-  if (column < pass.columns && row < pass.rows)
-  {
-    const std::int64_t ray = row * pass.columns + column;
-    float* sums = gathered + ray * task.gradients.count;
-    for (int field = 0; field < task.gradients.count; ++field)
-    {
-      sums[field] = 0;
-    }
-    Real drift = 0;
-    const RayExit exit = traceRay<Kernel>(task, pass, ray, sums, drift);
-    exits[ray] = exit;
-    hasCrossed = exit.fate != RayFate::Missed;
-    worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN
-  }
-
-  const int crossed = __syncthreads_count(hasCrossed ? 1 : 0);
-  if (threadIdx.x == 0 && crossed > 0)
-  {
-    atomicAdd(&totals->crossed, static_cast<unsigned long long>(crossed));
-  }
-  for (int lanes = threadsPerWarp / 2; lanes > 0; lanes /= 2)
-  {
-    constexpr unsigned all = 0xffffffff;
-    worstDrift = fmax(worstDrift, __shfl_down_sync(all, worstDrift, lanes));
-  }
-  if (lane == 0 && worstDrift > 0)
-  {
-    atomicMax(&totals->worstDrift, __double_as_longlong(worstDrift));
-  }
-}
 
 template <class T>
 using Buffer = CudaBuffer<T, DeviceError>;
@@ -210,7 +136,7 @@ struct CudaTracer<Real>::DeviceMemory
   };
   std::unique_ptr<Gradients> gradients;
 
-  Buffer<Totals> totals;
+  Buffer<MarchTotals> totals;
   std::array<Stream, 2> streams; ///< one launch ends while the next is under way
 
   /// The task with what it points to on the device. Sends what is new.
@@ -266,7 +192,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const 
   const std::unique_ptr<Buffer<float>> gathered =
     fields > 0 ? std::make_unique<Buffer<float>>(sums) : nullptr;
   checkCuda<DeviceError>(
-    cudaMemset(memory_->totals.data(), 0, sizeof(Totals)), "Clearing the totals");
+    cudaMemset(memory_->totals.data(), 0, sizeof(MarchTotals)), "Clearing the totals");
 
   constexpr std::int64_t mostBlocks = 65535; // along a grid's second axis
   const std::int64_t rowsPerLaunch =
@@ -281,23 +207,13 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const 
   {
     const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
       static_cast<unsigned>((rowsOf(number) + blockRows - 1) / blockRows));
-    visitKernel(task.kernel,
-      [&](auto kind)
+    visitScheme(task.kernel.interpolation,
+      [&](auto scheme)
       {
-        const auto start = [&](auto* function)
-        {
-          launchKernel(function, blocks, threadsPerBlock, 0, streamOf(number).get(), onDevice, pass,
-            number * rowsPerLaunch, there->exits(), gathered ? gathered->data() : nullptr,
-            memory_->totals.data());
-        };
-        if (fields > 0)
-        {
-          start(traceKernel<decltype(kind), Gather::Fields, Real>);
-        }
-        else
-        {
-          start(traceKernel<decltype(kind), Gather::Nothing, Real>);
-        }
+        launchMarch<decltype(scheme)>(onDevice, fields > 0,
+          { pass, number * rowsPerLaunch, there->exits(), gathered ? gathered->data() : nullptr,
+            memory_->totals.data() },
+          blocks, streamOf(number).get());
       });
     checkCuda<DeviceError>(cudaGetLastError(), "Starting the ray kernel");
   };
@@ -350,9 +266,9 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const 
   {
     traced.onDevice = std::move(there);
   }
-  Totals totals{};
+  MarchTotals totals{};
   checkCuda<DeviceError>(
-    cudaMemcpy(&totals, memory_->totals.data(), sizeof(Totals), cudaMemcpyDeviceToHost),
+    cudaMemcpy(&totals, memory_->totals.data(), sizeof(MarchTotals), cudaMemcpyDeviceToHost),
     "Fetching the totals");
   traced.crossed = static_cast<std::int64_t>(totals.crossed);
   std::memcpy(&traced.worstDrift, &totals.worstDrift, sizeof(double));

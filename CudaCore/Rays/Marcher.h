@@ -125,8 +125,19 @@ SCHLIEREN_APART Sample<Real> sampleApart(
   return interpolate<Scheme>(medium, base, at);
 }
 
+/// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
+/// cannot be met saves registers.
+template <bool image, bool tree, bool fields>
+struct MayMeet
+{
+  static constexpr bool anImage = image;
+  static constexpr bool aTree = tree;
+  static constexpr bool fieldsToGather = fields;
+};
+using MayMeetAll = MayMeet<true, true, true>;
+
 /// What the march of some rays through the medium needs to know, and its steps.
-template <class Kernel, class Real>
+template <class Kernel, class Real, class May = MayMeetAll>
 struct March
 {
   using Number = NumberOf<Real>;
@@ -140,7 +151,6 @@ struct March
 
   const RayTask<Number>& task;
   Batch& batch;
-  const bool isTree;
   StraightLight<Real> light;
   Ray<Real> ray;
   LeavesOfRays<Real> in;            ///< of a tree
@@ -164,7 +174,6 @@ struct March
   SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
     : task(ofTask)
     , batch(ofBatch)
-    , isTree(ofTask.medium.leaves != nullptr)
     , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
     , ray{}
     , domainLow{}
@@ -187,7 +196,7 @@ struct March
     cruise = fromArray<Real>(usual);
     ray.start = packs(start);
     areUnderWay = any(cruise > 0);
-    if (isTree)
+    if (isTree())
     {
       enterTree();
     }
@@ -198,6 +207,12 @@ struct March
       ray.q = sample(ray.start).value * light.d;
     }
   }
+
+  SCHLIEREN_HD bool isTree() const
+  {
+    return May::aTree && (!May::anImage || task.medium.leaves != nullptr);
+  }
+  SCHLIEREN_HD bool isGathering() const { return May::fieldsToGather && task.gradients.count > 0; }
 
   SCHLIEREN_HD static Vec3<Real> packs(const Number (&from)[3][lanes])
   {
@@ -248,7 +263,7 @@ struct March
       {
         batch.fate[i] = fate;
         batch.steps[i] = stepsTaken;
-        if (isTree)
+        if (isTree())
         {
           in.toIndexCoordinates(task.medium, i, batch.offset);
           batch.length[i] += static_cast<Number>(in.travelled[i]);
@@ -432,11 +447,11 @@ struct March
 
   SCHLIEREN_HD Sample<Real> sample(const Vec3<Real>& at) const
   {
-    const std::int64_t* base = isTree ? in.base : nullptr;
+    const std::int64_t* base = isTree() ? in.base : nullptr;
     Sample<Real> found;
     if constexpr (Integrator::samplesBeyond)
     {
-      if (isTree && any(insetOf(at, task.medium.leafLow, task.medium.leafHigh) < 0))
+      if (isTree() && any(insetOf(at, task.medium.leafLow, task.medium.leafHigh) < 0))
       {
         return sampleElsewhere(at);
       }
@@ -601,95 +616,138 @@ struct March
     return wholeSteps(all, left);
   }
 
-  /// Whether there is nothing to look at but the medium's samples.
+  /// Whether there is nothing in the rays' way but the medium's samples.
   SCHLIEREN_HD bool isPlain() const
   {
     return !someConstant && !someNearEdge && task.map.levels == nullptr &&
-      task.medium.solid == nullptr && task.gradients.count == 0;
+      task.medium.solid == nullptr;
   }
 
-  /// One step of rays of which none leaves its leaf, with nothing to look at but the medium.
-  SCHLIEREN_HD void takeStepInside()
+  /// The next step of the rays that are under way.
+  struct NextStep
   {
-    advance(ray, cruise, Path::ahead(ray, light, Number(0.5) * cruise));
+    Real step;
+    Vec3<Real> middle;
+    decltype(Real{} < Real{}) leaving; ///< rays that may end with it
+    bool someLeave;
+  };
+
+  /// That of rays of which none leaves its leaf, with nothing to look at but the medium.
+  SCHLIEREN_HD NextStep stepInside() const
+  {
+    return { cruise, Path::ahead(ray, light, Number(0.5) * cruise), cruise < cruise, false };
+  }
+
+  /// Looks at all that a ray may meet.
+  SCHLIEREN_HD NextStep chooseStep()
+  {
+    constexpr int stepsBetweenLooks = 3;
+    const Real usual = isTree() ? settle() : cruise;
+    const Vec3<Real> x = Path::position(ray, light);
+    const Vec3<Real> along = Path::along(ray, light);
+    NextStep next{ isAdaptive ? minimum(usual, nextStep) : usual, x, usual < usual, false };
+    Real& step = next.step;
+    if (May::anImage && !isAdaptive && task.map.levels != nullptr && steps >= nextLook)
+    {
+      nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
+    }
+    next.leaving = insetOf(x + step * along, domainLow, domainHigh) < 0;
+    next.someLeave = any(next.leaving);
+    if (next.someLeave)
+    {
+      const Real out = minimum(step, wayOut(x, along, domainLow, domainHigh));
+      step = next.leaving ? (out > 0 ? out : Real{}) : step;
+      if constexpr (isExact)
+      {
+        step = endingOutside(step, next.leaving, x, along);
+      }
+    }
+    next.middle = x + (Number(0.5) * step) * along;
+    if (May::anImage && task.medium.solid != nullptr)
+    {
+      stopInSolids(step, clampTo(next.middle, task.medium.leafHigh));
+      areUnderWay = any(cruise > 0);
+    }
+    if (someNearEdge)
+    {
+      lookForEdges(step, withinLeaf(next.middle));
+      areUnderWay = any(cruise > 0);
+    }
+    return next;
+  }
+
+  SCHLIEREN_HD void take(NextStep next)
+  {
+    if constexpr (isAdaptive)
+    {
+      Real error{};
+      const Ray<Real> there = attempt(next.step, error);
+      const auto good = takeIfGood(there, next.step, error);
+      next.leaving = next.leaving & good;
+      next.step = good ? next.step : Real{};
+    }
+    else
+    {
+      advance(ray, next.step, next.middle);
+    }
+    if (isGathering())
+    {
+      gather(clampTo(next.middle, task.medium.leafHigh), next.step);
+    }
+    if (next.someLeave)
+    {
+      finishOutside(next.leaving);
+      areUnderWay = any(cruise > 0);
+    }
     ++steps;
   }
 
   /// One step of all rays that are under way.
   SCHLIEREN_HD void takeStep()
   {
-    if (steps == task.stepLimit)
+    if (isTrapped())
     {
-      finish(cruise > 0, RayFate::Trapped, steps);
-      areUnderWay = false;
       return;
     }
-    constexpr int stepsBetweenLooks = 3;
-    const Real usual = isTree ? settle() : cruise;
-    const Vec3<Real> x = Path::position(ray, light);
-    const Vec3<Real> along = Path::along(ray, light);
-    Real step = isAdaptive ? minimum(usual, nextStep) : usual;
-    if (!isAdaptive && task.map.levels != nullptr && steps >= nextLook)
+    take(chooseStep());
+  }
+
+  /// Ends the rays that have taken too many steps.
+  SCHLIEREN_HD bool isTrapped()
+  {
+    if (steps < task.stepLimit)
     {
-      nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
+      return false;
     }
-    auto leaving = insetOf(x + step * along, domainLow, domainHigh) < 0;
-    const bool someLeave = any(leaving);
-    if (someLeave)
+    finish(cruise > 0, RayFate::Trapped, steps);
+    areUnderWay = false;
+    return true;
+  }
+
+  /// Takes all steps. There is one piece of code for a step, whether there is anything to look at or not: on a GPU,
+  /// rays that look and rays that do not go on together.
+  SCHLIEREN_HD void takeAllSteps()
+  {
+    std::int32_t inside = 0;
+    while (areUnderWay && (inside > 0 || !isTrapped()))
     {
-      const Real out = minimum(step, wayOut(x, along, domainLow, domainHigh));
-      step = leaving ? (out > 0 ? out : Real{}) : step;
-      if constexpr (isExact)
+      take(inside > 0 ? stepInside() : chooseStep());
+      --inside;
+      if (!isAdaptive && inside < 0)
       {
-        step = endingOutside(step, leaving, x, along);
+        inside = isPlain() ? stepsInside() : 0;
       }
     }
-    const Vec3<Real> middle = x + (Number(0.5) * step) * along;
-    if (task.medium.solid != nullptr)
-    {
-      stopInSolids(step, clampTo(middle, task.medium.leafHigh));
-      areUnderWay = any(cruise > 0);
-    }
-    if (someNearEdge)
-    {
-      lookForEdges(step, withinLeaf(middle));
-      areUnderWay = any(cruise > 0);
-    }
-    if constexpr (isAdaptive)
-    {
-      Real error{};
-      const Ray<Real> there = attempt(step, error);
-      const auto good = takeIfGood(there, step, error);
-      leaving = leaving & good;
-      step = good ? step : Real{};
-    }
-    else
-    {
-      advance(ray, step, middle);
-    }
-    if (task.gradients.count > 0)
-    {
-      gather(clampTo(middle, task.medium.leafHigh), step);
-    }
-    if (someLeave)
-    {
-      finishOutside(leaving);
-      areUnderWay = any(cruise > 0);
-    }
-    ++steps;
   }
 };
 
 /// Takes the rays of a batch through the medium.
-template <class Kernel, class Real>
+template <class Kernel, class Real, class May = MayMeetAll>
 SCHLIEREN_HD void march(
   const RayTask<NumberOf<Real>>& task, RayBatch<NumberOf<Real>, lanesOf<Real>>& batch)
 {
-  March<Kernel, Real> rays(task, batch);
-  while (rays.areUnderWay)
-  {
-    rays.takeStep();
-  }
+  March<Kernel, Real, May> rays(task, batch);
+  rays.takeAllSteps();
   rays.findDrift();
 }
 
@@ -712,8 +770,8 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
       next = a.steps + (inside < worthIt ? pause : inside);
       while (a.steps < next && inside >= worthIt)
       {
-        a.takeStepInside();
-        b.takeStepInside();
+        a.take(a.stepInside());
+        b.take(b.stepInside());
       }
     }
     a.takeStep();
@@ -731,30 +789,33 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
   b.findDrift();
 }
 
-/// Calls visit with an object of the kernel's type.
+/// Calls visit with an object of the kernel's type, whose scheme is given.
+template <class Scheme, class Visit>
+auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
+{
+  if (choice.path == PathModel::Straight)
+  {
+    return visit(Kernel<StraightPath, Leapfrog, Scheme>{});
+  }
+  switch (choice.integrator)
+  {
+    case Integrator::Rk4:
+      return visit(Kernel<RefractedPath, Rk4, Scheme>{});
+    case Integrator::Adaptive:
+      return visit(Kernel<RefractedPath, Adaptive, Scheme>{});
+    case Integrator::Euler:
+      return visit(Kernel<RefractedPath, Euler, Scheme>{});
+    default:
+      return visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
+  }
+}
+
+/// The same with the scheme that is chosen.
 template <class Visit>
 auto visitKernel(const KernelChoice& choice, const Visit& visit)
 {
   return visitScheme(choice.interpolation,
-    [&](auto scheme)
-    {
-      using Scheme = decltype(scheme);
-      if (choice.path == PathModel::Straight)
-      {
-        return visit(Kernel<StraightPath, Leapfrog, Scheme>{});
-      }
-      switch (choice.integrator)
-      {
-        case Integrator::Rk4:
-          return visit(Kernel<RefractedPath, Rk4, Scheme>{});
-        case Integrator::Adaptive:
-          return visit(Kernel<RefractedPath, Adaptive, Scheme>{});
-        case Integrator::Euler:
-          return visit(Kernel<RefractedPath, Euler, Scheme>{});
-        default:
-          return visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
-      }
-    });
+    [&](auto scheme) { return visitKernelOf<decltype(scheme)>(choice, visit); });
 }
 
 } // namespace schlieren

@@ -31,6 +31,13 @@ CudaPass::~CudaPass() = default;
 
 std::vector<RayExit> CudaPass::toHost() const { return {}; }
 
+double CudaPass::largestDeflection(const Pass&, int, int) const { return 0; }
+
+void CudaPass::countDeflections(
+  const Pass&, int, int, const DeflectionBins&, std::vector<std::int64_t>&) const
+{
+}
+
 template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {
