@@ -18,7 +18,9 @@ namespace schlieren
 namespace
 {
 
-constexpr int threadsPerBlock = 128;
+// A block works for a tile of rays that start near each other.
+constexpr int tileColumns = 32, tileRows = 4;
+constexpr int threadsPerBlock = tileColumns * tileRows;
 
 /// What atomicAdd takes; whole numbers wrap, so that the sum's bits are those of signed ones.
 using Counter = unsigned long long;
@@ -103,48 +105,31 @@ struct RaysOnDevice
     return exits[(row - margin - pass.firstRow) * pass.columns + column - margin -
       pass.firstColumn];
   }
-
-  /// Rounded as in Exposure.cxx.
-  template <class CutoffKind>
-  __device__ FilmRay<CutoffKind::channels> at(const CutoffKind& cutoff,
-    const Projection& projection, std::int64_t column, std::int64_t row) const
+  unsigned blocks() const
   {
-    FilmRay<CutoffKind::channels> ray{};
-    if (column < 0 || column >= columns || row < 0 || row >= rows)
-    {
-      return ray;
-    }
-    const RayExit& here = exit(column, row);
-    ray.arrives = here.reachesFilm();
-    ray.crossed = crossedOnTheWay(here, projection);
-    if (ray.arrives)
-    {
-      const double startColumn = static_cast<double>(-margin) + pass.offset.column;
-      const double startRow = static_cast<double>(row - margin) + pass.offset.row;
-      const RayAtFilm atFilm =
-        rayAtFilm(here, startColumn + static_cast<double>(column), startRow, pass.tilt, projection);
-      ray.x = atFilm.place[0] + 0.5;
-      ray.y = atFilm.place[1] + 0.5;
-      cutoff.shade(atFilm, ray.light);
-    }
-    return ray;
+    return static_cast<unsigned>(
+      (columns + tileColumns - 1) / tileColumns * ((rows + tileRows - 1) / tileRows));
+  }
+  /// Where the ray, and the cell that it is the lower left one of, is that this thread works for; it may be outside.
+  __device__ void place(std::int64_t& column, std::int64_t& row) const
+  {
+    const std::int64_t along = (columns + tileColumns - 1) / tileColumns;
+    column = blockIdx.x % along * tileColumns + threadIdx.x % tileColumns;
+    row = blockIdx.x / along * tileRows + threadIdx.x / tileColumns;
   }
 };
 
-/// One thread per ray of the picture and its margin, and per cell that it is the lower left one of. All
-/// threads of a block come to its end.
-template <FilmEstimator estimator, class CutoffKind>
-__global__ void exposeKernel(
-  const CutoffKind cutoff, const Projection projection, const RaysOnDevice rays, const Sums sums)
+/// Turns rays into what the film gets of them, and sums up what is known of each without the others. All threads of a
+/// block come to its end.
+template <class CutoffKind>
+__global__ void shadeKernel(const CutoffKind cutoff, const Projection projection,
+  const RaysOnDevice rays, FilmRay<CutoffKind::channels>* shaded, const Sums sums)
 {
-  constexpr int planes = CutoffKind::channels;
-  const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(blockDim.x) + threadIdx.x;
+  std::int64_t i, j;
+  rays.place(i, j);
   RayCounts counts;
-  DeviceDeposit<planes> deposit{ sums };
-  if (n < rays.columns * rays.rows)
+  if (i < rays.columns && j < rays.rows)
   {
-    const std::int64_t i = n % rays.columns;
-    const std::int64_t j = n / rays.columns;
     const RayExit& exit = rays.exit(i, j);
     counts.add(exit);
     const std::int64_t column = i - rays.margin, row = j - rays.margin;
@@ -153,8 +138,59 @@ __global__ void exposeKernel(
       sums.pixels[row * sums.film.columns + column].add(exit); // no other thread has this pixel
       counts.addShaded(exit, cutoff);
     }
+    FilmRay<CutoffKind::channels> ray{};
+    ray.arrives = exit.reachesFilm();
+    ray.crossed = crossedOnTheWay(exit, projection);
+    if (ray.arrives)
+    {
+      // Rounded as in Exposure.cxx.
+      const double startColumn = static_cast<double>(-rays.margin) + rays.pass.offset.column;
+      const double startRow = static_cast<double>(row) + rays.pass.offset.row;
+      const RayAtFilm atFilm =
+        rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, rays.pass.tilt, projection);
+      ray.x = atFilm.place[0] + 0.5;
+      ray.y = atFilm.place[1] + 0.5;
+      cutoff.shade(atFilm, ray.light);
+    }
+    shaded[j * rays.columns + i] = ray;
+  }
+  const int crossed = __syncthreads_count(counts.crossed != 0);
+  const int blocked = __syncthreads_count(counts.blocked != 0);
+  const int lost = __syncthreads_count(counts.lost != 0);
+  const int bright = __syncthreads_count(counts.shaded != 0);
+  const int saturated = __syncthreads_count(counts.saturated != 0);
+  const std::int64_t steps = sumOverWarp(counts.steps);
+  if (threadIdx.x == 0)
+  {
+    add(&sums.counts->crossed, crossed);
+    add(&sums.counts->blocked, blocked);
+    add(&sums.counts->lost, lost);
+    add(&sums.counts->shaded, bright);
+    add(&sums.counts->saturated, saturated);
+  }
+  if (threadIdx.x % 32 == 0)
+  {
+    add(&sums.counts->steps, steps);
+  }
+}
+
+/// Brings the light of shaded rays to the film. All threads of a block come to its end.
+template <FilmEstimator estimator, int planes>
+__global__ void depositKernel(
+  const RaysOnDevice rays, const FilmRay<planes>* shaded, const Sums sums)
+{
+  std::int64_t i, j;
+  rays.place(i, j);
+  DeviceDeposit<planes> deposit{ sums };
+  if (i < rays.columns && j < rays.rows)
+  {
     const auto ray = [&](std::int64_t right, std::int64_t up)
-    { return rays.at(cutoff, projection, i + right, j + up); };
+    {
+      const std::int64_t column = i + right, row = j + up;
+      return column >= 0 && column < rays.columns && row >= 0 && row < rays.rows
+        ? shaded[row * rays.columns + column]
+        : FilmRay<planes>{};
+    };
     if constexpr (estimator == FilmEstimator::Photon)
     {
       addPhoton(ray(0, 0), sums.film, deposit);
@@ -169,24 +205,6 @@ __global__ void exposeKernel(
       Sheet<planes, DeviceDeposit<planes>>(sums.film, deposit)
         .addCell(smooth(0, 0), smooth(1, 0), smooth(0, 1), smooth(1, 1), ray);
     }
-  }
-  const int crossed = __syncthreads_count(counts.crossed != 0);
-  const int blocked = __syncthreads_count(counts.blocked != 0);
-  const int lost = __syncthreads_count(counts.lost != 0);
-  const int shaded = __syncthreads_count(counts.shaded != 0);
-  const int saturated = __syncthreads_count(counts.saturated != 0);
-  const std::int64_t steps = sumOverWarp(counts.steps);
-  if (threadIdx.x == 0)
-  {
-    add(&sums.counts->crossed, crossed);
-    add(&sums.counts->blocked, blocked);
-    add(&sums.counts->lost, lost);
-    add(&sums.counts->shaded, shaded);
-    add(&sums.counts->saturated, saturated);
-  }
-  if (threadIdx.x % 32 == 0)
-  {
-    add(&sums.counts->steps, steps);
   }
   for (int plane = 0; plane < planes; ++plane)
   {
@@ -236,6 +254,20 @@ struct CudaFilm::DeviceMemory
     return { copied->data(), table.size };
   }
 
+  /// Room for shaded rays, which serves again.
+  template <int planes>
+  FilmRay<planes>* raysAtFilm(std::int64_t count)
+  {
+    const auto bytes = static_cast<std::size_t>(count) * sizeof(FilmRay<planes>);
+    if (!shaded || shadedBytes < bytes)
+    {
+      shaded.reset();
+      shaded = std::make_unique<CudaBuffer<unsigned char, DeviceError>>(bytes);
+      shadedBytes = bytes;
+    }
+    return reinterpret_cast<FilmRay<planes>*>(shaded->data());
+  }
+
   static void clear(void* bytes, std::size_t size)
   {
     checkCuda<DeviceError>(cudaMemset(bytes, 0, size), "Clearing the film");
@@ -250,6 +282,8 @@ struct CudaFilm::DeviceMemory
   std::unique_ptr<CudaFilm> samples;
   std::unique_ptr<CudaBuffer<float, DeviceError>> copied;
   const float* onHost = nullptr; ///< what has been copied
+  std::unique_ptr<CudaBuffer<unsigned char, DeviceError>> shaded;
+  std::size_t shadedBytes = 0;
 };
 
 CudaFilm::CudaFilm(const Films& films)
@@ -265,20 +299,21 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
   const Sums& sums = memory_->view;
   const RaysOnDevice rays{ traced.exits(), pass, margin, sums.film.columns + 2 * margin,
     sums.film.rows + 2 * margin };
-  const auto blocks =
-    static_cast<unsigned>((rays.columns * rays.rows + threadsPerBlock - 1) / threadsPerBlock);
   std::visit(
     [&](auto kind)
     {
       using Kind = decltype(kind);
+      constexpr int planes = Kind::channels;
       if (Table* table = tableOf(kind))
       {
         *table = memory_->copyOf(*table);
       }
-      const auto kernel = estimator == FilmEstimator::Sheet
-        ? exposeKernel<FilmEstimator::Sheet, Kind>
-        : exposeKernel<FilmEstimator::Photon, Kind>;
-      launchKernel(kernel, blocks, threadsPerBlock, 0, nullptr, kind, projection, rays, sums);
+      auto* const shaded = memory_->raysAtFilm<planes>(rays.columns * rays.rows);
+      launchKernel(shadeKernel<Kind>, rays.blocks(), threadsPerBlock, 0, nullptr, kind, projection,
+        rays, shaded, sums);
+      launchKernel(estimator == FilmEstimator::Sheet ? depositKernel<FilmEstimator::Sheet, planes>
+                                                     : depositKernel<FilmEstimator::Photon, planes>,
+        rays.blocks(), threadsPerBlock, 0, nullptr, rays, shaded, sums);
     },
     cutoff);
   checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
