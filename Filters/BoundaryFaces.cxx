@@ -5,9 +5,11 @@
 #include "FlatData.h"
 #include "RefractivityValues.h"
 
+#include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkExtractCells.h"
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
@@ -18,7 +20,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
-#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTriangleFilter.h"
@@ -41,6 +42,7 @@ constexpr double lookingPart = 0.05; // of a cell's height or a face's edge: how
 constexpr int subdivisions = 2;      // of the faces of curved cells
 constexpr double cellTolerance = 4e-3; // of a cell's height: no cell holds what is further from it
 constexpr const char* ownersName = "OwnerOfFace";
+constexpr const char* originsName = "PointOfLeaf";
 
 enum class State : unsigned char
 {
@@ -53,7 +55,8 @@ enum class State : unsigned char
 struct Faces
 {
   std::vector<Point> points;
-  std::vector<double> values;
+  std::vector<std::size_t> firstShares{ 0 }; // of each point's value, and the end
+  std::vector<Share> shares;
   std::vector<std::int32_t> corners;      // of all faces, one after the other
   std::vector<std::size_t> starts{ 0 };   // and the end
   std::vector<Point> owners;              // the middle of the cell
@@ -61,13 +64,11 @@ struct Faces
   std::vector<unsigned char> hidesBehind; // known from within the leaf
 
   std::size_t size() const { return this->owners.size(); }
-  std::int32_t addPoint(vtkDataSet* data, vtkIdType id)
+  /// Its shares have been added.
+  std::int32_t addPoint(const Point& x)
   {
-    Point x;
-    data->GetPoint(id, x.data());
-    vtkDataArray* scalars = data->GetPointData()->GetScalars();
     this->points.push_back(x);
-    this->values.push_back(scalars ? scalars->GetComponent(id, 0) : 0);
+    this->firstShares.push_back(this->shares.size());
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// The face whose corners have been added.
@@ -153,7 +154,8 @@ std::array<int, 3> structureOf(vtkDataSet* data)
   return points;
 }
 
-void addStructured(vtkDataSet* data, const std::array<int, 3>& dimensions, Faces& faces)
+void addStructured(
+  vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions, Faces& faces)
 {
   const std::vector<State> states = statesOf(data, true);
   const bool areAllVisible =
@@ -166,7 +168,13 @@ void addStructured(vtkDataSet* data, const std::array<int, 3>& dimensions, Faces
   const auto number = [&](vtkIdType id)
   {
     std::int32_t& known = numbers[static_cast<std::size_t>(id)];
-    known = known < 0 ? faces.addPoint(data, id) : known;
+    if (known < 0)
+    {
+      Point x;
+      data->GetPoint(id, x.data());
+      faces.shares.push_back({ leaf, id, 1 });
+      known = faces.addPoint(x);
+    }
     return known;
   };
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -216,20 +224,46 @@ void addStructured(vtkDataSet* data, const std::array<int, 3>& dimensions, Faces
   }
 }
 
+/// Adds what the value at a place in a cell is made of.
+void addShares(vtkUnstructuredGrid* cells, vtkIdType id, std::uint32_t leaf, Point place,
+  vtkIdTypeArray* origins, Faces& faces)
+{
+  vtkCell* cell = cells->GetCell(id);
+  std::vector<double> weights(static_cast<std::size_t>(cell->GetNumberOfPoints()));
+  Point nearest, coordinates;
+  int part = 0;
+  double distance = 0;
+  cell->EvaluatePosition(
+    place.data(), nearest.data(), part, coordinates.data(), distance, weights.data());
+  const bool areFinite =
+    std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    const vtkIdType point = origins->GetValue(cell->GetPointId(static_cast<int>(i)));
+    const double mean = 1 / static_cast<double>(weights.size());
+    faces.shares.push_back({ leaf, point, areFinite ? weights[i] : mean });
+  }
+}
+
 /// The surface of the cells of one state.
-void addUnstructured(vtkDataSet* data, const std::vector<State>& states, State state, Faces& faces)
+void addUnstructured(
+  vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state, Faces& faces)
 {
   const auto count = std::count(states.begin(), states.end(), state);
   if (count == 0)
   {
     return;
   }
+  vtkNew<vtkIdTypeArray> all;
+  all->SetName(originsName);
+  all->SetNumberOfValues(data->GetNumberOfPoints());
+  std::iota(all->GetPointer(0), all->GetPointer(0) + all->GetNumberOfValues(), vtkIdType{ 0 });
   vtkNew<vtkUnstructuredGrid> cells;
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
   if (mesh && count == mesh->GetNumberOfCells())
   {
     cells->CopyStructure(mesh);
-    cells->GetPointData()->SetScalars(mesh->GetPointData()->GetScalars());
+    cells->GetPointData()->AddArray(all);
   }
   else
   {
@@ -242,12 +276,16 @@ void addUnstructured(vtkDataSet* data, const std::vector<State>& states, State s
         chosen->InsertNextId(static_cast<vtkIdType>(i));
       }
     }
+    auto numbered = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+    numbered->CopyStructure(data);
+    numbered->GetPointData()->AddArray(all);
     vtkNew<vtkExtractCells> extract;
-    extract->SetInputData(data);
+    extract->SetInputData(numbered);
     extract->SetCellList(chosen);
     extract->Update();
     cells->CopyStructure(extract->GetOutput());
-    cells->GetPointData()->SetScalars(extract->GetOutput()->GetPointData()->GetScalars());
+    cells->GetPointData()->AddArray(
+      extract->GetOutput()->GetPointData()->GetAbstractArray(originsName));
   }
   // Not by PassThroughCellIds: VTK 9.2 gives wrong numbers to the faces of curved cells.
   vtkNew<vtkIdTypeArray> numbers;
@@ -268,11 +306,38 @@ void addUnstructured(vtkDataSet* data, const std::vector<State>& states, State s
     vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
 
   const auto firstPoint = static_cast<vtkIdType>(faces.points.size());
+  vtkNew<vtkIdList> ids;
+  std::vector<vtkIdType> cellsOfPoints(static_cast<std::size_t>(polygons->GetNumberOfPoints()), 0);
+  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
+  {
+    polygons->GetCellPoints(face, ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      cellsOfPoints[static_cast<std::size_t>(ids->GetId(i))] = owners->GetValue(face);
+    }
+  }
+  auto* origins =
+    vtkIdTypeArray::SafeDownCast(cells->GetPointData()->GetAbstractArray(originsName));
+  vtkDataArray* kept = polygons->GetPointData()->GetArray(originsName);
   for (vtkIdType i = 0; i < polygons->GetNumberOfPoints(); ++i)
   {
-    faces.addPoint(polygons, i);
+    Point x, ofLeaf;
+    polygons->GetPoint(i, x.data());
+    // Of points between others, VTK has a mean of their numbers, if any.
+    const double number = kept ? kept->GetComponent(i, 0) : 0;
+    const auto point = static_cast<vtkIdType>(
+      std::clamp(number, 0., static_cast<double>(data->GetNumberOfPoints() - 1)));
+    data->GetPoint(point, ofLeaf.data());
+    if (ofLeaf[0] == x[0] && ofLeaf[1] == x[1] && ofLeaf[2] == x[2])
+    {
+      faces.shares.push_back({ leaf, point, 1 });
+    }
+    else
+    {
+      addShares(cells, cellsOfPoints[static_cast<std::size_t>(i)], leaf, x, origins, faces);
+    }
+    faces.addPoint(x);
   }
-  vtkNew<vtkIdList> ids;
   for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
   {
     polygons->GetCellPoints(face, ids);
@@ -292,21 +357,23 @@ void addUnstructured(vtkDataSet* data, const std::vector<State>& states, State s
   }
 }
 
-Faces facesOf(const std::vector<vtkDataSet*>& leaves)
+Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress)
 {
   Faces faces;
-  for (vtkDataSet* leaf : leaves)
+  for (std::uint32_t number = 0; number < leaves.size(); ++number)
   {
+    progress.reach(static_cast<double>(number) / static_cast<double>(leaves.size()));
+    vtkDataSet* leaf = leaves[number];
     const std::array<int, 3> structure = structureOf(leaf);
     if (std::min({ structure[0], structure[1], structure[2] }) > 1)
     {
-      addStructured(leaf, structure, faces);
+      addStructured(leaf, number, structure, faces);
     }
     else
     {
       const std::vector<State> states = statesOf(leaf, false);
-      addUnstructured(leaf, states, State::Visible, faces);
-      addUnstructured(leaf, states, State::Hidden, faces);
+      addUnstructured(leaf, number, states, State::Visible, faces);
+      addUnstructured(leaf, number, states, State::Hidden, faces);
     }
   }
   return faces;
@@ -478,10 +545,11 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding)
 }
 
 /// Takes away what has cells on both sides.
-void removeCovered(const Faces& faces, const CellTest& isInCell, std::vector<Kept>& kept)
+void removeCovered(const Faces& faces, const CellTest& isInCell, std::vector<Kept>& kept,
+  const WorkProgress& progress)
 {
   std::vector<unsigned char> isCovered(kept.size(), 0);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(kept.size()),
+  forParts(static_cast<vtkIdType>(kept.size()), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType i = begin; i < end; ++i)
@@ -528,8 +596,11 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
       const auto from = static_cast<std::size_t>(corner);
       if (numbers[from] < 0)
       {
-        numbers[from] = static_cast<std::int32_t>(result.values.size());
-        result.values.push_back(faces.values[from]);
+        numbers[from] = static_cast<std::int32_t>(result.surface.points.size());
+        result.shares.insert(result.shares.end(),
+          faces.shares.begin() + static_cast<std::ptrdiff_t>(faces.firstShares[from]),
+          faces.shares.begin() + static_cast<std::ptrdiff_t>(faces.firstShares[from + 1]));
+        result.starts.push_back(result.shares.size());
         result.surface.points.push_back(faces.points[from]);
         points->InsertNextPoint(faces.points[from].data());
       }
@@ -621,17 +692,41 @@ std::vector<std::int32_t> coincidentPoints(
   return numbers;
 }
 
-BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell)
+BoundaryFaces boundaryOf(
+  const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell, const WorkProgress& progress)
 {
-  Faces faces = facesOf(leaves);
+  Faces faces = facesOf(leaves, progress.part(0, 0.7));
+  progress.reach(0.7);
   const double rounding = relativeRounding(faces.points);
   mergePoints(faces, rounding);
   std::vector<Kept> kept = withoutPairs(faces, rounding);
+  progress.reach(0.8);
   if (isInCell)
   {
-    removeCovered(faces, isInCell, kept);
+    removeCovered(faces, isInCell, kept, progress.part(0.8, 0.9));
   }
+  progress.reach(0.9);
   return triangulate(faces, kept);
+}
+
+std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)
+{
+  std::vector<vtkDataArray*> scalars;
+  for (vtkDataSet* leaf : leaves)
+  {
+    scalars.push_back(leaf->GetPointData()->GetScalars());
+  }
+  std::vector<double> values(faces.surface.points.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    for (std::size_t k = faces.starts[i]; k < faces.starts[i + 1]; ++k)
+    {
+      const Share& share = faces.shares[k];
+      values[i] +=
+        scalars[share.leaf] ? share.weight * scalars[share.leaf]->GetComponent(share.point, 0) : 0;
+    }
+  }
+  return values;
 }
 
 } // namespace refractivity

@@ -3,7 +3,12 @@
 #pragma once
 
 #include "Triangles.h"
+#include "WorkProgress.h"
 
+#include "vtkType.h"
+
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -15,11 +20,21 @@ namespace refractivity
 /// Whether a visible cell of any leaf holds a place. Called from several threads.
 using CellTest = std::function<bool(const Point& place)>;
 
+/// What a value is made of: those at points of a leaf, with weights. One with the weight 1, but for points that are
+/// not the leaf's own, on the faces of curved cells.
+struct Share
+{
+  std::uint32_t leaf;
+  vtkIdType point;
+  double weight;
+};
+
 /// Where the gas ends: the faces that belong to one visible cell only.
 struct BoundaryFaces
 {
-  Triangles surface;          ///< normals point into the gas
-  std::vector<double> values; ///< the leaves' scalars at its points
+  Triangles surface;                    ///< normals point into the gas
+  std::vector<std::size_t> starts{ 0 }; ///< of each of its points, in `shares`, and the end
+  std::vector<Share> shares;            ///< of the value there
   std::vector<unsigned char>
     hidesBehind; ///< of each triangle: whether there is a hidden cell on the other side
 };
@@ -36,7 +51,11 @@ struct BoundaryFaces
 ///
 /// Sheets without thickness within a mesh, whose cells meet at the same points, are not known to be there: give them
 /// as Bodies.
-BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell);
+BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
+  const WorkProgress& progress = WorkProgress());
+
+/// The scalars at the points of the surface, of these leaves or of others on the same mesh.
+std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);
 
 /// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
 std::vector<std::int32_t> coincidentPoints(

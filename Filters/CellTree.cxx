@@ -3,7 +3,6 @@
 #include "CellTree.h"
 
 #include "CellTypes.h"
-#include "PointTrends.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
@@ -122,21 +121,51 @@ std::uint64_t placeOnCurve(const std::int32_t middle[3])
 
 } // namespace
 
-CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction)
+CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction,
+  const WorkProgress& progress)
 {
+  const auto mesh = std::make_shared<Mesh>();
+  this->Sorted = mesh;
   vtkIdType cells = 0;
+  for (vtkDataSet* block : blocks)
+  {
+    mesh->firstNumbers.push_back(static_cast<Number>(cells));
+    cells += block->GetNumberOfCells();
+    constexpr auto most = static_cast<vtkIdType>(std::numeric_limits<Number>::max());
+    if (cells >= most || block->GetNumberOfPoints() >= most)
+    {
+      throw std::runtime_error(
+        "The input has more than 4294967294 cells or points, which cannot be used in one piece. "
+        "Extract the part that is to be seen.");
+    }
+  }
+  mesh->firstNumbers.push_back(static_cast<Number>(cells));
+  this->addBlocks(blocks);
+  this->findCells(*mesh, progress.part(0, 0.1));
+  if (reconstruction == Reconstruction::Smooth)
+  {
+    this->findNeighbours(*mesh, progress.part(0.1, 0.4));
+  }
+  this->sortCells(*mesh, progress.part(0.4, 0.6));
+  this->makeGroups(*mesh, progress.part(0.6, 0.7));
+  mesh->voxelShape = this->findVoxelShape();
+  this->setValues(progress.part(0.7, 1));
+}
+
+CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
+  const WorkProgress& progress)
+  : Sorted(std::move(mesh))
+{
+  this->addBlocks(blocks);
+  this->setValues(progress);
+}
+
+void CellTree::addBlocks(const std::vector<vtkDataSet*>& blocks)
+{
   this->Blocks.reserve(blocks.size());
   for (vtkDataSet* block : blocks)
   {
-    this->FirstNumbers.push_back(static_cast<Number>(cells));
     this->Blocks.emplace_back(block);
-    cells += block->GetNumberOfCells();
-    if (cells >= static_cast<vtkIdType>(std::numeric_limits<Number>::max()))
-    {
-      throw std::runtime_error(
-        "The input has more than 4294967294 cells, which cannot be used in one piece. Extract the "
-        "part that is to be seen.");
-    }
     if (block->GetNumberOfCells() > 0)
     {
       vtkNew<vtkGenericCell>
@@ -144,34 +173,41 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
       block->GetCell(0, first);
     }
   }
-  this->FirstNumbers.push_back(static_cast<Number>(cells));
-  this->findCells();
-  if (reconstruction == Reconstruction::Smooth)
-  {
-    this->setTrends();
-  }
-  this->sortCells();
-  this->makeGroups();
 }
 
 CellTree::Cell CellTree::cell(Number number) const
 {
   std::size_t block = 0;
+  const std::vector<Number>& firstNumbers = this->Sorted->firstNumbers;
   if (this->Blocks.size() > 1)
   {
-    block = static_cast<std::size_t>(
-      std::upper_bound(this->FirstNumbers.begin(), this->FirstNumbers.end(), number) -
-      this->FirstNumbers.begin() - 1);
+    block =
+      static_cast<std::size_t>(std::upper_bound(firstNumbers.begin(), firstNumbers.end(), number) -
+        firstNumbers.begin() - 1);
   }
-  return { &this->Blocks[block], static_cast<vtkIdType>(number - this->FirstNumbers[block]) };
+  return { &this->Blocks[block], static_cast<vtkIdType>(number - firstNumbers[block]) };
+}
+
+std::size_t CellTree::Mesh::bytes() const
+{
+  std::size_t sum = this->numbers.size() * (sizeof(Number) + sizeof(Steps));
+  for (const std::vector<Group>& level : this->levels)
+  {
+    sum += level.size() * sizeof(Group);
+  }
+  for (const PointNeighbours& ofBlock : this->neighbours)
+  {
+    sum += ofBlock.bytes();
+  }
+  return sum;
 }
 
 std::size_t CellTree::bytes() const
 {
-  std::size_t sum = this->Numbers.size() * (sizeof(Number) + sizeof(Steps));
-  for (const std::vector<Group>& level : this->Levels)
+  std::size_t sum = this->Sorted->bytes();
+  for (const std::vector<Range>& level : this->Ranges)
   {
-    sum += level.size() * sizeof(Group);
+    sum += level.size() * sizeof(Range);
   }
   for (const MeshArrays& block : this->Blocks)
   {
@@ -208,7 +244,7 @@ CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
 }
 
 /// The cells that are there, and the box of all.
-void CellTree::findCells()
+void CellTree::findCells(Mesh& mesh, const WorkProgress& progress)
 {
   std::array<bool, 256> isVolume{};
   for (const MeshArrays& block : this->Blocks)
@@ -218,83 +254,129 @@ void CellTree::findCells()
       isVolume[static_cast<std::size_t>(type)] = dimensionOfType(type) == 3;
     }
   }
-  constexpr Number part = 1 << 14;
-  const Number end = this->FirstNumbers.back();
-  const std::size_t count = (std::size_t{ end } + part - 1) / part;
+  const Number end = mesh.firstNumbers.back();
+  const std::size_t count = (std::size_t{ end } + partSize - 1) / partSize;
   std::vector<std::vector<Number>> found(count);
   std::vector<Bounds> boxes(
     count, Bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
+  forParts(end, progress,
     [&](vtkIdType begin, vtkIdType last)
     {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(last); ++i)
+      const auto i = static_cast<std::size_t>(begin / partSize);
+      for (auto number = static_cast<Number>(begin); number < static_cast<Number>(last); ++number)
       {
-        const auto first = static_cast<Number>(i * part);
-        for (Number number = first; number < std::min<std::size_t>(end, (i + 1) * part); ++number)
+        const Cell one = this->cell(number);
+        if (!one.block->isVisible(one.id) ||
+          !isVolume[static_cast<std::size_t>(one.block->type(one.id))])
         {
-          const Cell one = this->cell(number);
-          if (!one.block->isVisible(one.id) ||
-            !isVolume[static_cast<std::size_t>(one.block->type(one.id))])
-          {
-            continue;
-          }
-          const Bounds bounds = this->boundsOf(one);
-          double sum = 0;
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            sum += (bounds.high[axis] - bounds.low[axis]) * 0;
-          }
-          if (sum != 0) // NaN: somewhere it is not finite, or there are no points
-          {
-            continue;
-          }
-          found[i].push_back(number);
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            boxes[i].low[axis] = std::min(boxes[i].low[axis], bounds.low[axis]);
-            boxes[i].high[axis] = std::max(boxes[i].high[axis], bounds.high[axis]);
-          }
+          continue;
+        }
+        const Bounds bounds = this->boundsOf(one);
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          sum += (bounds.high[axis] - bounds.low[axis]) * 0;
+        }
+        if (sum != 0) // NaN: somewhere it is not finite, or there are no points
+        {
+          continue;
+        }
+        found[i].push_back(number);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          boxes[i].low[axis] = std::min(boxes[i].low[axis], bounds.low[axis]);
+          boxes[i].high[axis] = std::max(boxes[i].high[axis], bounds.high[axis]);
         }
       }
     });
-  this->Whole = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  mesh.whole = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   std::size_t sum = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
     sum += found[i].size();
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      this->Whole.low[axis] = std::min(this->Whole.low[axis], boxes[i].low[axis]);
-      this->Whole.high[axis] = std::max(this->Whole.high[axis], boxes[i].high[axis]);
+      mesh.whole.low[axis] = std::min(mesh.whole.low[axis], boxes[i].low[axis]);
+      mesh.whole.high[axis] = std::max(mesh.whole.high[axis], boxes[i].high[axis]);
     }
   }
-  this->Numbers.reserve(sum);
+  mesh.numbers.reserve(sum);
   for (const std::vector<Number>& some : found)
   {
-    this->Numbers.insert(this->Numbers.end(), some.begin(), some.end());
+    mesh.numbers.insert(mesh.numbers.end(), some.begin(), some.end());
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double length = this->Whole.high[axis] - this->Whole.low[axis];
-    this->Step[axis] = length > 0 && length < infinity ? length / (steps - 4) : 1;
-    this->Origin[axis] = this->Whole.low[axis] - 2 * this->Step[axis];
+    const double length = mesh.whole.high[axis] - mesh.whole.low[axis];
+    mesh.step[axis] = length > 0 && length < infinity ? length / (steps - 4) : 1;
+    mesh.origin[axis] = mesh.whole.low[axis] - 2 * mesh.step[axis];
   }
 }
 
-void CellTree::setTrends()
+void CellTree::findNeighbours(Mesh& mesh, const WorkProgress& progress)
 {
   for (std::size_t block = 0; block < this->Blocks.size(); ++block)
   {
-    const Number first = this->FirstNumbers[block];
-    MeshArrays& mesh = this->Blocks[block];
-    std::vector<bool> isThere(static_cast<std::size_t>(mesh.cells()));
-    for (auto i = std::lower_bound(this->Numbers.begin(), this->Numbers.end(), first);
-         i != this->Numbers.end() && *i < this->FirstNumbers[block + 1]; ++i)
+    const Number first = mesh.firstNumbers[block];
+    std::vector<unsigned char> isThere(static_cast<std::size_t>(this->Blocks[block].cells()));
+    for (auto i = std::lower_bound(mesh.numbers.begin(), mesh.numbers.end(), first);
+         i != mesh.numbers.end() && *i < mesh.firstNumbers[block + 1]; ++i)
     {
-      isThere[*i - first] = true;
+      isThere[*i - first] = 1;
     }
-    mesh.setTrends(
-      pointTrends(mesh, [&](vtkIdType cell) { return isThere[static_cast<std::size_t>(cell)]; }));
+    const auto parts = static_cast<double>(this->Blocks.size());
+    mesh.neighbours.emplace_back(this->Blocks[block], std::move(isThere),
+      progress.part(static_cast<double>(block) / parts, static_cast<double>(block + 1) / parts));
+  }
+}
+
+/// What depends on the values.
+void CellTree::setValues(const WorkProgress& progress)
+{
+  const Mesh& mesh = *this->Sorted;
+  const auto blocks = static_cast<double>(this->Blocks.size());
+  for (std::size_t block = 0; block < mesh.neighbours.size(); ++block)
+  {
+    const auto number = static_cast<double>(block);
+    this->Blocks[block].setTrends(mesh.neighbours[block].trends(
+      this->Blocks[block], progress.part(0.7 * number / blocks, 0.7 * (number + 1) / blocks)));
+  }
+  if (mesh.levels.empty())
+  {
+    return;
+  }
+  const std::size_t count = mesh.numbers.size();
+  this->Ranges.emplace_back(mesh.levels[0].size());
+  forParts(static_cast<vtkIdType>(this->Ranges[0].size()), progress.part(0.7, 1),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      vtkNew<vtkGenericCell> curved;
+      for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
+           ++group)
+      {
+        Range& made = this->Ranges[0][group];
+        made = { infinity, -infinity };
+        for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
+        {
+          const Cell one = this->cell(mesh.numbers[i]);
+          const auto [low, high] = this->rangeOf(one);
+          const double more = overshootOf(orderOf(one, curved)) * (high - low);
+          made.lowest = std::min(made.lowest, low - more);
+          made.highest = std::max(made.highest, high + more);
+        }
+      }
+    });
+  while (this->Ranges.back().size() > 1)
+  {
+    const std::vector<Range>& below = this->Ranges.back();
+    std::vector<Range> level((below.size() + width - 1) / width, Range{ infinity, -infinity });
+    for (std::size_t i = 0; i < below.size(); ++i)
+    {
+      Range& range = level[i / width];
+      range.lowest = std::min(range.lowest, below[i].lowest);
+      range.highest = std::max(range.highest, below[i].highest);
+    }
+    this->Ranges.push_back(std::move(level));
   }
 }
 
@@ -351,30 +433,30 @@ CellTree::Steps CellTree::stepsOf(const Bounds& box) const
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto place = [&](double x)
-    { return std::clamp((x - this->Origin[axis]) / this->Step[axis], -2., steps + 2); };
+    { return std::clamp((x - this->origin()[axis]) / this->step()[axis], -2., steps + 2); };
     result.low[axis] = static_cast<std::int32_t>(std::floor(place(box.low[axis]))) - 1;
     result.high[axis] = static_cast<std::int32_t>(std::floor(place(box.high[axis]))) + 2;
   }
   return result;
 }
 
-void CellTree::sortCells()
+void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
 {
   using Entry = std::pair<std::uint64_t, Number>;
-  const std::size_t count = this->Numbers.size();
+  const std::size_t count = mesh.numbers.size();
   std::vector<Entry> entries(count);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 4096,
+  forParts(static_cast<vtkIdType>(count), progress.part(0, 0.4),
     [&](vtkIdType begin, vtkIdType end)
     {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       {
-        const Steps box = this->stepsOf(this->boundsOf(this->cell(this->Numbers[i])));
+        const Steps box = this->stepsOf(this->boundsOf(this->cell(mesh.numbers[i])));
         std::int32_t middle[3];
         for (int axis = 0; axis < 3; ++axis)
         {
           middle[axis] = std::max(0, box.low[axis] + (box.high[axis] - box.low[axis]) / 2);
         }
-        entries[i] = { placeOnCurve(middle), this->Numbers[i] };
+        entries[i] = { placeOnCurve(middle), mesh.numbers[i] };
       }
     });
   // Parts of fixed size, then pairs of parts, then pairs of these.
@@ -389,6 +471,7 @@ void CellTree::sortCells()
         std::sort(at(i * part), at((i + 1) * part));
       }
     });
+  progress.reach(0.6);
   std::vector<Entry> merged(count > part ? count : 0);
   for (std::size_t length = part; length < count; length *= 2)
   {
@@ -403,10 +486,11 @@ void CellTree::sortCells()
         }
       });
     entries.swap(merged);
+    progress.reach(1 - 0.4 * static_cast<double>(part) / static_cast<double>(length));
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->Numbers[i] = entries[i].second;
+    mesh.numbers[i] = entries[i].second;
   }
 }
 
@@ -482,43 +566,35 @@ Vector CellTree::sizeOf(const Cell& one) const
   return size;
 }
 
-void CellTree::makeGroups()
+void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
 {
-  const std::size_t count = this->Numbers.size();
+  const std::size_t count = mesh.numbers.size();
   if (count == 0)
   {
     return;
   }
-  this->Boxes.resize(count);
-  this->Levels.emplace_back((count + width - 1) / width);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(this->Levels[0].size()), 512,
+  mesh.boxes.resize(count);
+  mesh.levels.emplace_back((count + width - 1) / width);
+  forParts(static_cast<vtkIdType>(mesh.levels[0].size()), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
       vtkNew<vtkGenericCell> curved;
       for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
            ++group)
       {
-        double lowest = infinity, highest = -infinity;
         Vector sizes = { infinity, infinity, infinity };
         for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
         {
-          const Cell one = this->cell(this->Numbers[i]);
-          this->Boxes[i] = this->stepsOf(this->boundsOf(one));
-          const auto [low, high] = this->rangeOf(one);
+          const Cell one = this->cell(mesh.numbers[i]);
+          mesh.boxes[i] = this->stepsOf(this->boundsOf(one));
           const int order = orderOf(one, curved);
-          const double more = overshootOf(order) * (high - low);
-          lowest = std::min(lowest, low - more);
-          highest = std::max(highest, high + more);
           const Vector size = this->sizeOf(one);
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
             sizes[axis] = std::min(sizes[axis], size[axis] / order);
           }
         }
-        Group& made = this->Levels[0][group];
-        made.lowest = lowest;
-        made.highest = highest;
-        std::transform(sizes.begin(), sizes.end(), made.cellSize,
+        std::transform(sizes.begin(), sizes.end(), mesh.levels[0][group].cellSize,
           [](double size) { return static_cast<float>(size); });
       }
     });
@@ -533,33 +609,32 @@ void CellTree::makeGroups()
   };
   for (std::size_t i = 0; i < count; ++i)
   {
-    addBox(this->Boxes[i], this->Levels[0][i / width].box, i % width == 0);
+    addBox(mesh.boxes[i], mesh.levels[0][i / width].box, i % width == 0);
   }
-  while (this->Levels.back().size() > 1)
+  while (mesh.levels.back().size() > 1)
   {
-    const std::vector<Group>& below = this->Levels.back();
+    const std::vector<Group>& below = mesh.levels.back();
     std::vector<Group> level((below.size() + width - 1) / width);
     for (std::size_t i = 0; i < below.size(); ++i)
     {
       Group& group = level[i / width];
       const bool isFirst = i % width == 0;
       addBox(below[i].box, group.box, isFirst);
-      group.lowest = isFirst ? below[i].lowest : std::min(group.lowest, below[i].lowest);
-      group.highest = isFirst ? below[i].highest : std::max(group.highest, below[i].highest);
       for (int axis = 0; axis < 3; ++axis)
       {
         group.cellSize[axis] = isFirst ? below[i].cellSize[axis]
                                        : std::min(group.cellSize[axis], below[i].cellSize[axis]);
       }
     }
-    this->Levels.push_back(std::move(level));
+    mesh.levels.push_back(std::move(level));
   }
 }
 
 CellTree::Content CellTree::content(const Bounds& box) const
 {
   Content content{ infinity, -infinity, { infinity, infinity, infinity } };
-  if (this->Levels.empty())
+  const std::vector<std::vector<Group>>& levels = this->Sorted->levels;
+  if (levels.empty())
   {
     return content;
   }
@@ -576,10 +651,10 @@ CellTree::Content CellTree::content(const Bounds& box) const
     }
     return isSmall || isWithin;
   };
-  const auto add = [&](const Group& group)
+  const auto add = [&](const Group& group, const Range& range)
   {
-    content.lowest = std::min(content.lowest, group.lowest);
-    content.highest = std::max(content.highest, group.highest);
+    content.lowest = std::min(content.lowest, range.lowest);
+    content.highest = std::max(content.highest, range.highest);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       content.cellSize[axis] = std::min<double>(content.cellSize[axis], group.cellSize[axis]);
@@ -587,47 +662,48 @@ CellTree::Content CellTree::content(const Bounds& box) const
   };
   const auto look = [&](const auto& self, std::size_t level, std::size_t index) -> void
   {
-    const Group& group = this->Levels[level][index];
+    const Group& group = levels[level][index];
     if (!meet(group.box, steps))
     {
       return;
     }
     if (isSmallOrWithin(group.box))
     {
-      add(group);
+      add(group, this->Ranges[level][index]);
       return;
     }
     const std::size_t first = width * index;
     if (level > 0)
     {
-      const std::size_t end = std::min(first + width, this->Levels[level - 1].size());
+      const std::size_t end = std::min(first + width, levels[level - 1].size());
       for (std::size_t i = first; i < end; ++i)
       {
         self(self, level - 1, i);
       }
       return;
     }
-    const std::size_t end = std::min(first + width, this->Numbers.size());
+    const std::size_t end = std::min(first + width, this->Sorted->numbers.size());
     for (std::size_t i = first; i < end; ++i)
     {
-      if (meet(this->Boxes[i], steps))
+      if (meet(this->Sorted->boxes[i], steps))
       {
-        add(group);
+        add(group, this->Ranges[level][index]);
         return;
       }
     }
   };
-  look(look, this->Levels.size() - 1, 0);
+  look(look, levels.size() - 1, 0);
   return content;
 }
 
-Vector CellTree::voxelShape() const
+/// See voxelShape().
+Vector CellTree::findVoxelShape() const
 {
   std::array<std::vector<double>, 3> sizes;
-  const std::size_t count = this->Numbers.size();
+  const std::size_t count = this->Sorted->numbers.size();
   for (std::size_t i = 0; i < count; i += 1 + count / mostCellsMeasured)
   {
-    const Vector size = this->sizeOf(this->cell(this->Numbers[i]));
+    const Vector size = this->sizeOf(this->cell(this->Sorted->numbers[i]));
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       if (size[axis] < infinity)

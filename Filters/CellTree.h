@@ -4,10 +4,14 @@
 
 #include "CellShape.h"
 #include "MeshArrays.h"
+#include "PointTrends.h"
+#include "WorkProgress.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 class vtkDataSet;
@@ -35,10 +39,18 @@ public:
     Smooth  // exact for quadratic fields, by gradients at the points (see PointTrends.h)
   };
 
+  struct Mesh;
+
   /// Each dataset has one double scalar at each point. They must outlive the tree. Throws where there are
-  /// too many cells.
-  explicit CellTree(
-    const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction = Reconstruction::Linear);
+  /// too many cells or points.
+  explicit CellTree(const std::vector<vtkDataSet*>& blocks,
+    Reconstruction reconstruction = Reconstruction::Linear,
+    const WorkProgress& progress = WorkProgress());
+
+  /// Of other values on the mesh of another tree, which that tree need not outlive.
+  CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
+    const WorkProgress& progress = WorkProgress());
+  const std::shared_ptr<const Mesh>& mesh() const { return this->Sorted; }
 
   /// Cells by numbers that count through all blocks, hidden ones too.
   using Number = std::uint32_t;
@@ -49,14 +61,14 @@ public:
   };
   Cell cell(Number number) const;
 
-  std::size_t size() const { return this->Numbers.size(); } // cells that are there
-  std::size_t bytes() const;                                // of memory, without the datasets'
+  std::size_t size() const { return this->Sorted->numbers.size(); } // cells that are there
+  std::size_t bytes() const; // of memory, without the datasets'
 
   struct Bounds // low > high: none
   {
     Vector low, high;
   };
-  const Bounds& bounds() const { return this->Whole; }
+  const Bounds& bounds() const { return this->Sorted->whole; }
 
   /// What is known of some cells.
   struct Content
@@ -70,7 +82,7 @@ public:
   Content content(const Bounds& box) const;
 
   /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
-  Vector voxelShape() const;
+  const Vector& voxelShape() const { return this->Sorted->voxelShape; }
 
   /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
   /// coordinates by more than 1. Infinite where it has no volume.
@@ -86,19 +98,33 @@ public:
   {
     Steps box;
     float cellSize[3];
-    double lowest, highest;
   };
-  const Vector& origin() const { return this->Origin; }
-  const Vector& step() const { return this->Step; }
+
+  /// What depends on the mesh alone: points, cells, which of them are hidden, and which points have no value. It needs
+  /// no dataset.
+  struct Mesh
+  {
+    std::vector<Number> firstNumbers; // of each block, and the end
+    Bounds whole;
+    Vector origin, step, voxelShape;
+    std::vector<Number> numbers;            // sorted
+    std::vector<Steps> boxes;               // of them
+    std::vector<std::vector<Group>> levels; // of eight cells, of eight times as many, ... one group
+    std::vector<PointNeighbours> neighbours; // of each block; none: linear
+
+    std::size_t bytes() const;
+  };
+  const Vector& origin() const { return this->Sorted->origin; }
+  const Vector& step() const { return this->Sorted->step; }
 
   /// Calls enter(box), whether to go on, for groups and cells, and visit(number of a cell), in an order that
   /// depends on the tree only.
   template <class Enter, class Visit>
   void walk(const Enter& enter, const Visit& visit) const
   {
-    if (!this->Levels.empty())
+    if (!this->Sorted->levels.empty())
     {
-      this->walk(this->Levels.size() - 1, 0, enter, visit);
+      this->walk(this->Sorted->levels.size() - 1, 0, enter, visit);
     }
   }
 
@@ -122,45 +148,50 @@ private:
   template <class Enter, class Visit>
   void walk(std::size_t level, std::size_t group, const Enter& enter, const Visit& visit) const
   {
-    if (!enter(this->Levels[level][group].box))
+    if (!enter(this->Sorted->levels[level][group].box))
     {
       return;
     }
     const std::size_t first = width * group;
     if (level > 0)
     {
-      const std::size_t end = std::min(first + width, this->Levels[level - 1].size());
+      const std::size_t end = std::min(first + width, this->Sorted->levels[level - 1].size());
       for (std::size_t i = first; i < end; ++i)
       {
         this->walk(level - 1, i, enter, visit);
       }
       return;
     }
-    const std::size_t end = std::min(first + width, this->Numbers.size());
+    const std::size_t end = std::min(first + width, this->Sorted->numbers.size());
     for (std::size_t i = first; i < end; ++i)
     {
-      if (enter(this->Boxes[i]))
+      if (enter(this->Sorted->boxes[i]))
       {
-        visit(this->Numbers[i]);
+        visit(this->Sorted->numbers[i]);
       }
     }
   }
 
+  /// What groups hold, level by level.
+  struct Range
+  {
+    double lowest, highest;
+  };
+
+  void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
-  void findCells();
-  void setTrends();
+  void findCells(Mesh& mesh, const WorkProgress& progress);
+  void findNeighbours(Mesh& mesh, const WorkProgress& progress);
+  void sortCells(Mesh& mesh, const WorkProgress& progress);
+  void makeGroups(Mesh& mesh, const WorkProgress& progress);
+  Vector findVoxelShape() const;
+  void setValues(const WorkProgress& progress);
   std::array<double, 2> rangeOf(const Cell& cell) const;
-  void sortCells();
-  void makeGroups();
 
   std::vector<MeshArrays> Blocks;
-  std::vector<Number> FirstNumbers; // of each block, and the end
-  Bounds Whole;
-  Vector Origin, Step;
-  std::vector<Number> Numbers;            // sorted
-  std::vector<Steps> Boxes;               // of them
-  std::vector<std::vector<Group>> Levels; // of eight cells, of eight times as many, ... one group
+  std::shared_ptr<const Mesh> Sorted;
+  std::vector<std::vector<Range>> Ranges; // of the groups of each level
 };
 
 } // namespace refractivity

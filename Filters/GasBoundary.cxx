@@ -12,19 +12,20 @@ namespace refractivity
 {
 
 GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
-  Outside outside, const CellTest& isInCell)
-  : Faces(boundaryOf(leaves, isInCell))
+  Outside outside, const CellTest& isInCell, const WorkProgress& progress)
+  : Faces(boundaryOf(leaves, isInCell, progress.part(0, 0.8)))
   , Tree(this->Faces.surface)
   , Walls(this->Faces.surface.size(), 0)
   , Far(outside == Outside::Blocks ? Place::Wall : Place::Window)
   , Bodies(bodies ? std::make_unique<BodySurfaces>(bodies) : nullptr)
 {
-  const std::vector<unsigned char> isOuter =
+  progress.reach(0.9);
+  this->IsOuter =
     findOuter(this->Faces.surface, this->Tree, relativeRounding(this->Faces.surface.points));
   for (std::size_t t = 0; t < this->Walls.size(); ++t)
   {
     const bool isWall = this->Faces.hidesBehind[t] || outside == Outside::Blocks ||
-      (outside == Outside::Auto && !isOuter[t]);
+      (outside == Outside::Auto && !this->IsOuter[t]);
     this->Walls[t] = isWall ? 1 : 0;
   }
   if (outside == Outside::Auto)
@@ -39,7 +40,7 @@ GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* 
     }
     this->TreeOfWindows = std::make_unique<TriangleTree>(this->Windows);
   }
-  this->findAmbient(isOuter);
+  progress.reach(1);
 }
 
 bool GasBoundary::isBeyondAll(const Point& place) const
@@ -53,8 +54,9 @@ bool GasBoundary::isBeyondAll(const Point& place) const
   return dot(this->Windows.normal(t), place - this->Windows.corner(t, 0)) < 0;
 }
 
-void GasBoundary::findAmbient(const std::vector<unsigned char>& isOuter)
+double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
 {
+  const std::vector<double> values = valuesAt(this->Faces, leaves);
   const Triangles& surface = this->Faces.surface;
   std::vector<std::pair<double, double>> parts; // N, area
   for (const bool ofAll : { false, true })
@@ -62,12 +64,12 @@ void GasBoundary::findAmbient(const std::vector<unsigned char>& isOuter)
     double area = 0;
     for (std::size_t t = 0; t < surface.size(); ++t)
     {
-      if (ofAll || (isOuter[t] && !this->Faces.hidesBehind[t]))
+      if (ofAll || (this->IsOuter[t] && !this->Faces.hidesBehind[t]))
       {
         double mean = 0;
         for (const std::int32_t corner : surface.corners[t])
         {
-          mean += this->Faces.values[static_cast<std::size_t>(corner)] / 3;
+          mean += values[static_cast<std::size_t>(corner)] / 3;
         }
         parts.emplace_back(mean, norm(surface.normal(t)));
         area += parts.back().second;
@@ -80,12 +82,11 @@ void GasBoundary::findAmbient(const std::vector<unsigned char>& isOuter)
       below += size;
       if (below >= 0.5 * area)
       {
-        this->Ambient = value;
-        return;
+        return value;
       }
     }
   }
-  this->Ambient = std::numeric_limits<double>::quiet_NaN();
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const

@@ -33,15 +33,16 @@ class GasBoundary
 public:
   using Place = schlieren::Place;
 
-  /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see BodySurfaces.
+  /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see BodySurfaces. All of it is kept
+  /// as it is: neither need outlive this.
   GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
-    const CellTest& isInCell);
+    const CellTest& isInCell, const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
   /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where
-  /// there is none. NaN: there is no boundary.
-  double ambient() const { return this->Ambient; }
+  /// there is none. NaN: there is no boundary. `leaves`: these or others on the same mesh.
+  double ambient(const std::vector<vtkDataSet*>& leaves) const;
 
   /// Which faces there are in a box.
   struct Kinds
@@ -73,18 +74,16 @@ public:
   bool isWall(std::size_t triangle) const { return this->Walls[triangle] != 0; }
 
 private:
-  void findAmbient(const std::vector<unsigned char>& isOuter);
-
   bool isBeyondAll(const Point& place) const;
 
   BoundaryFaces Faces;
   TriangleTree Tree;
-  std::vector<unsigned char> Walls; // of each triangle
-  Triangles Windows;                // the other triangles, with Outside::Auto
+  std::vector<unsigned char> IsOuter; // of each triangle
+  std::vector<unsigned char> Walls;   // likewise
+  Triangles Windows;                  // the other triangles, with Outside::Auto
   std::unique_ptr<TriangleTree> TreeOfWindows;
   Place Far; // where there are no faces at all
   std::unique_ptr<BodySurfaces> Bodies;
-  double Ambient;
 };
 
 } // namespace refractivity

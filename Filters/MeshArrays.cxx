@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshArrays.h"
 
+#include "CellTypes.h"
 #include "RefractivityValues.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -57,21 +58,21 @@ bool MeshArrays::isVisible(vtkIdType cell) const
 
 std::size_t MeshArrays::bytes() const
 {
-  return this->OwnPoints.size() * sizeof(double) + this->Types.size() +
+  return this->OwnPoints.size() * sizeof(double) + this->OwnTypes.size() +
     (this->OwnOffsets.size() + this->OwnCells.size()) * sizeof(vtkTypeInt64) +
     this->Trends.size() * sizeof(PointTrend);
 }
 
 std::vector<int> MeshArrays::types() const
 {
-  if (this->Types.empty())
+  if (!this->Types)
   {
     return { this->Type };
   }
   std::array<bool, 256> exists{};
   for (vtkIdType i = 0; i < this->CellCount; ++i)
   {
-    exists[this->Types[static_cast<std::size_t>(i)]] = true;
+    exists[this->Types[i]] = true;
   }
   std::vector<int> types;
   for (int type = 0; type < 256; ++type)
@@ -149,14 +150,9 @@ void MeshArrays::setCells()
       return;
     }
   }
-  this->Types.resize(static_cast<std::size_t>(this->CellCount) + 1); // never empty
-  for (vtkIdType i = 0; i < this->CellCount; ++i)
-  {
-    this->Types[static_cast<std::size_t>(i)] =
-      static_cast<unsigned char>(this->Data->GetCellType(i));
-  }
   if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(this->Data))
   {
+    this->Types = numbersOf<unsigned char>(cellTypesOf(mesh));
     vtkCellArray* cells = mesh->GetCells();
     if (cells && cells->IsStorage64Bit())
     {
@@ -168,6 +164,16 @@ void MeshArrays::setCells()
       this->Offsets32 = numbersOf<vtkTypeInt32>(cells->GetOffsetsArray());
       this->Points32 = numbersOf<vtkTypeInt32>(cells->GetConnectivityArray());
     }
+  }
+  if (!this->Types)
+  {
+    this->OwnTypes.resize(static_cast<std::size_t>(this->CellCount) + 1); // never empty
+    for (vtkIdType i = 0; i < this->CellCount; ++i)
+    {
+      this->OwnTypes[static_cast<std::size_t>(i)] =
+        static_cast<unsigned char>(this->Data->GetCellType(i));
+    }
+    this->Types = this->OwnTypes.data();
   }
   if (!(this->Offsets64 && this->Points64) && !(this->Offsets32 && this->Points32))
   {

@@ -47,16 +47,36 @@ public:
   void setTrends(std::vector<PointTrend> trends) { this->Trends = std::move(trends); }
 
   /// The VTK cell type, whether or not the cell is hidden.
-  int type(vtkIdType cell) const
-  {
-    return this->Types.empty() ? this->Type : this->Types[static_cast<std::size_t>(cell)];
-  }
+  int type(vtkIdType cell) const { return this->Types ? this->Types[cell] : this->Type; }
 
   /// All types that there are.
   std::vector<int> types() const;
 
   /// Whether no bit of hiddenCellBits hides it.
   bool isVisible(vtkIdType cell) const;
+
+  /// Whether cells are numbered by three indices, so that those around a point are known.
+  bool isStructured() const { return this->Layer > 0; }
+
+  /// Calls visit(number of the cell) for all cells around a point of a structured mesh.
+  template <class Visit>
+  void forCellsAround(vtkIdType point, const Visit& visit) const
+  {
+    const vtkIdType cells[3] = { this->CellsAlong, this->CellsAcross,
+      this->CellCount / (this->CellsAlong * this->CellsAcross) };
+    const vtkIdType at[3] = { point % this->Row, point % this->Layer / this->Row,
+      point / this->Layer };
+    for (vtkIdType k = at[2] > 0 ? at[2] - 1 : 0; k <= at[2] && k < cells[2]; ++k)
+    {
+      for (vtkIdType j = at[1] > 0 ? at[1] - 1 : 0; j <= at[1] && j < cells[1]; ++j)
+      {
+        for (vtkIdType i = at[0] > 0 ? at[0] - 1 : 0; i <= at[0] && i < cells[0]; ++i)
+        {
+          visit((k * cells[1] + j) * cells[0] + i);
+        }
+      }
+    }
+  }
 
   /// Calls visit(number of the point) for all points of a cell, in VTK's order.
   template <class Visit>
@@ -162,8 +182,9 @@ private:
   const double* Doubles = nullptr;
   std::vector<double> OwnPoints;
 
-  int Type = 0; // of all cells where Types is empty
-  std::vector<unsigned char> Types;
+  int Type = 0; // of all cells where Types is null
+  const unsigned char* Types = nullptr;
+  std::vector<unsigned char> OwnTypes;
   // Of structured grids: cells in a row, rows of cells in a layer; points in a row and in a layer.
   vtkIdType CellsAlong = 0, CellsAcross = 0, Row = 0, Layer = 0;
   bool IsVoxel = false;

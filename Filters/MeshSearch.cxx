@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshSearch.h"
 
+#include "MeshKey.h"
 #include "RefractivityValues.h"
 
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
-#include "vtkIdList.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <mutex>
 #include <utility>
@@ -22,85 +20,6 @@ namespace refractivity
 
 namespace
 {
-
-/// A hash of the numbers that it is given, in their order.
-class Hash
-{
-public:
-  void add(std::uint64_t bits)
-  {
-    this->Value = (this->Value ^ bits) * 0x9e3779b97f4a7c15u;
-    this->Value ^= this->Value >> 29;
-  }
-  void add(const double* values, int count)
-  {
-    for (int i = 0; i < count; ++i)
-    {
-      std::uint64_t bits;
-      std::memcpy(&bits, values + i, sizeof(bits));
-      this->add(bits);
-    }
-  }
-  std::uint64_t value() const { return this->Value; }
-
-private:
-  std::uint64_t Value = 1;
-};
-
-/// Adds the hashes of parts of fixed size, made by hashPart(first, last, hash) in any order.
-template <class HashPart>
-void addParts(Hash& hash, vtkIdType count, const HashPart& hashPart)
-{
-  constexpr vtkIdType size = 1 << 15;
-  std::vector<Hash> parts(static_cast<std::size_t>((count + size - 1) / size));
-  vtkSMPTools::For(0, static_cast<vtkIdType>(parts.size()), 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType part = begin; part < end; ++part)
-      {
-        hashPart(
-          part * size, std::min(count, (part + 1) * size), parts[static_cast<std::size_t>(part)]);
-      }
-    });
-  hash.add(static_cast<std::uint64_t>(count));
-  for (const Hash& part : parts)
-  {
-    hash.add(part.value());
-  }
-}
-
-void addMesh(Hash& hash, vtkDataSet* data)
-{
-  addParts(hash, data->GetNumberOfPoints(),
-    [data](vtkIdType first, vtkIdType last, Hash& part)
-    {
-      double x[3];
-      for (vtkIdType i = first; i < last; ++i)
-      {
-        data->GetPoint(i, x);
-        part.add(x, 3);
-      }
-    });
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  addParts(hash, data->GetNumberOfCells(),
-    [data, ghosts](vtkIdType first, vtkIdType last, Hash& part)
-    {
-      vtkNew<vtkIdList> storage;
-      for (vtkIdType i = first; i < last; ++i)
-      {
-        vtkIdType count;
-        const vtkIdType* points;
-        data->GetCellPoints(i, count, points, storage);
-        part.add(static_cast<std::uint64_t>(count) << 16 |
-          static_cast<std::uint64_t>(ghosts->GetValue(i)) << 8 |
-          static_cast<std::uint64_t>(data->GetCellType(i)));
-        for (vtkIdType k = 0; k < count; ++k)
-        {
-          part.add(static_cast<std::uint64_t>(points[k]));
-        }
-      }
-    });
-}
 
 std::uint64_t keyOf(const std::vector<vtkDataSet*>& leaves, vtkImageData* grid)
 {

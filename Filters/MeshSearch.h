@@ -3,12 +3,12 @@
 #pragma once
 
 #include "MeshSampler.h"
+#include "WorkProgress.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 class vtkDoubleArray;
@@ -33,9 +33,6 @@ struct MeshSearch
 
   void release();
 };
-
-/// Tells how much is done, 0 to 1, in the thread that asked for the work. Whether to go on.
-using Progress = std::function<bool(double)>;
 
 /// The grid's values and which are valid, for the scalars of `leaves` (see MeshSampler); searches only if
 /// it has to. Returns false, with nothing useful in the arrays, if it was told to stop.

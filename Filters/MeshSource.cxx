@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshSource.h"
 
+#include "MeshKey.h"
+
 #include "vtkDataSet.h"
 
 #include <cmath>
@@ -30,16 +32,44 @@ bool holds(const CellSampler& cells, const Point& place)
 } // namespace
 
 MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-  vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction)
+  vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction,
+  const WorkProgress& progress)
   : Leaves(leaves)
-  , Cells(pointersTo(leaves), reconstruction)
+  , Cells(pointersTo(leaves), reconstruction, progress.part(0, 0.6))
   , Values(this->Cells)
-  , Boundary(pointersTo(leaves), bodies, outside,
-      [this](const Point& place) { return holds(this->Values, place); })
+  , Boundary(std::make_shared<GasBoundary>(
+      pointersTo(leaves), bodies, outside,
+      [this](const Point& place) { return holds(this->Values, place); }, progress.part(0.6, 1)))
+  , Ambient(this->Boundary->ambient(pointersTo(leaves)))
 {
 }
 
-bool MeshSource::meetsBodies() const { return this->Boundary.hasBodiesIn(this->bounds()); }
+MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
+  const SourceMesh& mesh, const WorkProgress& progress)
+  : Leaves(leaves)
+  , Cells(pointersTo(leaves), mesh.cells, progress)
+  , Values(this->Cells)
+  , Boundary(mesh.boundary)
+  , Ambient(this->Boundary->ambient(pointersTo(leaves)))
+{
+}
+
+std::uint64_t MeshSource::keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
+  vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction)
+{
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(outside));
+  hash.add(static_cast<std::uint64_t>(reconstruction));
+  for (vtkDataSet* leaf : leaves)
+  {
+    addMesh(hash, leaf);
+    addGas(hash, leaf);
+  }
+  addBodies(hash, bodies);
+  return hash.value();
+}
+
+bool MeshSource::meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
 schlieren::Box MeshSource::bounds() const
 {
@@ -49,10 +79,9 @@ schlieren::Box MeshSource::bounds() const
 
 double MeshSource::ambient() const
 {
-  const double ambient = this->Boundary.ambient();
-  if (!std::isnan(ambient))
+  if (!std::isnan(this->Ambient))
   {
-    return ambient;
+    return this->Ambient;
   }
   const CellTree::Content all = this->Cells.content(this->Cells.bounds());
   return 0.5 * (all.lowest + all.highest);
@@ -62,12 +91,12 @@ std::array<double, 3> MeshSource::voxelShape() const { return this->Cells.voxelS
 
 schlieren::Place MeshSource::placeAt(const Point& place) const
 {
-  return this->Boundary.kindAt(place, holds(this->Values, place));
+  return this->Boundary->kindAt(place, holds(this->Values, place));
 }
 
 schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box) const
 {
-  const GasBoundary::Kinds faces = this->Boundary.facesIn(box);
+  const GasBoundary::Kinds faces = this->Boundary->facesIn(box);
   Content content{ 1, 0, {}, faces.wall, faces.wall || faces.window, faces.window };
   content.cellSize.fill(std::numeric_limits<double>::infinity());
   if (!content.hasGas)
@@ -110,7 +139,7 @@ void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
 {
   std::vector<unsigned char> isFound(static_cast<std::size_t>(lattice.size()));
   this->Values.sample(lattice, refractivity, isFound.data());
-  this->Boundary.sample(lattice, isFound.data(), places, distances);
+  this->Boundary->sample(lattice, isFound.data(), places, distances);
 }
 
 } // namespace refractivity

@@ -10,6 +10,8 @@
 
 #include "Schlieren.h"
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 class vtkDataObject;
@@ -18,13 +20,30 @@ class vtkDataSet;
 namespace refractivity
 {
 
+/// What of a MeshSource depends on the mesh alone, and not on its values: it is kept from one time step to the next.
+/// It needs no dataset.
+struct SourceMesh
+{
+  std::shared_ptr<const CellTree::Mesh> cells;
+  std::shared_ptr<const GasBoundary> boundary;
+};
+
 /// The refractivity of meshes, box by box, for the tracer.
 class MeshSource : public schlieren::MediumSource
 {
 public:
   /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null.
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* bodies,
-    Outside outside, CellTree::Reconstruction reconstruction);
+    Outside outside, CellTree::Reconstruction reconstruction, const WorkProgress& progress);
+
+  /// Of other values on the same mesh: see keyOf().
+  MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const SourceMesh& mesh,
+    const WorkProgress& progress);
+  SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary }; }
+
+  /// A hash of all that the mesh of a source depends on.
+  static std::uint64_t keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
+    vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction);
 
   bool hasGas() const { return this->Cells.size() > 0; }
   /// Whether the bodies reach into the box of the gas.
@@ -43,7 +62,8 @@ private:
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;
   CellSampler Values;
-  GasBoundary Boundary;
+  std::shared_ptr<const GasBoundary> Boundary;
+  double Ambient; // NaN: there is no boundary
 };
 
 } // namespace refractivity

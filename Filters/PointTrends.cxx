@@ -4,13 +4,12 @@
 
 #include "CellShape.h"
 
-#include "vtkSMPTools.h"
-
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace refractivity
 {
@@ -35,65 +34,136 @@ constexpr double leastFirst = 1e-12;
 constexpr int unknowns = 9; // three first derivatives, six second ones
 constexpr std::size_t fewNeighbours = 14;
 
-/// Which cells have a point: those of point i are cells[starts[i]] to cells[starts[i + 1]].
+/// Which cells have a point: those of point i are cells[starts[i]] to cells[starts[i + 1]], in their order.
 struct CellsOfPoints
 {
-  std::vector<std::size_t> starts;
+  std::vector<std::uint64_t> starts;
   std::vector<std::uint32_t> cells;
 };
 
-CellsOfPoints cellsOfPoints(
-  const MeshArrays& mesh, vtkIdType points, const std::function<bool(vtkIdType)>& isCellUsed)
+CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned char>& isCellUsed,
+  const WorkProgress& progress)
 {
+  const auto points = static_cast<std::size_t>(mesh.points());
+  std::vector<std::atomic<std::uint32_t>> counts(points);
+  const auto forCells = [&](const WorkProgress& done, const auto& visit)
+  {
+    forParts(mesh.cells(), done,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType cell = begin; cell < end; ++cell)
+        {
+          if (isCellUsed[static_cast<std::size_t>(cell)])
+          {
+            mesh.forPoints(
+              cell, [&](vtkIdType point) { visit(cell, static_cast<std::size_t>(point)); });
+          }
+        }
+      });
+  };
+  forCells(progress.part(0, 0.3),
+    [&](vtkIdType, std::size_t point) { counts[point].fetch_add(1, std::memory_order_relaxed); });
   CellsOfPoints result;
-  result.starts.assign(static_cast<std::size_t>(points) + 2, 0);
-  std::vector<bool> isUsed(static_cast<std::size_t>(mesh.cells()));
-  for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
+  result.starts.resize(points + 1);
+  for (std::size_t i = 0; i < points; ++i)
   {
-    isUsed[static_cast<std::size_t>(cell)] = isCellUsed(cell);
-    if (isUsed[static_cast<std::size_t>(cell)])
-    {
-      mesh.forPoints(
-        cell, [&](vtkIdType point) { ++result.starts[static_cast<std::size_t>(point) + 2]; });
-    }
-  }
-  for (std::size_t i = 2; i < result.starts.size(); ++i)
-  {
-    result.starts[i] += result.starts[i - 1];
+    result.starts[i + 1] = result.starts[i] + counts[i].load(std::memory_order_relaxed);
   }
   result.cells.resize(result.starts.back());
-  for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
-  {
-    if (isUsed[static_cast<std::size_t>(cell)])
+  // From behind; then in the order of the cells, whichever thread was the first.
+  forCells(progress.part(0.3, 0.7),
+    [&](vtkIdType cell, std::size_t point)
     {
-      mesh.forPoints(cell,
-        [&](vtkIdType point)
-        {
-          result.cells[result.starts[static_cast<std::size_t>(point) + 1]++] =
-            static_cast<std::uint32_t>(cell);
-        });
-    }
-  }
-  result.starts.pop_back();
+      const std::uint32_t left = counts[point].fetch_sub(1, std::memory_order_relaxed);
+      result.cells[result.starts[point] + left - 1] = static_cast<std::uint32_t>(cell);
+    });
+  forParts(mesh.points(), progress.part(0.7, 1),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      const auto placeOf = [&](vtkIdType point)
+      {
+        return result.cells.begin() +
+          static_cast<std::ptrdiff_t>(result.starts[static_cast<std::size_t>(point)]);
+      };
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        std::sort(placeOf(point), placeOf(point + 1));
+      }
+    });
   return result;
 }
 
-/// Adds the points of all cells that have one of the points. They are sorted then.
-void addNeighbours(
-  const MeshArrays& mesh, const CellsOfPoints& known, std::vector<vtkIdType>& points)
+/// Points, each once, in the order in which they came: a table with open addresses.
+class PointSet
 {
-  const std::size_t count = points.size();
-  for (std::size_t i = 0; i < count; ++i)
+public:
+  const std::vector<std::uint32_t>& points() const { return this->Points; }
+
+  void clear()
   {
-    const auto point = static_cast<std::size_t>(points[i]);
-    for (std::size_t k = known.starts[point]; k < known.starts[point + 1]; ++k)
+    ++this->Turn;
+    this->Points.clear();
+  }
+
+  void add(std::uint32_t point)
+  {
+    if (2 * this->Points.size() >= this->Places.size())
     {
-      mesh.forPoints(static_cast<vtkIdType>(known.cells[k]),
-        [&](vtkIdType neighbour) { points.push_back(neighbour); });
+      this->Places.assign(2 * this->Places.size(), 0);
+      for (const std::uint32_t known : this->Points)
+      {
+        this->isNew(known);
+      }
+    }
+    if (this->isNew(point))
+    {
+      this->Points.push_back(point);
     }
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+
+private:
+  bool isNew(std::uint32_t point)
+  {
+    const std::uint64_t entry = this->Turn << 32 | point;
+    const std::size_t last = this->Places.size() - 1;
+    std::size_t place = (point * 0x9e3779b97f4a7c15u >> 32) & last;
+    while (this->Places[place] >> 32 == this->Turn)
+    {
+      if (this->Places[place] == entry)
+      {
+        return false;
+      }
+      place = (place + 1) & last;
+    }
+    this->Places[place] = entry;
+    return true;
+  }
+
+  std::uint64_t Turn = 1; // entries of others are old
+  std::vector<std::uint32_t> Points;
+  std::vector<std::uint64_t> Places = std::vector<std::uint64_t>(256, 0); // a power of two
+};
+
+/// Finds the points of all cells around a point, which is the first of them, and if these are few those of all cells
+/// around these. `forCells(point, visit)` visits the numbers of the cells around a point.
+template <class ForCells>
+void findNeighbours(
+  const MeshArrays& mesh, const ForCells& forCells, vtkIdType point, PointSet& found)
+{
+  found.clear();
+  found.add(static_cast<std::uint32_t>(point));
+  std::size_t done = 0;
+  for (int ring = 0; ring < 2 && found.points().size() <= fewNeighbours; ++ring)
+  {
+    for (const std::size_t end = found.points().size(); done < end; ++done)
+    {
+      forCells(static_cast<vtkIdType>(found.points()[done]),
+        [&](vtkIdType cell) {
+          mesh.forPoints(
+            cell, [&](vtkIdType other) { found.add(static_cast<std::uint32_t>(other)); });
+        });
+    }
+  }
 }
 
 /// Solves matrix * x = right for a positive definite matrix, of which the lower half is used. False where it is none.
@@ -204,7 +274,10 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<dou
   {
     return {};
   }
-  double matrix[unknowns][unknowns] = {}, right[unknowns] = {}, all = 0;
+  // The fit's matrix, and behind it its right side and the sum of the values' squares: the same number of columns
+  // in all rows, for the compiler.
+  constexpr int columns = unknowns + 1;
+  double sums[columns][columns] = {};
   for (const Neighbour& neighbour : neighbours)
   {
     double y[3];
@@ -219,19 +292,24 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<dou
     }
     const double square = y[0] * y[0] + y[1] * y[1] + y[2] * y[2];
     const double weight = 1 / (square + 1e-6);
-    const double terms[unknowns] = { y[0], y[1], y[2], y[0] * y[0], y[1] * y[1], y[2] * y[2],
-      y[0] * y[1], y[1] * y[2], y[2] * y[0] };
-    for (int i = 0; i < unknowns; ++i)
+    const double terms[columns] = { y[0], y[1], y[2], y[0] * y[0], y[1] * y[1], y[2] * y[2],
+      y[0] * y[1], y[1] * y[2], y[2] * y[0], neighbour.value };
+    for (int i = 0; i < columns; ++i)
     {
       const double weighted = weight * terms[i];
-      for (int k = 0; k <= i; ++k)
+      for (int k = 0; k < columns; ++k)
       {
-        matrix[i][k] += weighted * terms[k];
+        sums[i][k] += weighted * terms[k];
       }
-      right[i] += weighted * neighbour.value;
     }
-    all += weight * neighbour.value * neighbour.value;
   }
+  double matrix[unknowns][unknowns], x[unknowns];
+  for (int i = 0; i < unknowns; ++i)
+  {
+    std::copy_n(sums[i], unknowns, matrix[i]);
+    x[i] = sums[i][unknowns];
+  }
+  const double all = sums[unknowns][unknowns];
   double trace[2] = { 0, 0 };
   for (int i = 0; i < unknowns; ++i)
   {
@@ -241,8 +319,6 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<dou
   {
     matrix[i][i] += i < 3 ? leastFirst * trace[0] : leastSecond * trace[1] / 6;
   }
-  double x[unknowns];
-  std::copy_n(right, unknowns, x);
   if (!solve(matrix, x))
   {
     return {};
@@ -251,7 +327,7 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<dou
   double left = all;
   for (int i = 0; i < unknowns; ++i)
   {
-    left -= x[i] * right[i];
+    left -= x[i] * sums[i][unknowns];
   }
   Vector gradient;
   for (std::size_t i = 3; i-- > 0;)
@@ -290,41 +366,98 @@ Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<dou
 
 } // namespace
 
-std::vector<PointTrend> pointTrends(
-  const MeshArrays& mesh, const std::function<bool(vtkIdType)>& isCellUsed)
+PointNeighbours::PointNeighbours(
+  const MeshArrays& mesh, std::vector<unsigned char> isCellUsed, const WorkProgress& progress)
 {
+  if (mesh.isStructured())
+  {
+    this->IsCellUsed = std::move(isCellUsed);
+    return;
+  }
+  const CellsOfPoints known = cellsOfPoints(mesh, isCellUsed, progress.part(0, 0.3));
   const vtkIdType points = mesh.points();
-  std::vector<PointTrend> trends(static_cast<std::size_t>(points));
-  const CellsOfPoints known = cellsOfPoints(mesh, points, isCellUsed);
-  vtkSMPTools::For(0, points, 4096,
+  std::vector<std::vector<std::uint32_t>> parts(
+    static_cast<std::size_t>((points + partSize - 1) / partSize));
+  this->Starts.resize(static_cast<std::size_t>(points) + 1);
+  forParts(points, progress.part(0.3, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
-      std::vector<vtkIdType> ids;
+      PointSet found;
+      const auto forCells = [&](vtkIdType point, const auto& visit)
+      {
+        const auto at = static_cast<std::size_t>(point);
+        for (std::uint64_t i = known.starts[at]; i < known.starts[at + 1]; ++i)
+        {
+          visit(static_cast<vtkIdType>(known.cells[i]));
+        }
+      };
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        findNeighbours(mesh, forCells, point, found);
+        std::vector<std::uint32_t>& part = parts[static_cast<std::size_t>(point / partSize)];
+        part.insert(part.end(), found.points().begin() + 1, found.points().end());
+        this->Starts[static_cast<std::size_t>(point) + 1] = found.points().size() - 1;
+      }
+    });
+  std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+  this->Ids.reserve(this->Starts.back());
+  for (std::vector<std::uint32_t>& part : parts)
+  {
+    this->Ids.insert(this->Ids.end(), part.begin(), part.end());
+    part = std::vector<std::uint32_t>();
+  }
+}
+
+std::vector<PointTrend> PointNeighbours::trends(
+  const MeshArrays& mesh, const WorkProgress& progress) const
+{
+  std::vector<PointTrend> trends(static_cast<std::size_t>(mesh.points()));
+  const auto forCells = [&](vtkIdType point, const auto& visit)
+  {
+    mesh.forCellsAround(point,
+      [&](vtkIdType cell)
+      {
+        if (this->IsCellUsed[static_cast<std::size_t>(cell)])
+        {
+          visit(cell);
+        }
+      });
+  };
+  forParts(mesh.points(), progress,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      PointSet found;
       std::vector<Neighbour> neighbours;
       for (vtkIdType point = begin; point < end; ++point)
       {
         const auto at = static_cast<std::size_t>(point);
-        ids.assign(1, point);
-        addNeighbours(mesh, known, ids);
-        if (ids.size() <= fewNeighbours)
+        const std::uint32_t *first = nullptr, *last = nullptr;
+        if (mesh.isStructured())
         {
-          addNeighbours(mesh, known, ids);
+          findNeighbours(mesh, forCells, point, found);
+          first = found.points().data() + 1;
+          last = found.points().data() + found.points().size();
+        }
+        else
+        {
+          first = this->Ids.data() + this->Starts[at];
+          last = this->Ids.data() + this->Starts[at + 1];
         }
         Vector x;
         mesh.coordinates(point, x.data());
         neighbours.clear();
-        for (const vtkIdType id : ids)
+        for (; first != last; ++first)
         {
           Neighbour neighbour;
-          mesh.coordinates(id, neighbour.x.data());
+          mesh.coordinates(*first, neighbour.x.data());
           double distance = 0;
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
             neighbour.x[axis] -= x[axis];
             distance += std::abs(neighbour.x[axis]);
           }
-          neighbour.value = mesh.values()[id] - mesh.values()[point];
-          if (distance > 0) // not the point itself, nor a double of it
+          neighbour.value = mesh.values()[*first] - mesh.values()[point];
+          if (distance > 0) // not a double of the point
           {
             neighbours.push_back(neighbour);
           }
@@ -340,6 +473,12 @@ std::vector<PointTrend> pointTrends(
       }
     });
   return trends;
+}
+
+std::size_t PointNeighbours::bytes() const
+{
+  return this->Starts.size() * sizeof(std::uint64_t) + this->Ids.size() * sizeof(std::uint32_t) +
+    this->IsCellUsed.size();
 }
 
 } // namespace refractivity

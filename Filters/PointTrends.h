@@ -3,8 +3,10 @@
 #pragma once
 
 #include "MeshArrays.h"
+#include "WorkProgress.h"
 
-#include <functional>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace refractivity
@@ -16,8 +18,29 @@ namespace refractivity
  * Gradients are those of the quadratic polynomial that fits the values at the points of the same cells best
  * (where these are few, those around them, too), so those of a quadratic field are exact. Where it does not
  * fit well, as at a shock, they are made smaller.
+ *
+ * What is found once is which points these are, which is all that depends on the mesh alone. (The weights of the
+ * fit would be ten times as many numbers, and are found faster than they are read.)
  */
-std::vector<PointTrend> pointTrends(
-  const MeshArrays& mesh, const std::function<bool(vtkIdType)>& isCellUsed);
+class PointNeighbours
+{
+public:
+  /// Of the cells, those count that are used (not 0).
+  PointNeighbours(const MeshArrays& mesh, std::vector<unsigned char> isCellUsed,
+    const WorkProgress& progress = WorkProgress());
+
+  /// Of the same mesh, or of one with the same points and cells.
+  std::vector<PointTrend> trends(
+    const MeshArrays& mesh, const WorkProgress& progress = WorkProgress()) const;
+
+  std::size_t bytes() const;
+
+private:
+  // Those of point i are Ids[Starts[i]] to Ids[Starts[i + 1]]; structured grids have none, whose cells are found as
+  // fast.
+  std::vector<std::uint64_t> Starts;
+  std::vector<std::uint32_t> Ids;
+  std::vector<unsigned char> IsCellUsed; // of structured grids
+};
 
 } // namespace refractivity

@@ -16,6 +16,7 @@
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -237,13 +238,15 @@ vtkSmartPointer<vtkDataSet> prepare(
   const vtkIdType cells = data->GetNumberOfCells();
   auto valid = newMask(cells);
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  for (vtkIdType i = 0; i < cells; ++i)
-  {
-    if ((ghosts && (ghosts->GetValue(i) & hiddenCellBits)) || dimensionOfCell(data, i) != dimension)
+  vtkSMPTools::For(0, cells,
+    [&](vtkIdType begin, vtkIdType end)
     {
-      valid->SetValue(i, 0);
-    }
-  }
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
+        valid->SetValue(i, isHidden || dimensionOfCell(data, i) != dimension ? 0 : 1);
+      }
+    });
 
   auto prepared = withoutArrays(data);
   if (leaf.ofCells)
@@ -261,10 +264,8 @@ vtkSmartPointer<vtkDataSet> prepare(
   vtkNew<vtkUnsignedCharArray> hidden;
   hidden->SetName(vtkDataSetAttributes::GhostArrayName());
   hidden->SetNumberOfValues(cells);
-  for (vtkIdType i = 0; i < cells; ++i)
-  {
-    hidden->SetValue(i, valid->GetValue(i) ? 0 : vtkDataSetAttributes::HIDDENCELL);
-  }
+  vtkSMPTools::Transform(valid->GetPointer(0), valid->GetPointer(0) + cells, hidden->GetPointer(0),
+    [](unsigned char isValid) { return isValid ? 0 : vtkDataSetAttributes::HIDDENCELL; });
   prepared->GetCellData()->AddArray(hidden);
   return withoutPolyhedra(prepared);
 }

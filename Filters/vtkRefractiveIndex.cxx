@@ -33,6 +33,7 @@
 #include "Schlieren.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <optional>
@@ -46,6 +47,20 @@ struct refractivity::GridPlan
   std::optional<Amr> amr;
   Resampling resampling; // where it is no Amr
   vtkTypeInt64 count = 0;
+};
+
+/// Of the last MakeSource().
+struct refractivity::KeptMesh
+{
+  std::optional<std::uint64_t> key; // unset: there is none
+  SourceMesh mesh;
+  vtkTypeInt64 builds = 0;
+
+  void release()
+  {
+    this->key.reset();
+    this->mesh = {};
+  }
 };
 
 vtkStandardNewMacro(vtkRefractiveIndex);
@@ -108,6 +123,7 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
 //------------------------------------------------------------------------------
 vtkRefractiveIndex::vtkRefractiveIndex()
   : Plan(std::make_shared<GridPlan>())
+  , Mesh(std::make_shared<KeptMesh>())
   , Search(std::make_shared<MeshSearch>())
   , Ranks(std::make_shared<InputOnRank0>())
 {
@@ -136,6 +152,9 @@ void vtkRefractiveIndex::ShareMeshSearch(vtkRefractiveIndex* owner)
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractiveIndex::GetMeshSearches() { return this->Search->count; }
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractiveIndex::GetMeshBuilds() { return this->Mesh->builds; }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractiveIndex::GetGridPlans() { return this->Plan->count; }
@@ -384,19 +403,48 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   this->Search->release();
   Tally tally;
   std::shared_ptr<const MeshSource> made;
-  vtkSMPTools::LocalScope(threadsOfLoops(this),
-    [&]()
+  const WorkProgress progress(
+    [this](double done)
     {
-      if (auto* fields = std::get_if<FieldMean>(&source.model))
-      {
-        fields->findRanges(source.leaves);
-      }
-      const GridPlan& plan = this->PlanGrid(source, input);
-      made = std::make_shared<MeshSource>(preparedLeaves(plan.resampling, source, tally), bodies,
-        static_cast<refractivity::Outside>(this->Outside),
-        this->Reconstruction == LINEAR_IN_CELLS ? CellTree::Reconstruction::Linear
-                                                : CellTree::Reconstruction::Smooth);
+      this->UpdateProgress(done);
+      return !this->GetAbortExecute();
     });
+  const auto make = [&]
+  {
+    if (auto* fields = std::get_if<FieldMean>(&source.model))
+    {
+      fields->findRanges(source.leaves);
+    }
+    const GridPlan& plan = this->PlanGrid(source, input);
+    progress.reach(0.02);
+    const auto leaves = preparedLeaves(plan.resampling, source, tally);
+    progress.reach(0.1);
+    const auto outside = static_cast<refractivity::Outside>(this->Outside);
+    const auto reconstruction = this->Reconstruction == LINEAR_IN_CELLS
+      ? CellTree::Reconstruction::Linear
+      : CellTree::Reconstruction::Smooth;
+    const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
+    KeptMesh& kept = *this->Mesh;
+    if (kept.key == key)
+    {
+      made = std::make_shared<MeshSource>(leaves, kept.mesh, progress.part(0.1, 1));
+      return;
+    }
+    kept.release();
+    ++kept.builds;
+    made =
+      std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, progress.part(0.1, 1));
+    kept.mesh = made->mesh();
+    kept.key = key;
+  };
+  try
+  {
+    vtkSMPTools::LocalScope(threadsOfLoops(this), make);
+  }
+  catch (const Stopped&)
+  {
+    return nullptr;
+  }
   if (!made->hasGas())
   {
     throw std::runtime_error(noGas(source));
@@ -416,6 +464,7 @@ std::string vtkRefractiveIndex::Convert(
 {
   output->Initialize();
   this->Grid.clear();
+  this->Mesh->release();
   Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())

@@ -49,7 +49,7 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for TransferFunctions
 
-#include <memory> // for Plan, Search, Ranks
+#include <memory> // for Plan, Mesh, Search, Ranks
 #include <string> // for std::string
 #include <vector> // for std::vector
 
@@ -64,6 +64,7 @@ class MediumSource;
 namespace refractivity
 {
 struct GridPlan;
+struct KeptMesh;
 struct MeshSearch;
 struct Source;
 } // namespace refractivity
@@ -435,11 +436,18 @@ public:
    * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() tells whether the input is for that;
    * what else there is is to be made a grid by Convert(): images, AMR, 2-D data, and where SamplingDimensions
-   * are given.
+   * are given. If AbortExecute is set on the way, the result is null.
+   *
+   * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
+   * point, where the gas ends. Where the next input has the same mesh, as other time steps and fields have, only
+   * what depends on the values is made. A mesh is the same if its points, its cells, what hides them, which values are
+   * valid, the bodies, Outside and Reconstruction are; that is found from the data themselves, not from their times.
+   * GetMeshBuilds() counts how often it was another one.
    */
   VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+  vtkTypeInt64 GetMeshBuilds();
 
   ///@{
   /**
@@ -489,6 +497,7 @@ private:
   const refractivity::GridPlan& PlanGrid(const refractivity::Source& source, vtkDataObject* input);
 
   std::shared_ptr<refractivity::GridPlan> Plan;
+  std::shared_ptr<refractivity::KeptMesh> Mesh;
   std::shared_ptr<refractivity::MeshSearch> Search;
   bool IsSearchShared = false; // by another filter, whose it is
 

@@ -457,6 +457,9 @@ vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMeshSearches(); }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetMeshBuilds() { return this->Medium->GetMeshBuilds(); }
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetGridPlans() { return this->Medium->GetGridPlans(); }
 
 //------------------------------------------------------------------------------

@@ -897,7 +897,7 @@ TEST(GasBoundary, AmbientIsThatOfTheFarField)
   mesh->GetPointData()->SetActiveScalars("N");
   for (const Outside outside : { Outside::Auto, Outside::Blocks, Outside::Passes })
   {
-    EXPECT_EQ(GasBoundary({ mesh }, nullptr, outside, {}).ambient(), 2);
+    EXPECT_EQ(GasBoundary({ mesh }, nullptr, outside, {}).ambient({ mesh }), 2);
   }
 }
 

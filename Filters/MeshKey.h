@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+class vtkDataObject;
+class vtkDataSet;
+
+namespace refractivity
+{
+
+/// A hash of the numbers that it is given, in their order. Meshes are known by such hashes, since readers make new
+/// objects for each time step, and programs change old ones without telling.
+class Hash
+{
+public:
+  void add(std::uint64_t bits)
+  {
+    this->Value = (this->Value ^ bits) * 0x9e3779b97f4a7c15u;
+    this->Value ^= this->Value >> 29;
+  }
+  void add(const double* values, int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      std::uint64_t bits;
+      std::memcpy(&bits, values + i, sizeof(bits));
+      this->add(bits);
+    }
+  }
+  std::uint64_t value() const { return this->Value; }
+
+private:
+  std::uint64_t Value = 1;
+};
+
+/// Points, cells and which of them ghost arrays hide.
+void addMesh(Hash& hash, vtkDataSet* data);
+
+/// Which points have a finite scalar.
+void addGas(Hash& hash, vtkDataSet* data);
+
+/// The surfaces of bodies; may be null.
+void addBodies(Hash& hash, vtkDataObject* bodies);
+
+} // namespace refractivity
