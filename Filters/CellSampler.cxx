@@ -35,13 +35,15 @@ const LocateInCell locateInCell = functionsToLocate().back();
 class Brick
 {
 public:
-  Brick(
-    const CellTree& tree, const schlieren::Lattice& lattice, double* values, unsigned char* found);
+  Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values);
 
   /// Whether points lie in a box, which is then the one that add() adds cells to.
   bool enter(const CellTree::Steps& box);
-  void add(CellTree::Number number);
-  void finish();
+  void add(std::size_t place);
+  /// Of a cell that is known to hold these points, and no others that count.
+  void add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end);
+  std::size_t countFound() const;
+  void finish(unsigned char* found, CellsOfLattice* cells) const;
 
 private:
   template <CellShape shape>
@@ -60,7 +62,6 @@ private:
   const CellTree& Tree;
   const schlieren::Lattice& Lattice;
   double* Values;
-  unsigned char* Found;
   // From steps of the tree's boxes to indices of points.
   double PerStep[3], AtOrigin[3], Slack[3];
   int First[3], Last[3]; // in the last box
@@ -68,8 +69,11 @@ private:
   // Of the best cells so far.
   std::vector<float> Misses;
   std::vector<CellTree::Number> Owners;
+  std::vector<std::uint32_t> Cells; // the same by their places in the tree
 
   CellTree::Number Number = 0;
+  std::uint32_t Cell = 0;
+  const std::uint16_t *GivenBegin = nullptr, *GivenEnd = nullptr;
   double Tolerance = 0;
   double Low[4],
     High[4]; // of normal coordinates in the cell, and of their sum where there is a slanting face
@@ -80,12 +84,10 @@ private:
   const double* OtherValues = nullptr;
 };
 
-Brick::Brick(
-  const CellTree& tree, const schlieren::Lattice& lattice, double* values, unsigned char* found)
+Brick::Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values)
   : Tree(tree)
   , Lattice(lattice)
   , Values(values)
-  , Found(found)
 {
   constexpr double epsilon = 4 * std::numeric_limits<double>::epsilon();
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -99,6 +101,7 @@ Brick::Brick(
   const auto size = static_cast<std::size_t>(lattice.size());
   this->Misses.assign(size, std::numeric_limits<float>::infinity());
   this->Owners.assign(size, 0);
+  this->Cells.assign(size, 0);
   std::fill_n(values, size, 0.);
 }
 
@@ -138,14 +141,24 @@ void Brick::set(std::size_t point, double miss, double value)
   {
     this->Misses[point] = rounded;
     this->Owners[point] = this->Number;
+    this->Cells[point] = this->Cell;
     this->Values[point] = value;
   }
 }
 
-void Brick::add(CellTree::Number number)
+void Brick::add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end)
 {
-  this->Number = number;
-  const CellTree::Cell cell = this->Tree.cell(number);
+  this->enter(this->Tree.box(place));
+  this->GivenBegin = begin;
+  this->GivenEnd = end;
+  this->add(place);
+}
+
+void Brick::add(std::size_t place)
+{
+  this->Cell = static_cast<std::uint32_t>(place);
+  this->Number = this->Tree.number(place);
+  const CellTree::Cell cell = this->Tree.cell(this->Number);
   bool isNormal = false;
   switch (shapeOf(cell.block->type(cell.id)))
   {
@@ -325,17 +338,45 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
   const double longest = this->Last[0] - this->First[0];
   const auto rowLength = static_cast<std::size_t>(lattice.points[0]);
   const auto rowCount = static_cast<std::size_t>(lattice.points[1]);
+  const auto beginRow = [&](int j, int k, double at[4])
+  {
+    const double y = start[1] + (j - this->First[1]) * lattice.spacing[1];
+    const double z = start[2] + (k - this->First[2]) * lattice.spacing[2];
+    for (int i = 0; i < 3; ++i)
+    {
+      at[i] = rows[i][0] * start[0] + rows[i][1] * y + rows[i][2] * z;
+    }
+  };
+  const auto collect = [&](const double at[4], int i, std::size_t point)
+  {
+    if (this->Count == CellPoints::most)
+    {
+      this->flush(cell);
+    }
+    for (int n = 0; n < 3; ++n)
+    {
+      this->Points.normal[n][this->Count] = at[n] + i * along[n];
+    }
+    this->Places[this->Count++] = point;
+  };
+  if (this->GivenBegin)
+  {
+    for (const std::uint16_t* given = this->GivenBegin; given != this->GivenEnd; ++given)
+    {
+      const std::size_t row = *given / rowLength;
+      double at[4];
+      beginRow(static_cast<int>(row % rowCount), static_cast<int>(row / rowCount), at);
+      collect(at, static_cast<int>(*given % rowLength) - this->First[0], *given);
+    }
+    this->flush(cell);
+    return;
+  }
   for (int k = this->First[2]; k <= this->Last[2]; ++k)
   {
-    const double z = start[2] + (k - this->First[2]) * lattice.spacing[2];
     for (int j = this->First[1]; j <= this->Last[1]; ++j)
     {
-      const double y = start[1] + (j - this->First[1]) * lattice.spacing[1];
       double at[4];
-      for (int i = 0; i < 3; ++i)
-      {
-        at[i] = rows[i][0] * start[0] + rows[i][1] * y + rows[i][2] * z;
-      }
+      beginRow(j, k, at);
       at[3] = at[0] + at[1] + (cell.shape == CellShape::Tetrahedron ? at[2] : 0);
       double low = 0, high = longest;
       for (int i = 0; i < slabs; ++i)
@@ -357,19 +398,10 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
       for (const int last = static_cast<int>(high); i <= last; ++i)
       {
         const std::size_t point = row + static_cast<std::size_t>(i);
-        if (this->isSettled(point))
+        if (!this->isSettled(point))
         {
-          continue;
+          collect(at, i, point);
         }
-        if (this->Count == CellPoints::most)
-        {
-          this->flush(cell);
-        }
-        for (int n = 0; n < 3; ++n)
-        {
-          this->Points.normal[n][this->Count] = at[n] + i * along[n];
-        }
-        this->Places[this->Count++] = point;
       }
     }
   }
@@ -508,12 +540,68 @@ void Brick::locateInOther()
   }
 }
 
-void Brick::finish()
+std::size_t Brick::countFound() const
 {
-  for (std::size_t i = 0; i < this->Misses.size(); ++i)
+  return static_cast<std::size_t>(std::count_if(this->Misses.begin(), this->Misses.end(),
+    [](float miss) { return miss < std::numeric_limits<float>::infinity(); }));
+}
+
+void Brick::finish(unsigned char* found, CellsOfLattice* cells) const
+{
+  std::transform(this->Misses.begin(), this->Misses.end(), found,
+    [](float miss) -> unsigned char
+    { return miss < std::numeric_limits<float>::infinity() ? 1 : 0; });
+  if (!cells)
   {
-    this->Found[i] = this->Misses[i] < std::numeric_limits<float>::infinity() ? 1 : 0;
+    return;
   }
+  const std::size_t count = this->countFound();
+  // Cells get numbers in the order in which points meet them, by a table with open addresses.
+  std::size_t last = 1;
+  while (last < 2 * count)
+  {
+    last = 2 * last + 1;
+  }
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> table(last + 1, none), numbers(this->Misses.size(), none);
+  cells->cells.clear();
+  std::vector<std::uint16_t> counts;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (found[i] == 0)
+    {
+      continue;
+    }
+    const std::uint32_t cell = this->Cells[i];
+    std::size_t at = (cell * 0x9e3779b97f4a7c15u >> 32) & last;
+    while (table[at] != none && cells->cells[table[at]] != cell)
+    {
+      at = (at + 1) & last;
+    }
+    if (table[at] == none)
+    {
+      table[at] = static_cast<std::uint32_t>(cells->cells.size());
+      cells->cells.push_back(cell);
+      counts.push_back(0);
+    }
+    numbers[i] = table[at];
+    ++counts[table[at]];
+  }
+  cells->starts.assign(counts.size() + 1, 0);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    cells->starts[i + 1] = static_cast<std::uint16_t>(cells->starts[i] + counts[i]);
+    counts[i] = cells->starts[i];
+  }
+  cells->points.resize(count);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (numbers[i] != none)
+    {
+      cells->points[counts[numbers[i]]++] = static_cast<std::uint16_t>(i);
+    }
+  }
+  cells->cells.shrink_to_fit();
 }
 
 } // namespace
@@ -523,13 +611,25 @@ CellSampler::CellSampler(const CellTree& tree)
 {
 }
 
-void CellSampler::sample(
-  const schlieren::Lattice& lattice, double* values, unsigned char* found) const
+void CellSampler::sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
+  CellsOfLattice* cells) const
 {
-  Brick brick(this->Tree, lattice, values, found);
+  Brick brick(this->Tree, lattice, values);
   this->Tree.walk([&](const CellTree::Steps& box) { return brick.enter(box); },
-    [&](CellTree::Number number) { brick.add(number); });
-  brick.finish();
+    [&](std::size_t place) { brick.add(place); });
+  brick.finish(found, cells);
+}
+
+bool CellSampler::sample(
+  const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
+{
+  Brick brick(this->Tree, lattice, values);
+  for (std::size_t i = 0; i < cells.cells.size(); ++i)
+  {
+    brick.add(cells.cells[i], cells.points.data() + cells.starts[i],
+      cells.points.data() + cells.starts[i + 1]);
+  }
+  return brick.countFound() == cells.points.size();
 }
 
 } // namespace refractivity

@@ -6,8 +6,29 @@
 
 #include "Medium/MediumSource.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace refractivity
 {
+
+/// What the search for a lattice's points has found: the cells that hold some, and which. Four bytes a cell, and two
+/// more for each of them and for each point.
+struct CellsOfLattice
+{
+  static constexpr std::int64_t mostPoints = 0xffff;
+
+  std::vector<std::uint32_t> cells;  // by their places in the tree
+  std::vector<std::uint16_t> starts; // of each cell's points, and the end
+  std::vector<std::uint16_t> points;
+
+  std::size_t bytes() const
+  {
+    return this->cells.size() * sizeof(std::uint32_t) +
+      (this->starts.size() + this->points.size()) * sizeof(std::uint16_t);
+  }
+};
 
 /**
  * What meshes hold at their points, interpolated in their cells to the points of lattices.
@@ -22,8 +43,14 @@ public:
   /// The tree must outlive this.
   explicit CellSampler(const CellTree& tree);
 
-  /// Sets `values` and `found`, 1 or 0, at all points of a lattice; values are 0 where no cell is.
-  void sample(const schlieren::Lattice& lattice, double* values, unsigned char* found) const;
+  /// Sets `values` and `found`, 1 or 0, at all points of a lattice; values are 0 where no cell is. Fills `cells` where
+  /// that is not null; the lattice then has no more than CellsOfLattice::mostPoints.
+  void sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
+    CellsOfLattice* cells = nullptr) const;
+
+  /// The same values from what was found on the same mesh: to the last bit but in curved cells, where an iteration may
+  /// begin elsewhere. Whether all points have been found again.
+  bool sample(const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
 
 private:
   const CellTree& Tree;

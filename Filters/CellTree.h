@@ -61,6 +61,9 @@ public:
   };
   Cell cell(Number number) const;
 
+  /// In the tree's order cells have other numbers: their places.
+  Number number(std::size_t place) const { return this->Sorted->numbers[place]; }
+
   std::size_t size() const { return this->Sorted->numbers.size(); } // cells that are there
   std::size_t bytes() const; // of memory, without the datasets'
 
@@ -117,7 +120,9 @@ public:
   const Vector& origin() const { return this->Sorted->origin; }
   const Vector& step() const { return this->Sorted->step; }
 
-  /// Calls enter(box), whether to go on, for groups and cells, and visit(number of a cell), in an order that
+  const Steps& box(std::size_t place) const { return this->Sorted->boxes[place]; }
+
+  /// Calls enter(box), whether to go on, for groups and cells, and visit(place of a cell), in an order that
   /// depends on the tree only.
   template <class Enter, class Visit>
   void walk(const Enter& enter, const Visit& visit) const
@@ -133,7 +138,8 @@ public:
   void visit(const Bounds& box, const Visit& visit) const
   {
     const Steps steps = this->stepsOf(box);
-    this->walk([&](const Steps& other) { return meet(steps, other); }, visit);
+    this->walk([&](const Steps& other) { return meet(steps, other); },
+      [&](std::size_t place) { visit(this->number(place)); });
   }
 
 private:
@@ -167,7 +173,7 @@ private:
     {
       if (enter(this->Sorted->boxes[i]))
       {
-        visit(this->Sorted->numbers[i]);
+        visit(i);
       }
     }
   }

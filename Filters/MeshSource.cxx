@@ -6,8 +6,10 @@
 
 #include "vtkDataSet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace refractivity
 {
@@ -50,8 +52,10 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , Cells(pointersTo(leaves), mesh.cells, progress)
   , Values(this->Cells)
   , Boundary(mesh.boundary)
+  , Lattices(mesh.lattices ? mesh.lattices : std::make_shared<LatticesOfMesh>())
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
 {
+  this->Lattices->beginStep();
 }
 
 std::uint64_t MeshSource::keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
@@ -137,9 +141,36 @@ schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box
 void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
   schlieren::Place* places, float* distances) const
 {
-  std::vector<unsigned char> isFound(static_cast<std::size_t>(lattice.size()));
-  this->Values.sample(lattice, refractivity, isFound.data());
+  const auto size = static_cast<std::size_t>(lattice.size());
+  const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr;
+  if (known && this->Values.sample(lattice, known->cells, refractivity))
+  {
+    std::fill_n(places, size, schlieren::Place::Gas);
+    std::copy(known->places.begin(), known->places.end(), places);
+    if (distances)
+    {
+      std::copy(known->distances.begin(), known->distances.end(), distances);
+    }
+    return;
+  }
+  const bool isKept = this->Lattices && this->Lattices->hasRoomFor(lattice);
+  KnownLattice found;
+  std::vector<unsigned char> isFound(size);
+  this->Values.sample(lattice, refractivity, isFound.data(), isKept ? &found.cells : nullptr);
   this->Boundary->sample(lattice, isFound.data(), places, distances);
+  if (isKept)
+  {
+    if (!std::all_of(places, places + size,
+          [](schlieren::Place place) { return place == schlieren::Place::Gas; }))
+    {
+      found.places.assign(places, places + size);
+    }
+    if (distances)
+    {
+      found.distances.assign(distances, distances + size);
+    }
+    this->Lattices->keep(lattice, std::move(found));
+  }
 }
 
 } // namespace refractivity

@@ -5,6 +5,7 @@
 #include "CellSampler.h"
 #include "CellTree.h"
 #include "GasBoundary.h"
+#include "LatticesOfMesh.h"
 
 #include "vtkSmartPointer.h"
 
@@ -26,6 +27,7 @@ struct SourceMesh
 {
   std::shared_ptr<const CellTree::Mesh> cells;
   std::shared_ptr<const GasBoundary> boundary;
+  std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
 };
 
 /// The refractivity of meshes, box by box, for the tracer.
@@ -39,7 +41,7 @@ public:
   /// Of other values on the same mesh: see keyOf().
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const SourceMesh& mesh,
     const WorkProgress& progress);
-  SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary }; }
+  SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary, this->Lattices }; }
 
   /// A hash of all that the mesh of a source depends on.
   static std::uint64_t keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
@@ -63,6 +65,7 @@ private:
   CellTree Cells;
   CellSampler Values;
   std::shared_ptr<const GasBoundary> Boundary;
+  std::shared_ptr<LatticesOfMesh> Lattices;
   double Ambient; // NaN: there is no boundary
 };
 

@@ -428,6 +428,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     if (kept.key == key)
     {
       made = std::make_shared<MeshSource>(leaves, kept.mesh, progress.part(0.1, 1));
+      kept.mesh = made->mesh();
       return;
     }
     kept.release();

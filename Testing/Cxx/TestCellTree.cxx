@@ -35,7 +35,7 @@ std::vector<CellTree::Number> orderOf(const CellTree& tree)
 {
   std::vector<CellTree::Number> order;
   tree.walk([](const CellTree::Steps&) { return true; },
-    [&](CellTree::Number number) { order.push_back(number); });
+    [&](std::size_t place) { order.push_back(tree.number(place)); });
   return order;
 }
 

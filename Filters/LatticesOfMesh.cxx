@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatticesOfMesh.h"
+
+#include <utility>
+
+namespace refractivity
+{
+
+LatticesOfMesh::Key LatticesOfMesh::keyOf(const schlieren::Lattice& lattice, bool hasDistances)
+{
+  Key key;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    key[axis] = lattice.first[axis];
+    key[axis + 3] = lattice.spacing[axis];
+    key[axis + 6] = lattice.points[axis];
+  }
+  key[9] = hasDistances ? 1 : 0;
+  return key;
+}
+
+std::size_t LatticesOfMesh::bytesOf(const KnownLattice& known)
+{
+  return known.cells.bytes() + known.places.size() + known.distances.size() * sizeof(float) +
+    sizeof(Key) + sizeof(Entry) + sizeof(KnownLattice);
+}
+
+std::shared_ptr<const KnownLattice> LatticesOfMesh::find(
+  const schlieren::Lattice& lattice, bool hasDistances)
+{
+  const std::lock_guard<std::mutex> lock(this->One);
+  const auto entry = this->Entries.find(keyOf(lattice, hasDistances));
+  if (entry == this->Entries.end())
+  {
+    return nullptr;
+  }
+  entry->second.step = this->Step;
+  return entry->second.known;
+}
+
+bool LatticesOfMesh::hasRoomFor(const schlieren::Lattice& lattice) const
+{
+  return lattice.size() <= CellsOfLattice::mostPoints && this->bytes() < mostBytes;
+}
+
+void LatticesOfMesh::keep(const schlieren::Lattice& lattice, KnownLattice known)
+{
+  const Key key = keyOf(lattice, !known.distances.empty());
+  const std::size_t bytes = bytesOf(known);
+  const std::lock_guard<std::mutex> lock(this->One);
+  const auto [entry, isNew] = this->Entries.try_emplace(key);
+  if (isNew)
+  {
+    entry->second = { std::make_shared<KnownLattice>(std::move(known)), this->Step };
+    this->Bytes += bytes;
+  }
+}
+
+void LatticesOfMesh::beginStep()
+{
+  const std::lock_guard<std::mutex> lock(this->One);
+  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+  {
+    if (entry->second.step + 1 >= this->Step)
+    {
+      ++entry;
+      continue;
+    }
+    this->Bytes -= bytesOf(*entry->second.known);
+    entry = this->Entries.erase(entry);
+  }
+  ++this->Step;
+}
+
+std::size_t LatticesOfMesh::bytes() const
+{
+  const std::lock_guard<std::mutex> lock(this->One);
+  return this->Bytes;
+}
+
+} // namespace refractivity
