@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointTrends.h"
 
-#include "CellShape.h"
+#include "PointFit.h"
+#include "Vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -25,13 +26,6 @@ constexpr double poorFit = 0.02;
 /// Values may leave the range of those around by this part of it.
 constexpr double overshoot = 0.01;
 
-/// Added to the matrix for second derivatives, in parts of their mean: where points are too few they are
-/// small.
-constexpr double leastSecond = 1e-5;
-/// And for first ones, where all points lie in a plane or on a line.
-constexpr double leastFirst = 1e-12;
-
-constexpr int unknowns = 9; // three first derivatives, six second ones
 constexpr std::size_t fewNeighbours = 14;
 
 /// Which cells have a point: those of point i are cells[starts[i]] to cells[starts[i + 1]], in their order.
@@ -166,202 +160,40 @@ void findNeighbours(
   }
 }
 
-/// Solves matrix * x = right for a positive definite matrix, of which the lower half is used. False where it is none.
-bool solve(double matrix[unknowns][unknowns], double x[unknowns])
-{
-  for (int i = 0; i < unknowns; ++i)
-  {
-    for (int k = 0; k <= i; ++k)
-    {
-      double sum = matrix[i][k];
-      for (int j = 0; j < k; ++j)
-      {
-        sum -= matrix[i][j] * matrix[k][j];
-      }
-      if (k < i)
-      {
-        matrix[i][k] = sum * matrix[k][k];
-      }
-      else if (sum > 0)
-      {
-        matrix[i][i] = 1 / std::sqrt(sum);
-      }
-      else
-      {
-        return false;
-      }
-    }
-  }
-  for (int i = 0; i < unknowns; ++i)
-  {
-    for (int j = 0; j < i; ++j)
-    {
-      x[i] -= matrix[i][j] * x[j];
-    }
-    x[i] *= matrix[i][i];
-  }
-  for (int i = unknowns - 1; i >= 0; --i)
-  {
-    for (int j = i + 1; j < unknowns; ++j)
-    {
-      x[i] -= matrix[j][i] * x[j];
-    }
-    x[i] *= matrix[i][i];
-  }
-  return true;
-}
+const FitPoints fitPoints = functionsToFit().back();
 
-/// A point's neighbours, counted from it.
-struct Neighbour
+/// What is known of one of the points.
+PointTrend trendOf(const PointFit& fit, std::size_t point)
 {
-  Vector x;
-  double value;
-};
-
-/// L with L * transposed(L) = the mean of x * transposed(x): places in units of it are as far along every axis.
-bool spreadOf(const std::vector<Neighbour>& neighbours, double spread[3][3])
-{
-  double sums[3][3] = {};
-  for (const Neighbour& neighbour : neighbours)
+  const double more = overshoot * (fit.highest[point] - fit.lowest[point]);
+  const double lowest = fit.lowest[point] - more, highest = fit.highest[point] + more;
+  double least = 1;
+  if (fit.unfit[point] > goodFit)
   {
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < fit.counts[point]; ++i)
     {
-      for (std::size_t k = 0; k <= i; ++k)
+      const double* neighbour = fit.numbers.data() + 4 * PointFit::points * i + point;
+      double reached = 0;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        sums[i][k] += neighbour.x[i] * neighbour.x[k];
+        reached += fit.gradient[axis][point] * neighbour[axis * PointFit::points] / 2;
+      }
+      if (reached > highest || reached < lowest)
+      {
+        least = std::min(least, (reached > 0 ? highest : lowest) / reached);
       }
     }
   }
-  const double trace = sums[0][0] + sums[1][1] + sums[2][2];
-  for (int i = 0; i < 3; ++i)
+  const double limited = std::clamp((fit.unfit[point] - goodFit) / (poorFit - goodFit), 0., 1.);
+  PointTrend trend;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    for (int k = 0; k <= i; ++k)
-    {
-      double sum =
-        sums[i][k] / static_cast<double>(neighbours.size()) + (i == k ? leastFirst * trace : 0);
-      for (int j = 0; j < k; ++j)
-      {
-        sum -= spread[i][j] * spread[k][j];
-      }
-      spread[i][k] = k < i ? sum / spread[k][k] : std::sqrt(sum);
-    }
-    if (!(spread[i][i] > 0))
-    {
-      return false;
-    }
+    trend.gradient[axis] =
+      static_cast<float>(fit.gradient[axis][point] * (1 + limited * (least - 1)));
   }
-  return true;
-}
-
-/// Lowest and highest value, counted from the point's own.
-std::array<double, 2> rangeOf(const std::vector<Neighbour>& neighbours)
-{
-  std::array<double, 2> range = { 0, 0 };
-  for (const Neighbour& neighbour : neighbours)
-  {
-    range[0] = std::min(range[0], neighbour.value);
-    range[1] = std::max(range[1], neighbour.value);
-  }
-  const double more = overshoot * (range[1] - range[0]);
-  return { range[0] - more, range[1] + more };
-}
-
-/// Zero where there is no good one.
-Vector gradientOf(const std::vector<Neighbour>& neighbours, const std::array<double, 2>& range)
-{
-  double spread[3][3];
-  if (neighbours.size() < 3 || !spreadOf(neighbours, spread))
-  {
-    return {};
-  }
-  // The fit's matrix, and behind it its right side and the sum of the values' squares: the same number of columns
-  // in all rows, for the compiler.
-  constexpr int columns = unknowns + 1;
-  double sums[columns][columns] = {};
-  for (const Neighbour& neighbour : neighbours)
-  {
-    double y[3];
-    for (int i = 0; i < 3; ++i)
-    {
-      y[i] = neighbour.x[static_cast<std::size_t>(i)];
-      for (int k = 0; k < i; ++k)
-      {
-        y[i] -= spread[i][k] * y[k];
-      }
-      y[i] /= spread[i][i];
-    }
-    const double square = y[0] * y[0] + y[1] * y[1] + y[2] * y[2];
-    const double weight = 1 / (square + 1e-6);
-    const double terms[columns] = { y[0], y[1], y[2], y[0] * y[0], y[1] * y[1], y[2] * y[2],
-      y[0] * y[1], y[1] * y[2], y[2] * y[0], neighbour.value };
-    for (int i = 0; i < columns; ++i)
-    {
-      const double weighted = weight * terms[i];
-      for (int k = 0; k < columns; ++k)
-      {
-        sums[i][k] += weighted * terms[k];
-      }
-    }
-  }
-  double matrix[unknowns][unknowns], x[unknowns];
-  for (int i = 0; i < unknowns; ++i)
-  {
-    std::copy_n(sums[i], unknowns, matrix[i]);
-    x[i] = sums[i][unknowns];
-  }
-  const double all = sums[unknowns][unknowns];
-  double trace[2] = { 0, 0 };
-  for (int i = 0; i < unknowns; ++i)
-  {
-    trace[i / 3 > 0] += matrix[i][i];
-  }
-  for (int i = 0; i < unknowns; ++i)
-  {
-    matrix[i][i] += i < 3 ? leastFirst * trace[0] : leastSecond * trace[1] / 6;
-  }
-  if (!solve(matrix, x))
-  {
-    return {};
-  }
-  // What is left of the squares: for the best fit, all that the right side does not take away.
-  double left = all;
-  for (int i = 0; i < unknowns; ++i)
-  {
-    left -= x[i] * sums[i][unknowns];
-  }
-  Vector gradient;
-  for (std::size_t i = 3; i-- > 0;)
-  {
-    gradient[i] = x[i];
-    for (std::size_t k = i + 1; k < 3; ++k)
-    {
-      gradient[i] -= spread[k][i] * gradient[k];
-    }
-    gradient[i] /= spread[i][i];
-  }
-  if (!std::isfinite(gradient[0] + gradient[1] + gradient[2]))
-  {
-    return {};
-  }
-  const double unfit = all > 0 ? left / all : 0;
-  if (unfit > goodFit)
-  {
-    double least = 1;
-    for (const Neighbour& neighbour : neighbours)
-    {
-      const double reached = dot(gradient, neighbour.x) / 2;
-      if (reached > range[1] || reached < range[0])
-      {
-        least = std::min(least, range[reached > 0] / reached);
-      }
-    }
-    const double limited = std::min(1., (unfit - goodFit) / (poorFit - goodFit));
-    for (double& along : gradient)
-    {
-      along *= 1 + limited * (least - 1);
-    }
-  }
-  return gradient;
+  trend.lowest = static_cast<float>(lowest);
+  trend.highest = static_cast<float>(highest);
+  return trend;
 }
 
 } // namespace
@@ -427,49 +259,59 @@ std::vector<PointTrend> PointNeighbours::trends(
     [&](vtkIdType begin, vtkIdType end)
     {
       PointSet found;
-      std::vector<Neighbour> neighbours;
-      for (vtkIdType point = begin; point < end; ++point)
+      std::vector<std::uint32_t> ids;     // of all points that are fitted at once
+      std::size_t ends[PointFit::points]; // in them
+      PointFit fit;
+      for (vtkIdType first = begin; first < end; first += PointFit::points)
       {
-        const auto at = static_cast<std::size_t>(point);
-        const std::uint32_t *first = nullptr, *last = nullptr;
-        if (mesh.isStructured())
+        const auto count =
+          static_cast<std::size_t>(std::min<vtkIdType>(PointFit::points, end - first));
+        ids.clear();
+        std::size_t most = 0;
+        for (std::size_t i = 0; i < count; ++i)
         {
-          findNeighbours(mesh, forCells, point, found);
-          first = found.points().data() + 1;
-          last = found.points().data() + found.points().size();
-        }
-        else
-        {
-          first = this->Ids.data() + this->Starts[at];
-          last = this->Ids.data() + this->Starts[at + 1];
-        }
-        Vector x;
-        mesh.coordinates(point, x.data());
-        neighbours.clear();
-        for (; first != last; ++first)
-        {
-          Neighbour neighbour;
-          mesh.coordinates(*first, neighbour.x.data());
-          double distance = 0;
-          for (std::size_t axis = 0; axis < 3; ++axis)
+          const vtkIdType point = first + static_cast<vtkIdType>(i);
+          const auto at = static_cast<std::size_t>(point);
+          const std::size_t before = ids.size();
+          if (mesh.isStructured())
           {
-            neighbour.x[axis] -= x[axis];
-            distance += std::abs(neighbour.x[axis]);
+            findNeighbours(mesh, forCells, point, found);
+            ids.insert(ids.end(), found.points().begin() + 1, found.points().end());
           }
-          neighbour.value = mesh.values()[*first] - mesh.values()[point];
-          if (distance > 0) // not a double of the point
+          else
           {
-            neighbours.push_back(neighbour);
+            ids.insert(ids.end(), this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Starts[at]),
+              this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Starts[at + 1]));
+          }
+          ends[i] = ids.size();
+          most = std::max(most, ends[i] - before);
+        }
+        fit.clear(most);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          const vtkIdType point = first + static_cast<vtkIdType>(i);
+          Vector x;
+          mesh.coordinates(point, x.data());
+          for (; next < ends[i]; ++next)
+          {
+            Vector away;
+            mesh.coordinates(ids[next], away.data());
+            for (std::size_t axis = 0; axis < 3; ++axis)
+            {
+              away[axis] -= x[axis];
+            }
+            if (away[0] != 0 || away[1] != 0 || away[2] != 0) // not a double of the point
+            {
+              fit.add(i, away.data(), mesh.values()[ids[next]] - mesh.values()[point]);
+            }
           }
         }
-        const std::array<double, 2> range = rangeOf(neighbours);
-        const Vector gradient = gradientOf(neighbours, range);
-        for (std::size_t axis = 0; axis < 3; ++axis)
+        fitPoints(fit);
+        for (std::size_t i = 0; i < count; ++i)
         {
-          trends[at].gradient[axis] = static_cast<float>(gradient[axis]);
+          trends[static_cast<std::size_t>(first) + i] = trendOf(fit, i);
         }
-        trends[at].lowest = static_cast<float>(range[0]);
-        trends[at].highest = static_cast<float>(range[1]);
       }
     });
   return trends;
