@@ -48,6 +48,8 @@ public:
 private:
   template <CellShape shape>
   bool addNormal(const CellTree::Cell& cell);
+  template <CellShape shape>
+  void findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3]);
   void addOther(const CellTree::Cell& cell);
   void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
   void locateInOther();
@@ -148,7 +150,6 @@ void Brick::set(std::size_t point, double miss, double value)
 
 void Brick::add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end)
 {
-  this->enter(this->Tree.box(place));
   this->GivenBegin = begin;
   this->GivenEnd = end;
   this->add(place);
@@ -186,12 +187,47 @@ void Brick::add(std::size_t place)
   }
 }
 
+/// Between what the normal coordinates are in a cell.
+template <CellShape shape>
+void Brick::findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3])
+{
+  constexpr bool isSimplex = shape == CellShape::Tetrahedron || shape == CellShape::Wedge;
+  // What is interpolated lies between the corners, and so does the cell.
+  for (int i = 0; i < 4; ++i)
+  {
+    this->Low[i] = std::numeric_limits<double>::infinity();
+    this->High[i] = -this->Low[i];
+  }
+  for (int i = 0; i < cornersOf(shape); ++i)
+  {
+    const Vector x = { corners[0][i] - place[0][0], corners[1][i] - place[1][0],
+      corners[2][i] - place[2][0] };
+    const double at[3] = { dot(rows[0], x), dot(rows[1], x), dot(rows[2], x) };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], at[axis]);
+      this->High[axis] = std::max(this->High[axis], at[axis]);
+    }
+    if constexpr (isSimplex)
+    {
+      const double sum = at[0] + at[1] + (shape == CellShape::Tetrahedron ? at[2] : 0);
+      this->Low[3] = std::min(this->Low[3], sum);
+      this->High[3] = std::max(this->High[3], sum);
+    }
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    const double more = 3 * this->Tolerance * (this->High[i] - this->Low[i]);
+    this->Low[i] -= more;
+    this->High[i] += more;
+  }
+}
+
 /// Whether the cell has a volume where its middle is.
 template <CellShape shape>
 bool Brick::addNormal(const CellTree::Cell& cell)
 {
   constexpr int count = cornersOf(shape);
-  constexpr bool isSimplex = shape == CellShape::Tetrahedron || shape == CellShape::Wedge;
   vtkIdType points[8];
   cell.block->points(cell.id, count, points);
   double corners[4][8];
@@ -237,34 +273,9 @@ bool Brick::addNormal(const CellTree::Cell& cell)
   }
   this->Tolerance = normal.isAffine ? toleranceOfPlaneFaces : toleranceOfCurvedFaces;
 
-  // What is interpolated lies between the corners, and so does the cell.
-  for (int i = 0; i < 4; ++i)
+  if (!this->GivenBegin)
   {
-    this->Low[i] = std::numeric_limits<double>::infinity();
-    this->High[i] = -this->Low[i];
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    const Vector x = { corners[0][i] - place[0][0], corners[1][i] - place[1][0],
-      corners[2][i] - place[2][0] };
-    const double at[3] = { dot(rows[0], x), dot(rows[1], x), dot(rows[2], x) };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Low[axis] = std::min(this->Low[axis], at[axis]);
-      this->High[axis] = std::max(this->High[axis], at[axis]);
-    }
-    if constexpr (isSimplex)
-    {
-      const double sum = at[0] + at[1] + (shape == CellShape::Tetrahedron ? at[2] : 0);
-      this->Low[3] = std::min(this->Low[3], sum);
-      this->High[3] = std::max(this->High[3], sum);
-    }
-  }
-  for (int i = 0; i < 4; ++i)
-  {
-    const double more = 3 * this->Tolerance * (this->High[i] - this->Low[i]);
-    this->Low[i] -= more;
-    this->High[i] += more;
+    this->findSlabs<shape>(corners, place, rows);
   }
   for (int i = 0; i < 3; ++i)
   {
@@ -323,7 +334,7 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
   double start[3];
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    start[axis] = lattice.first[axis] - middle[axis] + this->First[axis] * lattice.spacing[axis];
+    start[axis] = lattice.first[axis] - middle[axis];
   }
   double along[4], perAlong[4]; // changes from one point to the next
   for (int i = 0; i < 3; ++i)
@@ -335,13 +346,12 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
   {
     perAlong[i] = std::abs(along[i]) > 1 / parallel ? 1 / along[i] : parallel;
   }
-  const double longest = this->Last[0] - this->First[0];
   const auto rowLength = static_cast<std::size_t>(lattice.points[0]);
   const auto rowCount = static_cast<std::size_t>(lattice.points[1]);
   const auto beginRow = [&](int j, int k, double at[4])
   {
-    const double y = start[1] + (j - this->First[1]) * lattice.spacing[1];
-    const double z = start[2] + (k - this->First[2]) * lattice.spacing[2];
+    const double y = start[1] + j * lattice.spacing[1];
+    const double z = start[2] + k * lattice.spacing[2];
     for (int i = 0; i < 3; ++i)
     {
       at[i] = rows[i][0] * start[0] + rows[i][1] * y + rows[i][2] * z;
@@ -366,7 +376,7 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
       const std::size_t row = *given / rowLength;
       double at[4];
       beginRow(static_cast<int>(row % rowCount), static_cast<int>(row / rowCount), at);
-      collect(at, static_cast<int>(*given % rowLength) - this->First[0], *given);
+      collect(at, static_cast<int>(*given % rowLength), *given);
     }
     this->flush(cell);
     return;
@@ -378,7 +388,7 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
       double at[4];
       beginRow(j, k, at);
       at[3] = at[0] + at[1] + (cell.shape == CellShape::Tetrahedron ? at[2] : 0);
-      double low = 0, high = longest;
+      double low = this->First[0], high = this->Last[0];
       for (int i = 0; i < slabs; ++i)
       {
         const double a = (this->Low[i] - at[i]) * perAlong[i];
@@ -393,8 +403,7 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
       int i = static_cast<int>(low);
       i += i < low ? 1 : 0;
       const std::size_t row =
-        (static_cast<std::size_t>(k) * rowCount + static_cast<std::size_t>(j)) * rowLength +
-        static_cast<std::size_t>(this->First[0]);
+        (static_cast<std::size_t>(k) * rowCount + static_cast<std::size_t>(j)) * rowLength;
       for (const int last = static_cast<int>(high); i <= last; ++i)
       {
         const std::size_t point = row + static_cast<std::size_t>(i);

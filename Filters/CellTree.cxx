@@ -119,6 +119,46 @@ std::uint64_t placeOnCurve(const std::int32_t middle[3])
   return place;
 }
 
+/// Each corner's polynomial is linear: in the cell it lies between what it is at the other corners.
+template <int count>
+std::array<double, 2> rangeOfCorners(const CellTree::Cell& one)
+{
+  vtkIdType points[8];
+  one.block->points(one.id, count, points);
+  double origin[3], x[3][count], lowest = infinity, highest = -infinity;
+  one.block->coordinates(points[0], origin);
+  for (int i = 0; i < count; ++i)
+  {
+    double at[3];
+    one.block->coordinates(points[i], at);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis][i] = at[axis] - origin[axis];
+    }
+  }
+  double low[count], high[count];
+  std::fill_n(low, count, infinity);
+  std::fill_n(high, count, -infinity);
+  for (int i = 0; i < count; ++i)
+  {
+    const PointTrend& trend = one.block->trends()[points[i]];
+    const double value = one.block->values()[points[i]];
+    const double half[3] = { 0.5 * trend.gradient[0], 0.5 * trend.gradient[1],
+      0.5 * trend.gradient[2] };
+    const double atOrigin = value - half[0] * x[0][i] - half[1] * x[1][i] - half[2] * x[2][i];
+    lowest = std::min(lowest, value + trend.lowest);
+    highest = std::max(highest, value + trend.highest);
+    for (int k = 0; k < count; ++k)
+    {
+      const double there = atOrigin + half[0] * x[0][k] + half[1] * x[1][k] + half[2] * x[2][k];
+      low[k] = there < low[k] ? there : low[k];
+      high[k] = there > high[k] ? there : high[k];
+    }
+  }
+  return { std::max(lowest, *std::min_element(low, low + count)),
+    std::min(highest, *std::max_element(high, high + count)) };
+}
+
 } // namespace
 
 CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction,
@@ -397,34 +437,17 @@ std::array<double, 2> CellTree::rangeOf(const Cell& one) const
       });
     return { low, high };
   }
-  // Each corner's polynomial is linear: in the cell it lies between what it is at the other corners.
-  vtkIdType points[8];
-  const int count = cornersOf(shape);
-  one.block->points(one.id, count, points);
-  double x[8][3], least = infinity, most = -infinity;
-  for (int i = 0; i < count; ++i)
+  switch (cornersOf(shape))
   {
-    one.block->coordinates(points[i], x[i]);
-    const PointTrend& trend = trends[points[i]];
-    least = std::min(least, values[points[i]] + trend.lowest);
-    most = std::max(most, values[points[i]] + trend.highest);
+    case 4:
+      return rangeOfCorners<4>(one);
+    case 5:
+      return rangeOfCorners<5>(one);
+    case 6:
+      return rangeOfCorners<6>(one);
+    default:
+      return rangeOfCorners<8>(one);
   }
-  for (int i = 0; i < count; ++i)
-  {
-    const float* gradient = trends[points[i]].gradient;
-    for (int k = 0; k < count; ++k)
-    {
-      double value = 0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        value += gradient[axis] * (x[k][axis] - x[i][axis]);
-      }
-      value = values[points[i]] + value / 2;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  return { std::max(low, least), std::min(high, most) };
 }
 
 CellTree::Steps CellTree::stepsOf(const Bounds& box) const

@@ -120,8 +120,6 @@ public:
   const Vector& origin() const { return this->Sorted->origin; }
   const Vector& step() const { return this->Sorted->step; }
 
-  const Steps& box(std::size_t place) const { return this->Sorted->boxes[place]; }
-
   /// Calls enter(box), whether to go on, for groups and cells, and visit(place of a cell), in an order that
   /// depends on the tree only.
   template <class Enter, class Visit>

@@ -2,20 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshKey.h"
 
+#include "CellTypes.h"
 #include "InputDescription.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace refractivity
@@ -46,8 +54,78 @@ void addParts(Hash& hash, vtkIdType count, const HashPart& hashPart)
   }
 }
 
+/// Numbers as they lie in memory, in four hashes side by side: each has to wait for itself only.
+void addBytes(Hash& hash, const void* data, std::size_t size)
+{
+  constexpr std::size_t word = sizeof(std::uint64_t), lanes = 4;
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::array<Hash, lanes> each;
+  std::size_t at = 0;
+  const auto wordAt = [&](std::size_t place, std::size_t length)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, bytes + place, length);
+    return bits;
+  };
+  for (; at + lanes * word <= size; at += lanes * word)
+  {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      each[lane].add(wordAt(at + lane * word, word));
+    }
+  }
+  for (; at < size; at += word)
+  {
+    each[0].add(wordAt(at, std::min(word, size - at)));
+  }
+  for (const Hash& lane : each)
+  {
+    hash.add(lane.value());
+  }
+}
+
+template <class Number>
+bool addIfPlain(Hash& hash, vtkDataArray* array)
+{
+  auto* plain = vtkAOSDataArrayTemplate<Number>::FastDownCast(array);
+  if (!plain)
+  {
+    return false;
+  }
+  hash.add(sizeof(Number));
+  addParts(hash, plain->GetNumberOfValues(),
+    [numbers = plain->GetPointer(0)](vtkIdType first, vtkIdType last, Hash& part)
+    { addBytes(part, numbers + first, static_cast<std::size_t>(last - first) * sizeof(Number)); });
+  return true;
+}
+
+/// Whether the cells are known by arrays of a common kind, which are added then.
+bool addIfPlain(Hash& hash, vtkUnstructuredGrid* mesh)
+{
+  vtkCellArray* cells = mesh ? mesh->GetCells() : nullptr;
+  vtkDataArray* types = mesh ? cellTypesOf(mesh) : nullptr;
+  if (!cells || !vtkAOSDataArrayTemplate<unsigned char>::FastDownCast(types))
+  {
+    return false;
+  }
+  for (vtkDataArray* array : { cells->GetOffsetsArray(), cells->GetConnectivityArray() })
+  {
+    if (!addIfPlain<vtkTypeInt64>(hash, array) && !addIfPlain<vtkTypeInt32>(hash, array))
+    {
+      return false;
+    }
+  }
+  return addIfPlain<unsigned char>(hash, types);
+}
+
 void addPoints(Hash& hash, vtkDataSet* data)
 {
+  auto* set = vtkPointSet::SafeDownCast(data);
+  vtkDataArray* plain = set && set->GetPoints() ? set->GetPoints()->GetData() : nullptr;
+  if (plain && (addIfPlain<double>(hash, plain) || addIfPlain<float>(hash, plain)))
+  {
+    return;
+  }
   addParts(hash, data->GetNumberOfPoints(),
     [data](vtkIdType first, vtkIdType last, Hash& part)
     {
@@ -74,8 +152,22 @@ void addMesh(Hash& hash, vtkDataSet* data)
 {
   hash.add(static_cast<std::uint64_t>(data->GetDataObjectType()));
   addPoints(hash, data);
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  const auto hashCells = [data, ghosts](vtkIdType first, vtkIdType last, Hash& part)
+  if (vtkUnsignedCharArray* ghosts = data->GetCellGhostArray())
+  {
+    addIfPlain<unsigned char>(hash, ghosts);
+  }
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
+  {
+    int points[3];
+    grid->GetDimensions(points);
+    addBytes(hash, points, sizeof(points)); // which say what the cells are
+    return;
+  }
+  if (addIfPlain(hash, vtkUnstructuredGrid::SafeDownCast(data)))
+  {
+    return;
+  }
+  const auto hashCells = [data](vtkIdType first, vtkIdType last, Hash& part)
   {
     vtkNew<vtkIdList> storage;
     for (vtkIdType i = first; i < last; ++i)
@@ -83,9 +175,8 @@ void addMesh(Hash& hash, vtkDataSet* data)
       vtkIdType count;
       const vtkIdType* points;
       data->GetCellPoints(i, count, points, storage);
-      const unsigned char ghost = ghosts ? ghosts->GetValue(i) : 0;
-      part.add(static_cast<std::uint64_t>(count) << 16 | static_cast<std::uint64_t>(ghost) << 8 |
-        static_cast<std::uint64_t>(data->GetCellType(i)));
+      part.add(
+        static_cast<std::uint64_t>(count) << 8 | static_cast<std::uint64_t>(data->GetCellType(i)));
       addIds(part, points, count);
     }
   };

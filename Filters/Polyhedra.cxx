@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Polyhedra.h"
 
+#include "CellTypes.h"
+
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
@@ -47,9 +49,23 @@ vtkIdType addMiddle(
 
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
 {
+  // Not by the distinct types, which VTK finds anew for each dataset, in a tree.
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
-  vtkUnsignedCharArray* types = mesh ? mesh->GetDistinctCellTypesArray() : nullptr;
-  if (!types || types->LookupValue(static_cast<unsigned char>(VTK_POLYHEDRON)) < 0)
+  bool hasAny = false;
+  if (auto* types = vtkUnsignedCharArray::SafeDownCast(mesh ? cellTypesOf(mesh) : nullptr))
+  {
+    const unsigned char* first = types->GetPointer(0);
+    const unsigned char* end = first + types->GetNumberOfValues();
+    hasAny = std::find(first, end, static_cast<unsigned char>(VTK_POLYHEDRON)) != end;
+  }
+  else
+  {
+    for (vtkIdType cell = 0; mesh && !hasAny && cell < mesh->GetNumberOfCells(); ++cell)
+    {
+      hasAny = mesh->GetCellType(cell) == VTK_POLYHEDRON;
+    }
+  }
+  if (!hasAny)
   {
     return data;
   }

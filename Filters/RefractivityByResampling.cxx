@@ -321,12 +321,11 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
   vtkBoundingBox box;
   double points = 0;
   std::vector<vtkDataSet*> leaves;
-  for (std::size_t i = 0; i < source.leaves.size(); ++i)
+  for (const Leaf& leaf : source.leaves)
   {
-    vtkDataSet* data = source.leaves[i].data;
+    vtkDataSet* data = leaf.data;
     if (hasCells(data, dimension))
     {
-      plan.leaves.push_back(i);
       leaves.push_back(data);
       points += static_cast<double>(data->GetNumberOfPoints());
       box.AddBounds(data->GetBounds());
@@ -373,14 +372,16 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   }
 }
 
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
-  const Resampling& plan, const Source& source, Tally& tally)
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, Tally& tally)
 {
+  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
   std::vector<vtkSmartPointer<vtkDataSet>> prepared;
-  for (const std::size_t leaf : plan.leaves)
+  for (const Leaf& leaf : source.leaves)
   {
-    prepared.push_back(
-      prepare(source.leaves[leaf], plan.flatAxis < 0 ? 3 : 2, source.model, tally));
+    if (hasCells(leaf.data, dimension))
+    {
+      prepared.push_back(prepare(leaf, dimension, source.model, tally));
+    }
   }
   return prepared;
 }
@@ -389,7 +390,7 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
 {
   Tally tally;
-  const std::vector<vtkSmartPointer<vtkDataSet>> prepared = preparedLeaves(plan, source, tally);
+  const std::vector<vtkSmartPointer<vtkDataSet>> prepared = preparedLeaves(source, tally);
   const std::vector<vtkDataSet*> leaves(prepared.begin(), prepared.end());
   setPoints(plan, output);
   vtkNew<vtkDoubleArray> values;

@@ -14,11 +14,10 @@
 namespace refractivity
 {
 
-/// The leaves that have 3-D cells (of flat data: 2-D cells), and the grid that covers them.
+/// The grid that covers the 3-D cells (of flat data: the 2-D cells).
 struct Resampling
 {
-  std::vector<std::size_t> leaves; // of the source
-  std::array<int, 3> dimensions;   // 1 along the flat axis
+  std::array<int, 3> dimensions; // 1 along the flat axis
   double bounds[6];
   int flatAxis;     // -1: none
   std::string note; // what the user may want to know of the grid
@@ -39,9 +38,9 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
 /// Makes `structure` the grid of the plan.
 void gridOf(const Resampling& plan, vtkImageData* structure);
 
-/// The leaves of the plan with nothing but N at their points (NaN where invalid), and other cells hidden.
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
-  const Resampling& plan, const Source& source, Tally& tally);
+/// The leaves that have cells of as many dimensions as the source has, with nothing but N at their points (NaN where
+/// invalid), and other cells hidden.
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, Tally& tally);
 
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
 /// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight. Where `progress` says to stop,

@@ -415,9 +415,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     {
       fields->findRanges(source.leaves);
     }
-    const GridPlan& plan = this->PlanGrid(source, input);
     progress.reach(0.02);
-    const auto leaves = preparedLeaves(plan.resampling, source, tally);
+    const auto leaves = preparedLeaves(source, tally);
     progress.reach(0.1);
     const auto outside = static_cast<refractivity::Outside>(this->Outside);
     const auto reconstruction = this->Reconstruction == LINEAR_IN_CELLS
