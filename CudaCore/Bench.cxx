@@ -90,6 +90,9 @@ private:
   bool isPaused_ = false;
 };
 
+/// Of the progress of an image, what belongs to making the medium's voxels, where some are to be made.
+constexpr double shareOfVoxels = 0.3;
+
 } // namespace
 
 /// What has been asked for, and as much of it as there is.
@@ -110,8 +113,9 @@ struct Bench::Unfinished
   double kScale = 0;
   double momentumDrift = 0;
   double traceSeconds = 0;
-  std::int64_t shown = 0;     ///< passes of the last picture that was handed out
-  bool hasBeenSilent = false; ///< the last call handed none out
+  double progressOfVoxels = 0; ///< shareOfVoxels where some have been made
+  std::int64_t shown = 0;      ///< passes of the last picture that was handed out
+  bool hasBeenSilent = false;  ///< the last call handed none out
 };
 
 struct Bench::Stages
@@ -129,7 +133,8 @@ struct Bench::Stages
   MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
   /// Makes the voxels of a source that a view needs and that are not there.
   template <class Real>
-  void refineFor(const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor);
+  void refineFor(
+    const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor, Unfinished& asked);
 
   /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
   template <class Real>
@@ -176,10 +181,18 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
 
 template <class Real>
 void Bench::Stages::refineFor(
-  const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor)
+  const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor, Unfinished& asked)
 {
   Monitor ofTree;
   ofTree.aborted = monitor.aborted;
+  if (monitor.progress)
+  {
+    ofTree.progress = [&](double fraction)
+    {
+      asked.progressOfVoxels = shareOfVoxels;
+      monitor.progress(shareOfVoxels * fraction);
+    };
+  }
   if (refine(held.medium, column, ofTree))
   {
     rays.clear();
@@ -239,7 +252,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   const Light light = lightOf(scene, field.grid, image.frame);
   if (field.source)
   {
-    refineFor(columnOf(scene, light, image.frame), held, watch.monitor());
+    refineFor(columnOf(scene, light, image.frame), held, watch.monitor(), asked);
     image.medium = held.medium.tree->statistics();
     if (watch.isAborted())
     {
@@ -292,8 +305,10 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     Monitor ofPass = watch.monitor();
     if (ofPass.progress)
     {
-      ofPass.progress = [&](double fraction) {
-        watch.monitor().progress((static_cast<double>(number) + fraction) / scene.samplesPerPixel);
+      ofPass.progress = [&](double fraction)
+      {
+        const double done = (static_cast<double>(number) + fraction) / scene.samplesPerPixel;
+        watch.monitor().progress(asked.progressOfVoxels + (1 - asked.progressOfVoxels) * done);
       };
     }
     aimPass(pass, number, scene, light);

@@ -82,48 +82,56 @@ struct Faces
 };
 
 /// What a cell with such a point is.
-std::vector<State> statesOfPoints(vtkDataSet* data)
+std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress)
 {
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfPoints()), State::Visible);
   vtkDataArray* scalars = data->GetPointData()->GetScalars();
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    Point x;
-    data->GetPoint(i, x.data());
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+  forParts(data->GetNumberOfPoints(), progress,
+    [&](vtkIdType begin, vtkIdType end)
     {
-      states[static_cast<std::size_t>(i)] = State::None; // it is nowhere
-    }
-    else if (scalars && !std::isfinite(scalars->GetComponent(i, 0)))
-    {
-      states[static_cast<std::size_t>(i)] = State::Hidden;
-    }
-  }
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        Point x;
+        data->GetPoint(i, x.data());
+        if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+        {
+          states[static_cast<std::size_t>(i)] = State::None; // it is nowhere
+        }
+        else if (scalars && !std::isfinite(scalars->GetComponent(i, 0)))
+        {
+          states[static_cast<std::size_t>(i)] = State::Hidden;
+        }
+      }
+    });
   return states;
 }
 
 /// `is3d`: whether all cells are 3-D. (VTK says that hidden ones of structured data have no dimension.)
-std::vector<State> statesOf(vtkDataSet* data, bool is3d)
+std::vector<State> statesOf(vtkDataSet* data, bool is3d, const WorkProgress& progress)
 {
-  const std::vector<State> ofPoints = statesOfPoints(data);
+  const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
-  {
-    State& state = states[static_cast<std::size_t>(i)];
-    if (!is3d && dimensionOfCell(data, i) != 3)
+  forParts(data->GetNumberOfCells(), progress.part(0.3, 1),
+    [&](vtkIdType begin, vtkIdType end)
     {
-      continue;
-    }
-    const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
-    state = isHidden ? State::Hidden : State::Visible;
-    data->GetCellPoints(i, ids);
-    for (vtkIdType point = 0; point < ids->GetNumberOfIds(); ++point)
-    {
-      state = std::min(state, ofPoints[static_cast<std::size_t>(ids->GetId(point))]);
-    }
-  }
+      vtkNew<vtkIdList> ids;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        State& state = states[static_cast<std::size_t>(i)];
+        if (!is3d && dimensionOfCell(data, i) != 3)
+        {
+          continue;
+        }
+        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
+        state = isHidden ? State::Hidden : State::Visible;
+        data->GetCellPoints(i, ids);
+        for (vtkIdType point = 0; point < ids->GetNumberOfIds(); ++point)
+        {
+          state = std::min(state, ofPoints[static_cast<std::size_t>(ids->GetId(point))]);
+        }
+      }
+    });
   return states;
 }
 
@@ -154,10 +162,10 @@ std::array<int, 3> structureOf(vtkDataSet* data)
   return points;
 }
 
-void addStructured(
-  vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions, Faces& faces)
+void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions,
+  const WorkProgress& progress, Faces& faces)
 {
-  const std::vector<State> states = statesOf(data, true);
+  const std::vector<State> states = statesOf(data, true, progress);
   const bool areAllVisible =
     std::all_of(states.begin(), states.end(), [](State state) { return state == State::Visible; });
   const std::array<vtkIdType, 3> points = { dimensions[0], dimensions[1], dimensions[2] };
@@ -362,17 +370,19 @@ Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progre
   Faces faces;
   for (std::uint32_t number = 0; number < leaves.size(); ++number)
   {
-    progress.reach(static_cast<double>(number) / static_cast<double>(leaves.size()));
+    const auto count = static_cast<double>(leaves.size());
+    const WorkProgress ofLeaf = progress.part(number / count, (number + 1) / count);
     vtkDataSet* leaf = leaves[number];
     const std::array<int, 3> structure = structureOf(leaf);
     if (std::min({ structure[0], structure[1], structure[2] }) > 1)
     {
-      addStructured(leaf, number, structure, faces);
+      addStructured(leaf, number, structure, ofLeaf, faces);
     }
     else
     {
-      const std::vector<State> states = statesOf(leaf, false);
+      const std::vector<State> states = statesOf(leaf, false, ofLeaf.part(0, 0.3));
       addUnstructured(leaf, number, states, State::Visible, faces);
+      ofLeaf.reach(0.9);
       addUnstructured(leaf, number, states, State::Hidden, faces);
     }
   }

@@ -362,18 +362,18 @@ TEST(MeshSteps, StopsAndStartsAnew)
     });
   auto filter = bench(nullptr, 32);
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  constexpr double mediumShare = 0.2; // of the progress
+  constexpr double ofSource = 0.2, ofVoxels = 0.44; // of the progress
   for (double time = 1; time < 3; ++time)
   {
-    for (int part = 1; part < 6; ++part)
+    for (const double stopAt : { 0.03, 0.06, 0.09, 0.12, 0.15, 0.18, 0.3 })
     {
-      SCOPED_TRACE(part);
+      SCOPED_TRACE(stopAt);
       filter->SetInputDataObject(atTime(time));
-      watch = { mediumShare * part / 6, {} };
+      watch = { stopAt, {} };
       filter->Update();
       EXPECT_TRUE(isEmpty(filter));
       const auto past = std::count_if(watch.seen.begin(), watch.seen.end(),
-        [&](double done) { return done >= watch.stopAt && done < 1; }); // 1: of the pipeline
+        [&](double done) { return done >= stopAt && done < 1; }); // 1: of the pipeline
       EXPECT_EQ(past, 1);
     }
     watch.stopAt = 2;
@@ -381,6 +381,8 @@ TEST(MeshSteps, StopsAndStartsAnew)
     filter->Modified();
     filter->Update();
     EXPECT_TRUE(std::is_sorted(watch.seen.begin(), watch.seen.end()));
+    EXPECT_TRUE(std::any_of(watch.seen.begin(), watch.seen.end(),
+      [&](double done) { return done > ofSource && done < ofVoxels; }));
     auto fresh = bench(atTime(time), 32);
     fresh->Update();
     ASSERT_FALSE(isEmpty(filter));
