@@ -313,25 +313,37 @@ void requireFits(const std::array<int, 3>& dimensions)
   }
 }
 
-Resampling planResampling(const Source& source, const int samplingDimensions[3])
+Resampling boxOf(const Source& source)
 {
   Resampling plan;
   plan.flatAxis = flatAxisOf(source);
-  const int dimension = plan.flatAxis < 0 ? 3 : 2;
+  plan.dimensions = { 2, 2, 2 };
   vtkBoundingBox box;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (hasCells(leaf.data, plan.flatAxis < 0 ? 3 : 2))
+    {
+      box.AddBounds(leaf.data->GetBounds());
+    }
+  }
+  box.GetBounds(plan.bounds);
+  return plan;
+}
+
+Resampling planResampling(const Source& source, const int samplingDimensions[3])
+{
+  Resampling plan = boxOf(source);
+  const int dimension = plan.flatAxis < 0 ? 3 : 2;
   double points = 0;
   std::vector<vtkDataSet*> leaves;
   for (const Leaf& leaf : source.leaves)
   {
-    vtkDataSet* data = leaf.data;
-    if (hasCells(data, dimension))
+    if (hasCells(leaf.data, dimension))
     {
-      leaves.push_back(data);
-      points += static_cast<double>(data->GetNumberOfPoints());
-      box.AddBounds(data->GetBounds());
+      leaves.push_back(leaf.data);
+      points += static_cast<double>(leaf.data->GetNumberOfPoints());
     }
   }
-  box.GetBounds(plan.bounds);
   std::array<int, 3> given = requireDimensions(samplingDimensions);
   const std::array<std::vector<double>, 3> sizes = sizesOfCells(leaves, dimension);
   std::array<double, 3> lengths{};

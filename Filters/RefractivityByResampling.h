@@ -35,6 +35,9 @@ void requireFits(const std::array<int, 3>& dimensions);
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
 Resampling planResampling(const Source& source, const int samplingDimensions[3]);
 
+/// The grid of two points along each axis.
+Resampling boxOf(const Source& source);
+
 /// Makes `structure` the grid of the plan.
 void gridOf(const Resampling& plan, vtkImageData* structure);
 

@@ -356,6 +356,12 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractiveIndex::ComputeBox(vtkDataObject* input, vtkImageData* structure)
+{
+  gridOf(boxOf(chooseSource(this, input)), structure);
+}
+
+//------------------------------------------------------------------------------
 const GridPlan& vtkRefractiveIndex::PlanGrid(const Source& source, vtkDataObject* input)
 {
   GridPlan& plan = *this->Plan;

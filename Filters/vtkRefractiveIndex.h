@@ -424,6 +424,11 @@ public:
   VTK_WRAPEXCLUDE void ComputeGrid(vtkDataObject* input, vtkImageData* structure);
 
   /**
+   * The same with two points along each axis, for input that CanMakeSource(): its box.
+   */
+  VTK_WRAPEXCLUDE void ComputeBox(vtkDataObject* input, vtkImageData* structure);
+
+  /**
    * What the filter does, without a pipeline: fills `output` from `input` and, where not null, `bodies`. Returns what the user
    * should be warned of, mostly nothing. Throws std::runtime_error with a message for the user, and
    * std::bad_alloc; `output` is then undefined. If AbortExecute is set on the way, it returns early

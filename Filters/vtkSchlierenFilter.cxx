@@ -897,7 +897,14 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       else
       {
         vtkNew<vtkImageData> planned;
-        this->Medium->ComputeGrid(input, planned);
+        if (!this->ColorByField && this->Medium->CanMakeSource(input))
+        {
+          this->Medium->ComputeBox(input, planned);
+        }
+        else
+        {
+          this->Medium->ComputeGrid(input, planned);
+        }
         grid = gridFrom(planned);
       }
       const schlieren::Frame frame = frameFrom(this, grid);
