@@ -11,8 +11,10 @@
 #include "Schlieren.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkStructuredGrid.h"
 #include "vtkWeakPointer.h"
 
@@ -279,6 +281,55 @@ TEST(MeshSteps, WhatChangesTheMeshIsSeen)
   expectSeen("outside", nullptr);
   filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
   expectSeen("reconstruction", nullptr);
+}
+
+// However its numbers are stored.
+TEST(MeshSteps, MeshesOfAllKindsAreLookedAt)
+{
+  const auto expectSeen = [](vtkDataSet* mesh, const std::function<void()>& change)
+  {
+    auto filter = reader();
+    setTime(mesh, 1);
+    sourceOf(filter, mesh);
+    setTime(mesh, 2);
+    sourceOf(filter, mesh);
+    EXPECT_EQ(filter->GetMeshBuilds(), 1);
+    change();
+    const Source source = sourceOf(filter, mesh);
+    EXPECT_EQ(filter->GetMeshBuilds(), 2);
+    expectSame(*source, *sourceOf(reader(), mesh));
+  };
+  const CellKind kind = linearKinds()[1];
+  const Mesh mesh = meshOf(kind.type, 4, kind.cells, 0.2, false);
+  vtkNew<vtkPoints> singles; // of single precision
+  singles->DeepCopy(mesh->GetPoints());
+  mesh->SetPoints(singles);
+  mesh->GetCells()->ConvertTo32BitStorage();
+  expectSeen(mesh, [&] { singles->SetPoint(40, 0.5, 0.51, 0.52); });
+  expectSeen(mesh,
+    [&]
+    {
+      vtkNew<vtkIdList> corners;
+      mesh->GetCellPoints(30, corners);
+      mesh->GetCells()->ReplaceCellAtId(31, corners);
+    });
+
+  const auto grid = curvilinear();
+  expectSeen(grid, [&] { grid->GetPoints()->SetPoint(100, 0.4, 0.3, 0.4); });
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  std::array<vtkNew<vtkDoubleArray>, 3> x;
+  for (auto& along : x)
+  {
+    for (const double at : { 0., 0.1, 0.3, 0.6, 1. })
+    {
+      along->InsertNextValue(at);
+    }
+  }
+  rectilinear->SetDimensions(5, 5, 5);
+  rectilinear->SetXCoordinates(x[0]);
+  rectilinear->SetYCoordinates(x[1]);
+  rectilinear->SetZCoordinates(x[2]);
+  expectSeen(rectilinear, [&] { x[1]->SetValue(2, 0.35); });
 }
 
 // Of points that are hidden, and of values that are no numbers.
