@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "RefractivitySource.h"
+#include "AmrLevels.h"
 
 #include <array>
 #include <optional>
@@ -21,23 +21,6 @@
 /// Hidden cells and NaN are solid and never interpolated from; cells under refined ones are not solid.
 namespace refractivity
 {
-
-/// A block, and where it lies on the lattice of its level.
-struct AmrBlock
-{
-  std::size_t leaf;         // of the source
-  std::array<int, 3> first; // its first cell
-  std::array<int, 3> cells;
-  std::array<int, 3> ownBegin, ownEnd; // those within the block that are no copies from others
-};
-
-/// All blocks of one spacing, coarsest level first.
-struct AmrLevel
-{
-  std::array<double, 3> spacing;
-  std::array<int, 3> cells; // of the domain
-  std::vector<AmrBlock> blocks;
-};
 
 struct Amr
 {

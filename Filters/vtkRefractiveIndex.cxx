@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "AmrSource.h"
 #include "FlatData.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
@@ -396,8 +397,15 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  return !source.image && std::all_of(given, given + 3, [](int count) { return count == 0; }) &&
-    flatAxisOf(source) < 0 && !planAmr(source, given);
+  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }) ||
+    flatAxisOf(source) >= 0)
+  {
+    return false;
+  }
+  const std::optional<Amr> amr = planAmr(source, given);
+  // A grid of the finest cells, where it fits, has all there is.
+  return !amr ||
+    (amr->used + 1 < amr->levels.size() && AmrSource::canShow(*findLevels(source.leaves), source));
 }
 
 //------------------------------------------------------------------------------
@@ -408,7 +416,14 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   this->Grid.clear();
   this->Search->release();
   Tally tally;
-  std::shared_ptr<const MeshSource> made;
+  bool hasGas = false, meetsBodies = false;
+  std::shared_ptr<const schlieren::MediumSource> result;
+  const auto take = [&](const auto& made)
+  {
+    hasGas = made->hasGas();
+    meetsBodies = made->meetsBodies();
+    result = made;
+  };
   const WorkProgress progress(
     [this](double done)
     {
@@ -422,6 +437,17 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       fields->findRanges(source.leaves);
     }
     progress.reach(0.02);
+    const std::optional<AmrLevels> levels = findLevels(source.leaves);
+    if (levels && AmrSource::canShow(*levels, source))
+    {
+      const auto made =
+        std::make_shared<AmrSource>(*levels, source, bodies, tally, progress.part(0.02, 1));
+      if (!made->hasSolids())
+      {
+        take(made);
+      }
+      return;
+    }
     const auto leaves = preparedLeaves(source, tally);
     progress.reach(0.1);
     const auto outside = static_cast<refractivity::Outside>(this->Outside);
@@ -432,16 +458,18 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     KeptMesh& kept = *this->Mesh;
     if (kept.key == key)
     {
-      made = std::make_shared<MeshSource>(leaves, kept.mesh, progress.part(0.1, 1));
+      const auto made = std::make_shared<MeshSource>(leaves, kept.mesh, progress.part(0.1, 1));
       kept.mesh = made->mesh();
+      take(made);
       return;
     }
     kept.release();
     ++kept.builds;
-    made =
+    const auto made =
       std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, progress.part(0.1, 1));
     kept.mesh = made->mesh();
     kept.key = key;
+    take(made);
   };
   try
   {
@@ -451,17 +479,21 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   {
     return nullptr;
   }
-  if (!made->hasGas())
+  if (!result)
+  {
+    return nullptr;
+  }
+  if (!hasGas)
   {
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, tally);
-  if (bodies && !made->meetsBodies())
+  if (bodies && !meetsBodies)
   {
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnGases(source));
-  return made;
+  return result;
 }
 
 //------------------------------------------------------------------------------

@@ -671,7 +671,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
     inside.Source = this->Medium->MakeSource(input, bodies, warning);
     inside.SourceTime.Modified();
   }
-  else
+  if (!inside.Source && !this->Medium->GetAbortExecute())
   {
     warning = this->Medium->Convert(input, inside.Refractivity, bodies);
   }

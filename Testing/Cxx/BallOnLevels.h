@@ -84,20 +84,21 @@ struct AmrRegion
   bool inEight = false;
 };
 
-inline vtkSmartPointer<vtkUniformGrid> amrBlock(const int first[3], int cells, double h)
+inline vtkSmartPointer<vtkUniformGrid> amrBlock(
+  const int first[3], int cells, double h, const GaussianBall& ball = GaussianBall())
 {
   auto grid = vtkSmartPointer<vtkUniformGrid>::New();
   grid->SetDimensions(cells + 1, cells + 1, cells + 1);
   grid->SetSpacing(h, h, h);
   grid->SetOrigin(-1 + first[0] * h, -1 + first[1] * h, -1 + first[2] * h);
-  addCellArray(grid, "N", MeanOfBall{ GaussianBall(), h });
+  addCellArray(grid, "N", MeanOfBall{ ball, h });
   return grid;
 }
 
 /// The ball in the cube from -1 to 1: `cells` of the coarsest level along each edge, half the size on every
 /// further level. Cells under finer ones are marked, and hold nonsense.
 inline vtkSmartPointer<vtkOverlappingAMR> ballOnLevels(
-  int cells, const std::vector<AmrRegion>& regions)
+  int cells, const std::vector<AmrRegion>& regions, const GaussianBall& ball = GaussianBall())
 {
   auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
   std::vector<unsigned int> blocks;
@@ -122,7 +123,7 @@ inline vtkSmartPointer<vtkOverlappingAMR> ballOnLevels(
       const int first[3] = { region.first + static_cast<int>(i & 1) * edge,
         region.first + static_cast<int>(i >> 1 & 1) * edge,
         region.first + static_cast<int>(i >> 2) * edge };
-      auto grid = amrBlock(first, edge, h);
+      auto grid = amrBlock(first, edge, h, ball);
       amr->SetAMRBox(
         level, i, vtkAMRBox(grid->GetOrigin(), grid->GetDimensions(), spacing, origin));
       amr->SetDataSet(level, i, grid);

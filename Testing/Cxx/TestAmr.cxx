@@ -3,9 +3,13 @@
 //
 // Adaptive meshes whose cells hold the values, as the codes that make them write them.
 #include "BallOnLevels.h"
+#include "Medium/MediumSource.h"
 
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNonOverlappingAMR.h"
+#include "vtkSphereSource.h"
+
+#include <numeric>
 
 namespace
 {
@@ -72,6 +76,129 @@ TEST(Amr, BordersOfBlocksDoNotShow)
     }
   }
   EXPECT_LT(atBorders, elsewhere) << atBorders / elsewhere;
+}
+
+// Of which no grid over all of the domain fits in memory: 512 of the finest cells along each edge.
+vtkSmartPointer<vtkOverlappingAMR> deepBall(const GaussianBall& ball)
+{
+  return ballOnLevels(
+    32, { { 0, 32, true }, { 16, 32, true }, { 48, 32 }, { 112, 32, true }, { 240, 32 } }, ball);
+}
+
+TEST(Amr, DeepLevelsAreShownAsFineAsTheyAre)
+{
+  const GaussianBall ball{ 2.7e-4, 0.05 };
+  for (const double tolerance : { 1e-2, 1e-3 })
+  {
+    auto filter = bench(deepBall(ball), 128);
+    filter->SetParallelScale(0.12);
+    filter->SetMediumTolerance(tolerance);
+    filter->Update();
+    const Differences errors = compareWithBall(filter, ball);
+    EXPECT_LT(errors.deflection, 2 * tolerance);
+    // Of leaves that hardly bend light, one value stands for all: the tolerance is one of deflection.
+    EXPECT_LT(errors.opticalPath, std::max(2 * tolerance, 5e-3));
+    EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
+    EXPECT_LT(fieldValue(filter, "SmallestVoxel"), 2. / 32 / 8);
+  }
+}
+
+TEST(Amr, DeepLevelsHaveTheValuesOfTheBall)
+{
+  const GaussianBall ball{ 2.7e-4, 0.05 };
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  const auto amr = deepBall(ball);
+  ASSERT_TRUE(filter->CanMakeSource(amr));
+  std::string warning;
+  const auto source = filter->MakeSource(amr, nullptr, warning);
+  ASSERT_TRUE(source);
+  EXPECT_EQ(warning, "");
+  EXPECT_LT(std::abs(source->ambient()), 1e-12);
+  const double finest = 2. / 32 / 16;
+  // In the finest level, over its border at 0.0625, and with voxels that are coarser than cells.
+  for (const double spacing : { 0.7 * finest, finest, 1.9 * finest, 4 * finest })
+  {
+    for (const double first : { -0.03, 0.05 })
+    {
+      schlieren::Lattice lattice{ { first, -0.01, 0.001 }, { spacing, spacing, spacing },
+        { 12, 12, 12 } };
+      std::vector<double> values(static_cast<std::size_t>(lattice.size()));
+      std::vector<schlieren::Place> places(values.size());
+      std::vector<float> distances(values.size());
+      source->sample(lattice, values.data(), places.data(), distances.data());
+      double worst = 0;
+      for (std::size_t n = 0; n < values.size(); ++n)
+      {
+        Vec x{ lattice.first[0], lattice.first[1], lattice.first[2] };
+        x[0] += spacing * static_cast<double>(n % 12);
+        x[1] += spacing * static_cast<double>(n / 12 % 12);
+        x[2] += spacing * static_cast<double>(n / 144);
+        worst = std::max(worst, std::abs(values[n] - ball(x)));
+        EXPECT_EQ(places[n], schlieren::Place::Gas);
+      }
+      // Coarser cells hold means over more of the ball.
+      EXPECT_LT(worst, (spacing < 2 * finest ? 1e-4 : 4e-3) * ball.A) << spacing;
+    }
+  }
+}
+
+TEST(Amr, BordersOfDeepLevelsDoNotShow)
+{
+  // |x| of 0.0625, 0.125 and 0.25 are borders.
+  const GaussianBall ball{ 2.7e-4, 0.1 };
+  auto filter = bench(deepBall(ball), 255);
+  filter->SetParallelScale(0.3);
+  filter->SetMediumTolerance(1e-3);
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  const std::vector<double> deflection = valuesOf(filter, "Deflection");
+  double atBorders = 0, elsewhere = 0;
+  for (int j = 0; j < 255; ++j)
+  {
+    for (int i = 1; i < 254; ++i)
+    {
+      const auto u = [&](int k) { return deflection[static_cast<std::size_t>(2 * (255 * j + k))]; };
+      const double x = std::abs(image->GetPoint(i)[0]);
+      bool isAtBorder = false;
+      for (const double border : { 0.0625, 0.125, 0.25 })
+      {
+        isAtBorder = isAtBorder || std::abs(x - border) < 0.01;
+      }
+      double& most = isAtBorder ? atBorders : elsewhere;
+      most = std::max(most, std::abs(u(i + 1) - 2 * u(i) + u(i - 1)));
+    }
+  }
+  EXPECT_LT(atBorders, elsewhere) << atBorders / elsewhere;
+}
+
+TEST(Amr, BodiesInDeepLevelsCastSharpShadows)
+{
+  auto filter = bench(deepBall({ 2.7e-4, 0.05 }), 200);
+  vtkNew<vtkSphereSource> body;
+  body->SetRadius(0.05);
+  body->SetThetaResolution(64);
+  body->SetPhiResolution(64);
+  filter->SetInputConnection(1, body->GetOutputPort());
+  filter->SetParallelScale(0.1);
+  filter->Update();
+  const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
+  const double pixel = 0.2 / 200;
+  const double area = std::accumulate(blocked.begin(), blocked.end(), 0.) * pixel * pixel;
+  EXPECT_NEAR(area / (pi * 0.05 * 0.05), 1, 0.01);
+}
+
+TEST(Amr, DeepLevelsWithSolidCellsStayOnAGrid)
+{
+  auto amr = deepBall({ 2.7e-4, 0.05 });
+  vtkImageData* block = blockOf(amr, 4, 0);
+  block->GetCellData()->GetArray("N")->SetComponent(100, 0, std::nan(""));
+  auto filter = bench(amr, 64);
+  filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->GetArray("MediumLevels"));
+  EXPECT_TRUE(vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints() > 0);
 }
 
 TEST(Amr, GridIsThatOfTheFinestLevel)

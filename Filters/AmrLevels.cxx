@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AmrLevels.h"
+
+#include "RefractivityValues.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cmath>
+#include <limits>
+
+namespace refractivity
+{
+
+namespace
+{
+
+/// Part of a cell by which a block may miss its lattice: blocks are often placed in single precision.
+constexpr double latticeTolerance = 0.02;
+
+bool isNearlyWhole(double x) { return std::abs(x - std::round(x)) < latticeTolerance; }
+
+/// Cells along each axis; 1 along the axis that is flat.
+Counts cellsOf(vtkImageData* image)
+{
+  Counts points;
+  image->GetDimensions(points.data());
+  return { std::max(points[0] - 1, 1), std::max(points[1] - 1, 1), std::max(points[2] - 1, 1) };
+}
+
+/// The first corner; along a flat axis, half a unit before the plane.
+std::array<double, 3> cornerOf(vtkImageData* image, int flat)
+{
+  std::array<double, 3> corner;
+  const int* extent = image->GetExtent();
+  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], corner.data());
+  if (flat >= 0)
+  {
+    corner[static_cast<std::size_t>(flat)] -= 0.5;
+  }
+  return corner;
+}
+
+/// The axis along which an image has one point: -1 for none, -2 where there are several.
+int flatAxisOf(vtkImageData* image)
+{
+  int flat = -1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (image->GetDimensions()[axis] == 1)
+    {
+      flat = flat == -1 ? axis : -2;
+    }
+  }
+  return flat;
+}
+
+std::array<double, 3> spacingOf(vtkImageData* image, int flat)
+{
+  std::array<double, 3> spacing;
+  std::copy_n(image->GetSpacing(), 3, spacing.begin());
+  if (flat >= 0)
+  {
+    spacing[static_cast<std::size_t>(flat)] = 1;
+  }
+  return spacing;
+}
+
+/// Finds the cells that are no copies of other blocks' cells: a box, around which the copies lie.
+void findOwnCells(vtkDataSet* data, AmrBlock& block)
+{
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  if (!ghosts)
+  {
+    block.ownBegin = { 0, 0, 0 };
+    block.ownEnd = block.cells;
+    return;
+  }
+  block.ownBegin = block.cells;
+  block.ownEnd = { 0, 0, 0 };
+  vtkIdType cell = 0;
+  forCells({ 0, 0, 0 }, block.cells,
+    [&](int i, int j, int k)
+    {
+      if (!(ghosts->GetValue(cell++) & vtkDataSetAttributes::DUPLICATECELL))
+      {
+        const Counts at = { i, j, k };
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          block.ownBegin[axis] = std::min(block.ownBegin[axis], at[axis]);
+          block.ownEnd[axis] = std::max(block.ownEnd[axis], at[axis] + 1);
+        }
+      }
+    });
+}
+
+/// Puts the leaves on levels, coarsest first, with positions yet to be found. Empty where they differ in
+/// kind.
+std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
+{
+  std::vector<AmrLevel> levels;
+  auto* first = vtkImageData::SafeDownCast(leaves[0].data);
+  flat = first ? flatAxisOf(first) : -2;
+  for (std::size_t number = 0; number < leaves.size(); ++number)
+  {
+    auto* image = vtkImageData::SafeDownCast(leaves[number].data);
+    if (!image || !leaves[number].ofCells || flat == -2 || flatAxisOf(image) != flat ||
+      !image->GetDirectionMatrix()->IsIdentity())
+    {
+      return {};
+    }
+    const std::array<double, 3> spacing = spacingOf(image, flat);
+    const auto isAlike = [&spacing](const AmrLevel& level)
+    {
+      return std::equal(spacing.begin(), spacing.end(), level.spacing.begin(),
+        [](double a, double b) { return std::abs(a - b) < 1e-4 * b; });
+    };
+    auto level = std::find_if(levels.begin(), levels.end(), isAlike);
+    if (level == levels.end())
+    {
+      level = levels.insert(levels.end(), { spacing, {}, {} });
+    }
+    level->blocks.push_back({ number, {}, cellsOf(image), {}, {} });
+    findOwnCells(image, level->blocks.back());
+  }
+  std::sort(levels.begin(), levels.end(),
+    [](const AmrLevel& a, const AmrLevel& b)
+    {
+      return a.spacing[0] * a.spacing[1] * a.spacing[2] >
+        b.spacing[0] * b.spacing[1] * b.spacing[2];
+    });
+  return levels;
+}
+
+/// Finds where the blocks lie. Returns whether there is such a lattice.
+bool place(const std::vector<Leaf>& leaves, std::vector<AmrLevel>& levels, int flat,
+  std::array<double, 3>& origin)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto cornerOn = [&](const AmrBlock& block)
+    { return cornerOf(vtkImageData::SafeDownCast(leaves[block.leaf].data), flat)[axis]; };
+    double& coarsest = levels[0].spacing[axis];
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const AmrLevel& level : levels)
+    {
+      const double ratio = coarsest / level.spacing[axis];
+      if (!(level.spacing[axis] > 0) || !std::isfinite(ratio) || ratio < 0.5 ||
+        std::abs(ratio - std::round(ratio)) > 1e-3 * ratio)
+      {
+        return false;
+      }
+      for (const AmrBlock& block : level.blocks)
+      {
+        low = std::min(low, cornerOn(block));
+        high = std::max(high, cornerOn(block) + block.cells[axis] * level.spacing[axis]);
+      }
+    }
+    // A whole number of coarsest cells, in step with the coarsest blocks.
+    const double anchor = cornerOn(levels[0].blocks[0]);
+    origin[axis] = anchor - std::ceil((anchor - low) / coarsest - latticeTolerance) * coarsest;
+    const double cells = std::ceil((high - origin[axis]) / coarsest - latticeTolerance);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+      AmrLevel& level = levels[i];
+      const double ratio = std::round(coarsest / level.spacing[axis]);
+      const double before = i > 0 ? std::round(coarsest / levels[i - 1].spacing[axis]) : 1;
+      if (!(cells * ratio < 1e6) || !isNearlyWhole(ratio / before))
+      {
+        return false;
+      }
+      level.spacing[axis] = coarsest / ratio;
+      level.cells[axis] = static_cast<int>(cells * ratio);
+      for (AmrBlock& block : level.blocks)
+      {
+        const double first = (cornerOn(block) - origin[axis]) / level.spacing[axis];
+        if (!isNearlyWhole(first))
+        {
+          return false;
+        }
+        block.first[axis] = static_cast<int>(std::round(first));
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
+{
+  AmrLevels found;
+  found.levels = sortedByLevel(leaves, found.flat);
+  if (found.levels.empty() || !place(leaves, found.levels, found.flat, found.origin))
+  {
+    return std::nullopt;
+  }
+  return found;
+}
+
+CellBox intersection(const CellBox& a, const CellBox& b)
+{
+  CellBox both;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    both.begin[axis] = std::max(a.begin[axis], b.begin[axis]);
+    both.end[axis] = std::min(a.end[axis], b.end[axis]);
+  }
+  return both;
+}
+
+BoxBins::BoxBins(std::vector<CellBox> boxes)
+  : Boxes(std::move(boxes))
+{
+  constexpr int most = std::numeric_limits<int>::max();
+  CellBox all{ { most, most, most }, { -most, -most, -most } };
+  for (const CellBox& box : this->Boxes)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      all.begin[axis] = std::min(all.begin[axis], box.begin[axis]);
+      all.end[axis] = std::max(all.end[axis], box.end[axis]);
+    }
+  }
+  const double bins = std::cbrt(static_cast<double>(this->Boxes.size()));
+  for (std::size_t axis = 0; axis < 3 && !this->Boxes.empty(); ++axis)
+  {
+    const int cells = std::max(1, all.end[axis] - all.begin[axis]);
+    this->First[axis] = all.begin[axis];
+    this->Edge[axis] = static_cast<int>(std::ceil(cells / bins));
+    this->Count[axis] = (cells - 1) / this->Edge[axis] + 1;
+  }
+  this->Bins.resize(volume(this->Count));
+  for (std::size_t number = 0; number < this->Boxes.size(); ++number)
+  {
+    this->forBins(this->Boxes[number],
+      [&](std::size_t bin, const CellBox&) { this->Bins[bin].push_back(number); });
+  }
+}
+
+BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level)
+{
+  std::vector<CellBox> boxes;
+  for (std::size_t finer = level + 1; finer < levels.size(); ++finer)
+  {
+    const Counts ratio = ratioOf(levels[finer].cells, levels[level].cells);
+    for (const AmrBlock& block : levels[finer].blocks)
+    {
+      CellBox& box = boxes.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const int last = block.first[axis] + block.ownEnd[axis] - 1;
+        box.begin[axis] = (block.first[axis] + block.ownBegin[axis]) / ratio[axis];
+        box.end[axis] = last / ratio[axis] + 1;
+      }
+    }
+  }
+  return BoxBins(std::move(boxes));
+}
+
+AmrValues valuesOf(
+  const BoxBins& covered, const AmrBlock& block, const Source& source, Tally& tally)
+{
+  vtkDataSet* data = source.leaves[block.leaf].data;
+  CellBox own{ block.first, block.first };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    own.end[axis] += block.cells[axis];
+  }
+  AmrValues result;
+  result.counts.assign(volume(block.cells), 1);
+  covered.forPartsIn(own,
+    [&](std::size_t, const CellBox& cells)
+    {
+      forCells(cells.begin, cells.size(),
+        [&](int i, int j, int k) { result.counts[own.index(i, j, k)] = 0; });
+    });
+
+  auto valid = newMask(data->GetNumberOfCells());
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  for (vtkIdType i = 0; i < valid->GetNumberOfValues(); ++i)
+  {
+    unsigned char& counts = result.counts[static_cast<std::size_t>(i)];
+    if (!counts || (ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENCELL)))
+    {
+      valid->SetValue(i, 0);
+    }
+    if (ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATECELL))
+    {
+      counts = 0;
+    }
+  }
+  const auto values = convert<vtkDoubleArray>(source.leaves[block.leaf].arrays, source.model, valid,
+    std::numeric_limits<double>::quiet_NaN(), tally);
+  result.values.assign(values->GetPointer(0), values->GetPointer(0) + values->GetNumberOfValues());
+  return result;
+}
+
+} // namespace refractivity

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "AmrLevels.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace refractivity
+{
+
+/// What five neighbouring cells, of edge 1 and with known means, say of the mean over an interval: the
+/// polynomial of fourth degree that has these means. So no order is lost, and the parts of a cell have the
+/// cell's mean (Colella & Woodward 1984 do so in their equation 1.6).
+struct Reconstruction
+{
+  std::array<double, 5> weights;
+
+  /// The interval is `width` wide around `centre`, measured from the centre of the middle cell.
+  Reconstruction(double centre, double width)
+  {
+    // The integral over x is a polynomial of fifth degree through six faces; cell k adds to the faces
+    // behind it.
+    constexpr int faces = 6;
+    this->weights.fill(0);
+    for (int face = 0; face < faces; ++face)
+    {
+      double atEnd = 1, atBegin = 1;
+      for (int other = 0; other < faces; ++other)
+      {
+        if (other != face)
+        {
+          atEnd *= (centre + width / 2 + 2.5 - other) / (face - other);
+          atBegin *= (centre - width / 2 + 2.5 - other) / (face - other);
+        }
+      }
+      for (int cell = 0; cell < face; ++cell)
+      {
+        this->weights[static_cast<std::size_t>(cell)] += (atEnd - atBegin) / width;
+      }
+    }
+  }
+
+  /// The cells from the left to the right; those that are NaN are extrapolated. NaN where the middle is.
+  /// Sums differences, so that what is uniform stays so to the last bit.
+  double operator()(const std::array<double, 5>& cells) const
+  {
+    std::array<double, 4> step;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      step[i] = cells[i + 1] - cells[i];
+    }
+    const auto isKnown = [](double x) { return !std::isnan(x); };
+    if (!isKnown(step[1]) && !isKnown(step[2]))
+    {
+      return cells[2]; // NaN, or alone
+    }
+    // At first straight on, and as a parabola where a third cell is known.
+    const bool hasLeft = isKnown(step[1]), hasRight = isKnown(step[2]);
+    if (!hasLeft)
+    {
+      step[1] = isKnown(step[3]) ? 2 * step[2] - step[3] : step[2];
+    }
+    if (!hasRight)
+    {
+      step[2] = isKnown(step[0]) ? 2 * step[1] - step[0] : step[1];
+    }
+    if (!hasLeft || !isKnown(step[0]))
+    {
+      step[0] = 2 * step[1] - step[2];
+    }
+    if (!hasRight || !isKnown(step[3]))
+    {
+      step[3] = 2 * step[2] - step[1];
+    }
+    return cells[2] - this->weights[0] * (step[0] + step[1]) - this->weights[1] * step[1] +
+      this->weights[3] * step[2] + this->weights[4] * (step[2] + step[3]);
+  }
+};
+
+/// Values along one axis of a box of cells, from those at cells to the means over intervals of `width` cells around
+/// `middles`, which are counted from the first cell's centre. A mean whose middle lies in a cell that is NaN, or outside,
+/// is NaN; no other one takes anything from there. `forRows(count, work)` calls work(begin, end) for parts of 0 ... count.
+template <class ForRows>
+void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
+  const std::vector<double>& middles, double width, const ForRows& forRows)
+{
+  const int n = cells[axis];
+  const auto count = static_cast<std::ptrdiff_t>(middles.size());
+  const std::ptrdiff_t stride =
+    axis == 0 ? 1 : static_cast<std::ptrdiff_t>(cells[0]) * (axis == 2 ? cells[1] : 1);
+  const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(volume(cells)) / n;
+  std::vector<double> result(static_cast<std::size_t>(lines * count));
+  forRows(lines / stride * count,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      for (std::ptrdiff_t row = begin; row < end; ++row)
+      {
+        const double middle = middles[static_cast<std::size_t>(row % count)];
+        const int cell = static_cast<int>(std::lround(std::clamp(middle, -1., n + 0.)));
+        const Reconstruction mean(middle - cell, width);
+        const double* line = values.data() + row / count * n * stride;
+        for (std::ptrdiff_t k = 0; k < stride; ++k)
+        {
+          std::array<double, 5> around;
+          for (int i = 0; i < 5; ++i)
+          {
+            const int at = cell + i - 2;
+            around[static_cast<std::size_t>(i)] = at < 0 || at >= n ? nan : line[at * stride + k];
+          }
+          result[static_cast<std::size_t>(row * stride + k)] = mean(around);
+        }
+      }
+    });
+  values = std::move(result);
+  cells[axis] = static_cast<int>(count);
+}
+
+} // namespace refractivity
