@@ -23,7 +23,10 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   {
     task.map = map->view();
   }
-  task.gradients = gradients;
+  if (gradients.count > 0)
+  {
+    task.gradients = gradients;
+  }
   task.light = light;
   task.indexScale = static_cast<Vec3<Real>>(light.indexScale);
   // Beside solids no longer than a voxel, or rays would step through thin ones.
