@@ -137,6 +137,13 @@ std::vector<double> deflectionOf(const RayExit& exit)
 }
 std::vector<double> opticalPathOf(const RayExit& exit) { return { exit.opticalPathDifference }; }
 
+std::string name(const KernelChoice& kernel)
+{
+  return std::string(name(kernel.interpolation)) + ", integrator " +
+    std::to_string(static_cast<int>(kernel.integrator)) +
+    (kernel.path == PathModel::Straight ? ", straight" : "");
+}
+
 /// Where the derivative jumps, or a step is tried again, single rays may go another way by rounding alone.
 bool mayBranch(const KernelChoice& kernel)
 {
@@ -146,10 +153,7 @@ bool mayBranch(const KernelChoice& kernel)
 template <class Real>
 void expectAgreement(const KernelChoice& kernel, double allowed, double tolerance)
 {
-  SCOPED_TRACE(std::string(name(kernel.interpolation)) + ", integrator " +
-    std::to_string(static_cast<int>(kernel.integrator)) +
-    (kernel.path == PathModel::Straight ? ", straight" : "") + ", tolerance " +
-    std::to_string(tolerance));
+  SCOPED_TRACE(name(kernel) + ", tolerance " + std::to_string(tolerance));
   const Bundle<Real> bundle(kernel, tolerance);
   const RayTask<Real> task = bundle.task();
   const TracedPass host = bundle.onHost(task);
@@ -281,20 +285,34 @@ TEST_F(HostAndDeviceRays, AreTrappedAtTheSameStep)
   EXPECT_GT(trapped, 100);
 }
 
-TEST_F(HostAndDeviceRays, GatherTheSame)
+template <class Real>
+void expectSameSums(const KernelChoice& kernel)
 {
-  const Bundle<float> bundle(
-    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
-  const RayTask<float> task = bundle.task(2);
+  SCOPED_TRACE(name(kernel));
+  const Bundle<Real> bundle(kernel);
+  const RayTask<Real> task = bundle.task(2);
   const TracedPass host = bundle.onHost(task);
   const TracedPass device = bundle.onDevice(task);
   ASSERT_EQ(host.gathered.size(), device.gathered.size());
   const float largest = *std::max_element(host.gathered.begin(), host.gathered.end());
   EXPECT_GT(largest, 0);
+  std::size_t differ = 0;
   for (std::size_t n = 0; n < host.gathered.size(); ++n)
   {
-    EXPECT_NEAR(host.gathered[n], device.gathered[n], 2e-5 * largest);
+    const bool isSame = std::abs(host.gathered[n] - device.gathered[n]) <= 2e-5f * largest;
+    differ += isSame ? 0 : 1; // NaN is not
   }
+  EXPECT_LE(differ, mayBranch(kernel) ? host.gathered.size() / 50 : 0);
+}
+
+TEST_F(HostAndDeviceRays, GatherTheSameForEveryKernel)
+{
+  forKernels(
+    [](const KernelChoice& kernel)
+    {
+      expectSameSums<float>(kernel);
+      expectSameSums<double>(kernel);
+    });
 }
 
 void expectSameBits(const std::vector<RayExit>& a, const std::vector<RayExit>& b)

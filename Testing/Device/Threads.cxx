@@ -199,7 +199,8 @@ void start(Fiber& fiber)
   resume(fiber);
 }
 
-/// Others' turns, until all of a barrier's threads have arrived. Returns the generation that has ended.
+/// Others' turns, until all of a barrier's threads have arrived; the last one, too, waits for its turn.
+/// Returns the generation that has ended.
 unsigned arrive(Barrier& barrier, int expected, int line)
 {
   if (barrier.arrived > 0 && barrier.line != line)
@@ -213,7 +214,6 @@ unsigned arrive(Barrier& barrier, int expected, int line)
     barrier.sums[generation % 2] = std::exchange(barrier.sum, 0);
     barrier.arrived = 0;
     ++barrier.generation;
-    return generation;
   }
   Fiber& self = *engine.current;
   self.waitsAt = &barrier;
