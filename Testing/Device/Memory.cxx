@@ -354,7 +354,10 @@ cudaError_t cudaMemcpyAsync(
   {
     return failed(cudaErrorInvalidValue);
   }
-  queue.push_back({ stream, [=] { std::memcpy(to, from, bytes); } });
+  if (bytes > 0)
+  {
+    queue.push_back({ stream, [=] { std::memcpy(to, from, bytes); } });
+  }
   return cudaSuccess;
 }
 
