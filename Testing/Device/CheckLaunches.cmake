@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Every kernel that is compiled is launched by the tests that compare host and device.
-#   cmake -DNM=nm -DTESTS=SchlierenCoreTests -DFOLDER=CudaCore -DSOURCES=a.cu;b.cu -P CheckLaunches.cmake
+#   cmake -DNM=nm -DTESTS=SchlierenCoreTests -DFOLDER=CudaCore -P CheckLaunches.cmake
 # Blocks and threads run in a shuffled order.
 set(launches ${TESTS}.launches)
 file(REMOVE ${launches})
@@ -14,25 +14,26 @@ file(READ ${launches} launched)
 
 execute_process(COMMAND ${NM} -C --defined-only ${TESTS}
   OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-set(kernel "[A-Za-z]+Kernel")
-string(REGEX MATCHALL
-  "[0-9a-f]+ [tTwW] void schlieren::\\(anonymous namespace\\)::${kernel}<[^\n]*"
-  compiled "${symbols}")
-foreach(source IN LISTS SOURCES)
-  file(STRINGS ${FOLDER}/${source} declarations REGEX "__global__ void")
+set(ofKernel "(void )?schlieren::(\\(anonymous namespace\\)::)?([A-Za-z]+Kernel)[<(]")
+string(REGEX MATCHALL "[0-9a-f]+ [tTwW] ${ofKernel}[^\n]*" compiled "${symbols}")
+file(GLOB_RECURSE sources ${FOLDER}/*.cu ${FOLDER}/*.inl)
+foreach(source IN LISTS sources)
+  file(READ ${source} code)
+  string(REGEX MATCHALL "__global__[^{;]+" declarations "${code}")
   foreach(declaration IN LISTS declarations)
-    string(REGEX REPLACE ".*__global__ void ([A-Za-z]+)\\(.*" "\\1" name "${declaration}")
-    if(NOT "${compiled}" MATCHES "::${name}<")
+    string(REGEX REPLACE ".*[^A-Za-z]([A-Za-z]+Kernel)\\(.*" "\\1" name "${declaration}")
+    if(NOT "${compiled}" MATCHES "::${name}[<(]")
       message(SEND_ERROR "${name} of ${source} was not found among the symbols of ${TESTS}.")
     endif()
   endforeach()
 endforeach()
 
+list(FILTER compiled EXCLUDE REGEX "::{lambda") # within kernels
 list(LENGTH compiled count)
 foreach(symbol IN LISTS compiled)
   string(REGEX MATCH "^[0-9a-f]+" address "${symbol}")
   if(NOT launched MATCHES "${address}")
-    string(REGEX REPLACE ".*::(${kernel}<.*)" "\\1" name "${symbol}")
+    string(REGEX REPLACE "^[0-9a-f]+ . " "" name "${symbol}")
     message(SEND_ERROR "Never launched: ${name}")
   endif()
 endforeach()

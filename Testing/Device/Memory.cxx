@@ -71,7 +71,7 @@ public:
   Memory()
     : begin_(static_cast<char*>(
         mmap(nullptr, addresses, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)))
-    , next_(begin_)
+    , next_(begin_ + offset)
   {
     if (begin_ == MAP_FAILED)
     {
@@ -159,6 +159,8 @@ private:
   }
 
   static constexpr std::size_t addresses = std::size_t{ 1 } << 38;
+  static constexpr std::size_t offset =
+    addresses / 4; ///< a pointer to before the first one is of the device, too
   static constexpr std::size_t alignment = 16;
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   char* begin_;

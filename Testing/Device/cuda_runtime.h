@@ -17,6 +17,8 @@
 #define __global__
 #define __device__
 #define __host__
+#define __grid_constant__
+#define __launch_bounds__(...)
 
 enum cudaError_t
 {
