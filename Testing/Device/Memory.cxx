@@ -3,7 +3,7 @@
 //
 // The emulated device's memory and queues, as strict as CUDA allows:
 //   - the host cannot touch memory of the device, nor a kernel what was freed or lies beyond an end;
-//   - new memory holds NaN (all bits set);
+//   - new memory holds NaN or, of integers, the largest ones;
 //   - a launch, an asynchronous copy and a memset do nothing before they are waited for;
 //   - a kernel is given no address of the host;
 //   - all memory is freed at the end of the program.
@@ -100,7 +100,8 @@ public:
     const Allocation allocation{ next_, pages, bytes };
     next_ += pages + page;
     setAccess(allocation, PROT_READ | PROT_WRITE);
-    std::memset(data, 0xff, bytes);
+    auto* const words = reinterpret_cast<std::uint32_t*>(allocation.pages);
+    std::fill(words, words + pages / sizeof(*words), 0x7fffffffu);
     setAccess(allocation, PROT_NONE);
     ASAN_POISON_MEMORY_REGION(allocation.pages, pages);
     ASAN_UNPOISON_MEMORY_REGION(data, bytes);

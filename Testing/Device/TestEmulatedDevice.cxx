@@ -163,6 +163,9 @@ TEST(EmulatedDevice, HasNoNumbersInNewMemory)
     EXPECT_TRUE(std::isnan(value));
   }
   cudaFree(data);
+  long long* number = deviceMemory<long long>(1);
+  EXPECT_GT(toHost(number, 1)[0], 1ll << 62);
+  cudaFree(number);
 }
 
 TEST(EmulatedDevice, RefusesWhatCudaRefuses)
