@@ -28,7 +28,7 @@ foreach(source IN LISTS sources)
   endforeach()
 endforeach()
 
-list(FILTER compiled EXCLUDE REGEX "::{lambda") # within kernels
+list(FILTER compiled EXCLUDE REGEX "::{lambda|::launchKernel<") # within kernels, and what launches them
 list(LENGTH compiled count)
 foreach(symbol IN LISTS compiled)
   string(REGEX MATCH "^[0-9a-f]+" address "${symbol}")
