@@ -4,6 +4,7 @@
 
 #include "AmrReconstruction.h"
 #include "RefractivityValues.h"
+#include "WeightedMedian.h"
 
 #include "vtkDataSet.h"
 #include "vtkUnsignedCharArray.h"
@@ -208,7 +209,6 @@ std::array<double, 3> AmrSource::voxelShape() const { return this->Levels[0].spa
 double AmrSource::ambient() const
 {
   std::vector<std::pair<double, double>> parts; // N, area
-  double area = 0;
   for (const Level& level : this->Levels)
   {
     for (const Block& block : level.blocks)
@@ -226,7 +226,6 @@ double AmrSource::ambient() const
         if (outer > 0 && block.parts[cell] > 0)
         {
           parts.emplace_back(block.means[cell], outer);
-          area += outer;
         }
         ++cell;
       };
@@ -236,17 +235,7 @@ double AmrSource::ambient() const
       }
     }
   }
-  std::sort(parts.begin(), parts.end());
-  double below = 0;
-  for (const auto& [value, size] : parts)
-  {
-    below += size;
-    if (below >= 0.5 * area)
-    {
-      return value;
-    }
-  }
-  return 0;
+  return weightedMedian(std::move(parts));
 }
 
 /// The cells of a level that a box meets, with some around them.

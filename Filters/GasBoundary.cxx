@@ -4,9 +4,10 @@
 
 #include "LatticeSampling.h"
 #include "OuterFaces.h"
+#include "WeightedMedian.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace refractivity
 {
@@ -61,7 +62,6 @@ double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
   std::vector<std::pair<double, double>> parts; // N, area
   for (const bool ofAll : { false, true })
   {
-    double area = 0;
     for (std::size_t t = 0; t < surface.size(); ++t)
     {
       if (ofAll || (this->IsOuter[t] && !this->Faces.hidesBehind[t]))
@@ -72,21 +72,14 @@ double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
           mean += values[static_cast<std::size_t>(corner)] / 3;
         }
         parts.emplace_back(mean, norm(surface.normal(t)));
-        area += parts.back().second;
       }
     }
-    std::sort(parts.begin(), parts.end());
-    double below = 0;
-    for (const auto& [value, size] : parts)
+    if (!parts.empty())
     {
-      below += size;
-      if (below >= 0.5 * area)
-      {
-        return value;
-      }
+      break;
     }
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return weightedMedian(std::move(parts));
 }
 
 GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const

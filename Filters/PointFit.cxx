@@ -24,50 +24,8 @@ constexpr double leastSquare = 1e-6;
 constexpr int unknowns = 9; // three first derivatives, six second ones
 constexpr std::size_t fewest = 3;
 
-// For functions with packs as arguments.
-#define SCHLIEREN_INLINE inline __attribute__((always_inline))
-
-namespace two
-{
-constexpr int lanes = 2;
-#include "PointFit.inl"
-} // namespace two
-
-// As in PlacesInCell.cxx.
-#if defined(__x86_64__)
-#define SCHLIEREN_HAS_AVX
-
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-#endif
-namespace four
-{
-constexpr int lanes = 4;
-#include "PointFit.inl"
-} // namespace four
-#if defined(__clang__)
-#pragma clang attribute pop
-#pragma clang attribute push( \
-  __attribute__((target("avx512f,avx512dq,avx512vl,fma"))), apply_to = function)
-#else
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,fma")
-#endif
-namespace eight
-{
-constexpr int lanes = 8;
-#include "PointFit.inl"
-} // namespace eight
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-#endif
+#define SCHLIEREN_CODE_FOR_PACKS "PointFit.inl"
+#include "ForInstructions.inl"
 
 } // namespace
 

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Compiles SCHLIEREN_CODE_FOR_PACKS, a file of functions for packs of `lanes` numbers, for packs of two, and for four and
+// eight with the instructions of AVX2 and AVX-512, each in a namespace of its own. Which of them a processor has, the
+// caller asks where SCHLIEREN_HAS_AVX is defined.
+
+// For functions with packs as arguments.
+#define SCHLIEREN_INLINE inline __attribute__((always_inline))
+
+namespace two
+{
+constexpr int lanes = 2;
+#include SCHLIEREN_CODE_FOR_PACKS
+} // namespace two
+
+// Types, too, depend on the instructions: where GCC knows of these only in functions, it compares lane by lane.
+#if defined(__x86_64__)
+#define SCHLIEREN_HAS_AVX
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#endif
+namespace four
+{
+constexpr int lanes = 4;
+#include SCHLIEREN_CODE_FOR_PACKS
+} // namespace four
+#if defined(__clang__)
+#pragma clang attribute pop
+#pragma clang attribute push( \
+  __attribute__((target("avx512f,avx512dq,avx512vl,fma"))), apply_to = function)
+#else
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,fma")
+#endif
+namespace eight
+{
+constexpr int lanes = 8;
+#include SCHLIEREN_CODE_FOR_PACKS
+} // namespace eight
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
