@@ -134,6 +134,11 @@ def expect(words, bench, isMade, *time):
     assert (points > 0) == (isMade and is_rank0()), f"{words}: {points} points"
 
 
+def redistribute():
+    from paraview.simple import RedistributeDataSet, Wavelet
+    RedistributeDataSet(Input=Wavelet(WholeExtent=3 * [-8, 8])).UpdatePipeline()
+
+
 def spread():
     """Data of which rank 0 has not all."""
     from paraview.simple import AppendDatasets, ProgrammableSource, RedistributeDataSet, Sphere, Wavelet
@@ -224,7 +229,7 @@ def run_results(command, file):
         return dict(arrays)
 
 
-PARTS = {"files": read_files, "spread": spread, "missing": missing}
+PARTS = {"files": read_files, "redistribute": redistribute, "spread": spread, "missing": missing}
 if sys.argv[1:2] == ["same"]:
     np.savez(sys.argv[2], **results())
 elif sys.argv[1:]:
@@ -250,6 +255,10 @@ else:
 
     assert re.findall("ERR.* has only .* cells", run(on(4), "files"))
     assert len(re.findall("ERR.* Rank 2 of 4 does not say", run(on(4), "missing"))) == 1
+    # What VTK 9.2 sends from rank to rank, the expat of Debian 12 does not read since its version 2.5.0-1+deb12u2.
+    if "Error parsing XML in stream" in run(on(4), "redistribute"):
+        print("Skipped: Redistribute DataSet loses cells here. What does not need it is as it should be.")
+        sys.exit(77)
     for options in ([], ["--sym"]):
         parts = re.split("Expected: (.*)", run(on(4) + options, "spread"))[1:]
         assert parts[-2] == "the end"
