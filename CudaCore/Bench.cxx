@@ -91,7 +91,7 @@ private:
 };
 
 /// Of the progress of an image, what belongs to making the medium's voxels, where some are to be made.
-constexpr double shareOfVoxels = 0.3;
+constexpr double fractionOfVoxels = 0.3;
 
 } // namespace
 
@@ -113,7 +113,7 @@ struct Bench::Unfinished
   double kScale = 0;
   double momentumDrift = 0;
   double traceSeconds = 0;
-  double progressOfVoxels = 0; ///< shareOfVoxels where some have been made
+  double progressOfVoxels = 0; ///< fractionOfVoxels where some have been made
   std::int64_t shown = 0;      ///< passes of the last picture that was handed out
   bool hasBeenSilent = false;  ///< the last call handed none out
 };
@@ -189,8 +189,8 @@ void Bench::Stages::refineFor(
   {
     ofTree.progress = [&](double fraction)
     {
-      asked.progressOfVoxels = shareOfVoxels;
-      monitor.progress(shareOfVoxels * fraction);
+      asked.progressOfVoxels = fractionOfVoxels;
+      monitor.progress(fractionOfVoxels * fraction);
     };
   }
   if (refine(held.medium, column, ofTree))

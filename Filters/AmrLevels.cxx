@@ -201,6 +201,16 @@ std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
   return found;
 }
 
+CellBox boxOf(const AmrBlock& block)
+{
+  CellBox box{ block.first, block.first };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.end[axis] += block.cells[axis];
+  }
+  return box;
+}
+
 CellBox intersection(const CellBox& a, const CellBox& b)
 {
   CellBox both;
@@ -265,11 +275,7 @@ AmrValues valuesOf(
   const BoxBins& covered, const AmrBlock& block, const Source& source, Tally& tally)
 {
   vtkDataSet* data = source.leaves[block.leaf].data;
-  CellBox own{ block.first, block.first };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    own.end[axis] += block.cells[axis];
-  }
+  const CellBox own = boxOf(block);
   AmrValues result;
   result.counts.assign(volume(block.cells), 1);
   covered.forPartsIn(own,

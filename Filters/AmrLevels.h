@@ -95,6 +95,7 @@ struct CellBox
   }
 };
 
+CellBox boxOf(const AmrBlock& block);
 CellBox intersection(const CellBox& a, const CellBox& b);
 
 /// Boxes in about as many equal bins, so that few are looked at for each box in question.

@@ -30,16 +30,6 @@ constexpr int reach = 3;
 /// The mean over so much of a cell is the value at a point, to 1e-9 of what cells differ by.
 constexpr double pointWidth = 1e-4;
 
-CellBox boxOf(const AmrBlock& block)
-{
-  CellBox box{ block.first, block.first };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.end[axis] += block.cells[axis];
-  }
-  return box;
-}
-
 bool hasHiddenCells(vtkDataSet* data)
 {
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();

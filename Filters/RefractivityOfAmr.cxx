@@ -39,10 +39,7 @@ struct Grid
 
   std::size_t index(int i, int j, int k) const
   {
-    const auto nx = static_cast<std::size_t>(this->cells[0]);
-    const auto ny = static_cast<std::size_t>(this->cells[1]);
-    return (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
-      static_cast<std::size_t>(i);
+    return CellBox{ { 0, 0, 0 }, this->cells }.index(i, j, k);
   }
 
   void set(std::size_t cell, double value)

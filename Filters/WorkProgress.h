@@ -12,19 +12,19 @@
 namespace refractivity
 {
 
-/// Tells how much is done, 0 to 1, in the thread that asked for the work. Whether to go on.
+/// Reports how much is done, 0 to 1, in the thread that began the work. False cancels it.
 using Progress = std::function<bool(double)>;
 
-/// Thrown where a WorkProgress is told to stop.
+/// Thrown where the work is cancelled.
 struct Stopped
 {
 };
 
-/// A part of what a Progress tells of, for work that ends by an exception where it is to stop.
+/// A part of what a Progress tells of, for work that ends by an exception where it is cancelled.
 class WorkProgress
 {
 public:
-  WorkProgress() = default; // tells nobody
+  WorkProgress() = default; // reports to nobody
   explicit WorkProgress(Progress tell)
     : Tell(std::move(tell))
   {
@@ -38,7 +38,7 @@ public:
     return result;
   }
 
-  /// In the thread that asked for the work.
+  /// In the thread that began the work.
   void reach(double done) const
   {
     if (this->Tell && !this->Tell(this->From + done * (this->To - this->From)))
