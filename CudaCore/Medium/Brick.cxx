@@ -134,6 +134,14 @@ struct BrickMaker<Real>::Samples
     return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] && k >= begin[2] &&
       k < end[2];
   }
+  std::array<int, 3> nearestWithin(std::array<int, 3> at) const
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      at[axis] = std::clamp(at[axis], begin[axis], std::max(begin[axis], end[axis] - 1));
+    }
+    return at;
+  }
   bool isAllWithin() const
   {
     return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, n };
@@ -399,7 +407,9 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
     {
       for (int i = 0; i < stored; ++i)
       {
-        const std::size_t at = samples.index(i + skipped, j + skipped, k + skipped);
+        // Where gas ends with the domain there is no edge: rounding would tell where rays that end there are.
+        const std::array<int, 3> nearest = samples.nearestWithin({ i + skipped, j + skipped, k + skipped });
+        const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
         // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
         bool isWindow = samples.places[at] == Place::Window;
         if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
@@ -407,8 +417,8 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
           bool isBesideWall = false;
           for (int neighbour = 0; neighbour < 27; ++neighbour)
           {
-            const Place there = samples.places[samples.index(i + skipped + neighbour % 3 - 1,
-              j + skipped + neighbour / 3 % 3 - 1, k + skipped + neighbour / 9 - 1)];
+            const Place there = samples.places[samples.index(nearest[0] + neighbour % 3 - 1,
+              nearest[1] + neighbour / 3 % 3 - 1, nearest[2] + neighbour / 9 - 1)];
             isWindow = isWindow || there == Place::Window;
             isBesideWall = isBesideWall || there == Place::Wall;
           }
