@@ -62,8 +62,9 @@ void AmrFaces::addFace(
     }
     count[axis] = 1;
     forCells(first, count,
-      [&](int i, int j, int k)
-      { this->addFace(level + 1, { i, j, k }, axis, isAbove, isHidden); });
+      [&](int i, int j, int k) {
+        this->addFace(level + 1, { i, j, k }, axis, isAbove, isHidden);
+      });
     return;
   }
   Counts coarse = gas;
@@ -109,8 +110,7 @@ std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
     key = key << 20 | static_cast<std::uint64_t>(corner[i] * ratio[i]);
   }
   std::vector<Point>& points = this->Faces.surface.points;
-  const auto [found, isNew] =
-    this->Points.emplace(key, static_cast<std::int32_t>(points.size()));
+  const auto [found, isNew] = this->Points.emplace(key, static_cast<std::int32_t>(points.size()));
   if (isNew)
   {
     Point place;

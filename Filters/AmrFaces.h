@@ -52,8 +52,7 @@ public:
   BoundaryFaces take() { return std::move(this->Faces); }
 
 private:
-  void addFace(
-    std::size_t level, const Counts& gas, std::size_t axis, bool isAbove, bool isHidden);
+  void addFace(std::size_t level, const Counts& gas, std::size_t axis, bool isAbove, bool isHidden);
   void addSquare(
     std::size_t level, const Counts& gas, std::size_t axis, bool isAbove, bool isHidden);
   std::int32_t pointAt(std::size_t level, const Counts& corner);

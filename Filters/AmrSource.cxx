@@ -27,14 +27,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells around one that its reconstruction reads, and one for places on a border.
 constexpr int reach = 3;
 
-constexpr double rounding = 1e-6; // of places, in cells
+constexpr double rounding = 1e-6;           // of places, in cells
 constexpr double atBorder = 0.5 - rounding; // from a cell's centre
 
 /// Voxels across flat data, in which nothing changes along this axis.
 constexpr double layersOfFlat = 4;
-
-/// The mean over so much of a cell is the value at a point, to 1e-9 of what cells differ by.
-constexpr double pointWidth = 1e-4;
 
 void inTurn(std::ptrdiff_t rows, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work)
 {
@@ -529,7 +526,7 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
     {
       middle -= box.begin[axis];
     }
-    resampleAxis(values, cells, axis, middles[axis], pointWidth, inTurn);
+    splineAxis(values, cells, axis, middles[axis]);
   }
   std::copy(values.begin(), values.end(), refractivity);
   std::vector<unsigned char> hasGas(values.size(), 1);
