@@ -545,4 +545,35 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
   this->Boundary->sample(lattice, hasGas.data(), places, distances);
 }
 
+void AmrSource::addField(const AmrLevels& levels, const Source& source)
+{
+  Tally notTold;
+  this->Fields.push_back(
+    std::make_unique<const AmrSource>(levels, source, nullptr, Outside::Passes, notTold));
+}
+
+schlieren::MediumSource::FieldRange AmrSource::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const Content content = this->Fields[static_cast<std::size_t>(field)]->contentOf(box);
+  return { content.lowest, content.highest };
+}
+
+void AmrSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances, double* values) const
+{
+  this->sample(lattice, refractivity, places, distances);
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::vector<schlieren::Place> ofField(size);
+  for (const auto& field : this->Fields)
+  {
+    field->sample(lattice, values, ofField.data(), nullptr);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      values[i] = ofField[i] == schlieren::Place::Gas ? values[i] : nan;
+    }
+    values += size;
+  }
+}
+
 } // namespace refractivity

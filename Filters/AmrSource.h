@@ -34,6 +34,9 @@ public:
   AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies, Outside outside,
     Tally& tally, const WorkProgress& progress = WorkProgress());
 
+  /// One more field of the same blocks: `source` has its values in their cells, NaN where there is none.
+  void addField(const AmrLevels& levels, const Source& source);
+
   bool hasGas() const { return this->HasGas; }
   /// Whether the bodies reach into the box of the gas.
   bool meetsBodies() const;
@@ -44,6 +47,11 @@ public:
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override;
+
+  int fields() const override { return static_cast<int>(this->Fields.size()); }
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
+  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+    schlieren::Place* places, float* distances, double* values) const override;
 
 private:
   /// Cells of a level that are known: those of a block, or the means of a finer block's.
@@ -89,6 +97,7 @@ private:
   std::unique_ptr<const GasBoundary> Boundary;
   bool HasGas = false;
   bool IsBox = true; // whether the domain is one, with blocks all over
+  std::vector<std::unique_ptr<const AmrSource>> Fields; // each as if it were a refractivity
 };
 
 } // namespace refractivity

@@ -109,8 +109,23 @@ schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box
   return content;
 }
 
-void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances) const
+void MeshSource::addField(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const WorkProgress& progress)
+{
+  this->Fields.push_back(std::unique_ptr<const FieldOfMesh>(
+    new FieldOfMesh{ leaves, CellTree(pointersTo(leaves), this->Cells.mesh(), progress) }));
+}
+
+schlieren::MediumSource::FieldRange MeshSource::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const CellTree& cells = this->Fields[static_cast<std::size_t>(field)]->cells;
+  const CellTree::Content content = cells.content({ box.low, box.high });
+  return { content.lowest, content.highest };
+}
+
+void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances, double* values) const
 {
   const auto size = static_cast<std::size_t>(lattice.size());
   const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr;
@@ -122,13 +137,22 @@ void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
     {
       std::copy(known->distances.begin(), known->distances.end(), distances);
     }
+    if (values)
+    {
+      this->sampleFields(lattice, known->cells, values);
+    }
     return;
   }
   const bool isKept = this->Lattices && this->Lattices->hasRoomFor(lattice);
   KnownLattice found;
   std::vector<unsigned char> isFound(size);
-  this->Values.sample(lattice, refractivity, isFound.data(), isKept ? &found.cells : nullptr);
+  this->Values.sample(
+    lattice, refractivity, isFound.data(), isKept || values ? &found.cells : nullptr);
   this->Boundary->sample(lattice, isFound.data(), places, distances);
+  if (values)
+  {
+    this->sampleFields(lattice, found.cells, values);
+  }
   if (isKept)
   {
     if (!std::all_of(places, places + size,
@@ -141,6 +165,31 @@ void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
       found.distances.assign(distances, distances + size);
     }
     this->Lattices->keep(lattice, std::move(found));
+  }
+}
+
+/// In the cells that hold the lattice's points.
+void MeshSource::sampleFields(
+  const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
+{
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::vector<unsigned char> isFound(size, 0);
+  for (const std::uint16_t point : cells.points)
+  {
+    isFound[point] = 1;
+  }
+  for (const auto& field : this->Fields)
+  {
+    const CellSampler sampler(field->cells);
+    if (!sampler.sample(lattice, cells, values))
+    {
+      sampler.sample(lattice, values, isFound.data());
+    }
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      values[i] = isFound[i] ? values[i] : std::numeric_limits<double>::quiet_NaN();
+    }
+    values += size;
   }
 }
 

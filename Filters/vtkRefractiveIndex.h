@@ -450,9 +450,14 @@ public:
    * valid, the bodies, Outside and Reconstruction are; that is found from the data themselves, not from their times.
    * GetMeshBuilds() counts how often it was another one.
    */
+  enum SourceContents
+  {
+    REFRACTIVITY_ALONE,
+    WITH_FIELDS // the source has Fields, too: see FieldTints.h
+  };
   VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input);
-  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
+    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
 
   ///@{
