@@ -547,9 +547,9 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
 
 void AmrSource::addField(const AmrLevels& levels, const Source& source)
 {
-  Tally notTold;
+  Tally notReported;
   this->Fields.push_back(
-    std::make_unique<const AmrSource>(levels, source, nullptr, Outside::Passes, notTold));
+    std::make_unique<const AmrSource>(levels, source, nullptr, Outside::Passes, notReported));
 }
 
 schlieren::MediumSource::FieldRange AmrSource::rangeOfField(

@@ -477,8 +477,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
     for (std::size_t number = 0; number < fields.size(); ++number)
     {
-      Tally notTold;
-      made->addField(preparedLeaves(fields[number].source, notTold),
+      Tally notReported;
+      made->addField(preparedLeaves(fields[number].source, notReported),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
     take(made);

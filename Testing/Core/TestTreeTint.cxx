@@ -113,8 +113,8 @@ struct Gathering
   TracedPass traced;
 };
 
-/// Of a line's way through the cube from -1 to 1.
-double wayThroughCube(const Vec3<double>& place, const Vec3<double>& direction)
+/// How long a line is within the cube from -1 to 1.
+double lengthInCube(const Vec3<double>& place, const Vec3<double>& direction)
 {
   const double x[3] = { place.x, place.y, place.z };
   const double d[3] = { direction.x, direction.y, direction.z };
@@ -189,10 +189,10 @@ TEST(TreeTint, GathersALinearFieldExactlyAcrossLevels)
       const Gathering<> gathering(source, direction, 0.01, settings);
       EXPECT_GE(gathering.statistics.finestLevel - gathering.statistics.coarsestLevel, 3);
       EXPECT_LT(
-        gathering.worst(0, [](const auto& x, const auto& d) { return 1.5 * wayThroughCube(x, d); }),
+        gathering.worst(0, [](const auto& x, const auto& d) { return 1.5 * lengthInCube(x, d); }),
         2e-4);
       EXPECT_LT(
-        gathering.worst(1, [](const auto& x, const auto& d) { return 1.3 * wayThroughCube(x, d); }),
+        gathering.worst(1, [](const auto& x, const auto& d) { return 1.3 * lengthInCube(x, d); }),
         2e-4);
     }
   }
