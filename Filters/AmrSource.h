@@ -24,8 +24,7 @@ namespace refractivity
  * holds has the mean over its place of a polynomial through the next coarser level; so the borders of blocks and levels
  * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
  *
- * Cells that are hidden or whose N is not finite are walls, as they stand: with the edges of cells. Flat data are one
- * cell thick, of one data unit.
+ * Cells that are hidden or whose N is not finite are walls, as they stand: with the edges of cells.
  */
 class AmrSource : public schlieren::MediumSource
 {
@@ -92,7 +91,6 @@ private:
   BoundaryFaces findFaces();
 
   std::array<double, 3> Origin;
-  int Flat; // the axis along which the data are; -1: none
   std::vector<Level> Levels;
   std::unique_ptr<const GasBoundary> Boundary;
   bool HasGas = false;

@@ -4,6 +4,7 @@
 
 #include "GasChoices.h"
 #include "InputDescription.h"
+#include "Mask.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -14,6 +15,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -311,6 +313,45 @@ vtkDataArray* computedBefore(
   return leaves.empty() || leaves[0].arrays[0] == computed ? computed : nullptr;
 }
 
+/// Hides what the mask says, if one is chosen. Data without the array have gas everywhere, unless all are.
+void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSets, Source& source)
+{
+  if (!self->HasMaskArray())
+  {
+    return;
+  }
+  const Selection selection = selectionFrom(self, vtkRefractiveIndex::MASK, "Mask");
+  if (!std::isfinite(self->GetMaskThreshold()))
+  {
+    throw std::runtime_error(
+      "MaskThreshold is not a finite number, so nothing tells what Mask hides. Set it, for "
+      "instance to 0.5.");
+  }
+  bool isFound = false;
+  for (Leaf& leaf : source.leaves)
+  {
+    const std::vector<Leaf> found = leavesWith({ selection }, { leaf.data });
+    if (found.empty())
+    {
+      continue;
+    }
+    isFound = true;
+    requireScalars(found[0], { selection }, dataSets);
+    source.masked.push_back(hideMasked(leaf,
+      { found[0].arrays[0], found[0].ofCells, self->GetMaskThreshold(),
+        self->GetMaskedSide() == vtkRefractiveIndex::MASKED_ABOVE }));
+    if (source.image == leaf.data)
+    {
+      source.image = vtkImageData::SafeDownCast(source.masked.back());
+    }
+    leaf.data = source.masked.back();
+  }
+  if (!isFound)
+  {
+    throwNotFound({ selection }, dataSets);
+  }
+}
+
 } // namespace
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
@@ -347,6 +388,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
     requireScalars(leaf, selections, dataSets);
   }
   source.label = labelOf(source.leaves[0].arrays, selections);
+  applyMask(self, dataSets, source);
   return source;
 }
 

@@ -4,6 +4,8 @@
 
 #include "RefractivityModels.h"
 
+#include "vtkSmartPointer.h"
+
 #include <string>
 #include <vector>
 
@@ -38,7 +40,8 @@ struct Leaf
 /// What to read from an input.
 struct Source
 {
-  std::vector<Leaf> leaves;      // at least one
+  std::vector<Leaf> leaves;                        // at least one
+  std::vector<vtkSmartPointer<vtkDataSet>> masked; // their data, where there is a mask
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
   std::string noteOnGases; // what the user should know once, mostly empty

@@ -188,6 +188,8 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  os << indent << "MaskThreshold: " << this->MaskThreshold << "\n";
+  os << indent << "MaskedSide: " << this->MaskedSide << "\n";
   os << indent << "Outside: " << this->Outside << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
   os << indent << "Grid: " << this->Grid << "\n";
@@ -312,9 +314,9 @@ vtkMTimeType vtkRefractiveIndex::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::HasHumidityArray()
+bool vtkRefractiveIndex::HasArray(int index)
 {
-  const char* name = this->GetInputArrayInformation(HUMIDITY)->Get(vtkDataObject::FIELD_NAME());
+  const char* name = this->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
   return name && *name && std::string(name) != "None";
 }
 
@@ -398,11 +400,8 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }))
-  {
-    return false;
-  }
-  return flatAxisOf(source) < 0 || findLevels(source.leaves);
+  return !source.image && std::all_of(given, given + 3, [](int count) { return count == 0; }) &&
+    flatAxisOf(source) < 0;
 }
 
 //------------------------------------------------------------------------------
@@ -501,10 +500,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnGases(source));
-  if (const int flat = flatAxisOf(source); flat >= 0)
-  {
-    addText(warning, warningOfExtrusion(flat));
-  }
   return result;
 }
 

@@ -621,7 +621,7 @@ void vtkSchlierenFilter::PassToMedium()
   {
     this->Medium->SetWavelength(this->Wavelength);
   }
-  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::HUMIDITY; ++index)
+  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::MASK; ++index)
   {
     vtkInformation* selection = this->GetInputArrayInformation(index);
     if (!sameSelection(selection, this->Medium->GetInputArrayInformation(index)))

@@ -226,6 +226,8 @@ public:
   virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
   virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
   vtkSchlierenMediumMacro(RefractivityScale, double);
+  vtkSchlierenMediumMacro(MaskThreshold, double);
+  vtkSchlierenMediumMacro(MaskedSide, int);
   vtkSchlierenMediumMacro(Outside, int);
   vtkSchlierenMediumMacro(Reconstruction, int);
   vtkSchlierenMediumMacro(OutsideBlocksLight, int);
