@@ -120,17 +120,17 @@ std::vector<FieldValues> fieldValues(
     for (const refractivity::Leaf& leaf : ofMedium.leaves)
     {
       const auto same = std::find_if(found.begin(), found.end(),
-        [&](const refractivity::Leaf& other) { return other.data == leaf.data; });
+        [&](const refractivity::Leaf& other) { return other.input == leaf.input; });
       if (same != found.end())
       {
-        field.source.leaves.push_back(*same);
+        field.source.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
         continue;
       }
       auto nowhere = vtkSmartPointer<vtkDoubleArray>::New();
       nowhere->SetNumberOfValues(
         leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
       nowhere->FillValue(std::numeric_limits<double>::quiet_NaN());
-      field.source.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells });
+      field.source.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells, leaf.input });
       field.made.push_back(nowhere);
     }
   }

@@ -22,6 +22,35 @@ std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet
   return { leaves.begin(), leaves.end() };
 }
 
+/// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
+schlieren::Box boundsOf(
+  const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
+{
+  schlieren::Box box{ cells.bounds().low, cells.bounds().high };
+  vtkIdType all = 0;
+  for (vtkDataSet* leaf : leaves)
+  {
+    all += leaf->GetNumberOfCells();
+  }
+  if (cells.size() == 0 || cells.size() == static_cast<std::size_t>(all))
+  {
+    return box;
+  }
+  for (vtkDataSet* leaf : leaves)
+  {
+    const double* bounds = leaf->GetBounds();
+    if (std::all_of(bounds, bounds + 6, [](double x) { return std::isfinite(x); }))
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        box.low[axis] = std::min(box.low[axis], bounds[2 * axis]);
+        box.high[axis] = std::max(box.high[axis], bounds[2 * axis + 1]);
+      }
+    }
+  }
+  return box;
+}
+
 /// Whether a cell holds a place.
 bool holds(const CellSampler& cells, const Point& place)
 {
@@ -43,6 +72,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
       pointersTo(leaves), bodies, outside,
       [this](const Point& place) { return holds(this->Values, place); }, progress.part(0.6, 1)))
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
+  , Bounds(boundsOf(this->Cells, leaves))
 {
 }
 
@@ -54,6 +84,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , Boundary(mesh.boundary)
   , Lattices(mesh.lattices ? mesh.lattices : std::make_shared<LatticesOfMesh>())
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
+  , Bounds(boundsOf(this->Cells, leaves))
 {
   this->Lattices->beginStep();
 }
@@ -75,11 +106,7 @@ std::uint64_t MeshSource::keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& 
 
 bool MeshSource::meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
-schlieren::Box MeshSource::bounds() const
-{
-  const CellTree::Bounds& bounds = this->Cells.bounds();
-  return { bounds.low, bounds.high };
-}
+schlieren::Box MeshSource::bounds() const { return this->Bounds; }
 
 double MeshSource::ambient() const
 {

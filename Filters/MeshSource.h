@@ -80,6 +80,7 @@ private:
   std::shared_ptr<const GasBoundary> Boundary;
   std::shared_ptr<LatticesOfMesh> Lattices;
   double Ambient; // NaN: there is no boundary
+  schlieren::Box Bounds;
 
   struct FieldOfMesh
   {

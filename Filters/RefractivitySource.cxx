@@ -179,11 +179,11 @@ std::vector<Leaf> leavesWith(
     const bool cellsFirst = selections[0].cellsFirst;
     if (isComplete(found[cellsFirst]))
     {
-      leaves.push_back({ data, found[cellsFirst], cellsFirst });
+      leaves.push_back({ data, found[cellsFirst], cellsFirst, data });
     }
     else if (isComplete(found[!cellsFirst]))
     {
-      leaves.push_back({ data, found[!cellsFirst], !cellsFirst });
+      leaves.push_back({ data, found[!cellsFirst], !cellsFirst, data });
     }
     else
     {
@@ -370,7 +370,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   if (vtkDataArray* computed = computedBefore(self, source.image, selections[0]))
   {
     selections.resize(1);
-    source.leaves = { { source.image, { computed }, false } };
+    source.leaves = { { source.image, { computed }, false, source.image } };
   }
   else
   {

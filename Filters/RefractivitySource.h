@@ -35,6 +35,7 @@ struct Leaf
   vtkDataSet* data;
   Arrays arrays;
   bool ofCells;
+  vtkDataSet* input; // `data`, but for what a mask hides
 };
 
 /// What to read from an input.

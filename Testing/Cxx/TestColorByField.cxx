@@ -367,6 +367,28 @@ TEST(ColorByField, ABlockWithoutTheFieldIsNotTinted)
   }
 }
 
+// A mask hides cells from the medium and from the fields alike.
+TEST(ColorByField, MasksTakeNoColoursAway)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (int i = 0; i < 2; ++i)
+  {
+    auto block = cube(9);
+    block->SetOrigin(2 * i - 2, -1, -1);
+    addPointArray(block, "N", [](const Vec& x) { return 1e-6 * x[0] * x[1]; });
+    addPointArray(block, "A", acrossY);
+    addCellArray(block, "solid", [](const Vec& x) { return x[0] < -1 ? 1. : 0.; });
+    blocks->SetBlock(static_cast<unsigned>(i), block);
+  }
+  auto filter = tinted(blocks, { "A" }, { blue });
+  filter->SetImageSize(64, 32);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "solid");
+  EXPECT_LT(largestDifference(filter, blue, 0.3, 1.7), 1.01);
+  EXPECT_LT(largestDifference(filter, blue, -0.7, -0.3), 1.01);
+  EXPECT_GT(largest(valuesOf(filter, "BlockedFraction")), 0.99);
+}
+
 TEST(ColorByField, ChoosesColoursFarApart)
 {
   EXPECT_LT(largestDifference(tinted(flow(), { "A" }, {}), red), rounding);
