@@ -86,6 +86,38 @@ SCHLIEREN_HD auto any(const Mask& mask) -> decltype(mask[0] != 0)
   return one;
 }
 
+/// Whether a comparison holds in each lane: a bit of each, that of the first is the lowest.
+template <class Mask>
+SCHLIEREN_HD unsigned bitsOf(const Mask& mask)
+{
+#if defined(__AVX512DQ__)
+  if constexpr (sizeof(Mask) == 64)
+  {
+    return sizeof(mask[0]) == 4 ? _mm512_movepi32_mask((__m512i)mask)
+                                : _mm512_movepi64_mask((__m512i)mask);
+  }
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(Mask) == 32)
+  {
+    return static_cast<unsigned>(sizeof(mask[0]) == 4 ? _mm256_movemask_ps((__m256)mask)
+                                                      : _mm256_movemask_pd((__m256d)mask));
+  }
+#endif
+#if defined(__SSE2__)
+  if constexpr (sizeof(Mask) == 16)
+  {
+    return static_cast<unsigned>(_mm_movemask_ps((__m128)mask));
+  }
+#endif
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < sizeof(Mask) / sizeof(mask[0]); ++i)
+  {
+    bits |= mask[i] != 0 ? 1u << i : 0;
+  }
+  return bits;
+}
+
 // Of these the compiler does not see that they are single instructions.
 #if defined(__AVX512F__)
 SCHLIEREN_HD SimdPack<float, 16> minimum(const SimdPack<float, 16>& a, const SimdPack<float, 16>& b)

@@ -302,7 +302,7 @@ SCHLIEREN_HD Place placeIn(
 /// are in a wall, 0 for others.
 template <class Real>
 SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
-  const LeavesOfRays<Real>& in, const Vec3<Real>& places, const Real& isUnderWay, Real& inGas)
+  const std::int32_t (&leaf)[lanesOf<Real>], const Vec3<Real>& places, const Real& isUnderWay, Real& inGas)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
@@ -316,7 +316,7 @@ SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
     if (mayMeet[i] > 0)
     {
       const Place place =
-        placeIn(medium, medium.leaves[in.leaf[i]], Vec3<Number>{ x[0][i], x[1][i], x[2][i] });
+        placeIn(medium, medium.leaves[leaf[i]], Vec3<Number>{ x[0][i], x[1][i], x[2][i] });
       isBlocked[i] = place == Place::Wall ? Number(1) : Number(0);
       gas[i] = place == Place::Gas ? Number(1) : Number(0);
     }

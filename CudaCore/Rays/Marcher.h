@@ -7,7 +7,9 @@
 
 #include "Medium/FieldGradients.h"
 #include "Medium/HomogeneityMap.h"
+#include "Rays/InBoxes.h"
 #include "Rays/Integrators.h"
+#include "Rays/LeavesOfPacks.h"
 #include "Rays/LeavesOfRays.h"
 #include "Rays/Light.h"
 #include "Rays/RayExit.h"
@@ -65,19 +67,6 @@ struct RayBatch
   float* gathered[Lanes]; ///< sums of the fields' gradients, where there are any
 };
 
-/// NaN becomes 0.
-template <class Real, class Number>
-SCHLIEREN_HD Real clampTo(const Real& x, const Number& last)
-{
-  return minimum(maximum(x, Real{}), Real{} + last);
-}
-
-template <class Real, class Number>
-SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Number>& last)
-{
-  return { clampTo(x.x, last.x), clampTo(x.y, last.y), clampTo(x.z, last.z) };
-}
-
 /// As an integer from 0 to `most`, which many numbers of steps cannot be: they are estimates, of any size.
 template <class Number>
 SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
@@ -88,33 +77,6 @@ SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
     return 0;
   }
   return steps < beyond ? minimum(static_cast<std::int32_t>(steps), most) : most;
-}
-
-/// How far inside the box [low, high] a place is, along the axis where that is least.
-template <class Real, class Box>
-SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Box>& low, const Vec3<Box>& high)
-{
-  const Real ofX = minimum(x.x - low.x, high.x - x.x);
-  const Real ofY = minimum(x.y - low.y, high.y - x.y);
-  const Real ofZ = minimum(x.z - low.z, high.z - x.z);
-  return minimum(ofX, minimum(ofY, ofZ));
-}
-
-/// The way along a line from x to where it leaves the box [low, high] on one axis; negative if it has.
-template <class Real, class Box>
-SCHLIEREN_HD Real wayOut(const Real& x, const Real& along, const Box& low, const Box& high)
-{
-  const Real side = along > 0 ? Real{} + high : Real{} + low;
-  const Real way = (side - x) / along;
-  return along == 0 ? Real{} + infinite<NumberOf<Real>> : way;
-}
-
-template <class Real, class Box>
-SCHLIEREN_HD Real wayOut(
-  const Vec3<Real>& x, const Vec3<Real>& along, const Vec3<Box>& low, const Vec3<Box>& high)
-{
-  return minimum(wayOut(x.x, along.x, low.x, high.x),
-    minimum(wayOut(x.y, along.y, low.y, high.y), wayOut(x.z, along.z, low.z, high.z)));
 }
 
 /// A function of its own where a step takes several samples: in line, their code would be too much.
@@ -153,7 +115,8 @@ struct March
   Batch& batch;
   StraightLight<Real> light;
   Ray<Real> ray;
-  LeavesOfRays<Real> in;            ///< of a tree
+  using Leaves = std::conditional_t<lanes == 1, LeavesOfRays<Real>, LeavesOfPack<Real>>;
+  Leaves in;                        ///< of a tree
   Vec3<Real> domainLow, domainHigh; ///< in local coordinates
   Real baseValue;                   ///< of the leaf: is added to what its samples say
   Real inGas;                       ///< 0 outside of it, else 1
@@ -330,16 +293,23 @@ struct March
   /// Puts all rays into the leaves where they start.
   SCHLIEREN_HD void enterTree()
   {
-    Number start[3][lanes];
-    for (int i = 0; i < lanes; ++i)
+    if constexpr (lanes == 1)
     {
-      in.enter(task.medium, i, batch.start);
-      for (int axis = 0; axis < 3; ++axis)
+      Number start[3][lanes];
+      for (int i = 0; i < lanes; ++i)
       {
-        start[axis][i] = static_cast<Number>(in.start[axis][i]);
+        in.enter(task.medium, i, batch.start);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          start[axis][i] = static_cast<Number>(in.start[axis][i]);
+        }
       }
+      ray.start = packs(start);
     }
-    ray.start = packs(start);
+    else
+    {
+      enterLeaves(task.medium, stepsInLeaves(), batch.start, batch.perLength, in, ray.start);
+    }
     takeLeaves();
   }
 
@@ -415,7 +385,7 @@ struct March
   SCHLIEREN_HD void lookForEdges(Real& step, const Vec3<Real>& middle)
   {
     Real gas = inGas;
-    const auto which = meetWalls(task.medium, in, middle, cruise, gas) > 0;
+    const auto which = meetWalls(task.medium, in.leaf, middle, cruise, gas) > 0;
     inGas = gas;
     if (any(which))
     {
