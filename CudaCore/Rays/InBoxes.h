@@ -6,6 +6,7 @@
 
 #include "Math/Pack.h"
 #include "Math/Vec3.h"
+#include "Medium/HomogeneityMap.h"
 
 namespace schlieren
 {
@@ -21,6 +22,13 @@ template <class Real, class Number>
 SCHLIEREN_HD Vec3<Real> clampTo(const Vec3<Real>& x, const Vec3<Number>& last)
 {
   return { clampTo(x.x, last.x), clampTo(x.y, last.y), clampTo(x.z, last.z) };
+}
+
+/// The least of three.
+template <class Real>
+SCHLIEREN_HD Real leastOf(const Vec3<Real>& a)
+{
+  return minimum(a.x, minimum(a.y, a.z));
 }
 
 /// How far inside the box [low, high] a place is, along the axis where that is least.

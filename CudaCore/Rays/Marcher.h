@@ -123,6 +123,7 @@ struct March
   Real isConstant{};                ///< 1 in leaves where nothing changes, else 0
   bool someConstant = false;        ///< some rays are in a leaf where nothing changes
   bool someNearEdge = false;        ///< some rays are in a leaf where gas may end
+  bool someNearEnd = true;          ///< some rays may leave the domain with their next step
   Vec3<Real> stepsToLast,
     stepsToFirst; ///< at least, per index coordinate towards the far or near side
   Real cruise;    ///< the usual step; 0 for rays that are not under way
@@ -167,7 +168,7 @@ struct March
     if constexpr (Path::bends)
     {
       // Light enters along d, so that |p| = 1 + nu from the start.
-      ray.q = sample(ray.start).value * light.d;
+      ray.q = valueApart(ray.start) * light.d;
     }
   }
 
@@ -328,6 +329,12 @@ struct March
     light.indexScale =
       scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
     light.perLength = leaves.perIndex * packs(batch.perLength);
+    if constexpr (lanes > 1)
+    {
+      const Real stepsToEnd = minimum(leastOf(scaled(domainHigh - task.medium.leafHigh, stepsToLast)),
+        leastOf(scaled(task.medium.leafLow - domainLow, stepsToFirst)));
+      someNearEnd = any((stepsToEnd < 1) & (cruise > 0));
+    }
   }
 
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
@@ -368,6 +375,21 @@ struct March
       step = (isConstant > 0) & (cruise > 0) ? through : step;
     }
     return step;
+  }
+
+  SCHLIEREN_APART Real settleApart() { return settle(); }
+
+  /// Whether the next step of some rays is not in the leaf that they are in.
+  SCHLIEREN_HD bool areSomeOut(const Vec3<Real>& middle) const
+  {
+    return any((insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0) & (cruise > 0));
+  }
+
+  /// Whether some rays may leave the domain with a step.
+  SCHLIEREN_HD bool maySomeLeave(const Ray<Real>& now, const Real& step) const
+  {
+    return someNearEnd &&
+      any((insetOf(Path::ahead(now, light, step), domainLow, domainHigh) < 0) & (cruise > 0));
   }
 
   /// The medium at places of which some are in other leaves than the rays.
@@ -435,6 +457,8 @@ struct March
     found.value += baseValue;
     return onlyGas(found);
   }
+
+  SCHLIEREN_APART Real valueApart(const Vec3<Real>& at) const { return sample(at).value; }
 
   SCHLIEREN_HD Sample<Real> onlyGas(const Sample<Real>& found) const
   {
@@ -545,7 +569,7 @@ struct March
       return;
     }
     const Vec3<Real> q = packs(batch.q);
-    const Real nu = sample(packs(batch.end)).value;
+    const Real nu = valueApart(packs(batch.end));
     const Real n = 1 + nu;
     const Real drift = (2 * (dot(q, light.d) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
     toArray(drift < 0 ? -drift : drift, batch.drift);
@@ -572,10 +596,8 @@ struct March
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
     const Vec3<Real> x = Path::position(ray, light);
-    const Vec3<Real> toLast = scaled(task.medium.leafHigh - x, stepsToLast);
-    const Vec3<Real> toFirst = scaled(x - task.medium.leafLow, stepsToFirst);
-    const Real least = minimum(minimum(minimum(toLast.x, toFirst.x), minimum(toLast.y, toFirst.y)),
-      minimum(toLast.z, toFirst.z));
+    const Real least = minimum(leastOf(scaled(task.medium.leafHigh - x, stepsToLast)),
+      leastOf(scaled(x - task.medium.leafLow, stepsToFirst)));
     Number most[lanes];
     toArray(least, most);
     const std::int32_t left = task.stepLimit - steps;
@@ -674,7 +696,7 @@ struct March
   }
 
   /// One step of all rays that are under way.
-  SCHLIEREN_HD void takeStep()
+  SCHLIEREN_APART void takeStep()
   {
     if (isTrapped())
     {
@@ -722,7 +744,55 @@ SCHLIEREN_HD void march(
   rays.findDrift();
 }
 
-/// The same for two batches in turn: while one waits for what it has read, the other is computed.
+/// Steps of two packs in turn, as long as there is nothing in their way but the medium's samples: while one waits for
+/// what it has read, the other is computed. At most `most` of them.
+template <class Kernel, class Real>
+SCHLIEREN_HD void takeStepsInside(
+  March<Kernel, Real>& a, March<Kernel, Real>& b, std::int32_t most)
+{
+  using Number = NumberOf<Real>;
+  using Path = typename Kernel::Path;
+  const bool isTree = a.isTree();
+  // Copies, as they would be kept in memory otherwise.
+  Ray<Real> ofA = a.ray, ofB = b.ray;
+  std::int32_t taken = 0;
+  for (; taken < most; ++taken)
+  {
+    Real stepOfA = a.cruise, stepOfB = b.cruise;
+    Vec3<Real> middleOfA = Path::ahead(ofA, a.light, Number(0.5) * stepOfA);
+    Vec3<Real> middleOfB = Path::ahead(ofB, b.light, Number(0.5) * stepOfB);
+    if (isTree)
+    {
+      if (a.areSomeOut(middleOfA) || b.areSomeOut(middleOfB))
+      {
+        a.ray = ofA;
+        b.ray = ofB;
+        stepOfA = a.settleApart();
+        stepOfB = b.settleApart();
+        ofA = a.ray;
+        ofB = b.ray;
+        middleOfA = Path::ahead(ofA, a.light, Number(0.5) * stepOfA);
+        middleOfB = Path::ahead(ofB, b.light, Number(0.5) * stepOfB);
+        if (!a.isPlain() || !b.isPlain())
+        {
+          break;
+        }
+      }
+      if (a.maySomeLeave(ofA, stepOfA) || b.maySomeLeave(ofB, stepOfB))
+      {
+        break;
+      }
+    }
+    a.advance(ofA, stepOfA, middleOfA);
+    b.advance(ofB, stepOfB, middleOfB);
+  }
+  a.ray = ofA;
+  b.ray = ofB;
+  a.steps += taken;
+  b.steps += taken;
+}
+
+/// Takes the rays of two batches through the medium.
 template <class Kernel, class Real>
 SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
   RayBatch<NumberOf<Real>, lanesOf<Real>>& one, RayBatch<NumberOf<Real>, lanesOf<Real>>& other)
@@ -730,19 +800,19 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
   March<Kernel, Real> a(task, one);
   March<Kernel, Real> b(task, other);
   constexpr std::int32_t worthIt = 4;
-  // A tree's leaves are left so often that it pays to look soon again.
-  const std::int32_t pause = task.medium.leaves != nullptr ? 2 : 8;
+  constexpr std::int32_t pause = 8;
+  const bool mayBePlain = task.map.levels == nullptr && task.gradients.count == 0;
   std::int32_t next = 0;
   while (a.areUnderWay && b.areUnderWay)
   {
-    if (a.steps >= next && a.isPlain() && b.isPlain())
+    if (mayBePlain && a.steps >= next && a.isPlain() && b.isPlain())
     {
-      const std::int32_t inside = minimum(a.stepsInside(), b.stepsInside());
-      next = a.steps + (inside < worthIt ? pause : inside);
-      while (a.steps < next && inside >= worthIt)
+      const std::int32_t inside = a.isTree() ? task.stepLimit - maximum(a.steps, b.steps)
+                                             : minimum(a.stepsInside(), b.stepsInside());
+      next = inside < worthIt ? a.steps + pause : 0;
+      if (inside >= worthIt)
       {
-        a.take(a.stepInside());
-        b.take(b.stepInside());
+        takeStepsInside(a, b, inside);
       }
     }
     a.takeStep();
