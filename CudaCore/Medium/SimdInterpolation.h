@@ -50,6 +50,7 @@ template <class Real, class Pack, int Points>
 SCHLIEREN_HD Pack weigh(const Pack (&weights)[Points], const Pack (&columns)[4])
 {
   Pack sum = weights[0] * columns[0];
+#pragma GCC unroll 4
   for (int i = 1; i < Points; ++i)
   {
     sum += weights[i] * columns[i];
@@ -78,6 +79,7 @@ struct Stencil
     using Int = IntOf<Pack>;
     const Pack x[3] = { position.x, position.y, position.z };
     const Real high[3] = { m.leafHigh.x, m.leafHigh.y, m.leafHigh.z };
+#pragma GCC unroll 3 // or GCC may keep the weights in memory
     for (int axis = 0; axis < 3; ++axis)
     {
       Int i =
@@ -255,13 +257,19 @@ SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* bas
   constexpr int lanes = lanesOf<Pack>;
   const auto& w = stencil.w;
   const auto& d = stencil.d;
-  std::int32_t index[3][lanes];
-  std::memcpy(index, stencil.index, sizeof(index));
+  std::uint32_t x[lanes], y[lanes], z[lanes];
+  std::memcpy(x, &stencil.index[0], sizeof(x));
+  std::memcpy(y, &stencil.index[1], sizeof(y));
+  std::memcpy(z, &stencil.index[2], sizeof(z));
+  // Of 32 bits, as products of 64 bits take several instructions.
+  const auto row = static_cast<std::uint32_t>(m.rowStride);
+  const auto plane = static_cast<std::uint32_t>(m.planeStride);
   std::int64_t offsets[lanes];
 #pragma GCC unroll 1 // once it has unrolled the loop, GCC does not vectorise it any more
   for (int ray = 0; ray < lanes; ++ray)
   {
-    offsets[ray] = index[2][ray] * m.planeStride + index[1][ray] * m.rowStride + index[0][ray];
+    offsets[ray] = static_cast<std::int64_t>(
+      std::uint64_t{ z[ray] } * plane + std::uint64_t{ y[ray] } * row + x[ray]);
   }
   if (base != nullptr)
   {

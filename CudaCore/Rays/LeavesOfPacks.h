@@ -37,7 +37,7 @@ struct LeavesOfPack
   Mask first[3];
   Real perIndex, voxel;     ///< local by index coordinates, and the other way round
   Real value, usualStep;    ///< see LeavesInPacks
-  Real isConstant, isNearEdge;
+  Real isConstant, isNearEdge, isNearEnd;
 
   SCHLIEREN_HD void setUnit(const View& medium)
   {
@@ -51,26 +51,39 @@ struct LeavesOfPack
     unit = 1 / perUnit;
   }
 
-  /// A leaf that some of the rays are in, or come to.
+  /// A leaf that rays come to.
   struct There
   {
-    std::int32_t number;
+    std::int64_t base;
+    std::int32_t number = -1;
     Whole first[3];
-    Number perIndex, voxel, usualStep;
+    Number perIndex, voxel, value, usualStep, isConstant, isNearEdge, isNearEnd;
 
-    SCHLIEREN_HD There(const View& medium, const Steps& steps, double perUnit, std::int32_t n)
-      : number(n)
+    SCHLIEREN_HD void read(
+      const View& medium, const Steps& steps, double perUnit, std::int32_t n)
     {
       const Leaf<Number>& leaf = medium.leaves[n];
+      const double last[3] = { medium.last.x, medium.last.y, medium.last.z };
+      number = n;
+      base = leaf.brick * medium.brickStride;
+      perIndex = static_cast<Number>(leaf.perIndex);
+      voxel = 1 / perIndex;
+      value = leaf.offset;
+      usualStep = (leaf.kind == Leaf<Number>::Mixed ? steps.atEdge : steps.inGas) * voxel;
+      isConstant = leaf.kind == Leaf<Number>::Constant ? Number(1) : Number(0);
+      isNearEdge = leaf.kind == Leaf<Number>::Mixed || leaf.kind == Leaf<Number>::Solid ? Number(1)
+                                                                                        : Number(0);
+      bool isAtEnd = false;
+      const double size = static_cast<double>(voxel);
       for (int axis = 0; axis < 3; ++axis)
       {
         first[axis] = static_cast<Whole>(leaf.first[axis] * perUnit);
+        isAtEnd |= leaf.first[axis] < size || leaf.first[axis] + 16 * size > last[axis];
       }
-      perIndex = static_cast<Number>(leaf.perIndex);
-      voxel = 1 / perIndex;
-      usualStep = (leaf.kind == Leaf<Number>::Mixed ? steps.atEdge : steps.inGas) * voxel;
+      isNearEnd = isAtEnd ? Number(1) : Number(0);
     }
   };
+  There latest; ///< that some rays have come to: others will follow
 
   /// Places in local coordinates of the rays' leaves, in those of another one.
   SCHLIEREN_HD Vec3<Real> toLocalOf(const There& there, const Vec3<Real>& at) const
@@ -83,11 +96,23 @@ struct LeavesOfPack
   }
 
   /// Finds the leaves of places in local coordinates of the rays' leaves. Calls visit(leaf, mask of the places in
-  /// it) for each.
+  /// it) for each. `latest`: one that is likely.
   template <class Visit>
   SCHLIEREN_HD void find(const View& medium, const Steps& steps, const Vec3<Real>& at, Mask left,
-    const Visit& visit) const
+    There& latest, const Visit& visit) const
   {
+    if (latest.number >= 0)
+    {
+      const Mask isIn =
+        left & (insetOf(toLocalOf(latest, at), medium.leafLow, medium.leafHigh) >= 0);
+      visit(latest, isIn);
+      left &= ~isIn;
+    }
+    unsigned bits = bitsOf(left);
+    if (bits == 0)
+    {
+      return;
+    }
     Whole corner[3][lanes];
     Number x[3][lanes], size[lanes], order[lanes];
     std::memcpy(corner, first, sizeof(corner));
@@ -98,7 +123,7 @@ struct LeavesOfPack
       order[i] = static_cast<Number>(i);
     }
     const Real orders = fromArray<Real>(order);
-    for (unsigned bits = bitsOf(left); bits != 0; bits = bitsOf(left))
+    for (; bits != 0; bits = bitsOf(left))
     {
       const int i = __builtin_ctz(bits);
       double index[3];
@@ -107,21 +132,18 @@ struct LeavesOfPack
         index[axis] = static_cast<double>(corner[axis][i]) * unit +
           static_cast<double>(x[axis][i]) * static_cast<double>(size[i]);
       }
-      const There there(
-        medium, steps, perUnit, medium.finder.at({ index[0], index[1], index[2] }));
-      const Real inset = insetOf(toLocalOf(there, at), medium.leafLow, medium.leafHigh);
+      latest.read(medium, steps, perUnit, medium.finder.at({ index[0], index[1], index[2] }));
+      const Real inset = insetOf(toLocalOf(latest, at), medium.leafLow, medium.leafHigh);
       // This one in any case: it may be on a side, or outside by rounding.
       const Mask isIn = left & ((inset >= 0) | (orders == static_cast<Number>(i)));
-      visit(there, isIn);
+      visit(latest, isIn);
       left &= ~isIn;
     }
   }
 
   /// Puts rays into a leaf.
-  SCHLIEREN_HD void put(const View& medium, const There& there, const Mask& which)
+  SCHLIEREN_HD void put(const There& there, const Mask& which)
   {
-    const Leaf<Number>& one = medium.leaves[there.number];
-    const bool isEdge = one.kind == Leaf<Number>::Mixed || one.kind == Leaf<Number>::Solid;
     number = which ? Mask{} + there.number : number;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -129,16 +151,16 @@ struct LeavesOfPack
     }
     perIndex = which ? Real{} + there.perIndex : perIndex;
     voxel = which ? Real{} + there.voxel : voxel;
-    value = which ? Real{} + one.offset : value;
+    value = which ? Real{} + there.value : value;
     usualStep = which ? Real{} + there.usualStep : usualStep;
-    isConstant = which ? Real{} + Number(one.kind == Leaf<Number>::Constant ? 1 : 0) : isConstant;
-    isNearEdge = which ? Real{} + Number(isEdge ? 1 : 0) : isNearEdge;
-    const std::int64_t samples = one.brick * medium.brickStride;
+    isConstant = which ? Real{} + there.isConstant : isConstant;
+    isNearEdge = which ? Real{} + there.isNearEdge : isNearEdge;
+    isNearEnd = which ? Real{} + there.isNearEnd : isNearEnd;
     Whole isIt[lanes];
     std::memcpy(isIt, &which, sizeof(isIt));
     for (int i = 0; i < lanes; ++i)
     {
-      base[i] = isIt[i] != 0 ? samples : base[i];
+      base[i] = isIt[i] != 0 ? there.base : base[i];
       leaf[i] = isIt[i] != 0 ? there.number : leaf[i];
     }
   }
@@ -194,13 +216,13 @@ SCHLIEREN_APART void enterLeaves(const MediumView<NumberOf<Real>>& medium,
   }
   // All into the leaf of the first, and from there to where they are.
   const typename Leaves::Mask all = Real{} == Real{};
-  in.put(medium,
-    { medium, steps, in.perUnit, medium.finder.at({ index[0][0], index[1][0], index[2][0] }) },
-    all);
+  in.latest.read(
+    medium, steps, in.perUnit, medium.finder.at({ index[0][0], index[1][0], index[2][0] }));
+  in.put(in.latest, all);
   Leaves there = in;
-  in.find(medium, steps, in.starts(perLength), all,
+  in.find(medium, steps, in.starts(perLength), all, there.latest,
     [&](const typename Leaves::There& one, const typename Leaves::Mask& which)
-      __attribute__((always_inline)) { there.put(medium, one, which); });
+      __attribute__((always_inline)) { there.put(one, which); });
   in = there;
   start = in.starts(perLength);
 }
@@ -227,6 +249,7 @@ SCHLIEREN_HD void readLeaves(const MediumView<NumberOf<Real>>& medium,
   to.isConstant = in.isConstant;
   to.someConstant = any((in.isConstant > 0) & (step > 0));
   to.someNearEdge = any((in.isNearEdge > 0) & (step > 0));
+  to.someNearEnd = any((in.isNearEnd > 0) & (step > 0));
 }
 
 /// Moves the rays in question into the leaves of the middle of their next step; see LeavesOfRays::change. Whether any
@@ -249,13 +272,14 @@ SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
     number = which ? Mask{} + there.number : number;
     usual = which ? Real{} + there.usualStep : usual;
   };
-  in.find(medium, steps, rays.x + (Number(0.5) * rays.step) * rays.along, isOut, take);
+  in.find(medium, steps, rays.x + (Number(0.5) * rays.step) * rays.along, isOut, in.latest, take);
   // Where steps are shorter there, so is this one, which may then end before.
   const Mask isShorter = isOut & (usual < rays.step);
   if (any(isShorter))
   {
     rays.step = isShorter ? usual : rays.step;
-    in.find(medium, steps, rays.x + (Number(0.5) * rays.step) * rays.along, isShorter, take);
+    in.find(medium, steps, rays.x + (Number(0.5) * rays.step) * rays.along, isShorter, in.latest,
+      take);
   }
 
   Mask left = number != in.number;
@@ -263,13 +287,12 @@ SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   {
     return false;
   }
-  Number length[lanes], lengthBefore[lanes];
+  Number lengthBefore[lanes];
   toArray(left ? rays.length : Real{}, lengthBefore);
   for (int i = 0; i < lanes; ++i)
   {
     in.travelled[i] += static_cast<double>(lengthBefore[i]);
   }
-  (void)length;
   const Mask which = left;
   const Real voxelBefore = in.voxel;
   typename Leaves::Whole numbers[lanes];
@@ -278,7 +301,11 @@ SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   {
     const auto one = static_cast<std::int32_t>(numbers[__builtin_ctz(bits)]);
     const Mask isIt = left & (number == one);
-    in.put(medium, { medium, steps, in.perUnit, one }, isIt);
+    if (in.latest.number != one)
+    {
+      in.latest.read(medium, steps, in.perUnit, one);
+    }
+    in.put(in.latest, isIt);
     left &= ~isIt;
   }
   const Vec3<Real> start = in.starts(perLength);
@@ -308,21 +335,21 @@ SCHLIEREN_APART void findElsewhere(const MediumView<NumberOf<Real>>& medium,
   to.at = there;
   to.value = Real{};
   to.finer = Real{};
-  in.find(medium, { 1, 1 }, there, Real{} == Real{},
+  There latest;
+  in.find(medium, { 1, 1 }, there, Real{} == Real{}, latest,
     [&](const There& one, const Mask& which) __attribute__((always_inline))
     {
-      const Leaf<NumberOf<Real>>& leaf = medium.leaves[one.number];
       const Vec3<Real> local = in.toLocalOf(one, there);
       to.at.x = which ? local.x : to.at.x;
       to.at.y = which ? local.y : to.at.y;
       to.at.z = which ? local.z : to.at.z;
-      to.value = which ? Real{} + leaf.offset : to.value;
+      to.value = which ? Real{} + one.value : to.value;
       to.finer = which ? one.perIndex * in.voxel : to.finer;
       typename Leaves::Whole isIt[lanesOf<Real>];
       std::memcpy(isIt, &which, sizeof(isIt));
       for (int i = 0; i < lanesOf<Real>; ++i)
       {
-        to.base[i] = isIt[i] != 0 ? leaf.brick * medium.brickStride : to.base[i];
+        to.base[i] = isIt[i] != 0 ? one.base : to.base[i];
       }
     });
 }

@@ -141,6 +141,7 @@ struct LeavesInPacks
   Real isConstant;      ///< 1 where nothing changes, else 0
   bool someConstant;    ///< of the rays that are under way
   bool someNearEdge;    ///< likewise: gas may end
+  bool someNearEnd;     ///< likewise: the leaf is at a side of the domain
 };
 
 // The functions from here on are no members of what holds the rays: it would be kept in memory, in every step.
@@ -173,6 +174,7 @@ SCHLIEREN_APART void readLeaves(const MediumView<NumberOf<Real>>& medium,
   toArray(step, usual);
   to.someConstant = false;
   to.someNearEdge = false;
+  to.someNearEnd = true;
   for (int i = 0; i < lanes; ++i)
   {
     const Leaf<Number>& leaf = medium.leaves[in.leaf[i]];

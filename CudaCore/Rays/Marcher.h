@@ -329,12 +329,10 @@ struct March
     light.indexScale =
       scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
     light.perLength = leaves.perIndex * packs(batch.perLength);
-    if constexpr (lanes > 1)
-    {
-      const Real stepsToEnd = minimum(leastOf(scaled(domainHigh - task.medium.leafHigh, stepsToLast)),
-        leastOf(scaled(task.medium.leafLow - domainLow, stepsToFirst)));
-      someNearEnd = any((stepsToEnd < 1) & (cruise > 0));
-    }
+    // Leaves that are not at a side of the domain are as far from it as they are wide.
+    const Number width = task.medium.leafHigh.x - task.medium.leafLow.x;
+    const Real fewest = width * minimum(leastOf(stepsToLast), leastOf(stepsToFirst));
+    someNearEnd = leaves.someNearEnd || any(fewest < 1);
   }
 
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
