@@ -100,8 +100,8 @@ SCHLIEREN_HD unsigned bitsOf(const Mask& mask)
 #if defined(__AVX__)
   if constexpr (sizeof(Mask) == 32)
   {
-    return static_cast<unsigned>(sizeof(mask[0]) == 4 ? _mm256_movemask_ps((__m256)mask)
-                                                      : _mm256_movemask_pd((__m256d)mask));
+    return static_cast<unsigned>(
+      sizeof(mask[0]) == 4 ? _mm256_movemask_ps((__m256)mask) : _mm256_movemask_pd((__m256d)mask));
   }
 #endif
 #if defined(__SSE2__)
@@ -130,6 +130,37 @@ SCHLIEREN_HD SimdPack<float, 16> maximum(const SimdPack<float, 16>& a, const Sim
 }
 #endif
 
+/// Numbers of a table of eight, chosen by `index`, a pack of integers.
+template <class Pack, class Number, class Int>
+SCHLIEREN_HD Pack lookUp(const Number (&table)[8], const Int& index)
+{
+#if defined(__AVX512F__)
+  if constexpr (sizeof(Pack) == 64 && sizeof(Number) == 4)
+  {
+    const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table));
+    return (Pack)_mm512_permutexvar_epi32((__m512i)index, _mm512_castsi256_si512(all));
+  }
+#endif
+#if defined(__AVX2__)
+  if constexpr (sizeof(Pack) == 32 && sizeof(Number) == 4)
+  {
+    const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table));
+    return (Pack)_mm256_permutevar8x32_epi32(all, (__m256i)index);
+  }
+#endif
+  constexpr int lanes = static_cast<int>(sizeof(Pack) / sizeof(Number));
+  std::int32_t at[lanes];
+  Number found[lanes];
+  std::memcpy(at, &index, sizeof(at));
+  for (int i = 0; i < lanes; ++i)
+  {
+    found[i] = table[at[i]];
+  }
+  Pack pack;
+  std::memcpy(&pack, found, sizeof(pack));
+  return pack;
+}
+
 namespace simd
 {
 
@@ -155,6 +186,32 @@ struct RowLoader<Real, 4>
     return load4(row + offsets[Group]);
   }
 };
+
+#if defined(__AVX512F__)
+template <>
+struct RowLoader<float, 16>
+{
+  template <int Group>
+  SCHLIEREN_HD static SimdPack<float, 16> load(const float* row, const std::int64_t* offsets)
+  {
+    __m512 all = _mm512_zextps128_ps512(_mm_loadu_ps(row + offsets[Group]));
+    all = _mm512_insertf32x4(all, _mm_loadu_ps(row + offsets[4 + Group]), 1);
+    all = _mm512_insertf32x4(all, _mm_loadu_ps(row + offsets[8 + Group]), 2);
+    return (SimdPack<float, 16>)_mm512_insertf32x4(all, _mm_loadu_ps(row + offsets[12 + Group]), 3);
+  }
+};
+template <>
+struct RowLoader<double, 8>
+{
+  template <int Group>
+  SCHLIEREN_HD static SimdPack<double, 8> load(const double* row, const std::int64_t* offsets)
+  {
+    const __m512d low = _mm512_zextpd256_pd512(_mm256_loadu_pd(row + offsets[Group]));
+    return (SimdPack<double, 8>)_mm512_insertf64x4(
+      low, _mm256_loadu_pd(row + offsets[4 + Group]), 1);
+  }
+};
+#endif
 
 #if defined(__AVX__)
 template <>

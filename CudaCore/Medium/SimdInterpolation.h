@@ -238,22 +238,11 @@ SCHLIEREN_HD Sample<Pack> sumGathered(const MediumView<Real>& m,
 
 #endif
 
-/// Values and gradients at the positions of a pack of rays, each within a leaf; `base`: where the samples of
-/// each begin (null: an image's).
-///
-/// With AVX-512 samples are gathered. Without, where a gather costs more than its loads: rows of four
-/// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
-/// the sums over x are done on packs of rays again.
+/// The same by rows.
 template <class Scheme, class Real, class Pack>
-SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* base,
-  const Vec3<Pack>& position) -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
+SCHLIEREN_HD Sample<Pack> sumByRows(const MediumView<Real>& m,
+  const Stencil<Scheme, Real, Pack>& stencil, const Real* origin, const std::int64_t* base)
 {
-  const Stencil<Scheme, Real, Pack> stencil(m, position);
-  const int ghosts = Stencil<Scheme, Real, Pack>::countsFromGhosts(m) ? 0 : 1;
-  const Real* origin = m.samples + (ghosts + Scheme::first) * (m.planeStride + m.rowStride + 1);
-#if defined(__AVX512F__)
-  return sumGathered(m, stencil, origin, base);
-#else
   constexpr int lanes = lanesOf<Pack>;
   const auto& w = stencil.w;
   const auto& d = stencil.d;
@@ -291,7 +280,46 @@ SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* bas
   return { simd::weigh<Real>(w[0], valuesAlongX),
     { simd::weigh<Real>(d[0], valuesAlongX), simd::weigh<Real>(w[0], byYAlongX),
       simd::weigh<Real>(w[0], byZAlongX) } };
+}
+
+/// A scheme whose samples packs read by rows even with AVX-512: for processors whose gathers are slow.
+template <class Scheme>
+struct ByRows : Scheme
+{
+};
+template <class Scheme>
+constexpr bool gathers =
+#if defined(__AVX512F__)
+  true;
+#else
+  false;
 #endif
+template <class Scheme>
+constexpr bool gathers<ByRows<Scheme>> = false;
+
+/// Values and gradients at the positions of a pack of rays, each within a leaf; `base`: where the samples of
+/// each begin (null: an image's).
+///
+/// With AVX-512 samples are gathered. Where a gather costs more than its loads: rows of four
+/// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
+/// the sums over x are done on packs of rays again.
+template <class Scheme, class Real, class Pack>
+SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* base,
+  const Vec3<Pack>& position) -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
+{
+  const Stencil<Scheme, Real, Pack> stencil(m, position);
+  const int ghosts = Stencil<Scheme, Real, Pack>::countsFromGhosts(m) ? 0 : 1;
+  const Real* origin = m.samples + (ghosts + Scheme::first) * (m.planeStride + m.rowStride + 1);
+#if defined(__AVX512F__)
+  if constexpr (gathers<Scheme>)
+  {
+    return sumGathered(m, stencil, origin, base);
+  }
+  else
+#endif
+  {
+    return sumByRows(m, stencil, origin, base);
+  }
 }
 
 } // namespace schlieren

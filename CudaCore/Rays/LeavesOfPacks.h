@@ -6,11 +6,13 @@
 // it at the same time.
 #pragma once
 
+#include "Math/SimdPack.h"
 #include "Rays/InBoxes.h"
 #include "Rays/LeavesOfRays.h"
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 namespace schlieren
@@ -35,8 +37,8 @@ struct LeavesOfPack
   double unit, perUnit;    ///< of `first`, in index coordinates
   Mask number;             ///< of the leaf
   Mask first[3];
-  Real perIndex, voxel;     ///< local by index coordinates, and the other way round
-  Real value, usualStep;    ///< see LeavesInPacks
+  Real perIndex, voxel;  ///< local by index coordinates, and the other way round
+  Real value, usualStep; ///< see LeavesInPacks
   Real isConstant, isNearEdge, isNearEnd;
 
   SCHLIEREN_HD void setUnit(const View& medium)
@@ -59,8 +61,7 @@ struct LeavesOfPack
     Whole first[3];
     Number perIndex, voxel, value, usualStep, isConstant, isNearEdge, isNearEnd;
 
-    SCHLIEREN_HD void read(
-      const View& medium, const Steps& steps, double perUnit, std::int32_t n)
+    SCHLIEREN_HD void read(const View& medium, const Steps& steps, double perUnit, std::int32_t n)
     {
       const Leaf<Number>& leaf = medium.leaves[n];
       const double last[3] = { medium.last.x, medium.last.y, medium.last.z };
@@ -91,21 +92,23 @@ struct LeavesOfPack
     const Real ratio = there.perIndex * voxel;
     const Number scale = there.perIndex * static_cast<Number>(unit);
     const auto shift = [&](int axis) __attribute__((always_inline))
-    { return scale * __builtin_convertvector(first[axis] - there.first[axis], Real); };
+    {
+      return scale * __builtin_convertvector(first[axis] - there.first[axis], Real);
+    };
     return { ratio * at.x + shift(0), ratio * at.y + shift(1), ratio * at.z + shift(2) };
   }
 
   /// Finds the leaves of places in local coordinates of the rays' leaves. Calls visit(leaf, mask of the places in
-  /// it) for each. `latest`: one that is likely.
+  /// it) for each. `likely`: one that some may be in; becomes the last one found.
   template <class Visit>
   SCHLIEREN_HD void find(const View& medium, const Steps& steps, const Vec3<Real>& at, Mask left,
-    There& latest, const Visit& visit) const
+    There& likely, const Visit& visit) const
   {
-    if (latest.number >= 0)
+    if (likely.number >= 0)
     {
       const Mask isIn =
-        left & (insetOf(toLocalOf(latest, at), medium.leafLow, medium.leafHigh) >= 0);
-      visit(latest, isIn);
+        left & (insetOf(toLocalOf(likely, at), medium.leafLow, medium.leafHigh) >= 0);
+      visit(likely, isIn);
       left &= ~isIn;
     }
     unsigned bits = bitsOf(left);
@@ -132,11 +135,11 @@ struct LeavesOfPack
         index[axis] = static_cast<double>(corner[axis][i]) * unit +
           static_cast<double>(x[axis][i]) * static_cast<double>(size[i]);
       }
-      latest.read(medium, steps, perUnit, medium.finder.at({ index[0], index[1], index[2] }));
-      const Real inset = insetOf(toLocalOf(latest, at), medium.leafLow, medium.leafHigh);
+      likely.read(medium, steps, perUnit, medium.finder.at({ index[0], index[1], index[2] }));
+      const Real inset = insetOf(toLocalOf(likely, at), medium.leafLow, medium.leafHigh);
       // This one in any case: it may be on a side, or outside by rounding.
       const Mask isIn = left & ((inset >= 0) | (orders == static_cast<Number>(i)));
-      visit(latest, isIn);
+      visit(likely, isIn);
       left &= ~isIn;
     }
   }
@@ -186,13 +189,12 @@ struct LeavesOfPack
   }
 
   /// An offset in the leaf's local coordinates, in index coordinates.
-  SCHLIEREN_HD void toIndexCoordinates(
-    const View& medium, int i, Number (&offset)[3][lanes]) const
+  SCHLIEREN_HD void toIndexCoordinates(const View& medium, int i, Number (&offset)[3][lanes]) const
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      offset[axis][i] = static_cast<Number>(
-        static_cast<double>(offset[axis][i]) / medium.leaves[leaf[i]].perIndex);
+      offset[axis][i] =
+        static_cast<Number>(static_cast<double>(offset[axis][i]) / medium.leaves[leaf[i]].perIndex);
     }
   }
 };
@@ -220,7 +222,8 @@ SCHLIEREN_APART void enterLeaves(const MediumView<NumberOf<Real>>& medium,
     medium, steps, in.perUnit, medium.finder.at({ index[0][0], index[1][0], index[2][0] }));
   in.put(in.latest, all);
   Leaves there = in;
-  in.find(medium, steps, in.starts(perLength), all, there.latest,
+  in.find(
+    medium, steps, in.starts(perLength), all, there.latest,
     [&](const typename Leaves::There& one, const typename Leaves::Mask& which)
       __attribute__((always_inline)) { there.put(one, which); });
   in = there;
@@ -278,8 +281,8 @@ SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   if (any(isShorter))
   {
     rays.step = isShorter ? usual : rays.step;
-    in.find(medium, steps, rays.x + (Number(0.5) * rays.step) * rays.along, isShorter, in.latest,
-      take);
+    in.find(
+      medium, steps, rays.x + (Number(0.5) * rays.step) * rays.along, isShorter, in.latest, take);
   }
 
   Mask left = number != in.number;
@@ -328,17 +331,20 @@ SCHLIEREN_APART void findElsewhere(const MediumView<NumberOf<Real>>& medium,
   // Within the domain.
   LeavesInPacks<Real> now;
   readLeaves(medium, {}, in, Real{}, now);
-  const auto within = [](const Real& x, const Real& low, const Real& high)
-                        __attribute__((always_inline)) { return minimum(maximum(x, low), high); };
+  const auto within =
+    [](const Real& x, const Real& low, const Real& high) __attribute__((always_inline))
+  {
+    return minimum(maximum(x, low), high);
+  };
   const Vec3<Real> there = { within(at.x, now.low.x, now.high.x),
     within(at.y, now.low.y, now.high.y), within(at.z, now.low.z, now.high.z) };
   to.at = there;
   to.value = Real{};
   to.finer = Real{};
   There latest;
-  in.find(medium, { 1, 1 }, there, Real{} == Real{}, latest,
-    [&](const There& one, const Mask& which) __attribute__((always_inline))
-    {
+  in.find(
+    medium, { 1, 1 }, there, Real{} == Real{},
+    latest, [&](const There& one, const Mask& which) __attribute__((always_inline)) {
       const Vec3<Real> local = in.toLocalOf(one, there);
       to.at.x = which ? local.x : to.at.x;
       to.at.y = which ? local.y : to.at.y;

@@ -304,7 +304,8 @@ SCHLIEREN_HD Place placeIn(
 /// are in a wall, 0 for others.
 template <class Real>
 SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
-  const std::int32_t (&leaf)[lanesOf<Real>], const Vec3<Real>& places, const Real& isUnderWay, Real& inGas)
+  const std::int32_t (&leaf)[lanesOf<Real>], const Vec3<Real>& places, const Real& isUnderWay,
+  Real& inGas)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;

@@ -9,7 +9,6 @@
 #include "Medium/HomogeneityMap.h"
 #include "Rays/InBoxes.h"
 #include "Rays/Integrators.h"
-#include "Rays/LeavesOfPacks.h"
 #include "Rays/LeavesOfRays.h"
 #include "Rays/Light.h"
 #include "Rays/RayExit.h"
@@ -97,6 +96,9 @@ struct MayMeet
   static constexpr bool fieldsToGather = fields;
 };
 using MayMeetAll = MayMeet<true, true, true>;
+
+template <class Real>
+struct LeavesOfPack; // for those who march with packs
 
 /// What the march of some rays through the medium needs to know, and its steps.
 template <class Kernel, class Real, class May = MayMeetAll>
@@ -329,10 +331,13 @@ struct March
     light.indexScale =
       scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
     light.perLength = leaves.perIndex * packs(batch.perLength);
-    // Leaves that are not at a side of the domain are as far from it as they are wide.
-    const Number width = task.medium.leafHigh.x - task.medium.leafLow.x;
-    const Real fewest = width * minimum(leastOf(stepsToLast), leastOf(stepsToFirst));
-    someNearEnd = leaves.someNearEnd || any(fewest < 1);
+    if constexpr (lanes > 1)
+    {
+      // Leaves that are not at a side of the domain are as far from it as they are wide.
+      const Number width = task.medium.leafHigh.x - task.medium.leafLow.x;
+      const Real fewest = width * minimum(leastOf(stepsToLast), leastOf(stepsToFirst));
+      someNearEnd = leaves.someNearEnd || any(fewest < 1);
+    }
   }
 
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
@@ -373,14 +378,6 @@ struct March
       step = (isConstant > 0) & (cruise > 0) ? through : step;
     }
     return step;
-  }
-
-  SCHLIEREN_APART Real settleApart() { return settle(); }
-
-  /// Whether the next step of some rays is not in the leaf that they are in.
-  SCHLIEREN_HD bool areSomeOut(const Vec3<Real>& middle) const
-  {
-    return any((insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0) & (cruise > 0));
   }
 
   /// Whether some rays may leave the domain with a step.
@@ -740,92 +737,6 @@ SCHLIEREN_HD void march(
   March<Kernel, Real, May> rays(task, batch);
   rays.takeAllSteps();
   rays.findDrift();
-}
-
-/// Steps of two packs in turn, as long as there is nothing in their way but the medium's samples: while one waits for
-/// what it has read, the other is computed. At most `most` of them.
-template <class Kernel, class Real>
-SCHLIEREN_HD void takeStepsInside(
-  March<Kernel, Real>& a, March<Kernel, Real>& b, std::int32_t most)
-{
-  using Number = NumberOf<Real>;
-  using Path = typename Kernel::Path;
-  const bool isTree = a.isTree();
-  // Copies, as they would be kept in memory otherwise.
-  Ray<Real> ofA = a.ray, ofB = b.ray;
-  std::int32_t taken = 0;
-  for (; taken < most; ++taken)
-  {
-    Real stepOfA = a.cruise, stepOfB = b.cruise;
-    Vec3<Real> middleOfA = Path::ahead(ofA, a.light, Number(0.5) * stepOfA);
-    Vec3<Real> middleOfB = Path::ahead(ofB, b.light, Number(0.5) * stepOfB);
-    if (isTree)
-    {
-      if (a.areSomeOut(middleOfA) || b.areSomeOut(middleOfB))
-      {
-        a.ray = ofA;
-        b.ray = ofB;
-        stepOfA = a.settleApart();
-        stepOfB = b.settleApart();
-        ofA = a.ray;
-        ofB = b.ray;
-        middleOfA = Path::ahead(ofA, a.light, Number(0.5) * stepOfA);
-        middleOfB = Path::ahead(ofB, b.light, Number(0.5) * stepOfB);
-        if (!a.isPlain() || !b.isPlain())
-        {
-          break;
-        }
-      }
-      if (a.maySomeLeave(ofA, stepOfA) || b.maySomeLeave(ofB, stepOfB))
-      {
-        break;
-      }
-    }
-    a.advance(ofA, stepOfA, middleOfA);
-    b.advance(ofB, stepOfB, middleOfB);
-  }
-  a.ray = ofA;
-  b.ray = ofB;
-  a.steps += taken;
-  b.steps += taken;
-}
-
-/// Takes the rays of two batches through the medium.
-template <class Kernel, class Real>
-SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
-  RayBatch<NumberOf<Real>, lanesOf<Real>>& one, RayBatch<NumberOf<Real>, lanesOf<Real>>& other)
-{
-  March<Kernel, Real> a(task, one);
-  March<Kernel, Real> b(task, other);
-  constexpr std::int32_t worthIt = 4;
-  constexpr std::int32_t pause = 8;
-  const bool mayBePlain = task.map.levels == nullptr && task.gradients.count == 0;
-  std::int32_t next = 0;
-  while (a.areUnderWay && b.areUnderWay)
-  {
-    if (mayBePlain && a.steps >= next && a.isPlain() && b.isPlain())
-    {
-      const std::int32_t inside = a.isTree() ? task.stepLimit - maximum(a.steps, b.steps)
-                                             : minimum(a.stepsInside(), b.stepsInside());
-      next = inside < worthIt ? a.steps + pause : 0;
-      if (inside >= worthIt)
-      {
-        takeStepsInside(a, b, inside);
-      }
-    }
-    a.takeStep();
-    b.takeStep();
-  }
-  while (a.areUnderWay)
-  {
-    a.takeStep();
-  }
-  while (b.areUnderWay)
-  {
-    b.takeStep();
-  }
-  a.findDrift();
-  b.findDrift();
 }
 
 /// Calls visit with an object of the kernel's type, whose scheme is given.

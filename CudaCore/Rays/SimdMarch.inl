@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Included by each of the SimdMarch*.cxx, which differ in what they are compiled for.
-#if defined(__AVX__) || !defined(__SANITIZE_ADDRESS__) // with checks in it, it would take minutes to compile
+#if defined(__AVX__) || \
+  !defined(__SANITIZE_ADDRESS__) // with checks in it, it would take minutes to compile
 #define SCHLIEREN_INLINE_ALL
 #endif
-#include "Medium/SimdInterpolation.h"
+#include "Rays/MarchOfPacks.h"
 #include "Rays/SimdMarch.h"
 
 namespace schlieren
@@ -29,8 +30,21 @@ void marchPacks(const RayTask<NumberOf<Pack>>& task, RayBatch<NumberOf<Pack>, la
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice)
 {
-  return visitKernel(choice, [](auto kernel) -> MarchFunction<Number, Lanes>
+  return visitKernel(choice,
+    [](auto kernel) -> MarchFunction<Number, Lanes>
     { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
+}
+
+template <class Number, int Lanes>
+MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice)
+{
+  return visitScheme(choice.interpolation,
+    [&choice](auto scheme)
+    {
+      return visitKernelOf<ByRows<decltype(scheme)>>(choice,
+        [](auto kernel) -> MarchFunction<Number, Lanes>
+        { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
+    });
 }
 
 } // namespace schlieren

@@ -211,21 +211,35 @@ MarchFunction<Number, 1> marchOneByOne(const KernelChoice& choice)
 
 } // namespace
 
+bool hasSimd(Simd simd)
+{
+#ifdef SCHLIEREN_HAS_AVX
+  if (simd >= Simd::Avx512)
+  {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("fma");
+  }
+  if (simd == Simd::Avx2)
+  {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  }
+#endif
+  return simd <= Simd::Four;
+}
+
 Simd bestSimd()
 {
 #ifdef SCHLIEREN_HAS_AVX
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-    __builtin_cpu_supports("fma"))
+  // A gather takes one load for each number on Intel's processors, and several times that on others. By the vendor and
+  // not by a measurement, so that images do not depend on what else a machine does.
+  const Simd best = __builtin_cpu_is("intel") ? Simd::Avx512 : Simd::Avx512Rows;
+  if (hasSimd(best))
   {
-    return Simd::Avx512;
-  }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-  {
-    return Simd::Avx2;
+    return best;
   }
 #endif
-  return Simd::Four;
+  return hasSimd(Simd::Avx2) ? Simd::Avx2 : Simd::Four;
 }
 
 template <class Real>
@@ -241,10 +255,11 @@ bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
   { return traceTiles(task, marchBatches, pass, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
 #ifdef SCHLIEREN_HAS_AVX
-  if (simd == Simd::Avx512)
+  if (simd >= Simd::Avx512)
   {
     constexpr int lanes = isSingle ? 16 : 8;
-    return traceWith(simdMarch<Real, lanes>(kernel));
+    return traceWith(
+      simd == Simd::Avx512 ? simdMarch<Real, lanes>(kernel) : simdMarchByRows<Real, lanes>(kernel));
   }
   if (simd == Simd::Avx2)
   {

@@ -236,10 +236,14 @@ enum class Simd
   None, ///< one ray at a time
   Four, ///< what every processor of the architecture has (x86-64: SSE2)
   Avx2,
-  Avx512
+  Avx512,    ///< whose samples are gathered
+  Avx512Rows ///< whose samples are read by rows, for processors with slow gathers
 };
 
-/// The best one of this processor.
+/// Whether this processor has them.
+bool hasSimd(Simd simd);
+
+/// The best ones of this processor.
 Simd bestSimd();
 
 /// Traces a pass on the CPU into `traced`, which has its size, or goes on with it. Returns false if aborted or

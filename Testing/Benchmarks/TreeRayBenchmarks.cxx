@@ -84,8 +84,8 @@ double median(std::vector<double> all)
   return all[all.size() / 2];
 }
 
-Medium<float> treeOf(const std::shared_ptr<const AnalyticSource>& source, double tolerance,
-  const Column& column)
+Medium<float> treeOf(
+  const std::shared_ptr<const AnalyticSource>& source, double tolerance, const Column& column)
 {
   Field field;
   field.source = source;
@@ -132,8 +132,9 @@ void compareWithGrid(int turns, const std::vector<Simd>& simds)
   std::printf("256^3, as a grid and as %lld bricks of level %d to %d, %lld uniform leaves\n",
     static_cast<long long>(statistics.bricks), statistics.coarsestLevel, statistics.finestLevel,
     static_cast<long long>(statistics.constantLeaves));
-  std::puts("| view | path | instructions | grid, 1e6 rays/s | tree | tree by grid | least | most | "
-            "grid, 1e6 steps/s | tree |");
+  std::puts(
+    "| view | path | instructions | grid, 1e6 rays/s | tree | tree by grid | least | most | "
+    "grid, 1e6 steps/s | tree |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|");
   for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
   {
@@ -195,8 +196,8 @@ void traceTree(const char* name, const std::shared_ptr<const AnalyticSource>& so
         steps.push_back(rates.steps * 1e-6);
       }
       std::printf("| %s | %s | %d-%d | %lld | %s | %.3f | %.0f |\n", name, direction.name,
-        statistics.coarsestLevel, statistics.finestLevel,
-        static_cast<long long>(statistics.bricks), nameOf(simd), median(rays), median(steps));
+        statistics.coarsestLevel, statistics.finestLevel, static_cast<long long>(statistics.bricks),
+        nameOf(simd), median(rays), median(steps));
       std::fflush(stdout);
     }
   }

@@ -110,9 +110,9 @@ TYPED_TEST(Addresses, ReachBeyondTwoThousandMillionSamples)
     const Medium<Real> medium = buildMedium<Real>(field.field, interpolation, 1);
     for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4 })
     {
-      for (const Simd simd : { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512 })
+      for (const Simd simd : { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows })
       {
-        if (simd > bestSimd())
+        if (!hasSimd(simd))
         {
           continue;
         }

@@ -19,8 +19,9 @@ namespace
 
 std::vector<Simd> levels()
 {
-  std::vector<Simd> all = { Simd::Four, Simd::Avx2, Simd::Avx512 };
-  all.resize(static_cast<std::size_t>(bestSimd()));
+  std::vector<Simd> all = { Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
   return all;
 }
 

@@ -251,8 +251,9 @@ TEST(RaysSideBySideInATree, DoWhatOneDoes)
 {
   const auto source = std::make_shared<BallsSource>(threeBalls(1e-3));
   const Field field = fieldOf(source);
-  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512 };
-  all.resize(static_cast<std::size_t>(bestSimd()) + 1);
+  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
   for (const Interpolation interpolation : allInterpolations)
   {
     for (const Integrator integrator :
