@@ -184,9 +184,9 @@ SCHLIEREN_APART bool takeBlock(const MediumView<NumberOf<Real>>& medium,
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    in.first[axis] = Mask{} + there.first[axis];
+    in.first[axis] = goes ? Mask{} + there.first[axis] : in.first[axis];
   }
-  in.number = Mask{} - 1; // none
+  in.number = goes ? Mask{} - 1 : in.number; // none
   const Vec3<Real> start = in.starts(perLength);
   rays.start.x = goes ? start.x : rays.start.x;
   rays.start.y = goes ? start.y : rays.start.y;
@@ -262,7 +262,7 @@ SCHLIEREN_APART void leaveBlock(const MediumView<NumberOf<Real>>& medium,
   }
   Leaves there = in;
   in.find(
-    medium, steps, rays.x, Real{} == Real{}, there.latest,
+    medium, steps, rays.x, goes, there.latest,
     [&](const typename Leaves::There& one, const Mask& which)
       __attribute__((always_inline)) { there.put(one, which); });
   rays.finer = there.perIndex * in.voxel;

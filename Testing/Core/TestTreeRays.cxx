@@ -292,9 +292,15 @@ TEST(RaysSideBySideInATree, DoWhatOneDoes)
           EXPECT_NEAR(one.deflection[0], other.deflection[0], allowed);
           EXPECT_NEAR(one.deflection[1], other.deflection[1], allowed);
           EXPECT_NEAR(one.opticalPathDifference, other.opticalPathDifference, allowed);
+          EXPECT_NEAR(one.displacement[0], other.displacement[0], 4 * allowed);
+          EXPECT_NEAR(one.displacement[1], other.displacement[1], 4 * allowed);
         }
       }
       EXPECT_GT(largest, 1e-3);
+      for (const TracedPass& pack : traced)
+      {
+        EXPECT_LT(pack.worstDrift, 2 * traced[0].worstDrift + 1e-6);
+      }
     }
   }
 }
