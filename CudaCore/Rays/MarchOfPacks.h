@@ -176,12 +176,13 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
   March<Kernel, Real> b(task, other);
   constexpr std::int32_t worthIt = 4;
   const bool isTree = a.isTree();
+  const bool mayBePlain = !a.isGathering();
   // To look again: a tree's leaves are left often.
   const std::int32_t pause = isTree ? 2 : 8;
   std::int32_t next = 0;
   while (a.areUnderWay && b.areUnderWay)
   {
-    if (a.steps >= next && a.isPlain() && b.isPlain())
+    if (mayBePlain && a.steps >= next && a.isPlain() && b.isPlain())
     {
       const std::int32_t before = a.steps;
       if (isTree)
