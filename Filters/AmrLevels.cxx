@@ -21,6 +21,9 @@ namespace
 /// Part of a cell by which a block may miss its lattice: blocks are often placed in single precision.
 constexpr double latticeTolerance = 0.02;
 
+/// Cells of the coarsest lattice, in cells of blocks.
+constexpr std::size_t mostEmpty = 8;
+
 bool isNearlyWhole(double x) { return std::abs(x - std::round(x)) < latticeTolerance; }
 
 /// Cells along each axis; 1 along the axis that is flat.
@@ -195,6 +198,19 @@ std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
   AmrLevels found;
   found.levels = sortedByLevel(leaves, found.flat);
   if (found.levels.empty() || !place(leaves, found.levels, found.flat, found.origin))
+  {
+    return std::nullopt;
+  }
+  // Blocks far apart: a lattice over all of them would be empty.
+  std::size_t cells = 0;
+  for (const AmrLevel& level : found.levels)
+  {
+    for (const AmrBlock& block : level.blocks)
+    {
+      cells += volume(block.cells);
+    }
+  }
+  if (volume(found.levels[0].cells) > mostEmpty * cells)
   {
     return std::nullopt;
   }

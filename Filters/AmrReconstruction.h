@@ -119,4 +119,119 @@ void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
   cells[axis] = static_cast<int>(count);
 }
 
+/// A row of cells with known means, NaN where there is none, as a cubic spline. Its coefficients are the means c less
+/// 5/24 of their second differences, so that the spline's means are c to fourth order. Where third differences are
+/// not much smaller than first ones, at shocks, second ones are left out, so that nothing overshoots by more than
+/// 1 % of the jump. It is smooth where a polynomial for each cell would show the cells.
+class SplineOfMeans
+{
+public:
+  void set(std::vector<double> means)
+  {
+    this->Means = std::move(means);
+    const int n = static_cast<int>(this->Means.size());
+    std::vector<double> bends(this->Means.size());
+    const auto meanAt = [&](int i) { return at(this->Means, i); };
+    for (int i = 0; i < n; ++i)
+    {
+      bends[static_cast<std::size_t>(i)] = meanAt(i + 1) - 2 * meanAt(i) + meanAt(i - 1);
+    }
+    this->Coefficients.resize(this->Means.size());
+    for (int i = 0; i < n; ++i)
+    {
+      double first = 0, third = 0; // largest differences
+      for (int k = -2; k < 2; ++k)
+      {
+        first = larger(first, meanAt(i + k + 1) - meanAt(i + k));
+      }
+      for (int k = -1; k < 1; ++k)
+      {
+        third = larger(third, at(bends, i + k + 1) - at(bends, i + k));
+      }
+      constexpr double smooth = 0.35, rough = 0.8; // third by first differences
+      const double part =
+        first > 0 ? std::clamp((rough - third / first) / (rough - smooth), 0., 1.) : 0;
+      // Beside what is missing, like the next one.
+      double bend = at(bends, i);
+      bend = std::isnan(bend) ? at(bends, i - 1) : bend;
+      bend = std::isnan(bend) ? at(bends, i + 1) : bend;
+      this->Coefficients[static_cast<std::size_t>(i)] =
+        meanAt(i) - (std::isnan(bend) ? 0 : part * 5 / 24 * bend);
+    }
+  }
+
+  /// `place` is counted from the first cell's centre. NaN where its cell is. Cells that are missing are extrapolated.
+  double operator()(double place) const
+  {
+    const int n = static_cast<int>(this->Means.size());
+    const int cell = static_cast<int>(std::lround(std::clamp(place, -1., n + 0.)));
+    const double own = at(this->Coefficients, cell);
+    if (std::isnan(own))
+    {
+      return own;
+    }
+    // Differences, so that what is uniform stays so to the last bit.
+    const int low = static_cast<int>(std::floor(place));
+    const int farSide = low < cell ? -1 : 1; // where two coefficients count
+    const auto stepTo = [&](int i) { return at(this->Coefficients, cell + i) - own; };
+    double beside = stepTo(farSide), other = stepTo(-farSide);
+    if (std::isnan(beside) && std::isnan(other))
+    {
+      return own;
+    }
+    if (std::isnan(other))
+    {
+      other = orElse(stepTo(2 * farSide) - 3 * beside, -beside);
+    }
+    if (std::isnan(beside))
+    {
+      beside = orElse(stepTo(-2 * farSide) - 3 * other, -other);
+    }
+    const double farthest = orElse(stepTo(2 * farSide), 3 * beside + other);
+    const double t = farSide < 0 ? cell - place : place - cell; // 0 to 1/2
+    return own + (1 - t) * (1 - t) * (1 - t) / 6 * other +
+      (2. / 3 - (1 - t) * (1 - t) * (0.5 + 0.5 * t)) * beside + t * t * t / 6 * farthest;
+  }
+
+private:
+  static double at(const std::vector<double>& values, int i)
+  {
+    return i < 0 || i >= static_cast<int>(values.size()) ? std::numeric_limits<double>::quiet_NaN()
+                                                         : values[static_cast<std::size_t>(i)];
+  }
+  static double larger(double most, double x) { return std::abs(x) > most ? std::abs(x) : most; }
+  static double orElse(double x, double other) { return std::isnan(x) ? other : x; }
+
+  std::vector<double> Means, Coefficients;
+};
+
+/// Values at places along one axis of a box of cells that hold means; see SplineOfMeans.
+inline void splineAxis(
+  std::vector<double>& values, Counts& cells, std::size_t axis, const std::vector<double>& places)
+{
+  const int n = cells[axis];
+  const std::size_t count = places.size();
+  const std::size_t stride = axis == 0
+    ? 1
+    : static_cast<std::size_t>(cells[0]) * (axis == 2 ? static_cast<std::size_t>(cells[1]) : 1);
+  const std::size_t lines = volume(cells) / static_cast<std::size_t>(n);
+  std::vector<double> result(lines * count), line(static_cast<std::size_t>(n));
+  SplineOfMeans spline;
+  for (std::size_t row = 0; row < lines; ++row)
+  {
+    const std::size_t plane = row / stride, within = row % stride;
+    for (std::size_t i = 0; i < line.size(); ++i)
+    {
+      line[i] = values[(plane * line.size() + i) * stride + within];
+    }
+    spline.set(line);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      result[(plane * count + k) * stride + within] = spline(places[k]);
+    }
+  }
+  values = std::move(result);
+  cells[axis] = static_cast<int>(count);
+}
+
 } // namespace refractivity

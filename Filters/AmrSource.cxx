@@ -27,21 +27,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells around one that its reconstruction reads, and one for places on a border.
 constexpr int reach = 3;
 
-/// The mean over so much of a cell is the value at a point, to 1e-9 of what cells differ by.
-constexpr double pointWidth = 1e-4;
+constexpr double rounding = 1e-6;           // of places, in cells
+constexpr double atBorder = 0.5 - rounding; // from a cell's centre
 
-bool hasHiddenCells(vtkDataSet* data)
-{
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  for (vtkIdType i = 0; ghosts && i < ghosts->GetNumberOfValues(); ++i)
-  {
-    if (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENCELL)
-    {
-      return true;
-    }
-  }
-  return false;
-}
+/// Voxels across flat data, in which nothing changes along this axis.
+constexpr double layersOfFlat = 4;
 
 void inTurn(std::ptrdiff_t rows, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work)
 {
@@ -89,9 +79,14 @@ AmrSource::Block AmrSource::coarser(const Block& block, const Counts& ratio)
   forCells(block.box.begin, block.box.size(),
     [&](int i, int j, int k)
     {
+      const std::size_t to = result.box.index(i / ratio[0], j / ratio[1], k / ratio[2]);
+      if (block.isSolid(cell))
+      {
+        result.solids.resize(result.means.size());
+        result.solids[to] = true;
+      }
       if (block.parts[cell] > 0)
       {
-        const std::size_t to = result.box.index(i / ratio[0], j / ratio[1], k / ratio[2]);
         const float more = part * block.parts[cell];
         result.parts[to] += more;
         result.means[to] += static_cast<double>(more) * block.means[cell];
@@ -101,41 +96,18 @@ AmrSource::Block AmrSource::coarser(const Block& block, const Counts& ratio)
   for (std::size_t to = 0; to < result.means.size(); ++to)
   {
     result.means[to] /= result.parts[to] > 0 ? static_cast<double>(result.parts[to]) : 1;
+    if (result.isSolid(to) && result.parts[to] > 0)
+    {
+      result.solids[to] = false;
+    }
   }
   return result;
 }
 
-bool AmrSource::canShow(const AmrLevels& levels, const Source& source)
-{
-  if (levels.flat >= 0)
-  {
-    return false;
-  }
-  for (const Leaf& leaf : source.leaves)
-  {
-    if (hasHiddenCells(leaf.data))
-    {
-      return false;
-    }
-  }
-  // The coarsest blocks fill the domain, as those of nested levels do.
-  double filled = 0;
-  for (const AmrBlock& block : levels.levels[0].blocks)
-  {
-    double own = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      own *= std::max(0, block.ownEnd[axis] - block.ownBegin[axis]);
-    }
-    filled += own;
-  }
-  return filled == static_cast<double>(volume(levels.levels[0].cells));
-}
-
 AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies,
-  Tally& tally, const WorkProgress& progress)
+  Outside outside, Tally& tally, const WorkProgress& progress)
   : Origin(levels.origin)
-  , Bodies({}, bodies, Outside::Passes, {})
+  , Flat(levels.flat)
 {
   std::size_t blocks = 0, done = 0;
   for (const AmrLevel& level : levels.levels)
@@ -149,14 +121,18 @@ AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObjec
     for (const AmrBlock& block : levels.levels[level].blocks)
     {
       AmrValues values = valuesOf(covered, block, source, tally);
-      Block own{ boxOf(block), std::move(values.values), {}, true, {}, {} };
+      Block own{ boxOf(block), std::move(values.values), {}, {}, true, {}, {} };
       own.parts.assign(own.means.size(), 0);
       for (std::size_t cell = 0; cell < own.means.size(); ++cell)
       {
         const bool isKnown = values.counts[cell] && !std::isnan(own.means[cell]);
         own.parts[cell] = isKnown ? 1.f : 0.f;
         this->HasGas = this->HasGas || isKnown;
-        this->HasSolids = this->HasSolids || (values.counts[cell] && !isKnown);
+        if (values.counts[cell] && !isKnown)
+        {
+          own.solids.resize(own.means.size());
+          own.solids[cell] = true;
+        }
       }
       own.findRanges();
       this->Levels[level].blocks.push_back(std::move(own));
@@ -167,7 +143,7 @@ AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObjec
         this->Levels[below - 1].blocks.push_back(coarser(*finer, ratio));
         finer = &this->Levels[below - 1].blocks.back();
       }
-      progress.reach(static_cast<double>(++done) / static_cast<double>(blocks));
+      progress.reach(0.9 * static_cast<double>(++done) / static_cast<double>(blocks));
     }
   }
   for (Level& level : this->Levels)
@@ -179,9 +155,122 @@ AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObjec
     }
     level.bins = std::make_unique<BoxBins>(std::move(boxes));
   }
+  this->Boundary = std::make_unique<GasBoundary>(this->findFaces(), bodies, outside);
+  progress.reach(1);
 }
 
-bool AmrSource::meetsBodies() const { return this->Bodies.hasBodiesIn(this->bounds()); }
+bool AmrSource::meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
+
+CellState AmrSource::stateOf(std::size_t number, const Counts& cell) const
+{
+  CellState state = CellState::None;
+  const Level& level = this->Levels[number];
+  level.bins->forPartsIn({ cell, { cell[0] + 1, cell[1] + 1, cell[2] + 1 } },
+    [&](std::size_t found, const CellBox&)
+    {
+      const Block& block = level.blocks[found];
+      const std::size_t at = block.box.index(cell[0], cell[1], cell[2]);
+      if (!block.isOfLevel)
+      {
+        const bool isThere = block.parts[at] > 0 || block.isSolid(at);
+        state = isThere && state == CellState::None ? CellState::Refined : state;
+      }
+      else if (block.parts[at] > 0)
+      {
+        state = CellState::Gas;
+      }
+      else if (block.isSolid(at))
+      {
+        state = CellState::Solid;
+      }
+    });
+  return state;
+}
+
+/// Outside of a box, as at its border.
+bool AmrSource::hasGasAt(const Point& place) const
+{
+  for (std::size_t number = this->Levels.size(); number-- > 0;)
+  {
+    const Level& level = this->Levels[number];
+    Counts cell;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double at = (place[axis] - this->Origin[axis]) / level.spacing[axis];
+      if (!this->IsBox && (at < -rounding || at > level.cells[axis] + rounding))
+      {
+        return false;
+      }
+      cell[axis] = static_cast<int>(std::clamp(std::floor(at), 0., level.cells[axis] - 1.));
+    }
+    const CellState state = this->stateOf(number, cell);
+    if (state == CellState::Gas || state == CellState::Solid)
+    {
+      return state == CellState::Gas;
+    }
+  }
+  return false;
+}
+
+BoundaryFaces AmrSource::findFaces()
+{
+  std::vector<AmrFaces::Level> lattices;
+  for (const Level& level : this->Levels)
+  {
+    lattices.push_back({ level.spacing, level.cells });
+  }
+  AmrFaces faces(this->Origin, std::move(lattices),
+    [this](std::size_t level, const Counts& cell) { return this->stateOf(level, cell); });
+  for (std::size_t level = 0; level < this->Levels.size(); ++level)
+  {
+    for (const Block& block : this->Levels[level].blocks)
+    {
+      if (!block.isOfLevel || block.solids.empty())
+      {
+        continue;
+      }
+      forCells(block.box.begin, block.box.size(),
+        [&](int i, int j, int k)
+        {
+          if (block.isSolid(block.box.index(i, j, k)))
+          {
+            faces.addAround(level, { i, j, k }, true);
+          }
+        });
+    }
+  }
+  // Cells that no block has.
+  const CellBox domain{ { 0, 0, 0 }, this->Levels[0].cells };
+  std::vector<bool> isThere(volume(domain.end), false);
+  for (const Block& block : this->Levels[0].blocks)
+  {
+    std::size_t cell = 0;
+    forCells(block.box.begin, block.box.size(),
+      [&](int i, int j, int k)
+      {
+        if (block.parts[cell] > 0 || block.isSolid(cell))
+        {
+          isThere[domain.index(i, j, k)] = true;
+        }
+        ++cell;
+      });
+  }
+  std::size_t cell = 0;
+  forCells(domain.begin, domain.end,
+    [&](int i, int j, int k)
+    {
+      if (!isThere[cell++])
+      {
+        faces.addAround(0, { i, j, k }, false);
+        this->IsBox = false;
+      }
+    });
+  if (!this->IsBox)
+  {
+    faces.addDomain();
+  }
+  return faces.take();
+}
 
 schlieren::Box AmrSource::bounds() const
 {
@@ -194,7 +283,15 @@ schlieren::Box AmrSource::bounds() const
   return box;
 }
 
-std::array<double, 3> AmrSource::voxelShape() const { return this->Levels[0].spacing; }
+std::array<double, 3> AmrSource::voxelShape() const
+{
+  std::array<double, 3> shape = this->Levels[0].spacing;
+  if (this->Flat >= 0)
+  {
+    shape[static_cast<std::size_t>(this->Flat)] /= layersOfFlat;
+  }
+  return shape;
+}
 
 double AmrSource::ambient() const
 {
@@ -245,12 +342,13 @@ CellBox AmrSource::cellsIn(const Level& level, const schlieren::Box& box, int ma
   return cells;
 }
 
-/// N of the cells of a level in a box; NaN outside of the domain.
+/// N of the cells of a level in a box; NaN in solids and outside of the domain.
 std::vector<double> AmrSource::valuesIn(std::size_t number, const CellBox& box) const
 {
   const Level& level = this->Levels[number];
   std::vector<double> sums(volume(box.size()), 0.);
   std::vector<float> parts(sums.size(), 0.f);
+  std::vector<bool> solids(sums.size(), false);
   level.bins->forPartsIn(box,
     [&](std::size_t block, const CellBox& cells)
     {
@@ -263,6 +361,7 @@ std::vector<double> AmrSource::valuesIn(std::size_t number, const CellBox& box) 
           sums[to] +=
             from.parts[cell] > 0 ? static_cast<double>(from.parts[cell]) * from.means[cell] : 0;
           parts[to] += from.parts[cell];
+          solids[to] = solids[to] || from.isSolid(cell);
         });
     });
   const CellBox inside = intersection(box, { { 0, 0, 0 }, level.cells });
@@ -270,7 +369,8 @@ std::vector<double> AmrSource::valuesIn(std::size_t number, const CellBox& box) 
   forCells(inside.begin, inside.size(),
     [&](int i, int j, int k)
     {
-      if (!(parts[box.index(i, j, k)] > 0))
+      const std::size_t cell = box.index(i, j, k);
+      if (!(parts[cell] > 0) && !solids[cell])
       {
         const Counts at = { i, j, k };
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -310,7 +410,7 @@ std::vector<double> AmrSource::valuesIn(std::size_t number, const CellBox& box) 
     [&](int i, int j, int k)
     {
       const std::size_t to = box.index(i, j, k);
-      sums[to] = parts[to] > 0 ? sums[to] : values[missing.index(i, j, k)];
+      sums[to] = parts[to] > 0 || solids[to] ? sums[to] : values[missing.index(i, j, k)];
     });
   return sums;
 }
@@ -335,8 +435,8 @@ std::size_t AmrSource::levelFor(const schlieren::Lattice& lattice) const
     bool isFine = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      constexpr double rounding = 1.01;
-      isFine = isFine && here.spacing[axis] <= rounding * lattice.spacing[axis];
+      constexpr double slightly = 1.01;
+      isFine = isFine && here.spacing[axis] <= slightly * lattice.spacing[axis];
     }
     if (isFine)
     {
@@ -349,6 +449,12 @@ std::size_t AmrSource::levelFor(const schlieren::Lattice& lattice) const
 schlieren::MediumSource::Content AmrSource::contentOf(const schlieren::Box& box) const
 {
   Content content{ infinity, -infinity, { infinity, infinity, infinity }, false, true, false };
+  this->Boundary->findPlaces(
+    box, [this](const Point& place) { return this->hasGasAt(place); }, content);
+  if (!content.hasGas)
+  {
+    return content;
+  }
   for (const Level& level : this->Levels)
   {
     const CellBox inside = this->cellsIn(level, box, 0);
@@ -380,16 +486,14 @@ schlieren::MediumSource::Content AmrSource::contentOf(const schlieren::Box& box)
         {
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
-            // The polynomials tell more than one voxel of the size of a cell shows.
-            content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
+            if (static_cast<int>(axis) != this->Flat)
+            {
+              // The polynomials tell more than one voxel of the size of a cell shows.
+              content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
+            }
           }
         }
       });
-  }
-  if (this->Bodies.hasBodiesIn(box))
-  {
-    content.hasWall = true;
-    content.hasGas = this->Bodies.facesIn(box).wall;
   }
   return content;
 }
@@ -403,13 +507,12 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
   std::array<std::vector<double>, 3> middles; // cells of the level, from the domain's corner
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double low = this->Origin[axis] + 0.5 * level.spacing[axis];
-    const double high = low + (level.cells[axis] - 1) * level.spacing[axis];
     for (int i = 0; i < lattice.points[axis]; ++i)
     {
       // Outside of the domain, as at its border.
-      const double at = std::clamp(lattice.first[axis] + i * lattice.spacing[axis], low, high);
-      middles[axis].push_back((at - this->Origin[axis]) / level.spacing[axis] - 0.5);
+      const double at = lattice.first[axis] + i * lattice.spacing[axis] - this->Origin[axis];
+      middles[axis].push_back(
+        std::clamp(at / level.spacing[axis] - 0.5, -atBorder, level.cells[axis] - 1 + atBorder));
     }
     range.low[axis] = this->Origin[axis] + (middles[axis].front() + 0.5) * level.spacing[axis];
     range.high[axis] = this->Origin[axis] + (middles[axis].back() + 0.5) * level.spacing[axis];
@@ -423,11 +526,23 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
     {
       middle -= box.begin[axis];
     }
-    resampleAxis(values, cells, axis, middles[axis], pointWidth, inTurn);
+    splineAxis(values, cells, axis, middles[axis]);
   }
   std::copy(values.begin(), values.end(), refractivity);
-  const std::vector<unsigned char> isInCell(values.size(), 1);
-  this->Bodies.sample(lattice, isInCell.data(), places, distances);
+  std::vector<unsigned char> hasGas(values.size(), 1);
+  std::size_t point = 0;
+  forCells({ 0, 0, 0 }, lattice.points,
+    [&](int i, int j, int k)
+    {
+      const Counts at{ i, j, k };
+      Point place;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        place[axis] = lattice.first[axis] + at[axis] * lattice.spacing[axis];
+      }
+      hasGas[point++] = this->hasGasAt(place) ? 1 : 0;
+    });
+  this->Boundary->sample(lattice, hasGas.data(), places, distances);
 }
 
 } // namespace refractivity

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "AmrFaces.h"
 #include "AmrLevels.h"
 #include "GasBoundary.h"
 #include "Medium/MediumSource.h"
@@ -22,20 +23,18 @@ namespace refractivity
  * RefractivityOfAmr, a cell under finer blocks has the mean of the finer cells, and one that no block of its level
  * holds has the mean over its place of a polynomial through the next coarser level; so the borders of blocks and levels
  * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
+ *
+ * Cells that are hidden or whose N is not finite are walls, as they stand: with the edges of cells. Flat data are one
+ * cell thick, of one data unit.
  */
 class AmrSource : public schlieren::MediumSource
 {
 public:
-  /// Whether all of the domain has values, so that gas ends nowhere but at bodies.
-  static bool canShow(const AmrLevels& levels, const Source& source);
-
   /// `bodies`: may be null.
-  AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies, Tally& tally,
-    const WorkProgress& progress = WorkProgress());
+  AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies, Outside outside,
+    Tally& tally, const WorkProgress& progress = WorkProgress());
 
   bool hasGas() const { return this->HasGas; }
-  /// Whether there are cells without a number, which are solid: this source does not know of them.
-  bool hasSolids() const { return this->HasSolids; }
   /// Whether the bodies reach into the box of the gas.
   bool meetsBodies() const;
 
@@ -53,7 +52,10 @@ private:
     CellBox box;
     std::vector<double> means;
     std::vector<float> parts; // of a cell that its mean is of; 0: not known
+    std::vector<bool> solids; // which of the cells that are not known; empty: none
     bool isOfLevel;           // rather than finer
+
+    bool isSolid(std::size_t cell) const { return !this->solids.empty() && this->solids[cell]; }
 
     /// N of parts of the block, for contentOf(); lowest > highest: none.
     struct Range
@@ -77,11 +79,16 @@ private:
   CellBox cellsIn(const Level& level, const schlieren::Box& box, int margin) const;
   std::vector<double> valuesIn(std::size_t level, const CellBox& box) const;
   std::size_t levelFor(const schlieren::Lattice& lattice) const;
+  CellState stateOf(std::size_t level, const Counts& cell) const;
+  bool hasGasAt(const Point& place) const;
+  BoundaryFaces findFaces();
 
   std::array<double, 3> Origin;
+  int Flat; // the axis along which the data are; -1: none
   std::vector<Level> Levels;
-  GasBoundary Bodies; // no faces of its own
-  bool HasGas = false, HasSolids = false;
+  std::unique_ptr<const GasBoundary> Boundary;
+  bool HasGas = false;
+  bool IsBox = true; // whether the domain is one, with blocks all over
 };
 
 } // namespace refractivity

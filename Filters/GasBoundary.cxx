@@ -14,13 +14,20 @@ namespace refractivity
 
 GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
   Outside outside, const CellTest& isInCell, const WorkProgress& progress)
-  : Faces(boundaryOf(leaves, isInCell, progress.part(0, 0.8)))
+  : GasBoundary(
+      boundaryOf(leaves, isInCell, progress.part(0, 0.8)), bodies, outside, progress.part(0.8, 1))
+{
+}
+
+GasBoundary::GasBoundary(
+  BoundaryFaces faces, vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
+  : Faces(std::move(faces))
   , Tree(this->Faces.surface)
   , Walls(this->Faces.surface.size(), 0)
   , Far(outside == Outside::Blocks ? Place::Wall : Place::Window)
   , Bodies(bodies ? std::make_unique<BodySurfaces>(bodies) : nullptr)
 {
-  progress.reach(0.9);
+  progress.reach(0.5);
   this->IsOuter =
     findOuter(this->Faces.surface, this->Tree, relativeRounding(this->Faces.surface.points));
   for (std::size_t t = 0; t < this->Walls.size(); ++t)
@@ -102,6 +109,41 @@ GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const
       });
   }
   return kinds;
+}
+
+void GasBoundary::findPlaces(const schlieren::Box& box, const CellTest& isInCell,
+  schlieren::MediumSource::Content& content) const
+{
+  const Kinds faces = this->facesIn(box);
+  content.hasWall = faces.wall;
+  content.hasWindow = faces.window;
+  content.hasGas = faces.wall || faces.window;
+  if (content.hasGas)
+  {
+    return;
+  }
+  // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.
+  Point place{};
+  const auto look = [&]
+  {
+    const Place found = this->kindAt(place, isInCell(place));
+    content.hasGas = found == Place::Gas;
+    content.hasWall = content.hasWall || found == Place::Wall;
+    content.hasWindow = content.hasWindow || found == Place::Window;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = 0.5 * (box.low[axis] + box.high[axis]);
+  }
+  look();
+  for (unsigned corner = 0; corner < 8 && !content.hasGas; ++corner)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = ((corner >> axis) & 1u) != 0 ? box.high[axis] : box.low[axis];
+    }
+    look();
+  }
 }
 
 bool GasBoundary::hasBodiesIn(const schlieren::Box& box) const

@@ -37,6 +37,9 @@ public:
   /// as it is: neither need outlive this.
   GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
     const CellTest& isInCell, const WorkProgress& progress = WorkProgress());
+  /// Of faces that were found otherwise.
+  GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
+    const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
@@ -50,6 +53,9 @@ public:
     bool wall, window;
   };
   Kinds facesIn(const schlieren::Box& box) const;
+  /// Sets which places a box has (`hasWall`, `hasGas`, `hasWindow`), given where visible cells are.
+  void findPlaces(const schlieren::Box& box, const CellTest& isInCell,
+    schlieren::MediumSource::Content& content) const;
   /// Whether any of the Bodies reach into a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
 

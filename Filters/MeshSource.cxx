@@ -93,41 +93,12 @@ double MeshSource::ambient() const
 
 std::array<double, 3> MeshSource::voxelShape() const { return this->Cells.voxelShape(); }
 
-schlieren::Place MeshSource::placeAt(const Point& place) const
-{
-  return this->Boundary->kindAt(place, holds(this->Values, place));
-}
-
 schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box) const
 {
-  const GasBoundary::Kinds faces = this->Boundary->facesIn(box);
-  Content content{ 1, 0, {}, faces.wall, faces.wall || faces.window, faces.window };
+  Content content{ 1, 0, {}, false, false, false };
   content.cellSize.fill(std::numeric_limits<double>::infinity());
-  if (!content.hasGas)
-  {
-    // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.
-    Point place{};
-    const auto look = [&]
-    {
-      const schlieren::Place found = this->placeAt(place);
-      content.hasGas = found == schlieren::Place::Gas;
-      content.hasWall = content.hasWall || found == schlieren::Place::Wall;
-      content.hasWindow = content.hasWindow || found == schlieren::Place::Window;
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = 0.5 * (box.low[axis] + box.high[axis]);
-    }
-    look();
-    for (unsigned corner = 0; corner < 8 && !content.hasGas; ++corner)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        place[axis] = ((corner >> axis) & 1u) != 0 ? box.high[axis] : box.low[axis];
-      }
-      look();
-    }
-  }
+  this->Boundary->findPlaces(
+    box, [this](const Point& place) { return holds(this->Values, place); }, content);
   if (content.hasGas)
   {
     const CellTree::Content cells = this->Cells.content({ box.low, box.high });

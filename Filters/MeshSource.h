@@ -59,8 +59,6 @@ public:
     float* distances) const override;
 
 private:
-  schlieren::Place placeAt(const Point& place) const;
-
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;
   CellSampler Values;

@@ -188,20 +188,6 @@ std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]
   {
     --amr.used;
   }
-  // Blocks far apart: a grid over all of them would be empty.
-  std::size_t cells = 0;
-  for (const AmrLevel& level : amr.levels)
-  {
-    for (const AmrBlock& block : level.blocks)
-    {
-      cells += volume(block.cells);
-    }
-  }
-  if (!fits(amr.used) && volume(amr.levels[amr.used].cells) > 8 * cells)
-  {
-    return std::nullopt;
-  }
-
   amr.note = isGiven ? "as given" : "the cells of level " + std::to_string(amr.used);
   if (!isGiven && amr.used + 1 < amr.levels.size())
   {

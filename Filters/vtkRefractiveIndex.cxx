@@ -397,15 +397,11 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }) ||
-    flatAxisOf(source) >= 0)
+  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }))
   {
     return false;
   }
-  const std::optional<Amr> amr = planAmr(source, given);
-  // A grid of the finest cells, where it fits, has all there is.
-  return !amr ||
-    (amr->used + 1 < amr->levels.size() && AmrSource::canShow(*findLevels(source.leaves), source));
+  return flatAxisOf(source) < 0 || findLevels(source.leaves);
 }
 
 //------------------------------------------------------------------------------
@@ -437,22 +433,17 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       fields->findRanges(source.leaves);
     }
     progress.reach(0.02);
-    const std::optional<AmrLevels> levels = findLevels(source.leaves);
-    if (levels && AmrSource::canShow(*levels, source))
+    const auto outside = static_cast<refractivity::Outside>(this->Outside);
+    if (const std::optional<AmrLevels> levels = findLevels(source.leaves))
     {
-      const auto made =
-        std::make_shared<AmrSource>(*levels, source, bodies, tally, progress.part(0.02, 1));
-      if (!made->hasSolids())
-      {
-        take(made);
-      }
+      take(std::make_shared<AmrSource>(
+        *levels, source, bodies, outside, tally, progress.part(0.02, 1)));
       return;
     }
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
     const auto leaves =
       preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
     progress.reach(0.1);
-    const auto outside = static_cast<refractivity::Outside>(this->Outside);
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
     const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
@@ -480,10 +471,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   {
     return nullptr;
   }
-  if (!result)
-  {
-    return nullptr;
-  }
   if (!hasGas)
   {
     throw std::runtime_error(noGas(source));
@@ -494,6 +481,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnGases(source));
+  if (const int flat = flatAxisOf(source); flat >= 0)
+  {
+    addText(warning, warningOfExtrusion(flat));
+  }
   return result;
 }
 

@@ -134,11 +134,30 @@ struct BrickMaker<Real>::Samples
     return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] && k >= begin[2] &&
       k < end[2];
   }
+  std::array<int, 3> nearestWithin(std::array<int, 3> at) const
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      at[axis] = std::clamp(at[axis], begin[axis], std::max(begin[axis], end[axis] - 1));
+    }
+    return at;
+  }
   bool isAllWithin() const
   {
     return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, n };
   }
   bool hasGas() const { return lowest <= highest; }
+  /// What linear interpolation of distances misses half a voxel away from a point: an eighth of second differences.
+  float bendAt(int i, int j, int k) const
+  {
+    const float* at = &distances[index(i, j, k)];
+    float sum = 0;
+    for (const std::ptrdiff_t stride : { 1, n, n * n })
+    {
+      sum += std::abs(at[stride] - 2 * at[0] + at[-stride]);
+    }
+    return sum / 8;
+  }
 
   void findGas();
   void continueGas();
@@ -339,6 +358,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
 {
   bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
   double besideEdge = 0;
+  float bend = 0; // of distances, in the middle of a voxel
   const int first = samples.margin - 1;
   const int last = samples.margin + edge;
   for (int k = first; k <= last; ++k)
@@ -361,6 +381,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
         const bool isNear =
           samples.distances[at] > -1 && samples.distances[at] < (isLast ? 0.45f : 1.f);
         hasEdge = hasEdge || isNear;
+        bend = isNear && !isLast ? std::max(bend, samples.bendAt(i, j, k)) : bend;
         if (isNear && samples.places[at] == Place::Gas)
         {
           besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
@@ -378,6 +399,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
   facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
   const std::array<double, 3> voxel = voxelOf(place.level);
+  facts.edgeError = static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.end());
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     facts.areEdgesFine =
@@ -399,7 +421,10 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
     {
       for (int i = 0; i < stored; ++i)
       {
-        const std::size_t at = samples.index(i + skipped, j + skipped, k + skipped);
+        // Where gas ends with the domain there is no edge: rounding would tell where rays that end there are.
+        const std::array<int, 3> nearest =
+          samples.nearestWithin({ i + skipped, j + skipped, k + skipped });
+        const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
         // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
         bool isWindow = samples.places[at] == Place::Window;
         if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
@@ -407,8 +432,8 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
           bool isBesideWall = false;
           for (int neighbour = 0; neighbour < 27; ++neighbour)
           {
-            const Place there = samples.places[samples.index(i + skipped + neighbour % 3 - 1,
-              j + skipped + neighbour / 3 % 3 - 1, k + skipped + neighbour / 9 - 1)];
+            const Place there = samples.places[samples.index(nearest[0] + neighbour % 3 - 1,
+              nearest[1] + neighbour / 3 % 3 - 1, nearest[2] + neighbour / 9 - 1)];
             isWindow = isWindow || there == Place::Window;
             isBesideWall = isBesideWall || there == Place::Wall;
           }
@@ -433,10 +458,8 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   const int first = samples.margin - 1;
   const int points = edge + 2;
   const std::array<int, 3> strides{ 1, samples.n, samples.n * samples.n };
-  bool isCoarse = false;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    isCoarse = isCoarse || voxel[axis] > coarseByCell * content.cellSize[axis];
     if (!(voxel[axis] > voxelByCell * content.cellSize[axis]))
     {
       continue;
@@ -472,9 +495,13 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   }
   const double missed = std::max(0., nuOf(content.highest) - samples.highest) +
     std::max(0., samples.lowest - nuOf(content.lowest));
-  if (isCoarse && missed > missedByRange * (samples.highest - samples.lowest))
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    facts.hidden = deflectionByRange * missed;
+    if (voxel[axis] > coarseByCell * content.cellSize[axis] &&
+      missed > missedByRange * (samples.highest - samples.lowest))
+    {
+      facts.hidden[axis] = deflectionByRange * missed;
+    }
   }
 }
 
@@ -606,6 +633,7 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) co
     if (deflectionByRange * (high - low) <= negligible)
     {
       brick.facts.neglected = deflectionByRange * (high - low);
+      brick.facts.difference = high - low;
       brick.facts.largestNu = std::max(std::abs(low), std::abs(high));
       brick.offset = content.hasWindow ? Real(0) : static_cast<Real>(0.5 * (low + high));
       return brick;
@@ -627,7 +655,8 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) co
     return brick;
   }
   findErrors(place, content, samples, facts);
-  facts.range = deflectionByRange * (samples.highest - samples.lowest);
+  facts.difference = samples.highest - samples.lowest;
+  facts.range = deflectionByRange * facts.difference;
   if (facts.range <= negligible)
   {
     facts.neglected = std::max(facts.neglected, facts.range);

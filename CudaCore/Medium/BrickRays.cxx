@@ -16,11 +16,21 @@ namespace
 {
 
 constexpr int latticeEdge = 48;
+constexpr int brickEdge = BrickMaker<float>::edge;
+
+/// What a leaf with one value for all may add to a ray's deflection, and to its optical path, at most.
+struct Neglected
+{
+  std::int32_t leaf;
+  float deflection, opticalPath;
+};
 
 struct Bend
 {
   double deflection = 0;
+  double opticalPath = 0; // nu times data units
   bool isBlocked = false;
+  std::vector<Neglected> neglected;
 };
 
 /// A ray x = start + s direction, in index coordinates, s from `entry` to `exit` in data units.
@@ -104,6 +114,17 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       bend.isBlocked = true;
       break;
     }
+    bend.opticalPath += static_cast<double>(leaf.offset) * way;
+    if (const auto difference = static_cast<double>(medium.differences[found]);
+        difference > 0 && way > 0)
+    {
+      // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
+      const double edge =
+        *std::min_element(medium.grid.spacing.begin(), medium.grid.spacing.end()) * brickEdge /
+        leaf.perIndex;
+      bend.neglected.push_back({ found, static_cast<float>(difference * way / edge),
+        static_cast<float>(0.5 * difference * way) });
+    }
     if (leaf.kind != Leaf<Real>::Constant && way > 0)
     {
       const int steps = std::max(1, static_cast<int>(std::ceil(way * fastest)));
@@ -126,6 +147,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
         const Sample<Real> sample = interpolateBrick<Scheme>(samples, medium.apron,
           Vec3<Real>{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
             static_cast<Real>(place[2]) });
+        bend.opticalPath += static_cast<double>(sample.value) * step;
         gradient[0] += static_cast<double>(sample.gradient.x) * leaf.perIndex * step;
         gradient[1] += static_cast<double>(sample.gradient.y) * leaf.perIndex * step;
         gradient[2] += static_cast<double>(sample.gradient.z) * leaf.perIndex * step;
@@ -144,11 +166,38 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   return bend;
 }
 
+/// Of what a ray neglects: the largest parts, until what is left is half of what is allowed.
+template <float Neglected::*part>
+void addCoarse(const Bend& bend, double allowed, std::vector<std::int32_t>& coarse)
+{
+  double sum = 0;
+  for (const Neglected& one : bend.neglected)
+  {
+    sum += static_cast<double>(one.*part);
+  }
+  if (!(sum > allowed))
+  {
+    return;
+  }
+  std::vector<Neglected> sorted = bend.neglected;
+  std::sort(sorted.begin(), sorted.end(),
+    [](const Neglected& a, const Neglected& b) { return a.*part > b.*part; });
+  for (const Neglected& one : sorted)
+  {
+    if (!(sum > 0.5 * allowed))
+    {
+      break;
+    }
+    coarse.push_back(one.leaf);
+    sum -= static_cast<double>(one.*part);
+  }
+}
+
 } // namespace
 
 template <class Real>
-double largestDeflection(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, int threads)
+RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
+  const std::vector<Vec3<double>>& places, double tolerance, int threads)
 {
   // What of the column is over the box.
   const Grid& grid = medium.grid;
@@ -169,7 +218,7 @@ double largestDeflection(const LeavesView<Real>& medium, const Column& column,
     high[side] = std::min(middle + half, column.middle[side] + column.halfWidth[side]);
     if (!(low[side] < high[side]))
     {
-      return 0;
+      return {};
     }
   }
   constexpr int ofLattice = latticeEdge * latticeEdge;
@@ -206,18 +255,34 @@ double largestDeflection(const LeavesView<Real>& medium, const Column& column,
           [&](auto scheme) { return trace<decltype(scheme)>(medium, column, ray); });
       }
     });
-  double largest[2] = { 0, 0 }; // of those that pass and those that do not
+  const bool areAllBlocked =
+    std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
+  RayFindings findings;
   for (const Bend& bend : bends)
   {
-    double& ofKind = largest[bend.isBlocked ? 1 : 0];
-    ofKind = std::max(ofKind, bend.deflection);
+    if (bend.isBlocked == areAllBlocked)
+    {
+      findings.deflection = std::max(findings.deflection, bend.deflection);
+      findings.opticalPath = std::max(findings.opticalPath, std::abs(bend.opticalPath));
+    }
   }
-  return largest[0] > 0 ? largest[0] : largest[1];
+  std::vector<std::int32_t>& coarse = findings.coarse;
+  for (const Bend& bend : bends)
+  {
+    if (bend.isBlocked == areAllBlocked)
+    {
+      addCoarse<&Neglected::deflection>(bend, tolerance * findings.deflection, coarse);
+      addCoarse<&Neglected::opticalPath>(bend, tolerance * findings.opticalPath, coarse);
+    }
+  }
+  std::sort(coarse.begin(), coarse.end());
+  coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
+  return findings;
 }
 
-template double largestDeflection(
-  const LeavesView<float>&, const Column&, const std::vector<Vec3<double>>&, int);
-template double largestDeflection(
-  const LeavesView<double>&, const Column&, const std::vector<Vec3<double>>&, int);
+template RayFindings lookAlongRays(
+  const LeavesView<float>&, const Column&, const std::vector<Vec3<double>>&, double, int);
+template RayFindings lookAlongRays(
+  const LeavesView<double>&, const Column&, const std::vector<Vec3<double>>&, double, int);
 
 } // namespace schlieren

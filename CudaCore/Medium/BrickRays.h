@@ -29,6 +29,8 @@ struct LeavesView
   const Grid& grid;
   LeafFinder finder;
   const Leaf<Real>* leaves;
+  const float*
+    differences; ///< of each leaf: by how much nu differs there, where one value stands for all; else 0
   const Real* samples;
   const std::int16_t* gasDistances;
   std::int64_t samplesPerBrick;
@@ -36,10 +38,18 @@ struct LeavesView
   Interpolation interpolation;
 };
 
-/// The largest deflection of straight rays that no wall stops; where walls stop all, of these. The rays: on a
-/// lattice over the column, and those through some places (index coordinates) as far as they are in it.
+/// What straight rays tell: those on a lattice over the column, and those through some places (index coordinates)
+/// as far as they are in it. Of rays that no wall stops; where walls stop all, of these.
+struct RayFindings
+{
+  double deflection = 0;  ///< the largest
+  double opticalPath = 0; ///< the largest; nu times data units
+  /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
+  /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
+  std::vector<std::int32_t> coarse;
+};
 template <class Real>
-double largestDeflection(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, int threads);
+RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
+  const std::vector<Vec3<double>>& places, double tolerance, int threads);
 
 } // namespace schlieren

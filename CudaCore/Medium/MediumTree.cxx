@@ -25,6 +25,9 @@ constexpr double mostRoots = 16;
 /// 16 root cells of 16 samples, halved so often, count within 32 bits.
 constexpr int finestLevelOfAll = 20;
 
+/// Layers between samples that are no further apart than this do not matter.
+constexpr double pixelsOfLayer = 4;
+
 /// A column is refined this much wider than it is, so that small turns need nothing new.
 constexpr double widening = 1.1;
 
@@ -147,9 +150,17 @@ public:
   /// The error that the next level would lessen, without edges.
   double errorOf(const Node& node) const
   {
-    double error = allows(node.place.level) ? node.facts.hidden : 0;
+    const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
+    const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    double error = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
+      // Between samples there may be a layer, of which few pixels are to be seen. Light that crosses it is bent no more
+      // than by a layer as thick as a voxel.
+      const double across = std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge);
+      const bool isSeen = voxel[axis] > pixelsOfLayer * column_.finest;
+      error = isSeen ? std::max(error, across * node.facts.hidden[axis]) : error;
       error = allows(node.place.level, axis) ? std::max(error, node.facts.error[axis]) : error;
     }
     return error;
@@ -159,7 +170,8 @@ public:
   double urgencyOf(const Node& node) const
   {
     const double error = errorOf(node);
-    const bool hasEdge = node.facts.hasWallEdge || node.facts.besideWindow > negligible();
+    const bool hasWindow = node.facts.besideWindow > negligible();
+    const bool hasEdge = hasWindow || (node.facts.hasWallEdge && !showsWalls(node));
     double urgency = error > negligible() ? error : 0;
     if (hasEdge && !node.facts.areEdgesFine && allows(node.place.level))
     {
@@ -167,6 +179,16 @@ public:
       urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
     }
     return urgency;
+  }
+
+  /// Whether walls are where they should be, as far as pixels show. Voxels must not be much larger than pixels for
+  /// that to be known.
+  bool showsWalls(const Node& node) const
+  {
+    constexpr double pixels = 0.1, pixelsOfVoxel = 4; // at most
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    return node.facts.edgeError <= pixels * column_.finest &&
+      *std::max_element(voxel.begin(), voxel.end()) <= pixelsOfVoxel * column_.finest;
   }
 
   double negligible() const { return tree_.settings_.tolerance * work_.largest; }
@@ -270,7 +292,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
     if (work_.tasksDone == work_.tasks.size())
     {
       numberLeaves();
-      work_.largest = measure(view);
+      measure(view);
       if (!isMeasured_ && work_.largest > 0)
       {
         forgetNegligible(view);
@@ -297,9 +319,9 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
   return hasChanged;
 }
 
-/// The largest deflection in the tree as it is.
+/// Finds the largest deflection in the tree as it is, and leaves that are too coarse for it.
 template <class Real>
-double MediumTree<Real>::measure(const View& view) const
+void MediumTree<Real>::measure(const View& view)
 {
   std::vector<std::pair<double, std::int32_t>>
     steepest; // sorts by the deflection over a leaf, about
@@ -320,10 +342,21 @@ double MediumTree<Real>::measure(const View& view) const
     const auto& at = nodes_[static_cast<std::size_t>(steepest[n].second)].facts.steepestAt;
     places.push_back({ at[0], at[1], at[2] });
   }
-  return largestDeflection<Real>(
-    { grid_, finder(), leaves_.data(), samples().data(), gasDistances().data(), samplesPerBrick(),
-      apron(), settings_.interpolation },
-    work_.column, places, settings_.threads);
+  std::vector<float> differences(leafNodes_.size(), 0.f);
+  for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
+    differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
+  }
+  const RayFindings findings = lookAlongRays<Real>(
+    { grid_, finder(), leaves_.data(), differences.data(), samples().data(), gasDistances().data(),
+      samplesPerBrick(), apron(), settings_.interpolation },
+    work_.column, places, settings_.tolerance, settings_.threads);
+  work_.largest = findings.deflection;
+  for (const std::int32_t leaf : findings.coarse)
+  {
+    nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)])].isCoarse = true;
+  }
 }
 
 /// What there is to do: leaves to be made, and leaves to be divided.
@@ -338,7 +371,7 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
     {
       continue;
     }
-    if (!node.isKnown || node.facts.neglected > view.negligible())
+    if (!node.isKnown || node.isCoarse || node.facts.neglected > view.negligible())
     {
       tasks.push_back({ n, false, std::numeric_limits<double>::infinity() });
     }
@@ -443,13 +476,15 @@ void MediumTree<Real>::findBricks(const View& view)
   while (work_.tasksBegun < work_.tasks.size() && work_.bricks.size() < bricksAtOnce)
   {
     const Task& task = work_.tasks[work_.tasksBegun++];
-    const NodePlace& place = nodes_[static_cast<std::size_t>(task.node)].place;
+    const Node& node = nodes_[static_cast<std::size_t>(task.node)];
+    const NodePlace& place = node.place;
+    const double negligible = node.isCoarse ? 0 : view.negligible();
     for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
       if (!task.divides || view.sees(ofOne))
       {
-        work_.bricks.push_back({ ofOne, {} });
+        work_.bricks.push_back({ ofOne, negligible, {} });
       }
     }
   }
@@ -467,7 +502,7 @@ void MediumTree<Real>::keepBricks(const View& view)
     forget(nodes_[at]);
     if (!task.divides)
     {
-      keep(nodes_[at], (next++)->second);
+      keep(nodes_[at], (next++)->brick);
       continue;
     }
     nodes_[at].children = static_cast<std::int32_t>(nodes_.size());
@@ -477,7 +512,7 @@ void MediumTree<Real>::keepBricks(const View& view)
       nodes_.push_back({ childOf(place, child) });
       if (view.sees(nodes_.back().place))
       {
-        keep(nodes_.back(), (next++)->second);
+        keep(nodes_.back(), (next++)->brick);
       }
     }
   }
@@ -513,8 +548,8 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
       {
         for (std::int64_t n = first; n < last; ++n)
         {
-          auto& [place, brick] = work_.bricks[static_cast<std::size_t>(n)];
-          brick = maker_.make(place, view.negligible());
+          auto& next = work_.bricks[static_cast<std::size_t>(n)];
+          next.brick = maker_.make(next.place, next.negligible);
         }
       },
       ofThese);

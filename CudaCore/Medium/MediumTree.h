@@ -81,6 +81,7 @@ private:
     NodePlace place;
     std::int32_t children = -1; ///< the first of eight nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has asked for
+    bool isCoarse = false;      ///< a leaf with one value for all that needs samples
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
     std::int32_t brick = 0;
@@ -109,13 +110,19 @@ private:
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
-    std::vector<std::pair<NodePlace, Brick<Real>>> bricks; ///< of the tasks that are begun
+    struct NewBrick
+    {
+      NodePlace place;
+      double negligible;
+      Brick<Real> brick;
+    };
+    std::vector<NewBrick> bricks; ///< of the tasks that are begun
     std::int64_t bricksDone = 0;
   };
   class View;
 
   void makeRoots();
-  double measure(const View& view) const;
+  void measure(const View& view);
   bool plan(const View& view);
   std::vector<Task> tasksOf(const View& view) const;
   std::size_t costOf(const Task& task) const;

@@ -47,9 +47,10 @@ TEST(Amr, ThreeLevelsMatchTheClosedForm)
               cells, { { 0, cells, true }, { cells / 2, cells, true }, { cells * 3 / 2, cells } }),
         128);
     filter->SetParallelScale(0.95);
+    filter->SetMediumTolerance(1e-3);
     filter->Update();
     const Differences errors = compareWithBall(filter, GaussianBall());
-    EXPECT_LT(errors.deflection, cells == 32 ? 1e-3 : 5e-4); // 5e-3 at 32 between points' values
+    EXPECT_LT(errors.deflection, 1e-3); // 5e-3 at 32 between points' values
     EXPECT_LT(errors.opticalPath, 1e-3);
     EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
   }
@@ -149,9 +150,34 @@ TEST(Amr, DeepLevelsHaveTheValuesOfTheBall)
         EXPECT_EQ(places[n], schlieren::Place::Gas);
       }
       // Coarser cells hold means over more of the ball.
-      EXPECT_LT(worst, (spacing < 2 * finest ? 1e-4 : 4e-3) * ball.A) << spacing;
+      EXPECT_LT(worst, (spacing < 2 * finest ? 1e-4 : 1.5e-2) * ball.A) << spacing;
     }
   }
+}
+
+// Means over cells that a plane, askew, cuts: about one cell between two values.
+TEST(Amr, ShocksDoNotOvershoot)
+{
+  const auto amr = ballOnLevels(24, { { 0, 24, true } });
+  for (unsigned int i = 0; i < 8; ++i)
+  {
+    addCellArray(blockOf(amr, 0, i), "N",
+      [](const Vec& x)
+      { return 1e-4 + 1e-4 * std::clamp(0.5 + 12 * (x[0] + 0.3 * x[1] - 0.1 * x[2]), 0., 1.); });
+  }
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  std::string warning;
+  const auto source = filter->MakeSource(amr, nullptr, warning);
+  const schlieren::Lattice lattice{ { -0.4, -0.4, -0.4 }, { 0.013, 0.013, 0.013 }, { 61, 61, 61 } };
+  std::vector<double> values(static_cast<std::size_t>(lattice.size()));
+  std::vector<schlieren::Place> places(values.size());
+  source->sample(lattice, values.data(), places.data(), nullptr);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  EXPECT_GT(*least, 1e-4 - 1e-6);
+  EXPECT_LT(*most, 2e-4 + 1e-6);
 }
 
 TEST(Amr, BordersOfDeepLevelsDoNotShow)
@@ -184,17 +210,6 @@ TEST(Amr, BodiesInDeepLevelsCastSharpShadows)
   EXPECT_NEAR(area / (pi * 0.05 * 0.05), 1, 0.01);
 }
 
-TEST(Amr, DeepLevelsWithSolidCellsStayOnAGrid)
-{
-  auto amr = deepBall({ 2.7e-4, 0.05 });
-  vtkImageData* block = blockOf(amr, 4, 0);
-  block->GetCellData()->GetArray("N")->SetComponent(100, 0, std::nan(""));
-  auto filter = bench(amr, 64);
-  filter->Update();
-  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->GetArray("MediumLevels"));
-  EXPECT_TRUE(vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints() > 0);
-}
-
 TEST(Amr, GridIsThatOfTheFinestLevel)
 {
   vtkNew<vtkRefractiveIndex> filter;
@@ -216,19 +231,13 @@ TEST(Amr, GridIsThatOfTheFinestLevel)
   }
 }
 
-// Eight blocks of one level are the image that they were cut from, to the last bit.
-TEST(Amr, OneLevelIsAnImage)
+TEST(Amr, BlocksOfOneLevelMatchTheClosedForm)
 {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(33, 33, 33);
-  image->SetSpacing(1. / 16, 1. / 16, 1. / 16);
-  image->SetOrigin(-1, -1, -1);
-  addCellArray(image, "N", MeanOfBall{ GaussianBall(), 1. / 16 });
-  auto direct = bench(image);
-  direct->Update();
-  auto filter = bench(ballOnLevels(32, { { 0, 32, true } }));
+  auto filter = bench(ballOnLevels(32, { { 0, 32, true } }), 128);
+  filter->SetParallelScale(0.95);
   filter->Update();
-  EXPECT_EQ(valuesOf(filter, "Deflection"), valuesOf(direct, "Deflection"));
+  EXPECT_LT(
+    compareWithBall(filter, GaussianBall()).deflection, 8e-3); // values taken as points': 2e-2
 }
 
 // The levels need not be known as such, nor lie over each other.
@@ -286,6 +295,88 @@ TEST(Amr, SolidsBlockLightAndBendNone)
   EXPECT_FALSE(isBlocked(0.3, 0.3));
 }
 
+double blockedArea(vtkSchlierenFilter* filter)
+{
+  const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
+  const double* pixel = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetSpacing();
+  return std::accumulate(blocked.begin(), blocked.end(), 0.) * pixel[0] * pixel[1];
+}
+
+// Cells without a number, on the levels that have them: a cube of edge 1, finer than elsewhere for x < 0.
+TEST(Amr, SolidCellsHaveTheirOwnEdges)
+{
+  auto amr = ballOnLevels(16, { { 0, 16, true }, { 0, 16, true }, { 8, 16 } });
+  for (unsigned int level = 0; level < 3; ++level)
+  {
+    for (unsigned int i = 0; i < blocksOf(amr, level); ++i)
+    {
+      vtkImageData* block = blockOf(amr, level, i);
+      vtkDataArray* values = block->GetCellData()->GetArray("N");
+      for (vtkIdType cell = 0; cell < block->GetNumberOfCells(); ++cell)
+      {
+        double bounds[6];
+        block->GetCellBounds(cell, bounds);
+        const double size = bounds[1] - bounds[0];
+        const bool isIn =
+          std::all_of(bounds, bounds + 6, [&](double x) { return std::abs(x) <= 0.5 + size / 8; });
+        values->SetComponent(cell, 0, isIn ? std::nan("") : 3e-4);
+      }
+    }
+  }
+  for (const double along : { 0., 1. })
+  {
+    auto filter = bench(amr, 200);
+    filter->SetViewDirection(along, 0, -1);
+    filter->SetAutoAmbientRefractivity(true);
+    filter->Update();
+    const double seen = along > 0 ? std::sqrt(2.) : 1;
+    // Light that cuts a corner by less than a voxel may miss it.
+    EXPECT_NEAR(blockedArea(filter) / seen, 1, along > 0 ? 0.025 : 0.003);
+    EXPECT_EQ(largest(valuesOf(filter, "Deflection")), 0); // the gas is uniform up to the walls
+  }
+}
+
+// 27 blocks of one level, of which one is missing: a step at a corner, or a cavity in the middle.
+TEST(Amr, MissingBlocksAreBodies)
+{
+  for (const int missing : { 0, 13 })
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    for (int i = 0; i < 27; ++i)
+    {
+      const int first[3] = { i % 3 * 8, i / 3 % 3 * 8, i / 9 * 8 };
+      const auto block = amrBlock(first, 8, 1. / 12);
+      addCellArray(block.Get(), "N", [](const Vec& x) { return 3e-4 * (1 + 0.1 * x[0]); });
+      blocks->SetBlock(static_cast<unsigned>(i), i == missing ? nullptr : block.Get());
+    }
+    for (const int outside : { vtkRefractiveIndex::OUTSIDE_AUTO, vtkRefractiveIndex::OUTSIDE_BLOCKS,
+           vtkRefractiveIndex::OUTSIDE_PASSES })
+    {
+      auto filter = bench(blocks, 120);
+      filter->SetParallelScale(0.95);
+      filter->SetOutside(outside);
+      filter->Update();
+      const bool isBody = outside != vtkRefractiveIndex::OUTSIDE_PASSES;
+      const double edge = missing == 0 ? 0.95 - 1. / 3 : 2. / 3; // of what is seen
+      EXPECT_NEAR(blockedArea(filter), isBody ? edge * edge : 0, 0.025) << missing << outside;
+      // Light is bent by as much as it passes gas.
+      auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+      const auto bentAt = [&](double x)
+      {
+        const double at[3] = { x, x, 0 };
+        return arrayOf(filter, "Deflection")
+                 ->GetComponent(image->FindPoint(const_cast<double*>(at)), 0) /
+          (2 * 3e-5);
+      };
+      EXPECT_NEAR(bentAt(0.7), 1, 0.01);
+      if (!isBody)
+      {
+        EXPECT_NEAR(bentAt(missing == 0 ? -0.7 : 0), 2. / 3, 0.02);
+      }
+    }
+  }
+}
+
 // VTK's own source: 5 x 5 x 5 cells of edge 0.5, in part refined once. It gives values at the cells'
 // centres, not means, which is the same only in a field of little curvature.
 TEST(Amr, PulseOfVtkMatchesTheClosedForm)
@@ -296,7 +387,7 @@ TEST(Amr, PulseOfVtkMatchesTheClosedForm)
   filter->SetPrecision(vtkSchlierenFilter::DOUBLE);
   filter->Update();
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-  const double depth = 2.25; // between the centres of the first and the last cell
+  const double depth = 2.5;
   const double along = std::sqrt(pi) * width * std::erf(depth / 2 / width);
   std::vector<double> deflection, opticalPath;
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
