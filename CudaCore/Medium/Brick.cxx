@@ -670,6 +670,10 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) co
     storeCoefficients(samples, brick);
     findBounds(place, brick);
   }
+  else
+  {
+    facts.difference = 0; // of gas beside it
+  }
   return brick;
 }
 

@@ -197,7 +197,7 @@ void addCoarse(const Bend& bend, double allowed, std::vector<std::int32_t>& coar
 
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, int threads)
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads)
 {
   // What of the column is over the box.
   const Grid& grid = medium.grid;
@@ -218,7 +218,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     high[side] = std::min(middle + half, column.middle[side] + column.halfWidth[side]);
     if (!(low[side] < high[side]))
     {
-      return {};
+      return least;
     }
   }
   constexpr int ofLattice = latticeEdge * latticeEdge;
@@ -257,7 +257,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     });
   const bool areAllBlocked =
     std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
-  RayFindings findings;
+  RayFindings findings{ least.deflection, least.opticalPath, {} };
   for (const Bend& bend : bends)
   {
     if (bend.isBlocked == areAllBlocked)
@@ -280,9 +280,9 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   return findings;
 }
 
-template RayFindings lookAlongRays(
-  const LeavesView<float>&, const Column&, const std::vector<Vec3<double>>&, double, int);
-template RayFindings lookAlongRays(
-  const LeavesView<double>&, const Column&, const std::vector<Vec3<double>>&, double, int);
+template RayFindings lookAlongRays(const LeavesView<float>&, const Column&,
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
+template RayFindings lookAlongRays(const LeavesView<double>&, const Column&,
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
 
 } // namespace schlieren

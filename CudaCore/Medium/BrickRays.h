@@ -48,8 +48,9 @@ struct RayFindings
   /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;
 };
+/// `least`: what is known of the largest ones, e.g. from samples that are no longer there.
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, int threads);
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads);
 
 } // namespace schlieren
