@@ -4,7 +4,7 @@
 
     SCHLIEREN_PLUGIN=…/Schlieren.so Utilities/with-display pvpython Testing/Benchmarks/ErrorTolerance.py [case…]
 
-Prints a table. `bricks`: against the same view with the tolerance 1e-4, as a share of the largest deflection or path; so
+Prints a table; takes minutes. `bricks`: against the same view with the tolerance 1e-4, as a share of the largest deflection or path; so
 this is what the sampling of the cells is responsible for. `cells`: that view against the closed form, where there is one;
 so this is what the cells and what is made of them are. Straight rays at the centres of the pixels, in steps of a voxel.
 Rays near walls and at the rim of the mesh do not count: there, what is measured is whether an edge lies within a pixel.
@@ -353,8 +353,6 @@ def main():
         of_cells = of_path = ("", "")
         if field is not None:
             bend, path = truth(arguments, field, 12 if "far" in case else 1)
-            if "layer" not in case and "far" not in case:
-                bend, path = truth(arguments, field, 1)
             of_cells = errors(best["Deflection"], bend, counts)
             of_path = errors(best["OpticalPathDifference"], path, counts)
         for tolerance in (1e-1, 1e-2, 1e-3):
