@@ -275,8 +275,8 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     skips > 0 ? held.mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
   image.skippingBound =
     map == nullptr ? 0 : skippingBound(held.medium, light, tolerance, scene.interpolation);
-  const RayTask<Real> task = makeTask<Real>(
-    held.medium, map, FieldGradientsView::of(field.grid, field.gradients), light, settings);
+  const RayTask<Real> task =
+    makeTask<Real>(held.medium, map, held.medium.gradientsOf(field), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, asked.device, {},

@@ -174,7 +174,8 @@ struct Grid
 };
 
 /// The gradients of the fields by whose colours a picture is to be tinted; nothing by default. The array
-/// belongs to the caller, as those of Field do.
+/// belongs to the caller, as those of Field do. Where Field has a source, it is the source that knows the fields:
+/// `count` of them, and `values` is null.
 struct FieldGradients
 {
   int count = 0; ///< fields
@@ -262,8 +263,8 @@ struct Scene
   /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
   /// share of its range in the whole medium; 0: never. 0 ... 1.
   double homogeneityTolerance = 0;
-  /// Error of the deflection, of the largest one, that the voxels of a Field's source may make; 0: they are as
-  /// fine as the data. 0 ... 1.
+  /// Error of the deflection, of the largest one, that the voxels of a Field's source may make, and of what rays gather
+  /// of its fields, of the full colour; 0: they are as fine as the data. 0 ... 1.
   double mediumTolerance = 0.01;
   /// Bytes that the voxels of a Field's source may take. Where they do not do, the tolerance is not met:
   /// see Image::medium.
@@ -312,8 +313,8 @@ struct MediumStatistics
   std::int64_t bytes = 0;
   double smallestVoxel = 0;     ///< data units, along the axis where it is smallest
   double largestDeflection = 0; ///< of straight rays of the last view
-  /// Of the deflection over a leaf of the last view, of the largest one: what memory did not suffice for. Voxels
-  /// of the size of cells, or as fine as the view asks, have none.
+  /// Of the deflection over a leaf of the last view, of the largest one, or of what a ray gathers of fields there, of the
+  /// full colour: what memory did not suffice for. Voxels of the size of cells, or as fine as the view asks, have none.
   double estimatedError = 0;
 };
 

@@ -235,15 +235,17 @@ void validateLight(const Scene& scene, const Frame& frame)
     "or ParallelScale, so that it is no more than 45.");
 }
 
-void validateColors(const FieldGradients& gradients, const Scene& scene)
+void validateColors(const Field& field, const Scene& scene)
 {
+  const FieldGradients& gradients = field.gradients;
   if (gradients.count == 0)
   {
     return;
   }
-  if (gradients.count < 0 || gradients.values == nullptr)
+  if (field.source ? gradients.count != field.source->fields()
+                   : gradients.count < 0 || gradients.values == nullptr)
   {
-    throw Error("Field gradients need values.");
+    throw Error("Field gradients need values, or a source with as many fields.");
   }
   if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
   {
@@ -276,7 +278,7 @@ void validate(const Field& field, const Scene& scene)
   validate(field.grid);
   validateLengthScale(field.lengthScale);
   validateScene(scene);
-  validateColors(field.gradients, scene);
+  validateColors(field, scene);
   validateLight(scene, frameOf(field.grid, scene.view)); // which throws where the view is bad
 }
 

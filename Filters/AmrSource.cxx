@@ -30,9 +30,6 @@ constexpr int reach = 3;
 constexpr double rounding = 1e-6;           // of places, in cells
 constexpr double atBorder = 0.5 - rounding; // from a cell's centre
 
-/// Voxels across flat data, in which nothing changes along this axis.
-constexpr double layersOfFlat = 4;
-
 void inTurn(std::ptrdiff_t rows, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work)
 {
   work(0, rows);
@@ -107,7 +104,6 @@ AmrSource::Block AmrSource::coarser(const Block& block, const Counts& ratio)
 AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies,
   Outside outside, Tally& tally, const WorkProgress& progress)
   : Origin(levels.origin)
-  , Flat(levels.flat)
 {
   std::size_t blocks = 0, done = 0;
   for (const AmrLevel& level : levels.levels)
@@ -283,15 +279,7 @@ schlieren::Box AmrSource::bounds() const
   return box;
 }
 
-std::array<double, 3> AmrSource::voxelShape() const
-{
-  std::array<double, 3> shape = this->Levels[0].spacing;
-  if (this->Flat >= 0)
-  {
-    shape[static_cast<std::size_t>(this->Flat)] /= layersOfFlat;
-  }
-  return shape;
-}
+std::array<double, 3> AmrSource::voxelShape() const { return this->Levels[0].spacing; }
 
 double AmrSource::ambient() const
 {
@@ -486,11 +474,8 @@ schlieren::MediumSource::Content AmrSource::contentOf(const schlieren::Box& box)
         {
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
-            if (static_cast<int>(axis) != this->Flat)
-            {
-              // The polynomials tell more than one voxel of the size of a cell shows.
-              content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
-            }
+            // The spline tells more than one voxel of the size of a cell shows.
+            content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
           }
         }
       });
@@ -543,6 +528,37 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
       hasGas[point++] = this->hasGasAt(place) ? 1 : 0;
     });
   this->Boundary->sample(lattice, hasGas.data(), places, distances);
+}
+
+void AmrSource::addField(const AmrLevels& levels, const Source& source)
+{
+  Tally notReported;
+  this->Fields.push_back(
+    std::make_unique<const AmrSource>(levels, source, nullptr, Outside::Passes, notReported));
+}
+
+schlieren::MediumSource::FieldRange AmrSource::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const Content content = this->Fields[static_cast<std::size_t>(field)]->contentOf(box);
+  return { content.lowest, content.highest };
+}
+
+void AmrSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances, double* values) const
+{
+  this->sample(lattice, refractivity, places, distances);
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::vector<schlieren::Place> ofField(size);
+  for (const auto& field : this->Fields)
+  {
+    field->sample(lattice, values, ofField.data(), nullptr);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      values[i] = ofField[i] == schlieren::Place::Gas ? values[i] : nan;
+    }
+    values += size;
+  }
 }
 
 } // namespace refractivity

@@ -24,8 +24,7 @@ namespace refractivity
  * holds has the mean over its place of a polynomial through the next coarser level; so the borders of blocks and levels
  * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
  *
- * Cells that are hidden or whose N is not finite are walls, as they stand: with the edges of cells. Flat data are one
- * cell thick, of one data unit.
+ * Cells that are hidden or whose N is not finite are walls, as they stand: with the edges of cells.
  */
 class AmrSource : public schlieren::MediumSource
 {
@@ -33,6 +32,9 @@ public:
   /// `bodies`: may be null.
   AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies, Outside outside,
     Tally& tally, const WorkProgress& progress = WorkProgress());
+
+  /// One more field of the same blocks: `source` has its values in their cells, NaN where there is none.
+  void addField(const AmrLevels& levels, const Source& source);
 
   bool hasGas() const { return this->HasGas; }
   /// Whether the bodies reach into the box of the gas.
@@ -44,6 +46,11 @@ public:
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override;
+
+  int fields() const override { return static_cast<int>(this->Fields.size()); }
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
+  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+    schlieren::Place* places, float* distances, double* values) const override;
 
 private:
   /// Cells of a level that are known: those of a block, or the means of a finer block's.
@@ -84,11 +91,11 @@ private:
   BoundaryFaces findFaces();
 
   std::array<double, 3> Origin;
-  int Flat; // the axis along which the data are; -1: none
   std::vector<Level> Levels;
   std::unique_ptr<const GasBoundary> Boundary;
   bool HasGas = false;
   bool IsBox = true; // whether the domain is one, with blocks all over
+  std::vector<std::unique_ptr<const AmrSource>> Fields; // each as if it were a refractivity
 };
 
 } // namespace refractivity

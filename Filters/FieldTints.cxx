@@ -6,26 +6,44 @@
 #include "RefractivityModels.h"
 #include "RefractivitySource.h"
 
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
+#include "vtkPointDataToCellData.h"
 #include "vtkProbeFilter.h"
 #include "vtkRefractiveIndex.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <variant>
 
 namespace
 {
 
 using refractivity::arrayName;
 using refractivity::maskName;
+
+void requireFields(vtkRefractiveIndex* medium)
+{
+  if (medium->GetFields().empty())
+  {
+    throw std::runtime_error(
+      "ColorByField is on, but Fields is empty, so no field gives its colour. "
+      "Name arrays in Fields, or switch ColorByField off.");
+  }
+  refractivity::fieldMeanFrom(medium); // whether its lists belong together
+}
 
 /// Makes of a filter one that finds a single field, between 0 and 1, as if it were a refractivity.
 void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::size_t field)
@@ -85,16 +103,65 @@ void probe(vtkImageData* image, vtkImageData* grid)
 
 } // namespace
 
+std::vector<FieldValues> fieldValues(
+  vtkRefractiveIndex* medium, vtkDataObject* input, const refractivity::Source& ofMedium)
+{
+  requireFields(medium);
+  std::vector<FieldValues> fields(medium->GetFields().size());
+  for (std::size_t number = 0; number < fields.size(); ++number)
+  {
+    vtkNew<vtkRefractiveIndex> reader;
+    chooseField(reader, medium, number);
+    FieldValues& field = fields[number];
+    field.source = refractivity::chooseSource(reader, input);
+    std::get<refractivity::FieldMean>(field.source.model).findRanges(field.source.leaves);
+    const std::vector<refractivity::Leaf> found = std::move(field.source.leaves);
+    field.source.leaves.clear();
+    for (const refractivity::Leaf& leaf : ofMedium.leaves)
+    {
+      const auto same = std::find_if(found.begin(), found.end(),
+        [&](const refractivity::Leaf& other) { return other.input == leaf.input; });
+      if (same != found.end())
+      {
+        field.source.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
+        continue;
+      }
+      auto nowhere = vtkSmartPointer<vtkDoubleArray>::New();
+      nowhere->SetNumberOfValues(
+        leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
+      nowhere->FillValue(std::numeric_limits<double>::quiet_NaN());
+      field.source.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells, leaf.input });
+      field.made.push_back(nowhere);
+    }
+  }
+  return fields;
+}
+
+void bringToCells(FieldValues& field)
+{
+  for (refractivity::Leaf& leaf : field.source.leaves)
+  {
+    if (leaf.ofCells)
+    {
+      continue;
+    }
+    auto copy = vtkSmartPointer<vtkDataSet>::Take(leaf.data->NewInstance());
+    copy->CopyStructure(leaf.data);
+    copy->GetPointData()->SetScalars(leaf.arrays[0]);
+    vtkNew<vtkPointDataToCellData> toCells;
+    toCells->SetInputData(copy);
+    toCells->Update();
+    vtkSmartPointer<vtkDataArray> means = toCells->GetOutput()->GetCellData()->GetScalars();
+    leaf.arrays = { means };
+    leaf.ofCells = true;
+    field.made.push_back(means);
+  }
+}
+
 std::vector<float> fieldGradients(
   vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads)
 {
-  if (medium->GetFields().empty())
-  {
-    throw std::runtime_error(
-      "ColorByField is on, but Fields is empty, so no field gives its colour. "
-      "Name arrays in Fields, or switch ColorByField off.");
-  }
-  refractivity::fieldMeanFrom(medium); // whether its lists belong together
+  requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
   const std::size_t count = medium->GetFields().size();
   if (count > 1)

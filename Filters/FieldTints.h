@@ -2,19 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "RefractivitySource.h"
+
+#include "vtkSmartPointer.h"
+
 #include <array>
 #include <vector>
 
+class vtkDataArray;
 class vtkDataObject;
 class vtkImageData;
 class vtkRefractiveIndex;
 
-/// What vtkSchlierenFilter needs to tint a picture by the Fields of its medium. A user's mistake is thrown
-/// as std::runtime_error with a message for the user.
+/// What vtkSchlierenFilter needs to tint an image by the Fields of its medium. A field is what its transfer function
+/// makes of it, where the medium is made with these; else its place in its range. A user's mistake is thrown as
+/// std::runtime_error with a message for the user.
+
+/// One of the fields, as if it were a refractivity.
+struct FieldValues
+{
+  refractivity::Source
+    source; // with the leaves of the medium, in their order; NaN where a leaf does not have the field
+  std::vector<vtkSmartPointer<vtkDataArray>> made; // those of its arrays that are not the input's
+};
+
+/// The fields of `medium`, which takes `ofMedium` from `input`.
+std::vector<FieldValues> fieldValues(
+  vtkRefractiveIndex* medium, vtkDataObject* input, const refractivity::Source& ofMedium);
+
+/// Makes values at points those of cells: their mean.
+void bringToCells(FieldValues& field);
 
 /// The gradients of the fields on the grid of `refractivity`, which `medium` has made from `input`: what
-/// schlieren::FieldGradients::values needs. A field is what its transfer function makes of it, where the
-/// medium is made with these; else its place in its range.
+/// schlieren::FieldGradients::values needs.
 std::vector<float> fieldGradients(
   vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads);
 

@@ -22,6 +22,35 @@ std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet
   return { leaves.begin(), leaves.end() };
 }
 
+/// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
+schlieren::Box boundsOf(
+  const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
+{
+  schlieren::Box box{ cells.bounds().low, cells.bounds().high };
+  vtkIdType all = 0;
+  for (vtkDataSet* leaf : leaves)
+  {
+    all += leaf->GetNumberOfCells();
+  }
+  if (cells.size() == 0 || cells.size() == static_cast<std::size_t>(all))
+  {
+    return box;
+  }
+  for (vtkDataSet* leaf : leaves)
+  {
+    const double* bounds = leaf->GetBounds();
+    if (std::all_of(bounds, bounds + 6, [](double x) { return std::isfinite(x); }))
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        box.low[axis] = std::min(box.low[axis], bounds[2 * axis]);
+        box.high[axis] = std::max(box.high[axis], bounds[2 * axis + 1]);
+      }
+    }
+  }
+  return box;
+}
+
 /// Whether a cell holds a place.
 bool holds(const CellSampler& cells, const Point& place)
 {
@@ -43,6 +72,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
       pointersTo(leaves), bodies, outside,
       [this](const Point& place) { return holds(this->Values, place); }, progress.part(0.6, 1)))
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
+  , Bounds(boundsOf(this->Cells, leaves))
 {
 }
 
@@ -54,6 +84,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , Boundary(mesh.boundary)
   , Lattices(mesh.lattices ? mesh.lattices : std::make_shared<LatticesOfMesh>())
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
+  , Bounds(boundsOf(this->Cells, leaves))
 {
   this->Lattices->beginStep();
 }
@@ -75,11 +106,7 @@ std::uint64_t MeshSource::keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& 
 
 bool MeshSource::meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
-schlieren::Box MeshSource::bounds() const
-{
-  const CellTree::Bounds& bounds = this->Cells.bounds();
-  return { bounds.low, bounds.high };
-}
+schlieren::Box MeshSource::bounds() const { return this->Bounds; }
 
 double MeshSource::ambient() const
 {
@@ -109,8 +136,23 @@ schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box
   return content;
 }
 
-void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances) const
+void MeshSource::addField(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const WorkProgress& progress)
+{
+  this->Fields.push_back(std::unique_ptr<const FieldOfMesh>(
+    new FieldOfMesh{ leaves, CellTree(pointersTo(leaves), this->Cells.mesh(), progress) }));
+}
+
+schlieren::MediumSource::FieldRange MeshSource::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const CellTree& cells = this->Fields[static_cast<std::size_t>(field)]->cells;
+  const CellTree::Content content = cells.content({ box.low, box.high });
+  return { content.lowest, content.highest };
+}
+
+void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances, double* values) const
 {
   const auto size = static_cast<std::size_t>(lattice.size());
   const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr;
@@ -122,13 +164,22 @@ void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
     {
       std::copy(known->distances.begin(), known->distances.end(), distances);
     }
+    if (values)
+    {
+      this->sampleFields(lattice, known->cells, values);
+    }
     return;
   }
   const bool isKept = this->Lattices && this->Lattices->hasRoomFor(lattice);
   KnownLattice found;
   std::vector<unsigned char> isFound(size);
-  this->Values.sample(lattice, refractivity, isFound.data(), isKept ? &found.cells : nullptr);
+  this->Values.sample(
+    lattice, refractivity, isFound.data(), isKept || values ? &found.cells : nullptr);
   this->Boundary->sample(lattice, isFound.data(), places, distances);
+  if (values)
+  {
+    this->sampleFields(lattice, found.cells, values);
+  }
   if (isKept)
   {
     if (!std::all_of(places, places + size,
@@ -141,6 +192,31 @@ void MeshSource::sample(const schlieren::Lattice& lattice, double* refractivity,
       found.distances.assign(distances, distances + size);
     }
     this->Lattices->keep(lattice, std::move(found));
+  }
+}
+
+/// In the cells that hold the lattice's points.
+void MeshSource::sampleFields(
+  const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
+{
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::vector<unsigned char> isFound(size, 0);
+  for (const std::uint16_t point : cells.points)
+  {
+    isFound[point] = 1;
+  }
+  for (const auto& field : this->Fields)
+  {
+    const CellSampler sampler(field->cells);
+    if (!sampler.sample(lattice, cells, values))
+    {
+      sampler.sample(lattice, values, isFound.data());
+    }
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      values[i] = isFound[i] ? values[i] : std::numeric_limits<double>::quiet_NaN();
+    }
+    values += size;
   }
 }
 

@@ -47,6 +47,10 @@ public:
   static std::uint64_t keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction);
 
+  /// One more field: `leaves` as those of the constructor, with the field at their points; NaN where it has no value.
+  void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
+    const WorkProgress& progress = WorkProgress());
+
   bool hasGas() const { return this->Cells.size() > 0; }
   /// Whether the bodies reach into the box of the gas.
   bool meetsBodies() const;
@@ -56,15 +60,34 @@ public:
   std::array<double, 3> voxelShape() const override;
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
-    float* distances) const override;
+    float* distances) const override
+  {
+    this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
+  }
+
+  int fields() const override { return static_cast<int>(this->Fields.size()); }
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
+  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+    schlieren::Place* places, float* distances, double* values) const override;
 
 private:
+  void sampleFields(
+    const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
+
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;
   CellSampler Values;
   std::shared_ptr<const GasBoundary> Boundary;
   std::shared_ptr<LatticesOfMesh> Lattices;
   double Ambient; // NaN: there is no boundary
+  schlieren::Box Bounds;
+
+  struct FieldOfMesh
+  {
+    std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+    CellTree cells; // on the mesh of Cells
+  };
+  std::vector<std::unique_ptr<const FieldOfMesh>> Fields;
 };
 
 } // namespace refractivity

@@ -4,6 +4,7 @@
 
 #include "GasChoices.h"
 #include "InputDescription.h"
+#include "Mask.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -14,6 +15,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -177,11 +179,11 @@ std::vector<Leaf> leavesWith(
     const bool cellsFirst = selections[0].cellsFirst;
     if (isComplete(found[cellsFirst]))
     {
-      leaves.push_back({ data, found[cellsFirst], cellsFirst });
+      leaves.push_back({ data, found[cellsFirst], cellsFirst, data });
     }
     else if (isComplete(found[!cellsFirst]))
     {
-      leaves.push_back({ data, found[!cellsFirst], !cellsFirst });
+      leaves.push_back({ data, found[!cellsFirst], !cellsFirst, data });
     }
     else
     {
@@ -311,6 +313,45 @@ vtkDataArray* computedBefore(
   return leaves.empty() || leaves[0].arrays[0] == computed ? computed : nullptr;
 }
 
+/// Hides what the mask says, if one is chosen. Data without the array have gas everywhere, unless all are.
+void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSets, Source& source)
+{
+  if (!self->HasMaskArray())
+  {
+    return;
+  }
+  const Selection selection = selectionFrom(self, vtkRefractiveIndex::MASK, "Mask");
+  if (!std::isfinite(self->GetMaskThreshold()))
+  {
+    throw std::runtime_error(
+      "MaskThreshold is not a finite number, so nothing tells what Mask hides. Set it, for "
+      "instance to 0.5.");
+  }
+  bool isFound = false;
+  for (Leaf& leaf : source.leaves)
+  {
+    const std::vector<Leaf> found = leavesWith({ selection }, { leaf.data });
+    if (found.empty())
+    {
+      continue;
+    }
+    isFound = true;
+    requireScalars(found[0], { selection }, dataSets);
+    source.masked.push_back(hideMasked(leaf,
+      { found[0].arrays[0], found[0].ofCells, self->GetMaskThreshold(),
+        self->GetMaskedSide() == vtkRefractiveIndex::MASKED_ABOVE }));
+    if (source.image == leaf.data)
+    {
+      source.image = vtkImageData::SafeDownCast(source.masked.back());
+    }
+    leaf.data = source.masked.back();
+  }
+  if (!isFound)
+  {
+    throwNotFound({ selection }, dataSets);
+  }
+}
+
 } // namespace
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
@@ -329,7 +370,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   if (vtkDataArray* computed = computedBefore(self, source.image, selections[0]))
   {
     selections.resize(1);
-    source.leaves = { { source.image, { computed }, false } };
+    source.leaves = { { source.image, { computed }, false, source.image } };
   }
   else
   {
@@ -347,6 +388,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
     requireScalars(leaf, selections, dataSets);
   }
   source.label = labelOf(source.leaves[0].arrays, selections);
+  applyMask(self, dataSets, source);
   return source;
 }
 

@@ -4,6 +4,8 @@
 
 #include "RefractivityModels.h"
 
+#include "vtkSmartPointer.h"
+
 #include <string>
 #include <vector>
 
@@ -33,12 +35,14 @@ struct Leaf
   vtkDataSet* data;
   Arrays arrays;
   bool ofCells;
+  vtkDataSet* input; // `data`, but for what a mask hides
 };
 
 /// What to read from an input.
 struct Source
 {
-  std::vector<Leaf> leaves;      // at least one
+  std::vector<Leaf> leaves;                        // at least one
+  std::vector<vtkSmartPointer<vtkDataSet>> masked; // their data, where there is a mask
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
   std::string noteOnGases; // what the user should know once, mostly empty

@@ -3,6 +3,7 @@
 #include "vtkRefractiveIndex.h"
 
 #include "AmrSource.h"
+#include "FieldTints.h"
 #include "FlatData.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
@@ -187,6 +188,8 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  os << indent << "MaskThreshold: " << this->MaskThreshold << "\n";
+  os << indent << "MaskedSide: " << this->MaskedSide << "\n";
   os << indent << "Outside: " << this->Outside << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
   os << indent << "Grid: " << this->Grid << "\n";
@@ -311,9 +314,9 @@ vtkMTimeType vtkRefractiveIndex::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::HasHumidityArray()
+bool vtkRefractiveIndex::HasArray(int index)
 {
-  const char* name = this->GetInputArrayInformation(HUMIDITY)->Get(vtkDataObject::FIELD_NAME());
+  const char* name = this->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
   return name && *name && std::string(name) != "None";
 }
 
@@ -397,16 +400,13 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }))
-  {
-    return false;
-  }
-  return flatAxisOf(source) < 0 || findLevels(source.leaves);
+  return !source.image && std::all_of(given, given + 3, [](int count) { return count == 0; }) &&
+    flatAxisOf(source) < 0;
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning)
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   Source source = chooseSource(this, input);
   this->Grid.clear();
@@ -428,16 +428,27 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     });
   const auto make = [&]
   {
-    if (auto* fields = std::get_if<FieldMean>(&source.model))
+    if (auto* mean = std::get_if<FieldMean>(&source.model))
     {
-      fields->findRanges(source.leaves);
+      mean->findRanges(source.leaves);
+    }
+    std::vector<FieldValues> fields;
+    if (contents == WITH_FIELDS)
+    {
+      fields = fieldValues(this, input, source);
     }
     progress.reach(0.02);
     const auto outside = static_cast<refractivity::Outside>(this->Outside);
     if (const std::optional<AmrLevels> levels = findLevels(source.leaves))
     {
-      take(std::make_shared<AmrSource>(
-        *levels, source, bodies, outside, tally, progress.part(0.02, 1)));
+      const auto made = std::make_shared<AmrSource>(
+        *levels, source, bodies, outside, tally, progress.part(0.02, 1));
+      for (FieldValues& field : fields)
+      {
+        bringToCells(field);
+        made->addField(*levels, field.source);
+      }
+      take(made);
       return;
     }
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
@@ -448,19 +459,28 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
     const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
     KeptMesh& kept = *this->Mesh;
+    const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
+    std::shared_ptr<MeshSource> made;
     if (kept.key == key)
     {
-      const auto made = std::make_shared<MeshSource>(leaves, kept.mesh, progress.part(0.1, 1));
-      kept.mesh = made->mesh();
-      take(made);
-      return;
+      made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium);
     }
-    kept.release();
-    ++kept.builds;
-    const auto made =
-      std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, progress.part(0.1, 1));
+    else
+    {
+      kept.release();
+      ++kept.builds;
+      made = std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, ofMedium);
+      kept.key = key;
+    }
     kept.mesh = made->mesh();
-    kept.key = key;
+    const auto begunAt = [&](std::size_t number)
+    { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
+    for (std::size_t number = 0; number < fields.size(); ++number)
+    {
+      Tally notReported;
+      made->addField(preparedLeaves(fields[number].source, notReported),
+        progress.part(begunAt(number), begunAt(number + 1)));
+    }
     take(made);
   };
   try
@@ -481,10 +501,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnGases(source));
-  if (const int flat = flatAxisOf(source); flat >= 0)
-  {
-    addText(warning, warningOfExtrusion(flat));
-  }
   return result;
 }
 

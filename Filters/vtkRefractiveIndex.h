@@ -104,7 +104,8 @@ public:
     INDEX_ARRAY = 1,
     TEMPERATURE = 2,
     PRESSURE = 3,
-    HUMIDITY = 4 ///< not chosen, "" or "None": RelativeHumidity
+    HUMIDITY = 4, ///< not chosen, "" or "None": RelativeHumidity
+    MASK = 5      ///< not chosen, "" or "None": there is gas in all visible cells
   };
 
   /// What the mixture's arrays are fractions of.
@@ -314,7 +315,7 @@ public:
   /**
    * Whether an array is chosen for the humidity.
    */
-  bool HasHumidityArray();
+  bool HasHumidityArray() { return this->HasArray(HUMIDITY); }
 
   ///@{
   /**
@@ -381,6 +382,34 @@ public:
   void OutsideBlocksLightOff() { this->SetOutsideBlocksLight(0); }
   ///@}
 
+  /// Which values of the array MASK say that there is no gas.
+  enum MaskedSides
+  {
+    MASKED_ABOVE = 0,
+    MASKED_BELOW = 1
+  };
+
+  ///@{
+  /**
+   * Where there is no gas, by an array of points or cells (SetInputArrayToProcess(MASK, ...)): with MASKED_ABOVE (the
+   * default) where its values are MaskThreshold or more, as of an array `solid`; with MASKED_BELOW where they are less,
+   * as of `iblank` or the fraction of a cell that is gas. NaN is no gas, either. Such places block light and
+   * what values they have is not used: they are hidden points, and hidden cells if the field belongs to cells (those with a
+   * hidden point). Blocks without the array have gas everywhere; it is an error if all are.
+   */
+  vtkSetClampMacro(MaskedSide, int, MASKED_ABOVE, MASKED_BELOW);
+  vtkGetMacro(MaskedSide, int);
+  bool HasMaskArray() { return this->HasArray(MASK); }
+  ///@}
+
+  ///@{
+  /**
+   * See MaskedSide. Default: 0.5.
+   */
+  vtkSetMacro(MaskThreshold, double);
+  vtkGetMacro(MaskThreshold, double);
+  ///@}
+
   /// What lies between the points of a mesh.
   enum Reconstructions
   {
@@ -440,9 +469,8 @@ public:
   /**
    * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() tells whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images, AMR whose finest level fits, 2-D data, and where
-   * SamplingDimensions are given. If AbortExecute is set on the way, or in adaptive data with solid cells, of which
-   * Convert() makes a grid, the result is null.
+   * what else there is is to be made a grid by Convert(): images, 2-D data, and where SamplingDimensions are given. If
+   * AbortExecute is set on the way, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
    * point, where the gas ends. Where the next input has the same mesh, as other time steps and fields have, only
@@ -450,9 +478,14 @@ public:
    * valid, the bodies, Outside and Reconstruction are; that is found from the data themselves, not from their times.
    * GetMeshBuilds() counts how often it was another one.
    */
+  enum SourceContents
+  {
+    REFRACTIVITY_ALONE,
+    WITH_FIELDS // the source has Fields, too: see FieldTints.h
+  };
   VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input);
-  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
+    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
 
   ///@{
@@ -493,6 +526,8 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
+  /// Whether an array is chosen for one of InputArrays.
+  bool HasArray(int index);
   vtkRefractiveIndex(const vtkRefractiveIndex&) = delete;
   void operator=(const vtkRefractiveIndex&) = delete;
 
@@ -528,6 +563,8 @@ private:
   double TemperatureScale = 1;
   double PressureScale = 1;
   double RelativeHumidity = 0;
+  double MaskThreshold = 0.5;
+  int MaskedSide = MASKED_ABOVE;
   double CO2 = 450;
   double Wavelength = 632.8;
   std::vector<std::string> Fields;

@@ -68,16 +68,15 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
-  bool IsOnGrid = false; // though it is a mesh
-
+  // A source has fields only where it needs them: its voxels are as fine as these ask for.
   bool holdsRefractivityOf(
-    const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsGrid) const
+    const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsFields) const
   {
     return this->MediumTime == medium->GetMTime() && this->Input == input &&
-      (this->Source ? !needsGrid : needsGrid || !this->IsOnGrid);
+      (!this->Source || (this->Source->fields() > 0) == needsFields);
   }
 
-  // Of the fields that tint, on the grid of Refractivity; empty where not needed.
+  // Of the fields that tint, on the grid of Refractivity; empty where not needed, or where Source has them.
   std::vector<float> FieldGradients;
 
   // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the picture
@@ -555,7 +554,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
   Internals& inside = *this->Inside;
   return inside.ShownOf != 0 && inside.ShownOf != now && inside.FailedAt != now &&
     inside.Shown[PICTURE_PORT].IsThere() &&
-    (!this->ColorByField || !inside.FieldGradients.empty()) &&
+    (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(describeInputs(this, this->GetInputDataObject(0, 0),
                                  this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0)),
       this->Medium, this->ColorByField);
@@ -622,7 +621,7 @@ void vtkSchlierenFilter::PassToMedium()
   {
     this->Medium->SetWavelength(this->Wavelength);
   }
-  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::HUMIDITY; ++index)
+  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::MASK; ++index)
   {
     vtkInformation* selection = this->GetInputArrayInformation(index);
     if (!sameSelection(selection, this->Medium->GetInputArrayInformation(index)))
@@ -656,23 +655,23 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.FieldGradients.clear();
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  if (this->ColorByField)
-  {
-    this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
-  }
-  const bool isMesh = this->Medium->CanMakeSource(input);
-  inside.IsOnGrid = isMesh && this->ColorByField;
   inside.Source.reset();
   inside.Grid.clear();
   inside.Refractivity->Initialize();
   std::string warning;
-  if (isMesh && !this->ColorByField)
+  if (this->Medium->CanMakeSource(input))
   {
-    inside.Source = this->Medium->MakeSource(input, bodies, warning);
+    inside.Source = this->Medium->MakeSource(input, bodies, warning,
+      this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS
+                         : vtkRefractiveIndex::REFRACTIVITY_ALONE);
     inside.SourceTime.Modified();
   }
   if (!inside.Source && !this->Medium->GetAbortExecute())
   {
+    if (this->ColorByField)
+    {
+      this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
+    }
     warning = this->Medium->Convert(input, inside.Refractivity, bodies);
   }
   if (this->Medium->GetAbortExecute())
@@ -696,7 +695,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;
-  if (!this->ColorByField)
+  if (!this->ColorByField || inside.Source)
   {
     inside.FieldGradients = std::vector<float>();
   }
@@ -804,7 +803,8 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     const std::size_t fields = this->Medium->GetFields().size();
     scene.fieldColors = fieldColors(this->FieldColors, fields);
-    field.gradients = { static_cast<int>(fields), inside.FieldGradients.data(), field.version };
+    field.gradients = { static_cast<int>(fields),
+      inside.Source ? nullptr : inside.FieldGradients.data(), field.version };
   }
   if (isHurried)
   {
@@ -862,6 +862,7 @@ bool vtkSchlierenFilter::Show(
   if (inside.Source)
   {
     inside.Grid = mediumInWords(image.medium);
+    inside.Grid += inside.Source->fields() > 0 ? " or of the full colour" : "";
     addMedium(output, image.medium);
   }
   addGrid(output, this->GetGrid(), inside.Refractivity);
@@ -897,7 +898,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       else
       {
         vtkNew<vtkImageData> planned;
-        if (!this->ColorByField && this->Medium->CanMakeSource(input))
+        if (this->Medium->CanMakeSource(input))
         {
           this->Medium->ComputeBox(input, planned);
         }

@@ -226,6 +226,8 @@ public:
   virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
   virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
   vtkSchlierenMediumMacro(RefractivityScale, double);
+  vtkSchlierenMediumMacro(MaskThreshold, double);
+  vtkSchlierenMediumMacro(MaskedSide, int);
   vtkSchlierenMediumMacro(Outside, int);
   vtkSchlierenMediumMacro(Reconstruction, int);
   vtkSchlierenMediumMacro(OutsideBlocksLight, int);
@@ -583,7 +585,8 @@ public:
    * al. 2011, sec. 8). Along its way, light gathers g_i = integral |grad f_i| ds of each field f_i (its
    * place in its range, 0 to 1; with TRANSFER_FUNCTIONS what its function makes of that). Its colour is
    * 1 + s (sum g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is
-   * G over its 99th percentile in the picture, at most 1. Default: off.
+   * G over its 99th percentile in the image, at most 1. In meshes, voxels are then as fine as the fields need, too:
+   * see MediumTolerance. Default: off.
    */
   vtkSetMacro(ColorByField, bool);
   vtkGetMacro(ColorByField, bool);
@@ -710,8 +713,8 @@ public:
 
   ///@{
   /**
-   * Of meshes: the error of the deflection that the size of voxels may make, of the largest deflection. 0: voxels
-   * are as fine as the mesh. 0 to 1.
+   * Of meshes: the error of the deflection that the size of voxels may make, of the largest deflection; with
+   * ColorByField also that of G, of its 99th percentile. 0: voxels are as fine as the mesh. 0 to 1.
    */
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
@@ -720,7 +723,7 @@ public:
   ///@{
   /**
    * Of meshes: memory, MiB, for voxels. Default: 1024. Where it does not do, MediumTolerance is not met, and the
-   * field data MediumError say by how much.
+   * field data MediumError say by how much (the larger of both errors).
    */
   vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
   vtkGetMacro(MediumMemory, int);

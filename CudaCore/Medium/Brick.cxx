@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/Brick.h"
 
+#include "Medium/BrickErrors.h"
 #include "Medium/Solids.h"
 
 #include <algorithm>
@@ -15,25 +16,9 @@ namespace schlieren
 namespace
 {
 
-/// A range of nu within a box, as the deflection that it may make there. A variation over the whole box makes
-/// one as large as itself, one over a sixteenth of it, along the ray, 16 times as much.
-constexpr double deflectionByRange = 8;
-
 /// The gradient of a quadratic spline through samples is wrong by about a twelfth of their third difference, a
 /// voxel.
 constexpr double errorByThirdDifference = 1. / 12;
-
-/// Boxes whose voxels are no larger than this share of a cell are not divided, so that voxels have 0.7 ... 1.4 cells
-/// in the end. Of data that are linear in cells, finer voxels show the facets (a ball of width 0.2 and cells of 0.025,
-/// rays along both: rms error 1.3e-2 with half a cell, 3.4e-3 with one, 5.9e-3 with 1.4; oblique 3e-3 with all).
-constexpr double voxelByCell = 1.4;
-
-/// Voxels this much coarser than cells may miss what cells have.
-constexpr double coarseByCell = 2;
-
-/// What the cells have beyond the range of the samples is taken for something that was missed where it is more
-/// than this share of that range: peaks, too, lie between samples.
-constexpr double missedByRange = 0.5;
 
 /// Edges are linear in their distances: finer voxels than this share of a cell show nothing new.
 constexpr double edgeVoxelByCell = 0.5;
@@ -86,29 +71,6 @@ Range rangeOf(const std::vector<double>& values)
     *std::max_element(highest.begin(), highest.end()) + defect };
 }
 
-/// The larger of `most` and a row's third differences, place by place; `s` is the way to the next sample.
-void widenByThirdDifferences(const double* p, std::ptrdiff_t s, int count, double* most)
-{
-  for (int i = 0; i < count; ++i)
-  {
-    const double third = std::abs(p[i + 3 * s] - p[i] - 3 * (p[i + 2 * s] - p[i + s]));
-    most[i] = most[i] < third ? third : most[i];
-  }
-}
-
-/// The same of those between places that all count.
-void widenByThirdDifferences(
-  const double* p, const unsigned char* counts, std::ptrdiff_t s, int count, double* most)
-{
-  for (int i = 0; i < count; ++i)
-  {
-    if ((counts[i] & counts[i + s] & counts[i + 2 * s] & counts[i + 3 * s]) != 0)
-    {
-      widenByThirdDifferences(p + i, s, 1, most + i);
-    }
-  }
-}
-
 } // namespace
 
 /// A lattice around a box.
@@ -124,6 +86,7 @@ struct BrickMaker<Real>::Samples
   std::vector<unsigned char> isGas; ///< empty: all are
   double lowest = std::numeric_limits<double>::infinity(); ///< nu of the gas
   double highest = -std::numeric_limits<double>::infinity();
+  FieldSamples fields; ///< empty: not wanted
 
   std::size_t index(int i, int j, int k) const
   {
@@ -207,10 +170,11 @@ Box BrickMaker<Real>::boxOf(const NodePlace& place) const
 
 template <class Real>
 typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
-  const NodePlace& place, bool hasEdges) const
+  const NodePlace& place, bool hasEdges, bool hasFields) const
 {
   Samples samples;
-  samples.margin = apron_ + support_ + (hasEdges ? marginOfEdges : 0);
+  const int marginOfFields = hasFields ? 1 : 0; // for central differences
+  samples.margin = apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
   samples.n = edge + 2 * samples.margin;
   Lattice lattice{ {}, voxelOf(place.level), { samples.n, samples.n, samples.n } };
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -226,8 +190,20 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
   samples.nu.resize(points);
   samples.places.resize(points);
   samples.distances.resize(hasEdges ? points : 0);
-  source_.sample(lattice, samples.nu.data(), samples.places.data(),
-    hasEdges ? samples.distances.data() : nullptr);
+  float* const distances = hasEdges ? samples.distances.data() : nullptr;
+  if (hasFields)
+  {
+    samples.fields.voxel = lattice.spacing;
+    samples.fields.n = samples.n;
+    samples.fields.margin = samples.margin;
+    samples.fields.values.resize(static_cast<std::size_t>(source_.fields()) * points);
+    source_.sampleWithFields(
+      lattice, samples.nu.data(), samples.places.data(), distances, samples.fields.values.data());
+  }
+  else
+  {
+    source_.sample(lattice, samples.nu.data(), samples.places.data(), distances);
+  }
   for (double& value : samples.nu)
   {
     value = nuOf(value);
@@ -405,7 +381,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
     facts.areEdgesFine =
       facts.areEdgesFine && !(voxel[axis] > edgeVoxelByCell * content.cellSize[axis]);
   }
-  if (!facts.hasWallEdge && facts.besideWindow <= negligible)
+  if (!facts.hasWallEdge && facts.besideWindow <= negligible && samples.fields.n == 0)
   {
     facts.neglected = std::max(facts.neglected, facts.besideWindow);
     brick.kind = hasGas ? Leaf<Real>::Samples : Leaf<Real>::Constant;
@@ -455,36 +431,14 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   const Samples& samples, BrickFacts& facts) const
 {
   const std::array<double, 3> voxel = voxelOf(place.level);
-  const int first = samples.margin - 1;
-  const int points = edge + 2;
-  const std::array<int, 3> strides{ 1, samples.n, samples.n * samples.n };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (!(voxel[axis] > voxelByCell * content.cellSize[axis]))
     {
       continue;
     }
-    std::array<int, 3> to{ points, points, points };
-    to[axis] -= 3;
-    const std::ptrdiff_t s = strides[axis];
-    std::array<double, edge + 2> most{};
-    for (int k = 0; k < to[2]; ++k)
-    {
-      for (int j = 0; j < to[1]; ++j)
-      {
-        const std::size_t row = samples.index(first, first + j, first + k);
-        if (samples.isGas.empty())
-        {
-          widenByThirdDifferences(samples.nu.data() + row, s, to[0], most.data());
-        }
-        else
-        {
-          widenByThirdDifferences(
-            samples.nu.data() + row, samples.isGas.data() + row, s, to[0], most.data());
-        }
-      }
-    }
-    const double largest = *std::max_element(most.begin(), most.end());
+    const double largest = largestThirdDifference(
+      samples.nu.data(), samples.isGas, { samples.n, samples.margin - 1, edge + 2 }, axis);
     // Along the ray the box may be longer than along this axis.
     double longest = 0;
     for (std::size_t other = 0; other < 3; ++other)
@@ -607,7 +561,7 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
 }
 
 template <class Real>
-Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) const
+Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& negligible) const
 {
   Brick<Real> brick;
   Box box = boxOf(place);
@@ -626,11 +580,14 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) co
   }
   const double lowest = hasData ? nuOf(content.lowest) : 0;
   const double highest = hasData ? nuOf(content.highest) : 0;
-  if (!content.hasWall)
+  const double gathered = hasData ? largestGathered(source_, box) : 0;
+  const bool hasFields = gathered > negligible.gathered;
+  brick.fields.facts.neglected = hasFields ? 0 : gathered;
+  if (!content.hasWall && !hasFields)
   {
     const double low = content.hasWindow ? std::min(lowest, 0.) : lowest;
     const double high = content.hasWindow ? std::max(highest, 0.) : highest;
-    if (deflectionByRange * (high - low) <= negligible)
+    if (deflectionByRange * (high - low) <= negligible.deflection)
     {
       brick.facts.neglected = deflectionByRange * (high - low);
       brick.facts.difference = high - low;
@@ -640,9 +597,9 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) co
     }
   }
   const bool hasEdges = content.hasWall || content.hasWindow;
-  Samples samples = sample(place, hasEdges);
+  Samples samples = sample(place, hasEdges, hasFields);
   brick.kind = Leaf<Real>::Samples;
-  const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible, brick);
+  const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
   BrickFacts& facts = brick.facts;
   if (!samples.hasGas())
   {
@@ -654,10 +611,16 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, double negligible) co
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
     return brick;
   }
+  if (hasFields)
+  {
+    const auto& spacing = grid_.spacing;
+    brick.fields = fieldBrickOf(source_, box, samples.fields, samples.isGas, content.cellSize,
+      apron_, *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
+  }
   findErrors(place, content, samples, facts);
   facts.difference = samples.highest - samples.lowest;
   facts.range = deflectionByRange * facts.difference;
-  if (facts.range <= negligible)
+  if (facts.range <= negligible.deflection)
   {
     facts.neglected = std::max(facts.neglected, facts.range);
     facts.largestNu = std::max(std::abs(samples.lowest), std::abs(samples.highest));

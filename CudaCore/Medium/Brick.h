@@ -4,6 +4,7 @@
 // One box of the medium's tree: what is in it, and its samples.
 #pragma once
 
+#include "Medium/FieldBrick.h"
 #include "Medium/Interpolation.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
@@ -53,6 +54,14 @@ struct Brick
   std::vector<Real> samples;              ///< empty: all are 0
   std::vector<std::int16_t> gasDistances; ///< of Leaf::Mixed, laid out like samples
   BrickFacts facts;
+  FieldBrick fields;
+};
+
+/// What needs no samples.
+struct Negligible
+{
+  double deflection;
+  double gathered = 0; ///< of the fields' gradients, by a ray
 };
 
 /// Makes bricks of a source, each without knowledge of any other.
@@ -66,8 +75,7 @@ public:
   BrickMaker(const MediumSource& source, const Grid& grid, double ambient, double largestNu,
     Interpolation interpolation);
 
-  /// What is `negligible`, as a deflection, needs no samples.
-  Brick<Real> make(const NodePlace& place, double negligible) const;
+  Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
 
   int apron() const { return apron_; }
   std::int64_t samplesPerBrick() const;
@@ -77,7 +85,7 @@ public:
 private:
   struct Samples;
 
-  Samples sample(const NodePlace& place, bool hasEdges) const;
+  Samples sample(const NodePlace& place, bool hasEdges, bool hasFields) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content, Samples& samples,
     double negligible, Brick<Real>& brick) const;
   void findErrors(const NodePlace& place, const MediumSource::Content& content,

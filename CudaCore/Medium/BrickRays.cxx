@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace schlieren
 {
@@ -18,17 +20,19 @@ namespace
 constexpr int latticeEdge = 48;
 constexpr int brickEdge = BrickMaker<float>::edge;
 
-/// What a leaf with one value for all may add to a ray's deflection, and to its optical path, at most.
+/// What a leaf with one value for all may add to a ray's deflection, to its optical path and to what it gathers, at
+/// most.
 struct Neglected
 {
   std::int32_t leaf;
-  float deflection, opticalPath;
+  float deflection, opticalPath, gathered;
 };
 
 struct Bend
 {
   double deflection = 0;
   double opticalPath = 0; // nu times data units
+  double gathered = 0;
   bool isBlocked = false;
   std::vector<Neglected> neglected;
 };
@@ -88,6 +92,9 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
 {
   double gradient[3] = { 0, 0, 0 }; // summed up, nu by index times data units
   Bend bend;
+  std::vector<float> sums(static_cast<std::size_t>(medium.gradients.count), 0.f);
+  const auto& spacing = medium.grid.spacing;
+  const double unit = *std::min_element(spacing.begin(), spacing.end());
   double s = ray.entry;
   const auto at = [&](double where, int axis)
   { return ray.start[axis] + where * ray.direction[axis]; };
@@ -115,15 +122,17 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       break;
     }
     bend.opticalPath += static_cast<double>(leaf.offset) * way;
-    if (const auto difference = static_cast<double>(medium.differences[found]);
-        difference > 0 && way > 0)
+    const auto difference = static_cast<double>(medium.differences[found]);
+    const double ofFields =
+      medium.fieldDifferences != nullptr ? static_cast<double>(medium.fieldDifferences[found]) : 0;
+    if ((difference > 0 || ofFields > 0) && way > 0)
     {
       // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
       const double edge =
         *std::min_element(medium.grid.spacing.begin(), medium.grid.spacing.end()) * brickEdge /
         leaf.perIndex;
       bend.neglected.push_back({ found, static_cast<float>(difference * way / edge),
-        static_cast<float>(0.5 * difference * way) });
+        static_cast<float>(0.5 * difference * way), static_cast<float>(ofFields * way / edge) });
     }
     if (leaf.kind != Leaf<Real>::Constant && way > 0)
     {
@@ -144,9 +153,14 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
             continue;
           }
         }
-        const Sample<Real> sample = interpolateBrick<Scheme>(samples, medium.apron,
-          Vec3<Real>{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
-            static_cast<Real>(place[2]) });
+        const Vec3<Real> here{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
+          static_cast<Real>(place[2]) };
+        if (!sums.empty())
+        {
+          gatherGradients(
+            medium.gradients, found, here, static_cast<Real>(step / unit), sums.data());
+        }
+        const Sample<Real> sample = interpolateBrick<Scheme>(samples, medium.apron, here);
         bend.opticalPath += static_cast<double>(sample.value) * step;
         gradient[0] += static_cast<double>(sample.gradient.x) * leaf.perIndex * step;
         gradient[1] += static_cast<double>(sample.gradient.y) * leaf.perIndex * step;
@@ -163,6 +177,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
     gradient[2] / grid.spacing[2] };
   bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
+  bend.gathered = std::accumulate(sums.begin(), sums.end(), 0.);
   return bend;
 }
 
@@ -191,6 +206,28 @@ void addCoarse(const Bend& bend, double allowed, std::vector<std::int32_t>& coar
     coarse.push_back(one.leaf);
     sum -= static_cast<double>(one.*part);
   }
+}
+
+void makeUnique(std::vector<std::int32_t>& numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// As tintReference() finds it, but no less than a hundredth of the most: where a view of a far field shows hardly any
+/// flow, its noise is not to be resolved.
+double fullColorOf(std::vector<double> gathered)
+{
+  constexpr double share = 0.99;
+  if (gathered.empty())
+  {
+    return 0;
+  }
+  std::sort(gathered.begin(), gathered.end());
+  const double percentile =
+    gathered[static_cast<std::size_t>(share * static_cast<double>(gathered.size() - 1))];
+  const double most = gathered.back();
+  return percentile > 0 ? std::max(percentile, 0.01 * most) : most;
 }
 
 } // namespace
@@ -257,26 +294,35 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     });
   const bool areAllBlocked =
     std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
-  RayFindings findings{ least.deflection, least.opticalPath, {} };
-  for (const Bend& bend : bends)
+  RayFindings findings;
+  findings.deflection = least.deflection;
+  findings.opticalPath = least.opticalPath;
+  std::vector<double> gathered;
+  for (std::size_t n = 0; n < bends.size(); ++n)
   {
+    const Bend& bend = bends[n];
     if (bend.isBlocked == areAllBlocked)
     {
       findings.deflection = std::max(findings.deflection, bend.deflection);
       findings.opticalPath = std::max(findings.opticalPath, std::abs(bend.opticalPath));
+      if (n < ofLattice)
+      {
+        gathered.push_back(bend.gathered);
+      }
     }
   }
-  std::vector<std::int32_t>& coarse = findings.coarse;
+  findings.gathered = std::max(least.gathered, fullColorOf(std::move(gathered)));
   for (const Bend& bend : bends)
   {
     if (bend.isBlocked == areAllBlocked)
     {
-      addCoarse<&Neglected::deflection>(bend, tolerance * findings.deflection, coarse);
-      addCoarse<&Neglected::opticalPath>(bend, tolerance * findings.opticalPath, coarse);
+      addCoarse<&Neglected::deflection>(bend, tolerance * findings.deflection, findings.coarse);
+      addCoarse<&Neglected::opticalPath>(bend, tolerance * findings.opticalPath, findings.coarse);
+      addCoarse<&Neglected::gathered>(bend, tolerance * findings.gathered, findings.coarseInFields);
     }
   }
-  std::sort(coarse.begin(), coarse.end());
-  coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
+  makeUnique(findings.coarse);
+  makeUnique(findings.coarseInFields);
   return findings;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Straight rays through the leaves of a tree: how much light may be bent, before any image is made.
+// Straight rays through the leaves of a tree: how much light may be bent, and what it may gather of fields, before any
+// image is made.
 #pragma once
 
+#include "Medium/FieldGradients.h"
 #include "Medium/Leaves.h"
 #include "Schlieren.h"
 
@@ -33,6 +35,9 @@ struct LeavesView
     differences; ///< of each leaf: by how much nu differs there, where one value stands for all; else 0
   const Real* samples;
   const std::int16_t* gasDistances;
+  FieldGradientsView gradients;
+  const float*
+    fieldDifferences; ///< of each leaf, as `differences`, of all fields; null: there are none
   std::int64_t samplesPerBrick;
   int apron;
   Interpolation interpolation;
@@ -44,9 +49,13 @@ struct RayFindings
 {
   double deflection = 0;  ///< the largest
   double opticalPath = 0; ///< the largest; nu times data units
+  /// Of all fields, by the rays of the lattice: what 99 % do not exceed; or, where less have gathered anything, the most.
+  double gathered = 0;
   /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
   /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;
+  std::vector<std::int32_t>
+    coarseInFields; ///< the same of leaves without gradients, and of `gathered`
 };
 /// `least`: what is known of the largest ones, e.g. from samples that are no longer there.
 template <class Real>

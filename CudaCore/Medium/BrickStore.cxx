@@ -16,43 +16,6 @@ namespace
 /// Address space that is asked for at once; what is not used of it costs nothing.
 constexpr std::size_t mostReserved = std::size_t{ 1 } << 30;
 
-/// Zeros behind the last brick.
-template <class Real>
-constexpr auto behind = static_cast<std::size_t>(PaddedVolume<Real>::readTogether);
-
-template <class Value>
-auto pieceOf(std::vector<Value>& values, std::size_t size, std::int32_t n)
-{
-  return values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(n) * size);
-}
-
-/// Puts what is in place order[n] into place n, for pieces of `size` values.
-template <class Value>
-void permute(std::vector<Value>& values, std::size_t size, const std::vector<std::int32_t>& order)
-{
-  std::vector<Value> first(size);
-  std::vector<bool> isDone(order.size(), false);
-  for (std::size_t n = 0; n < order.size(); ++n)
-  {
-    const auto start = static_cast<std::int32_t>(n);
-    if (isDone[n] || order[n] == start)
-    {
-      continue;
-    }
-    std::copy_n(pieceOf(values, size, start), size, first.begin());
-    std::int32_t to = start;
-    while (order[static_cast<std::size_t>(to)] != start)
-    {
-      const std::int32_t from = order[static_cast<std::size_t>(to)];
-      std::copy_n(pieceOf(values, size, from), size, pieceOf(values, size, to));
-      isDone[static_cast<std::size_t>(to)] = true;
-      to = from;
-    }
-    std::copy_n(first.begin(), size, pieceOf(values, size, to));
-    isDone[static_cast<std::size_t>(to)] = true;
-  }
-}
-
 /// The numbers that are used, in this order, and then all others below `count`.
 std::vector<std::int32_t> completed(std::vector<std::int32_t> used, std::size_t count)
 {
@@ -73,35 +36,38 @@ std::vector<std::int32_t> completed(std::vector<std::int32_t> used, std::size_t 
 
 } // namespace
 
-template <class Real>
-BrickStore<Real>::BrickStore(std::int64_t samplesPerBrick, std::size_t usual)
-  : perBrick_(static_cast<std::size_t>(samplesPerBrick))
-  , usual_(usual)
+template <class Value>
+BrickStore<Value>::BrickStore(const Layout& layout)
+  : layout_(layout)
 {
   clear();
 }
 
-template <class Real>
-void BrickStore<Real>::clear()
+template <class Value>
+void BrickStore<Value>::clear()
 {
-  samples_.assign(perBrick_ + behind<Real>, Real(0));
-  gasDistances_.clear();
-  freeBricks_.clear();
-  freeMaps_.clear();
+  values_.assign(layout_.zeros * layout_.perBrick + layout_.behind, Value(0));
+  free_.clear();
 }
 
-template <class Real>
-void BrickStore<Real>::reserve(std::size_t samples)
+template <class Value>
+Value* BrickStore<Value>::brick(std::int32_t number)
 {
-  if (samples <= samples_.capacity())
+  return values_.data() + static_cast<std::size_t>(number) * layout_.perBrick;
+}
+
+template <class Value>
+void BrickStore<Value>::reserve(std::size_t values)
+{
+  if (values <= values_.capacity())
   {
     return;
   }
-  const std::size_t atOnce = std::min(usual_, mostReserved) / sizeof(Real);
+  const std::size_t atOnce = std::min(layout_.usual, mostReserved) / sizeof(Value);
   try
   {
-    samples_.reserve(std::max({ samples, atOnce, 2 * samples_.size() }));
-    askForHugePages(samples_.data(), samples_.capacity() * sizeof(Real));
+    values_.reserve(std::max({ values, atOnce, 2 * values_.size() }));
+    askForHugePages(values_.data(), values_.capacity() * sizeof(Value));
   }
   catch (const std::bad_alloc&)
   {
@@ -109,65 +75,65 @@ void BrickStore<Real>::reserve(std::size_t samples)
   }
 }
 
-template <class Real>
-std::int32_t BrickStore<Real>::addBrick(const std::vector<Real>& samples)
+template <class Value>
+std::int32_t BrickStore<Value>::add(const std::vector<Value>& values)
 {
-  std::int32_t brick;
-  if (freeBricks_.empty())
+  std::int32_t number;
+  if (free_.empty())
   {
-    const std::size_t needed = samples_.size() + perBrick_;
+    const std::size_t needed = values_.size() + layout_.perBrick;
     reserve(needed);
-    brick = static_cast<std::int32_t>((samples_.size() - behind<Real>) / perBrick_);
-    samples_.resize(needed);
+    number = static_cast<std::int32_t>(count());
+    values_.resize(needed);
   }
   else
   {
-    brick = freeBricks_.back();
-    freeBricks_.pop_back();
+    number = free_.back();
+    free_.pop_back();
   }
-  std::copy(samples.begin(), samples.end(), pieceOf(samples_, perBrick_, brick));
-  return brick;
+  std::copy(values.begin(), values.end(), brick(number));
+  return number;
 }
 
-template <class Real>
-std::int32_t BrickStore<Real>::addMap(const std::vector<std::int16_t>& distances)
+/// Puts what is in place order[n] into place n.
+template <class Value>
+void BrickStore<Value>::permute(const std::vector<std::int32_t>& order)
 {
-  std::int32_t map;
-  if (freeMaps_.empty())
+  const std::size_t size = layout_.perBrick;
+  std::vector<Value> first(size);
+  std::vector<bool> isDone(order.size(), false);
+  for (std::size_t n = 0; n < order.size(); ++n)
   {
-    map = static_cast<std::int32_t>(gasDistances_.size() / perBrick_);
-    gasDistances_.resize(gasDistances_.size() + perBrick_);
+    const auto start = static_cast<std::int32_t>(n);
+    if (isDone[n] || order[n] == start)
+    {
+      continue;
+    }
+    std::copy_n(brick(start), size, first.begin());
+    std::int32_t to = start;
+    while (order[static_cast<std::size_t>(to)] != start)
+    {
+      const std::int32_t from = order[static_cast<std::size_t>(to)];
+      std::copy_n(brick(from), size, brick(to));
+      isDone[static_cast<std::size_t>(to)] = true;
+      to = from;
+    }
+    std::copy_n(first.begin(), size, brick(to));
+    isDone[static_cast<std::size_t>(to)] = true;
   }
-  else
-  {
-    map = freeMaps_.back();
-    freeMaps_.pop_back();
-  }
-  std::copy(distances.begin(), distances.end(), pieceOf(gasDistances_, perBrick_, map));
-  return map;
 }
 
-template <class Real>
-void BrickStore<Real>::arrange(
-  const std::vector<std::int32_t>& bricks, const std::vector<std::int32_t>& maps)
+template <class Value>
+void BrickStore<Value>::arrange(const std::vector<std::int32_t>& bricks)
 {
-  permute(samples_, perBrick_, completed(bricks, (samples_.size() - behind<Real>) / perBrick_));
-  permute(gasDistances_, perBrick_, completed(maps, gasDistances_.size() / perBrick_));
-  samples_.resize(bricks.size() * perBrick_);
-  samples_.resize(bricks.size() * perBrick_ + behind<Real>, Real(0));
-  gasDistances_.resize(maps.size() * perBrick_);
-  freeBricks_.clear();
-  freeMaps_.clear();
-}
-
-template <class Real>
-std::size_t BrickStore<Real>::bytesUsed() const
-{
-  return samples_.size() * sizeof(Real) + gasDistances_.size() * sizeof(std::int16_t) -
-    freeBricks_.size() * bytesOfBrick() - freeMaps_.size() * bytesOfMap();
+  permute(completed(bricks, count()));
+  values_.resize(bricks.size() * layout_.perBrick);
+  values_.resize(bricks.size() * layout_.perBrick + layout_.behind, Value(0));
+  free_.clear();
 }
 
 template class BrickStore<float>;
 template class BrickStore<double>;
+template class BrickStore<std::int16_t>;
 
 } // namespace schlieren

@@ -2,45 +2,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace schlieren
 {
 
-/// Memory of bricks and of maps of walls, each in one piece and addressed by its number.
-template <class Real>
+/// Memory of bricks of values, in one piece and addressed by their numbers.
+template <class Value>
 class BrickStore
 {
 public:
-  /// `usual`: bytes that there may be of it all.
-  BrickStore(std::int64_t samplesPerBrick, std::size_t usual);
+  struct Layout
+  {
+    std::size_t perBrick;   ///< values
+    std::size_t zeros = 0;  ///< bricks of zeros, the first ones, which remain
+    std::size_t behind = 0; ///< zeros behind the last brick
+    std::size_t usual = 0;  ///< bytes that there may be of it all
+  };
+  explicit BrickStore(const Layout& layout);
 
-  /// Brick 0 remains, with zeros.
   void clear();
+  std::int32_t add(const std::vector<Value>& values);
+  void remove(std::int32_t brick) { free_.push_back(brick); }
 
-  std::int32_t addBrick(const std::vector<Real>& samples);
-  std::int32_t addMap(const std::vector<std::int16_t>& distances);
-  void removeBrick(std::int32_t brick) { freeBricks_.push_back(brick); }
-  void removeMap(std::int32_t map) { freeMaps_.push_back(map); }
+  /// Keeps those that are named, in this order; the bricks of zeros are among them, as the first.
+  void arrange(const std::vector<std::int32_t>& bricks);
 
-  /// Keeps those that are named, in this order; brick 0 is among them, as the first.
-  void arrange(const std::vector<std::int32_t>& bricks, const std::vector<std::int32_t>& maps);
-
-  const std::vector<Real>& samples() const { return samples_; }
-  const std::vector<std::int16_t>& gasDistances() const { return gasDistances_; }
-  std::size_t bytesUsed() const;
-  std::size_t bytesOfBrick() const { return perBrick_ * sizeof(Real); }
-  std::size_t bytesOfMap() const { return perBrick_ * sizeof(std::int16_t); }
+  const std::vector<Value>& values() const { return values_; }
+  std::size_t bytesUsed() const
+  {
+    return values_.size() * sizeof(Value) - free_.size() * bytesOfBrick();
+  }
+  std::size_t bytesOfBrick() const { return layout_.perBrick * sizeof(Value); }
 
 private:
-  void reserve(std::size_t samples);
+  std::size_t count() const { return (values_.size() - layout_.behind) / layout_.perBrick; }
+  Value* brick(std::int32_t number);
+  void reserve(std::size_t values);
+  void permute(const std::vector<std::int32_t>& order);
 
-  std::size_t perBrick_;
-  std::size_t usual_;
-  std::vector<Real> samples_;
-  std::vector<std::int16_t> gasDistances_;
-  std::vector<std::int32_t> freeBricks_, freeMaps_;
+  Layout layout_;
+  std::vector<Value> values_;
+  std::vector<std::int32_t> free_;
 };
 
 } // namespace schlieren

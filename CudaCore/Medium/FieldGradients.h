@@ -10,32 +10,49 @@
 namespace schlieren
 {
 
-/// What a ray sees of FieldGradients, in index coordinates.
+/// What a ray sees of FieldGradients, in index coordinates; in the leaves of a tree, in local coordinates.
 struct FieldGradientsView
 {
-  const float* values; ///< `count` for the grid point (0, 0, 0), then the next; x fastest
-  int count;           ///< fields; 0: nothing is to be gathered
-  std::int64_t dimensions[3];
+  const float*
+    values;  ///< `count` for the point (0, 0, 0), of a tree's first brick, then the next; x fastest
+  int count; ///< fields; 0: nothing is to be gathered
+  std::int64_t rowStride, planeStride; ///< points
+  std::int64_t lastCell[3];
+  // Of a tree.
+  const std::int32_t* bricks = nullptr; ///< of each leaf; 0: its gradients are 0. Null: an image
+  std::int64_t brickStride = 0;         ///< points
 
   static FieldGradientsView of(const Grid& grid, const FieldGradients& gradients)
   {
-    return { gradients.values, gradients.count,
-      { grid.dimensions[0], grid.dimensions[1], grid.dimensions[2] } };
+    const std::array<std::int64_t, 3>& n = grid.dimensions;
+    return { gradients.values, gradients.count, n[0], n[0] * n[1],
+      { n[0] - 2, n[1] - 2, n[2] - 2 } };
   }
 };
 
-/// Adds `step` times the gradients at a position within the grid, interpolated linearly, to `sums`.
+/// Adds `step` times the gradients at a position within the grid or the leaf, interpolated linearly, to `sums`.
 template <class Real>
-SCHLIEREN_HD void gatherGradients(
-  const FieldGradientsView& view, const Vec3<Real>& position, Real step, float* sums)
+SCHLIEREN_HD void gatherGradients(const FieldGradientsView& view, std::int32_t leaf,
+  const Vec3<Real>& position, Real step, float* sums)
 {
+  const float* first = view.values;
+  if (view.bricks != nullptr)
+  {
+    const std::int32_t brick = view.bricks[leaf];
+    if (brick == 0)
+    {
+      return;
+    }
+    first += view.count * (brick * view.brickStride);
+  }
   const Real x[3] = { position.x, position.y, position.z };
   std::int64_t cell[3];
   float w[3][2];
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::int64_t last = view.dimensions[axis] - 2;
-    const auto i = static_cast<std::int64_t>(x[axis]);
+    const std::int64_t last = view.lastCell[axis];
+    const auto towards0 = static_cast<std::int64_t>(x[axis]);
+    const std::int64_t i = x[axis] < static_cast<Real>(towards0) ? towards0 - 1 : towards0;
     cell[axis] = i < last ? i : last;
     w[axis][1] = static_cast<float>(x[axis] - static_cast<Real>(cell[axis]));
     w[axis][0] = 1 - w[axis][1];
@@ -44,9 +61,9 @@ SCHLIEREN_HD void gatherGradients(
   {
     const int i = corner & 1, j = (corner >> 1) & 1, k = corner >> 2;
     const float weight = static_cast<float>(step) * w[0][i] * w[1][j] * w[2][k];
-    const float* values = view.values +
+    const float* values = first +
       view.count *
-        (((cell[2] + k) * view.dimensions[1] + cell[1] + j) * view.dimensions[0] + cell[0] + i);
+        ((cell[2] + k) * view.planeStride + (cell[1] + j) * view.rowStride + cell[0] + i);
     for (int field = 0; field < view.count; ++field)
     {
       sums[field] += weight * values[field];

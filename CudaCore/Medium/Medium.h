@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Medium/FieldGradients.h"
 #include "Medium/Interpolation.h"
 #include "Medium/MediumTree.h"
 #include "Medium/Prefilter.h"
@@ -30,6 +31,7 @@ struct Medium
   Vec3<double> slope{ 0, 0, 0 }; ///< no interpolated |d nu / d index| is larger, axis by axis
 
   MediumView<Real> view() const;
+  FieldGradientsView gradientsOf(const Field& field) const; ///< that rays gather
 };
 
 /// Checks the grid of `field`. Throws Error.

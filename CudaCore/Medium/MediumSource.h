@@ -69,6 +69,23 @@ public:
   virtual void sample(
     const Lattice& lattice, double* refractivity, Place* places, float* distances) const = 0;
   static constexpr float reach = 3;
+
+  /// Further fields, whose gradients rays may gather.
+  virtual int fields() const { return 0; }
+
+  /// Of all values of a field in a box, as Content says it of N.
+  struct FieldRange
+  {
+    double lowest, highest; ///< lowest > highest: the field has none
+  };
+  virtual FieldRange rangeOfField(int /*field*/, const Box& /*box*/) const { return { 1, 0 }; }
+
+  /// As sample(), and the fields' values at the same points, field after field; NaN where a field has none.
+  virtual void sampleWithFields(const Lattice& lattice, double* refractivity, Place* places,
+    float* distances, double* /*values*/) const
+  {
+    sample(lattice, refractivity, places, distances);
+  }
 };
 
 } // namespace schlieren

@@ -3,6 +3,7 @@
 #include "Medium/MediumTree.h"
 
 #include "Device/Parallel.h"
+#include "Medium/BrickErrors.h"
 #include "Medium/Medium.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace schlieren
@@ -147,32 +149,41 @@ public:
   }
   bool allows(int level) const { return allows(level, 0) || allows(level, 1) || allows(level, 2); }
 
-  /// The error that the next level would lessen, without edges.
-  double errorOf(const Node& node) const
+  /// The error of a node, or of its fields, that the next level would lessen, without edges.
+  template <class Facts>
+  double errorOf(int level, const Facts& facts) const
   {
     const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
     const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
-    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
     double error = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       // Between samples there may be a layer, of which few pixels are to be seen. Light that crosses it is bent no more
       // than by a layer as thick as a voxel.
-      const double across = std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge);
+      const bool isBent = std::is_same_v<Facts, BrickFacts>;
+      const double across = isBent ? std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge) : 1;
       const bool isSeen = voxel[axis] > pixelsOfLayer * column_.finest;
-      error = isSeen ? std::max(error, across * node.facts.hidden[axis]) : error;
-      error = allows(node.place.level, axis) ? std::max(error, node.facts.error[axis]) : error;
+      error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
+      error = allows(level, axis) ? std::max(error, facts.error[axis]) : error;
     }
     return error;
   }
 
   /// How badly a leaf needs to be divided; 0: not at all.
-  double urgencyOf(const Node& node) const
+  double urgencyOf(const Node& node, const FieldFacts& ofFields) const
   {
-    const double error = errorOf(node);
-    const bool hasWindow = node.facts.besideWindow > negligible();
+    const double error = errorOf(node.place.level, node.facts);
+    const bool hasWindow = node.facts.besideWindow > negligible().deflection;
     const bool hasEdge = hasWindow || (node.facts.hasWallEdge && !showsWalls(node));
-    double urgency = error > negligible() ? error : 0;
+    double urgency = error > negligible().deflection ? error : 0;
+    if (const double gathered = errorOf(node.place.level, ofFields);
+        gathered > negligible().gathered)
+    {
+      const double deflection = work_.largest;
+      const bool canCompare = deflection > 0 && work_.gathered > 0;
+      urgency = std::max(urgency, canCompare ? gathered * (deflection / work_.gathered) : gathered);
+    }
     if (hasEdge && !node.facts.areEdgesFine && allows(node.place.level))
     {
       // A shadow's edge that is wrong by a voxel is as wrong as can be.
@@ -191,7 +202,25 @@ public:
       *std::max_element(voxel.begin(), voxel.end()) <= pixelsOfVoxel * column_.finest;
   }
 
-  double negligible() const { return tree_.settings_.tolerance * work_.largest; }
+  Negligible negligible() const
+  {
+    const double tolerance = tree_.settings_.tolerance;
+    return { tolerance * work_.largest, tolerance * work_.gathered };
+  }
+
+  /// What is negligible to a leaf; nothing is where too much has been neglected along rays.
+  Negligible negligibleTo(const Node& node, const NodeFields& fields) const
+  {
+    const Negligible usual = negligible();
+    return { node.isCoarse ? 0 : usual.deflection, fields.isCoarse ? 0 : usual.gathered };
+  }
+
+  /// Whether a leaf lacks something that is not negligible.
+  bool lacks(const Node& node, const NodeFields& fields) const
+  {
+    return node.isCoarse || fields.isCoarse || node.facts.neglected > negligible().deflection ||
+      fields.facts.neglected > negligible().gathered;
+  }
 
   /// How far refining has come, when so much of this round is done. Each level takes some four times as long as
   /// the one before; there may be less of them than the view allows, and rounds that refine no level.
@@ -233,7 +262,12 @@ MediumTree<Real>::MediumTree(
   , rootCells_(rootCellsOf(source_->bounds(), source_->voxelShape()))
   , maker_(*source_, grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
       settings.interpolation)
-  , store_(maker_.samplesPerBrick(), settings.memory)
+  , samples_({ static_cast<std::size_t>(maker_.samplesPerBrick()), 1,
+      PaddedVolume<Real>::readTogether, settings.memory })
+  , maps_({ static_cast<std::size_t>(maker_.samplesPerBrick()) })
+  , gradients_(
+      { static_cast<std::size_t>(maker_.samplesPerBrick() * std::max(1, source_->fields())),
+        source_->fields() > 0 ? std::size_t{ 1 } : 0 })
 {
   static_assert(brickEdge == BrickMaker<Real>::edge);
   const MediumSource::Content content = contentOfAll(*source_, ambient);
@@ -247,18 +281,34 @@ template <class Real>
 void MediumTree<Real>::makeRoots()
 {
   nodes_.clear();
+  nodeFields_.clear();
   for (std::int32_t k = 0; k < rootCells_[2]; ++k)
   {
     for (std::int32_t j = 0; j < rootCells_[1]; ++j)
     {
       for (std::int32_t i = 0; i < rootCells_[0]; ++i)
       {
-        nodes_.push_back({ { 0, { i, j, k } } });
+        addNode({ 0, { i, j, k } });
       }
     }
   }
-  store_.clear();
+  samples_.clear();
+  maps_.clear();
+  gradients_.clear();
   isMeasured_ = false;
+}
+
+template <class Real>
+void MediumTree<Real>::addNode(const NodePlace& place)
+{
+  nodes_.push_back({ place });
+  nodeFields_.resize(source_->fields() > 0 ? nodes_.size() : 0);
+}
+
+template <class Real>
+typename MediumTree<Real>::NodeFields MediumTree<Real>::fieldsOf(std::int32_t node) const
+{
+  return nodeFields_.empty() ? NodeFields{} : nodeFields_[static_cast<std::size_t>(node)];
 }
 
 Grid coarsestGrid(const MediumSource& source)
@@ -273,6 +323,17 @@ LeafFinder MediumTree<Real>::finder() const
   constexpr double perIndex = 1. / brickEdge;
   return { roots_.data(), children_.data(), { rootCells_[0], rootCells_[1], rootCells_[2] },
     { perIndex, perIndex, perIndex } };
+}
+
+template <class Real>
+FieldGradientsView MediumTree<Real>::gradients() const
+{
+  const std::int64_t row = brickEdge + 2 * apron();
+  const std::int64_t plane = row * row;
+  const int fields = source_->fields();
+  const std::int64_t first = fields * apron() * (plane + row + 1);
+  return { fields > 0 ? gradients_.values().data() + first : nullptr, fields, row, plane,
+    { brickEdge - 1, brickEdge - 1, brickEdge - 1 }, gradientBricks_.data(), samplesPerBrick() };
 }
 
 template <class Real>
@@ -293,7 +354,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
     {
       numberLeaves();
       const RayFindings found = measure(view, {});
-      if (!isMeasured_ && work_.largest > 0)
+      if (!isMeasured_ && (work_.largest > 0 || work_.gathered > 0))
       {
         forgetNegligible(view);
         isMeasured_ = true;
@@ -321,7 +382,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
   return hasChanged;
 }
 
-/// Finds the largest deflection in the tree as it is, and leaves that are too coarse for it.
+/// Finds the largest deflection in the tree as it is and what rays gather, and leaves that are too coarse for it.
 template <class Real>
 RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least)
 {
@@ -345,19 +406,33 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
     places.push_back({ at[0], at[1], at[2] });
   }
   std::vector<float> differences(leafNodes_.size(), 0.f);
+  std::vector<float> ofFields(nodeFields_.empty() ? 0 : leafNodes_.size(), 0.f);
   for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
   {
     const Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
     differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
+    if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
+        fields.brick == 0 && !ofFields.empty())
+    {
+      ofFields[leaf] = static_cast<float>(fields.facts.neglected / deflectionByRange);
+    }
   }
   const RayFindings findings = lookAlongRays<Real>(
     { grid_, finder(), leaves_.data(), differences.data(), samples().data(), gasDistances().data(),
-      samplesPerBrick(), apron(), settings_.interpolation },
+      gradients(), ofFields.empty() ? nullptr : ofFields.data(), samplesPerBrick(), apron(),
+      settings_.interpolation },
     work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
+  work_.gathered = findings.gathered;
+  const auto nodeOf = [this](std::int32_t leaf)
+  { return static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)]); };
   for (const std::int32_t leaf : findings.coarse)
   {
-    nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)])].isCoarse = true;
+    nodes_[nodeOf(leaf)].isCoarse = true;
+  }
+  for (const std::int32_t leaf : findings.coarseInFields)
+  {
+    nodeFields_[nodeOf(leaf)].isCoarse = true;
   }
   return findings;
 }
@@ -374,11 +449,12 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
     {
       continue;
     }
-    if (!node.isKnown || node.isCoarse || node.facts.neglected > view.negligible())
+    const NodeFields fields = fieldsOf(n);
+    if (!node.isKnown || view.lacks(node, fields))
     {
       tasks.push_back({ n, false, std::numeric_limits<double>::infinity() });
     }
-    else if (const double urgency = view.urgencyOf(node); urgency > 0)
+    else if (const double urgency = view.urgencyOf(node, fields.facts); urgency > 0)
     {
       tasks.push_back({ n, true, urgency });
     }
@@ -391,8 +467,9 @@ template <class Real>
 std::size_t MediumTree<Real>::costOf(const Task& task) const
 {
   const Node& node = nodes_[static_cast<std::size_t>(task.node)];
-  const std::size_t ofOne =
-    store_.bytesOfBrick() + (node.map >= 0 || !node.isKnown ? store_.bytesOfMap() : 0);
+  const std::size_t ofOne = samples_.bytesOfBrick() +
+    (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0) +
+    (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
   return task.divides ? 8 * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
 }
 
@@ -481,7 +558,7 @@ void MediumTree<Real>::findBricks(const View& view)
     const Task& task = work_.tasks[work_.tasksBegun++];
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
     const NodePlace& place = node.place;
-    const double negligible = node.isCoarse ? 0 : view.negligible();
+    const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node));
     for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
@@ -501,21 +578,22 @@ void MediumTree<Real>::keepBricks(const View& view)
   for (; work_.tasksDone < work_.tasksBegun; ++work_.tasksDone)
   {
     const Task& task = work_.tasks[work_.tasksDone];
-    const auto at = static_cast<std::size_t>(task.node);
-    forget(nodes_[at]);
+    forget(task.node);
     if (!task.divides)
     {
-      keep(nodes_[at], (next++)->brick);
+      keep(task.node, (next++)->brick);
       continue;
     }
-    nodes_[at].children = static_cast<std::int32_t>(nodes_.size());
+    const auto firstChild = static_cast<std::int32_t>(nodes_.size());
+    const auto at = static_cast<std::size_t>(task.node);
+    nodes_[at].children = firstChild;
     const NodePlace place = nodes_[at].place;
     for (std::int32_t child = 0; child < 8; ++child)
     {
-      nodes_.push_back({ childOf(place, child) });
+      addNode(childOf(place, child));
       if (view.sees(nodes_.back().place))
       {
-        keep(nodes_.back(), (next++)->brick);
+        keep(firstChild + child, (next++)->brick);
       }
     }
   }
@@ -570,27 +648,43 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
 }
 
 template <class Real>
-void MediumTree<Real>::keep(Node& node, const Brick<Real>& brick)
+void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick)
 {
+  Node& node = nodes_[static_cast<std::size_t>(at)];
   node.isKnown = true;
   node.kind = brick.kind;
   node.offset = brick.offset;
   node.facts = brick.facts;
-  node.brick = brick.samples.empty() ? 0 : store_.addBrick(brick.samples);
-  node.map = brick.gasDistances.empty() ? -1 : store_.addMap(brick.gasDistances);
+  node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
+  node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
+  if (!nodeFields_.empty())
+  {
+    const std::vector<float>& gradients = brick.fields.gradients;
+    nodeFields_[static_cast<std::size_t>(at)] = { gradients.empty() ? 0 : gradients_.add(gradients),
+      false, brick.fields.facts };
+  }
 }
 
 /// Takes a node's samples from it.
 template <class Real>
-void MediumTree<Real>::forget(Node& node)
+void MediumTree<Real>::forget(std::int32_t at)
 {
+  Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.brick > 0)
   {
-    store_.removeBrick(node.brick);
+    samples_.remove(node.brick);
   }
   if (node.map >= 0)
   {
-    store_.removeMap(node.map);
+    maps_.remove(node.map);
+  }
+  if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
+  {
+    gradients_.remove(brick);
+  }
+  if (!nodeFields_.empty())
+  {
+    nodeFields_[static_cast<std::size_t>(at)] = {};
   }
   const NodePlace place = node.place;
   const std::int32_t children = node.children;
@@ -605,17 +699,27 @@ void MediumTree<Real>::forgetNegligible(const View& view)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
     BrickFacts& facts = node.facts;
-    if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= view.negligible())
+    const Negligible negligible = view.negligible();
+    if (NodeFields fields = fieldsOf(at);
+        fields.brick > 0 && fields.facts.range <= negligible.gathered)
+    {
+      fields.facts.neglected = std::max(fields.facts.neglected, fields.facts.range);
+      gradients_.remove(fields.brick);
+      fields.brick = 0;
+      nodeFields_[static_cast<std::size_t>(at)] = fields;
+    }
+    if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= negligible.deflection &&
+      fieldsOf(at).brick == 0)
     {
       facts.neglected = std::max(facts.neglected, facts.besideWindow);
-      store_.removeMap(node.map);
+      maps_.remove(node.map);
       node.map = -1;
       node.kind = Leaf<Real>::Samples;
     }
-    if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= view.negligible())
+    if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= negligible.deflection)
     {
       facts.neglected = std::max(facts.neglected, facts.range);
-      store_.removeBrick(node.brick);
+      samples_.remove(node.brick);
       node.brick = 0;
       node.kind = Leaf<Real>::Constant;
     }
@@ -623,17 +727,15 @@ void MediumTree<Real>::forgetNegligible(const View& view)
 }
 
 template <class Real>
-void MediumTree<Real>::forgetBelow(Node& node)
+void MediumTree<Real>::forgetBelow(std::int32_t at)
 {
-  if (node.children >= 0)
+  std::int32_t& children = nodes_[static_cast<std::size_t>(at)].children;
+  for (std::int32_t child = 0; children >= 0 && child < 8; ++child)
   {
-    for (std::int32_t child = 0; child < 8; ++child)
-    {
-      forgetBelow(nodes_[static_cast<std::size_t>(node.children + child)]);
-    }
+    forgetBelow(children + child);
   }
-  forget(node);
-  node.children = -1;
+  forget(at);
+  children = -1;
 }
 
 /// Makes unknown what is outside of the view or finer than it asks for.
@@ -656,7 +758,7 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
   if (!view.sees(node.place) || (isInner && !view.allows(node.place.level)))
   {
     const bool hasAny = isInner || node.isKnown;
-    forgetBelow(node);
+    forgetBelow(at);
     return hasAny;
   }
   bool hasChanged = false;
@@ -670,7 +772,8 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
 template <class Real>
 std::size_t MediumTree<Real>::bytesUsed() const
 {
-  return store_.bytesUsed() + nodes_.size() * sizeof(Node) +
+  return samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
+    nodes_.size() * sizeof(Node) + nodeFields_.size() * sizeof(NodeFields) +
     leaves_.size() * (sizeof(Leaf<Real>) + 2 * sizeof(std::int32_t));
 }
 
@@ -680,6 +783,7 @@ void MediumTree<Real>::numberLeaves()
 {
   leaves_.clear();
   leafNodes_.clear();
+  gradientBricks_.clear();
   children_.clear();
   roots_.resize(static_cast<std::size_t>(rootCells_[0]) *
     static_cast<std::size_t>(rootCells_[1] * rootCells_[2]));
@@ -698,6 +802,14 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
     code = ~static_cast<std::int32_t>(leaves_.size());
     Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset, node.brick, node.map,
       node.kind };
+    if (!nodeFields_.empty())
+    {
+      const std::int32_t gradients = fieldsOf(at).brick;
+      gradientBricks_.push_back(gradients);
+      // In one step nothing would be gathered.
+      leaf.kind =
+        leaf.kind == Leaf<Real>::Constant && gradients > 0 ? Leaf<Real>::Samples : leaf.kind;
+    }
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       leaf.first[axis] =
@@ -722,8 +834,11 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
 template <class Real>
 void MediumTree<Real>::arrange()
 {
-  std::vector<Node> arranged(nodes_.begin(),
-    nodes_.begin() + std::ptrdiff_t{ rootCells_[0] } * rootCells_[1] * rootCells_[2]);
+  const auto roots = std::ptrdiff_t{ rootCells_[0] } * rootCells_[1] * rootCells_[2];
+  const bool hasFields = !nodeFields_.empty();
+  std::vector<Node> arranged(nodes_.begin(), nodes_.begin() + roots);
+  std::vector<NodeFields> fields(
+    nodeFields_.begin(), nodeFields_.begin() + (hasFields ? roots : 0));
   for (std::size_t n = 0; n < arranged.size(); ++n)
   {
     if (const std::int32_t children = arranged[n].children; children >= 0)
@@ -732,14 +847,20 @@ void MediumTree<Real>::arrange()
       for (std::int32_t child = 0; child < 8; ++child)
       {
         arranged.push_back(nodes_[static_cast<std::size_t>(children + child)]);
+        if (hasFields)
+        {
+          fields.push_back(nodeFields_[static_cast<std::size_t>(children + child)]);
+        }
       }
     }
   }
   nodes_ = std::move(arranged);
+  nodeFields_ = std::move(fields);
   numberLeaves();
 
   std::vector<std::int32_t> bricks{ 0 };
   std::vector<std::int32_t> maps;
+  std::vector<std::int32_t> gradients(hasFields ? 1 : 0, 0);
   for (const std::int32_t at : leafNodes_)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
@@ -753,8 +874,16 @@ void MediumTree<Real>::arrange()
       maps.push_back(node.map);
       node.map = static_cast<std::int32_t>(maps.size()) - 1;
     }
+    if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
+    {
+      gradients.push_back(brick);
+      nodeFields_[static_cast<std::size_t>(at)].brick =
+        static_cast<std::int32_t>(gradients.size()) - 1;
+    }
   }
-  store_.arrange(bricks, maps);
+  samples_.arrange(bricks);
+  maps_.arrange(maps);
+  gradients_.arrange(gradients);
   isArranged_ = true;
   numberLeaves();
 }
@@ -767,26 +896,28 @@ void MediumTree<Real>::summarize(const View& view)
   largestNu_ = 0;
   slope_ = { 0, 0, 0 };
   statistics_.smallestVoxel = std::numeric_limits<double>::infinity();
-  double error = 0;
+  double error = 0, errorOfFields = 0;
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
+    const NodeFields fields = fieldsOf(at);
     const int level = node.place.level;
     const BrickFacts& facts = node.facts;
     largestNu_ = std::max(largestNu_, facts.largestNu);
     slope_.x = std::max(slope_.x, std::ldexp(facts.slope[0], level));
     slope_.y = std::max(slope_.y, std::ldexp(facts.slope[1], level));
     slope_.z = std::max(slope_.z, std::ldexp(facts.slope[2], level));
-    if (node.brick > 0)
+    if (node.brick > 0 || fields.brick > 0)
     {
       ++statistics_.bricks;
       statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, level);
       statistics_.finestLevel = std::max(statistics_.finestLevel, level);
     }
-    statistics_.constantLeaves += node.kind == Leaf<Real>::Constant ? 1 : 0;
+    statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
     if (view.sees(node.place))
     {
-      error = std::max(error, view.errorOf(node));
+      error = std::max(error, view.errorOf(level, node.facts));
+      errorOfFields = std::max(errorOfFields, view.errorOf(level, fields.facts));
     }
   }
   statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, statistics_.finestLevel);
@@ -794,8 +925,10 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.smallestVoxel = *std::min_element(voxel.begin(), voxel.end());
   statistics_.voxels = statistics_.bricks * brickEdge * brickEdge * brickEdge;
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
-  statistics_.largestDeflection = work_.largest;
-  statistics_.estimatedError = work_.largest > 0 ? error / work_.largest : 0;
+  const double deflection = work_.largest, gathered = work_.gathered;
+  statistics_.largestDeflection = deflection;
+  statistics_.estimatedError =
+    std::max(deflection > 0 ? error / deflection : 0, gathered > 0 ? errorOfFields / gathered : 0);
 }
 
 template class MediumTree<float>;

@@ -5,6 +5,7 @@
 #include "Medium/Brick.h"
 #include "Medium/BrickRays.h"
 #include "Medium/BrickStore.h"
+#include "Medium/FieldGradients.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
 #include "Schlieren.h"
@@ -35,6 +36,9 @@ struct TreeSettings
 /// tolerance of the largest deflection. That is found from the tree as it is, after each level: the largest of
 /// straight rays on a lattice over the view, and of those through the steepest places of the steepest leaves, that
 /// no wall stops. At first it is smaller than it should be, if anything, because coarse voxels are smooth.
+///
+/// Where the source has fields, leaves have their gradients, too, at the same places as nu, and the tolerance holds for
+/// what rays gather of them: of what 99 % of the same rays do not exceed, which is the full colour of a tint.
 template <class Real>
 class MediumTree
 {
@@ -60,11 +64,19 @@ public:
   int apron() const { return maker_.apron(); } ///< samples around each brick
   /// All bricks, one after the other; brick 0 is 0 everywhere. It is that of leaves that are uniform, even of
   /// Leaf::Mixed ones. Where no view has looked, leaves are Leaf::Constant with 0.
-  const std::vector<Real>& samples() const { return store_.samples(); }
+  const std::vector<Real>& samples() const { return samples_.values(); }
   std::int64_t samplesPerBrick() const { return maker_.samplesPerBrick(); }
   /// One for each sample of the maps of Leaf::Mixed, laid out like the samples: the distance to where gas ends, in
   /// 1/8192 of a voxel, positive in gas; the lowest bit tells what is outside: 0 a wall, 1 a window.
-  const std::vector<std::int16_t>& gasDistances() const { return store_.gasDistances(); }
+  const std::vector<std::int16_t>& gasDistances() const { return maps_.values(); }
+  /// The gradients of the source's fields, laid out like the samples but with bricks of their own, `count` values for
+  /// each sample. Leaves with gradients are never Leaf::Constant.
+  FieldGradientsView gradients() const;
+  const std::vector<float>& gradientValues() const { return gradients_.values(); }
+  const std::vector<std::int32_t>& gradientBricks() const
+  {
+    return gradientBricks_;
+  } ///< of the leaves
 
   // What is known of it.
   double largestNu() const { return largestNu_; }
@@ -88,6 +100,13 @@ private:
     std::int32_t map = -1;
     BrickFacts facts{};
   };
+  /// The same of its fields.
+  struct NodeFields
+  {
+    std::int32_t brick = 0; ///< of gradients; 0: there are none
+    bool isCoarse = false;  ///< there are none, but should be
+    FieldFacts facts{};
+  };
   /// A node to be made or to be divided.
   struct Task
   {
@@ -101,6 +120,7 @@ private:
     Column column{};
     bool isFinished = true;
     double largest = 0;  ///< deflection
+    double gathered = 0; ///< of fields, for full colour
     int rounds = 0;      ///< begun
     double progress = 0; ///< reported
     double leastUrgent =
@@ -113,7 +133,7 @@ private:
     struct NewBrick
     {
       NodePlace place;
-      double negligible;
+      Negligible negligible;
       Brick<Real> brick;
     };
     std::vector<NewBrick> bricks; ///< of the tasks that are begun
@@ -130,14 +150,16 @@ private:
   void findBricks(const View& view);
   void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
-  void keep(Node& node, const Brick<Real>& brick);
-  void forget(Node& node);
+  void addNode(const NodePlace& place);
+  void keep(std::int32_t node, const Brick<Real>& brick);
+  void forget(std::int32_t node);
   void forgetNegligible(const View& view);
-  void forgetBelow(Node& node);
+  void forgetBelow(std::int32_t node);
   bool forgetUnneeded(const View& view);
   bool forgetUnneeded(std::int32_t node, const View& view);
   std::size_t bytesUsed() const;
 
+  NodeFields fieldsOf(std::int32_t node) const;
   void numberLeaves();
   void number(std::int32_t node, std::int32_t& code);
   void arrange();
@@ -151,12 +173,16 @@ private:
   double largestN_ = 0;
   BrickMaker<Real> maker_;
 
-  std::vector<Node> nodes_; ///< the roots first
+  std::vector<Node> nodes_;            ///< the roots first
+  std::vector<NodeFields> nodeFields_; ///< of them; empty where the source has no fields
   std::vector<Leaf<Real>> leaves_;
   std::vector<std::int32_t> leafNodes_; ///< of each leaf
   std::vector<std::int32_t> roots_;
   std::vector<std::int32_t> children_;
-  BrickStore<Real> store_;
+  BrickStore<Real> samples_;
+  BrickStore<std::int16_t> maps_;
+  BrickStore<float> gradients_;
+  std::vector<std::int32_t> gradientBricks_;
   Work work_;
   bool isArranged_ = false;
   bool isMeasured_ = false; ///< false: leaves have been made without knowing what is negligible

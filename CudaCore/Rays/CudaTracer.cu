@@ -100,10 +100,22 @@ struct CudaTracer<Real>::DeviceMemory
         gasDistances = std::make_unique<Buffer<std::int16_t>>(
           tree.gasDistances().data(), tree.gasDistances().size(), "Copying the walls");
       }
+      if (const FieldGradientsView ofFields = tree.gradients(); ofFields.count > 0)
+      {
+        const std::vector<float>& all = tree.gradientValues();
+        firstGradient = ofFields.values - all.data();
+        gradients = std::make_unique<Buffer<float>>(
+          all.data(), all.size(), "Copying the gradients of the fields");
+        gradientBricks = std::make_unique<Buffer<std::int32_t>>(tree.gradientBricks().data(),
+          tree.gradientBricks().size(), "Copying the gradients of the fields");
+      }
     }
     Buffer<Leaf<Real>> leaves;
     Buffer<std::int32_t> roots, children;
     std::unique_ptr<Buffer<std::int16_t>> gasDistances;
+    std::unique_ptr<Buffer<float>> gradients;
+    std::unique_ptr<Buffer<std::int32_t>> gradientBricks;
+    std::ptrdiff_t firstGradient = 0; ///< where the view begins
   };
   std::unique_ptr<Tree> tree;
 
@@ -126,8 +138,7 @@ struct CudaTracer<Real>::DeviceMemory
     Gradients(const FieldGradientsView& view, std::uint64_t versionOfValues)
       : version(versionOfValues)
       , values(view.values,
-          static_cast<std::size_t>(
-            view.count * view.dimensions[0] * view.dimensions[1] * view.dimensions[2]),
+          static_cast<std::size_t>(view.count * view.planeStride * (view.lastCell[2] + 2)),
           "Copying the gradients of the fields")
     {
     }
@@ -153,7 +164,12 @@ struct CudaTracer<Real>::DeviceMemory
       }
       onDevice.map.levels = map->levels.data();
     }
-    if (task.gradients.count > 0)
+    if (tree && task.gradients.count > 0)
+    {
+      onDevice.gradients.values = tree->gradients->data() + tree->firstGradient;
+      onDevice.gradients.bricks = tree->gradientBricks->data();
+    }
+    else if (task.gradients.count > 0)
     {
       if (!gradients || gradients->version != versions.gradients)
       {

@@ -441,8 +441,9 @@ struct March
   SCHLIEREN_HD void gather(const Vec3<Real>& middle, const Real& step) const
   {
     forRays(middle, step,
-      [this](int i, const Vec3<Number>& at, Number length)
-      { gatherGradients(task.gradients, at, length, batch.gathered[i]); });
+      [this](int i, const Vec3<Number>& at, Number length) {
+        gatherGradients(task.gradients, isTree() ? in.leaf[i] : 0, at, length, batch.gathered[i]);
+      });
   }
 
   SCHLIEREN_HD Sample<Real> sample(const Vec3<Real>& at) const
@@ -692,7 +693,7 @@ struct March
     }
     if (isGathering())
     {
-      gather(clampTo(next.middle, task.medium.leafHigh), next.step);
+      gather(withinLeaf(next.middle), someNearEdge ? inGas * next.step : next.step);
     }
     if (next.someLeave)
     {

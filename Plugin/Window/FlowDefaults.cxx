@@ -109,6 +109,12 @@ const std::set<std::string> pressures = { "p", "pres", "press", "pressure" };
 const std::set<std::string> indices = { "n", "ior", "refractiveindex", "indexofrefraction",
   "refractionindex" };
 
+/// Arrays that mark bodies with 1, and those that mark gas.
+const std::set<std::string> solids = { "solid", "issolid", "solidmask", "solidfraction",
+  "alphasolid", "obstacle", "body" };
+const std::set<std::string> gases = { "iblank", "blank", "fluid", "isfluid", "fluidmask", "vfrac",
+  "volfrac", "fluidfraction" };
+
 /// Factors to kg/m^3, K and Pa.
 const std::map<std::string, double> densityUnits = { { "kg/m3", 1 }, { "kgm-3", 1 },
   { "kg/m\xc2\xb3", 1 }, { "g/cm3", 1000 }, { "g/cc", 1000 }, { "gcm-3", 1000 }, { "g/ml", 1000 },
@@ -247,7 +253,9 @@ public:
       "vtkOriginalCellIds", "vtkValidPointMask" };
     for (const FlowArray& array : this->Arrays)
     {
-      if (!helpers.count(array.name) && !isNoDensity(array))
+      const std::string name = Name(array.name).joined();
+      if (!helpers.count(array.name) && !isNoDensity(array) && !solids.count(name) &&
+        !gases.count(name))
       {
         this->Result.arrays = { { "Density", array.name } };
         this->Result.isSure = false;
@@ -455,6 +463,26 @@ private:
   std::vector<FlowArray> Arrays;
 };
 
+/// What marks bodies, if anything is a body.
+void chooseMask(const std::vector<FlowArray>& arrays, FlowDefaults& defaults)
+{
+  constexpr double threshold = 0.5; // the default of MaskThreshold
+  for (const FlowArray& array : arrays)
+  {
+    const std::string name = Name(array.name).joined();
+    const bool isOfGas = gases.count(name) > 0;
+    if (defaults.mask.empty() && array.components == 1 && (isOfGas || solids.count(name)) &&
+      array.range[0] < threshold && array.range[1] >= threshold)
+    {
+      defaults.mask = array.name;
+      defaults.maskAssociation = array.association;
+      defaults.isMaskOfGas = isOfGas;
+      defaults.message += " No gas where " + quoted(array.name) + " is " +
+        (isOfGas ? "less than 0.5." : "0.5 or more.");
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -481,6 +509,7 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
     {
       chooser.Result.message = chooser.Note + chooser.Result.message;
       chooser.Result.isSure = chooser.Note.empty();
+      chooseMask(arrays, chooser.Result);
       return chooser.Result;
     }
   }
@@ -488,6 +517,7 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
   {
     if (chooser.guess())
     {
+      chooseMask(arrays, chooser.Result);
       return chooser.Result;
     }
   }

@@ -51,6 +51,11 @@ struct FlowDefaults
   std::vector<std::string> gases;
   bool ofVolume = false;
 
+  /// The property Mask, its association and whether it marks gas rather than bodies; empty: no array does.
+  std::string mask;
+  FlowArray::Association maskAssociation = FlowArray::Points;
+  bool isMaskOfGas = false;
+
   /// What was chosen, and what was not understood, in words for the user; and whether all of it was.
   std::string message;
   bool isSure = true;

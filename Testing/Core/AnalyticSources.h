@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -414,6 +415,96 @@ private:
     }
     return { shockDistance(box.low[0], least), shockDistance(box.high[0], most) };
   }
+};
+
+/// A field by a formula, and its range over a box.
+struct FieldFormula
+{
+  std::function<double(double, double, double)> value;
+  std::function<Range(const Box&)> range;
+};
+
+/// a . x
+inline FieldFormula linearField(const std::array<double, 3>& a)
+{
+  return { [a](double x, double y, double z) { return a[0] * x + a[1] * y + a[2] * z; },
+    [a](const Box& box)
+    {
+      Range range{ 0, 0 };
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        range.first += std::min(a[axis] * box.low[axis], a[axis] * box.high[axis]);
+        range.second += std::max(a[axis] * box.low[axis], a[axis] * box.high[axis]);
+      }
+      return range;
+    } };
+}
+
+/// exp(-(r / width)^2)
+inline FieldFormula ballField(const std::array<double, 3>& centre, double width)
+{
+  return { [centre, width](double x, double y, double z)
+    {
+      const double dx = x - centre[0], dy = y - centre[1], dz = z - centre[2];
+      return std::exp(-(dx * dx + dy * dy + dz * dz) / (width * width));
+    },
+    [centre, width](const Box& box)
+    {
+      const Range r = distancesTo(centre, box);
+      return Range{ std::exp(-r.second * r.second / (width * width)),
+        std::exp(-r.first * r.first / (width * width)) };
+    } };
+}
+
+/// The medium of another source, with fields.
+class SourceWithFields : public MediumSource
+{
+public:
+  SourceWithFields(std::shared_ptr<const MediumSource> medium, std::vector<FieldFormula> formulas)
+    : medium_(std::move(medium))
+    , formulas_(std::move(formulas))
+  {
+  }
+
+  Box bounds() const override { return medium_->bounds(); }
+  double ambient() const override { return medium_->ambient(); }
+  std::array<double, 3> voxelShape() const override { return medium_->voxelShape(); }
+  Content contentOf(const Box& box) const override { return medium_->contentOf(box); }
+  void sample(
+    const Lattice& lattice, double* refractivity, Place* places, float* distances) const override
+  {
+    medium_->sample(lattice, refractivity, places, distances);
+  }
+
+  int fields() const override { return static_cast<int>(formulas_.size()); }
+  FieldRange rangeOfField(int field, const Box& box) const override
+  {
+    const Range range = formulas_[static_cast<std::size_t>(field)].range(box);
+    return { range.first, range.second };
+  }
+  void sampleWithFields(const Lattice& lattice, double* refractivity, Place* places,
+    float* distances, double* values) const override
+  {
+    medium_->sample(lattice, refractivity, places, distances);
+    for (const FieldFormula& formula : formulas_)
+    {
+      for (int k = 0; k < lattice.points[2]; ++k)
+      {
+        for (int j = 0; j < lattice.points[1]; ++j)
+        {
+          for (int i = 0; i < lattice.points[0]; ++i)
+          {
+            *values++ = formula.value(lattice.first[0] + i * lattice.spacing[0],
+              lattice.first[1] + j * lattice.spacing[1], lattice.first[2] + k * lattice.spacing[2]);
+          }
+        }
+      }
+    }
+  }
+
+private:
+  std::shared_ptr<const MediumSource> medium_;
+  std::vector<FieldFormula> formulas_;
 };
 
 /// Three balls: a wide, a small and a tiny one.

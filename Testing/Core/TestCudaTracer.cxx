@@ -320,8 +320,9 @@ template <class Real>
 void expectAgreementInATree(const KernelChoice& kernel, double allowed)
 {
   SCOPED_TRACE(name(kernel));
-  const auto source =
-    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0.1, 0, -0.05 }, 0.1, 1e-3 } });
+  const auto source = std::make_shared<SourceWithFields>(
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0.1, 0, -0.05 }, 0.1, 1e-3 } }),
+    std::vector<FieldFormula>{ ballField({ -0.1, 0.1, 0 }, 0.2), linearField({ 0.2, -0.3, 0.1 }) });
   Field field;
   field.source = source;
   field.grid = coarsestGrid(*source);
@@ -338,13 +339,11 @@ void expectAgreementInATree(const KernelChoice& kernel, double allowed)
   RaySettings settings;
   settings.kernel = kernel;
   settings.adaptiveTolerance = 1e-3;
-  const auto& points = field.grid.dimensions;
-  const std::vector<float> gradients(
-    static_cast<std::size_t>(2 * points[0] * points[1] * points[2]), 0.5f);
   for (const int fields : { 0, 2 })
   {
-    const RayTask<Real> task = makeTask<Real>(medium, nullptr,
-      FieldGradientsView::of(field.grid, { fields, gradients.data(), 1 }), light, settings);
+    field.gradients.count = fields;
+    const RayTask<Real> task =
+      makeTask<Real>(medium, nullptr, medium.gradientsOf(field), light, settings);
     TracedPass host, device;
     host.resize(pass, fields);
     traceOnCpu(task, pass, host, 1, {}, Simd::None);
@@ -359,6 +358,9 @@ void expectAgreementInATree(const KernelChoice& kernel, double allowed)
     {
       EXPECT_NEAR(host.gathered[n], device.gathered[n], 1e-3);
     }
+    EXPECT_EQ(fields > 0,
+      std::any_of(
+        host.gathered.begin(), host.gathered.end(), [](float gathered) { return gathered > 1; }));
   }
 }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pictures tinted by the colours of the fields whose gradients light crosses (ColorByField).
+#include "BallOnLevels.h"
 #include "Fixtures.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 namespace
@@ -89,6 +91,85 @@ double largestDifference(vtkSchlierenFilter* filter, const Color& tint, double f
 
 constexpr double rounding = 0.51; // to whole levels
 
+/// How the colours of two images differ, in levels of 255.
+struct ColorDifferences
+{
+  double largest = 0, rms = 0;
+};
+
+ColorDifferences compareColors(vtkSchlierenFilter* a, vtkSchlierenFilter* b)
+{
+  a->Update();
+  b->Update();
+  const std::vector<double> ofA = valuesOf(a, "Color"), ofB = valuesOf(b, "Color");
+  EXPECT_FALSE(ofA.empty());
+  EXPECT_EQ(ofA.size(), ofB.size());
+  ColorDifferences found;
+  for (std::size_t i = 0; i < std::min(ofA.size(), ofB.size()); ++i)
+  {
+    const double difference = std::abs(ofA[i] - ofB[i]);
+    found.largest = std::max(found.largest, difference);
+    found.rms += difference * difference / static_cast<double>(ofA.size());
+  }
+  found.rms = std::sqrt(found.rms);
+  return found;
+}
+
+/// Balls of fields, none of them where light is bent.
+const GaussianBall ballN{ 1e-6, 0.8 };
+double ballA(const Vec& x) { return GaussianBall{ 1, 0.4 }({ x[0] - 0.1, x[1], x[2] }); }
+double ballB(const Vec& x)
+{
+  return GaussianBall{ 1, 0.25 }({ x[0] + 0.2, x[1] - 0.15, x[2] - 0.3 });
+}
+
+void addBalls(vtkDataSet* data)
+{
+  addPointArray(data, "N", ballN);
+  addPointArray(data, "A", ballA);
+  addPointArray(data, "B", ballB);
+}
+
+/// Cells of 0.08 in the middle, which get larger outwards, up to 40 along each edge of the box.
+vtkSmartPointer<vtkUnstructuredGrid> meshWithFarField()
+{
+  vtkNew<vtkDoubleArray> places;
+  std::vector<double> positive{ 0 };
+  for (double h = 0.08; positive.back() < 20; h *= positive.back() < 1 ? 1 : 1.4)
+  {
+    positive.push_back(std::min(positive.back() + h, 20.));
+  }
+  for (std::size_t i = positive.size() - 1; i > 0; --i)
+  {
+    places->InsertNextValue(-positive[i]);
+  }
+  for (const double place : positive)
+  {
+    places->InsertNextValue(place);
+  }
+  vtkNew<vtkRectilinearGrid> grid;
+  const int n = static_cast<int>(places->GetNumberOfValues());
+  grid->SetDimensions(n, n, n);
+  grid->SetXCoordinates(places);
+  grid->SetYCoordinates(places);
+  grid->SetZCoordinates(places);
+  addBalls(grid);
+  vtkNew<vtkAppendFilter> toMesh;
+  toMesh->AddInputData(grid);
+  toMesh->Update();
+  return vtkUnstructuredGrid::SafeDownCast(toMesh->GetOutputDataObject(0));
+}
+
+/// Fields that are 0 to 1 everywhere.
+void setWholeRanges(vtkSchlierenFilter* filter, std::size_t fields)
+{
+  for (std::size_t i = 0; i < fields; ++i)
+  {
+    filter->AddFieldRange(0);
+    filter->AddFieldRange(1);
+  }
+}
+
 } // namespace
 
 TEST(ColorByField, AddsTheTintedPictureAndChangesNoOther)
@@ -162,6 +243,105 @@ TEST(ColorByField, OfAMesh)
   EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), 1.01);
 }
 
+// In the leaves of a tree, against an image of voxels of 0.03. A grid over all of the mesh would have voxels that are
+// larger than the balls.
+TEST(ColorByField, OfAMeshWithAFarField)
+{
+  auto image = cube(101, 1.5);
+  addBalls(image);
+  auto expected = tinted(image);
+  auto filter = tinted(meshWithFarField());
+  for (const auto& each : { expected, filter })
+  {
+    each->SetImageSize(96, 96);
+    setWholeRanges(each, 2);
+  }
+  const ColorDifferences differences = compareColors(filter, expected);
+  EXPECT_LT(differences.largest, 6);
+  EXPECT_LT(differences.rms, 1.5);
+  EXPECT_GT(largest(valuesOf(filter, "Color")), 100);
+  EXPECT_LT(fieldValue(filter, "SmallestVoxel"), 0.12);
+  EXPECT_LT(fieldValue(filter, "MediumBytes"), 50e6);
+  EXPECT_NE(std::string(filter->GetGrid()).find("or of the full colour"), std::string::npos);
+}
+
+// Where the medium is the same everywhere, the fields alone say how fine its leaves are.
+TEST(ColorByField, OfAMeshWithoutVariationOfN)
+{
+  const auto mesh = meshWithFarField();
+  mesh->GetPointData()->GetArray("N")->Fill(1e-6);
+  auto image = cube(101, 1.5);
+  addBalls(image);
+  image->GetPointData()->GetArray("N")->Fill(1e-6);
+  auto expected = tinted(image);
+  auto filter = tinted(mesh);
+  for (const auto& each : { expected, filter })
+  {
+    each->SetImageSize(96, 96);
+    each->SetAmbientRefractivity(1e-6);
+    setWholeRanges(each, 2);
+  }
+  const ColorDifferences differences = compareColors(filter, expected);
+  EXPECT_LT(differences.largest, 6);
+  EXPECT_LT(differences.rms, 1.5);
+}
+
+// Without colours, nothing of them is left.
+TEST(ColorByField, OfAMeshSwitchedOffLeavesNoTrace)
+{
+  const auto mesh = meshWithFarField();
+  auto filter = tinted(mesh);
+  auto plain = tinted(mesh);
+  plain->ColorByFieldOff();
+  filter->Update();
+  plain->Update();
+  filter->ColorByFieldOff();
+  filter->Update();
+  EXPECT_EQ(valuesOf(plain, "Intensity"), valuesOf(filter, "Intensity"));
+  EXPECT_EQ(fieldValue(plain, "MediumBytes"), fieldValue(filter, "MediumBytes"));
+  EXPECT_EQ(filter->GetMeshBuilds(), 1);
+}
+
+// A point array beside cell arrays, on levels of which no grid over all of the domain fits: against an image of voxels of
+// 0.008. The finest cells are 0.0039.
+TEST(ColorByField, OfDeepAmr)
+{
+  const auto amr = ballOnLevels(32,
+    { { 0, 32, true }, { 16, 32, true }, { 48, 32 }, { 112, 32, true }, { 240, 32 } },
+    { 1e-6, 0.05 });
+  const GaussianBall field{ 1, 0.1 };
+  const auto aside = [](const Vec& x) {
+    return GaussianBall{ 1, 0.07 }({ x[0] - 0.1, x[1], x[2] });
+  };
+  auto image = cube(101, 0.4);
+  addPointArray(image, "N", GaussianBall{ 1e-6, 0.05 });
+  addPointArray(image, "A", field);
+  addPointArray(image, "B", aside);
+  for (unsigned int level = 0; level < 5; ++level)
+  {
+    for (unsigned int i = 0; i < blocksOf(amr, level); ++i)
+    {
+      vtkImageData* block = blockOf(amr, level, i);
+      addCellArray(block, "A", MeanOfBall{ field, block->GetSpacing()[0] });
+      addPointArray(block, "B", aside);
+    }
+  }
+  auto expected = tinted(image);
+  auto filter = tinted(amr);
+  for (const auto& each : { expected, filter })
+  {
+    each->SetImageSize(96, 96);
+    each->SetParallelScale(0.25);
+    setWholeRanges(each, 2);
+  }
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  const ColorDifferences differences = compareColors(filter, expected);
+  EXPECT_LT(differences.largest, 6);
+  EXPECT_LT(differences.rms, 1.5);
+  EXPECT_TRUE(filter->GetOutput()->GetFieldData()->GetArray("MediumLevels"));
+}
+
 // Light that crosses no gradient stays grey.
 TEST(ColorByField, ABlockWithoutTheFieldIsNotTinted)
 {
@@ -179,9 +359,34 @@ TEST(ColorByField, ABlockWithoutTheFieldIsNotTinted)
   }
   auto filter = tinted(blocks, { "A" }, { blue });
   filter->SetImageSize(64, 32);
-  filter->SetSamplingDimensions(17, 9, 9);
-  EXPECT_LT(largestDifference(filter, white, -1.7, -0.3), rounding);
+  for (const int points : { 9, 0 }) // on a grid, and in leaves
+  {
+    filter->SetSamplingDimensions(points > 0 ? 17 : 0, points, points);
+    EXPECT_LT(largestDifference(filter, white, -1.7, -0.3), rounding) << points;
+    EXPECT_LT(largestDifference(filter, blue, 0.3, 1.7), 1.01) << points;
+  }
+}
+
+// A mask hides cells from the medium and from the fields alike.
+TEST(ColorByField, MasksTakeNoColoursAway)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (int i = 0; i < 2; ++i)
+  {
+    auto block = cube(9);
+    block->SetOrigin(2 * i - 2, -1, -1);
+    addPointArray(block, "N", [](const Vec& x) { return 1e-6 * x[0] * x[1]; });
+    addPointArray(block, "A", acrossY);
+    addCellArray(block, "solid", [](const Vec& x) { return x[0] < -1 ? 1. : 0.; });
+    blocks->SetBlock(static_cast<unsigned>(i), block);
+  }
+  auto filter = tinted(blocks, { "A" }, { blue });
+  filter->SetImageSize(64, 32);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "solid");
   EXPECT_LT(largestDifference(filter, blue, 0.3, 1.7), 1.01);
+  EXPECT_LT(largestDifference(filter, blue, -0.7, -0.3), 1.01);
+  EXPECT_GT(largest(valuesOf(filter, "BlockedFraction")), 0.99);
 }
 
 TEST(ColorByField, ChoosesColoursFarApart)

@@ -222,3 +222,25 @@ TEST(FlowDefaults, NothingToChooseFrom)
   // An array without values.
   EXPECT_TRUE(flowDefaults({ scalar("rho", 1e299, -1e299) }).arrays.empty());
 }
+
+TEST(FlowDefaults, MasksByTheirNames)
+{
+  const FlowArray density = scalar("rho", 1, 2);
+  const FlowDefaults solid = flowDefaults({ scalar("solid", 0, 1, FlowArray::Cells), density });
+  EXPECT_EQ(solid.arrays, (Arrays{ { "Density", "rho" } }));
+  EXPECT_EQ(solid.mask, "solid");
+  EXPECT_EQ(solid.maskAssociation, FlowArray::Cells);
+  EXPECT_FALSE(solid.isMaskOfGas);
+  EXPECT_NE(solid.message.find("No gas where 'solid' is 0.5 or more."), std::string::npos);
+  for (const char* name : { "iblank", "IBlank", "vfrac", "Vol_Frac" })
+  {
+    const FlowDefaults gas = flowDefaults({ density, scalar(name, -2, 1) });
+    EXPECT_EQ(gas.mask, name);
+    EXPECT_TRUE(gas.isMaskOfGas) << name;
+  }
+  // Nothing is masked; not a mask; and a mask is no density.
+  EXPECT_EQ(flowDefaults({ density, scalar("solid", 0, 0) }).mask, "");
+  EXPECT_EQ(flowDefaults({ density, scalar("solid stress", 0, 1) }).mask, "");
+  const FlowDefaults guess = flowDefaults({ scalar("solid", 0, 1), scalar("f", 1, 2) });
+  EXPECT_EQ(guess.arrays, (Arrays{ { "Density", "f" } }));
+}

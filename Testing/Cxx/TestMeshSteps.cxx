@@ -442,6 +442,60 @@ TEST(MeshSteps, StopsAndStartsAnew)
   filter->RemoveObserver(tag);
 }
 
+// A field with the values of N has them at all points of lattices, in this step and in those that know the lattices'
+// cells; it has none where no cell is.
+TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
+{
+  for (const CellKind& kind : linearKinds())
+  {
+    SCOPED_TRACE(kind.name);
+    const auto leavesAt = [&kind](double time)
+    {
+      const Mesh mesh = meshOf(kind.type, 4, kind.cells, 0.2, false);
+      setTime(mesh, time);
+      mesh->GetPointData()->SetActiveScalars("N");
+      return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
+    };
+    using refractivity::WorkProgress;
+    const schlieren::Lattice lattice{ { -0.2, 0.1, 0.1 }, { 0.07, 0.06, 0.05 }, { 20, 20, 20 } };
+    const auto check = [&](refractivity::MeshSource& source, double time)
+    {
+      source.addField(leavesAt(time));
+      source.addField(leavesAt(time + 1));
+      ASSERT_EQ(source.fields(), 2);
+      const auto size = static_cast<std::size_t>(lattice.size());
+      std::vector<double> alone(size), values(size), ofFields(2 * size);
+      std::vector<schlieren::Place> places(size);
+      for (int again = 0; again < 2; ++again)
+      {
+        source.sample(lattice, alone.data(), places.data(), nullptr);
+        source.sampleWithFields(lattice, values.data(), places.data(), nullptr, ofFields.data());
+        EXPECT_EQ(alone, values);
+        int missing = 0, different = 0;
+        for (std::size_t i = 0; i < size; ++i)
+        {
+          missing += std::isnan(ofFields[i]) ? 1 : 0;
+          different += std::isnan(ofFields[i]) || ofFields[i] == values[i] ? 0 : 1;
+        }
+        EXPECT_GT(missing, 100);
+        EXPECT_LT(missing, static_cast<int>(size) - 1000);
+        EXPECT_EQ(different, 0);
+        EXPECT_FALSE(std::equal(
+          ofFields.begin() + static_cast<std::ptrdiff_t>(size), ofFields.end(), ofFields.begin()));
+      }
+      const auto range = source.rangeOfField(0, source.bounds());
+      const auto content = source.contentOf(source.bounds());
+      EXPECT_EQ(range.lowest, content.lowest);
+      EXPECT_EQ(range.highest, content.highest);
+    };
+    refractivity::MeshSource first(leavesAt(0), nullptr, refractivity::Outside::Auto,
+      refractivity::CellTree::Reconstruction::Smooth, WorkProgress());
+    check(first, 0);
+    refractivity::MeshSource second(leavesAt(3), first.mesh(), WorkProgress());
+    check(second, 3);
+  }
+}
+
 // From the second step on; and what no step asks for any more goes.
 TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreAskedFor)
 {

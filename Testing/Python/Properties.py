@@ -15,7 +15,7 @@ MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "Den
           "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
           "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
           "Fields": [], "TransferFunctions": [], "FieldRanges": [], "RefractivityScale": 3e-4,
-          "Outside": "Auto", "OutsideBlocksLight": -1, "Reconstruction": "Smooth", "Bodies": None}
+          "MaskedSide": "Above", "MaskThreshold": 0.5, "Outside": "Auto", "OutsideBlocksLight": -1, "Reconstruction": "Smooth", "Bodies": None}
 BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
@@ -139,6 +139,18 @@ for name, value, blocked in (("Outside", "Blocks", 1), ("Outside", "Passes", 0),
                              ("OutsideBlocksLight", 0, 0)):
     setattr(outside, name, value)
     assert picture(outside, "BlockedFraction")[8, 1] == blocked, (name, value)
+
+# A mask: light ends where rho is high, and only then.
+masked = Schlieren(source, Density=["POINTS", "rho"], ImageSize=[16, 16])
+assert masked.Mask[1] == "None", masked.Mask
+assert picture(masked, "BlockedFraction").max() == 0
+top = 0.9 * source.GetDataInformation().GetPointDataInformation().GetArrayInformation("rho").GetComponentRange(0)[1]
+masked.Mask, masked.MaskThreshold = ["POINTS", "rho"], top
+assert 0 < picture(masked, "BlockedFraction").mean() < 0.5
+masked.MaskedSide = "Below"
+assert picture(masked, "BlockedFraction").mean() > 0.5
+masked.Mask = ["POINTS", "None"]
+assert picture(masked, "BlockedFraction").max() == 0
 
 # A shadowgraph's screen.
 bench.Cutoff = "Shadowgraph"

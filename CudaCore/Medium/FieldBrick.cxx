@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Medium/FieldBrick.h"
+
+#include "Medium/BrickErrors.h"
+#include "Medium/Solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Central differences are wrong by a sixth of the third difference, a voxel, and what is interpolated linearly between
+/// them by another twelfth, in the mean.
+constexpr double errorByThirdDifference = 1. / 4;
+
+/// One field of the samples.
+struct OneField
+{
+  const double* values;
+  std::vector<unsigned char> isKnown; ///< empty: everywhere
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+
+  OneField(const double* first, std::size_t points, const std::vector<unsigned char>& isGas)
+    : values(first)
+  {
+    double defect = 0; // NaN where a value is not finite
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      defect += values[i] - values[i];
+    }
+    if (!isGas.empty() || defect != 0)
+    {
+      isKnown.resize(points);
+      for (std::size_t i = 0; i < points; ++i)
+      {
+        isKnown[i] = (isGas.empty() || isGas[i] != 0) && std::isfinite(values[i]) ? 1 : 0;
+      }
+    }
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      if (isKnown.empty() || isKnown[i] != 0)
+      {
+        lowest = std::min(lowest, values[i]);
+        highest = std::max(highest, values[i]);
+      }
+    }
+  }
+
+  double range() const { return std::max(0., highest - lowest); }
+
+  /// By 1 / perAxis[...] on each axis; 0 where the field is not known.
+  double gradientAt(std::size_t at, const std::array<std::size_t, 3>& strides,
+    const std::array<double, 3>& perAxis) const
+  {
+    if (!isKnown.empty() && isKnown[at] == 0)
+    {
+      return 0;
+    }
+    double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      std::size_t below = at - strides[axis], above = at + strides[axis];
+      double run = 2;
+      if (!isKnown.empty())
+      {
+        run = isKnown[below] + isKnown[above];
+        below = isKnown[below] != 0 ? below : at;
+        above = isKnown[above] != 0 ? above : at;
+      }
+      const double slope = run > 0 ? (values[above] - values[below]) / run * perAxis[axis] : 0;
+      square += slope * slope;
+    }
+    return std::sqrt(square);
+  }
+};
+
+/// Points without gas get the mean of those around them, layer after layer.
+void continueGradients(std::vector<double>& gradients, int stored, const FieldSamples& samples,
+  int skipped, const std::vector<unsigned char>& isGas)
+{
+  PaddedVolume<double> volume({ stored, stored, stored });
+  PointMask empty({ stored, stored, stored });
+  const auto n = static_cast<std::size_t>(samples.n);
+  bool hasHoles = false;
+  std::size_t at = 0;
+  for (int k = 0; k < stored; ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      std::uint64_t gas = 0; // `stored` is below 64: one word a row
+      for (int i = 0; i < stored; ++i, ++at)
+      {
+        const std::size_t of =
+          (static_cast<std::size_t>(k + skipped) * n + static_cast<std::size_t>(j + skipped)) * n +
+          static_cast<std::size_t>(i + skipped);
+        gas |= std::uint64_t{ isGas[of] } << i;
+        volume.at(i, j, k) = gradients[at];
+        hasHoles = hasHoles || isGas[of] == 0;
+      }
+      *empty.row(j, k) = ~gas;
+    }
+  }
+  if (!hasHoles)
+  {
+    return;
+  }
+  fillEmpty(volume, empty, 1);
+  at = 0;
+  for (int k = 0; k < stored; ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      for (int i = 0; i < stored; ++i, ++at)
+      {
+        gradients[at] = volume.at(i, j, k);
+      }
+    }
+  }
+}
+
+} // namespace
+
+double largestGathered(const MediumSource& source, const Box& box)
+{
+  double sum = 0;
+  for (int field = 0; field < source.fields(); ++field)
+  {
+    const MediumSource::FieldRange range = source.rangeOfField(field, box);
+    sum += deflectionByRange * std::max(0., range.highest - range.lowest);
+  }
+  return sum;
+}
+
+FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldSamples& samples,
+  const std::vector<unsigned char>& isGas, const std::array<double, 3>& cellSize, int apron,
+  double unit, double negligible)
+{
+  FieldBrick brick;
+  FieldFacts& facts = brick.facts;
+  const auto n = static_cast<std::size_t>(samples.n);
+  const std::size_t points = n * n * n;
+  const auto& voxel = samples.voxel;
+  const int edge = samples.n - 2 * samples.margin;
+  const double longest = *std::max_element(voxel.begin(), voxel.end());
+  std::vector<OneField> fields;
+  for (int number = 0; number < source.fields(); ++number)
+  {
+    const OneField& field = fields.emplace_back(
+      samples.values.data() + static_cast<std::size_t>(number) * points, points, isGas);
+    facts.range += deflectionByRange * field.range();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (voxel[axis] > voxelByCell * cellSize[axis])
+      {
+        const double largest = largestThirdDifference(
+          field.values, field.isKnown, { samples.n, samples.margin - 1, edge + 2 }, axis);
+        facts.error[axis] += errorByThirdDifference * largest * edge * longest / voxel[axis];
+      }
+    }
+    const MediumSource::FieldRange all = source.rangeOfField(number, box);
+    const double missed = all.lowest > all.highest || field.lowest > field.highest
+      ? 0
+      : std::max(0., all.highest - field.highest) + std::max(0., field.lowest - all.lowest);
+    for (std::size_t axis = 0; axis < 3 && missed > missedByRange * field.range(); ++axis)
+    {
+      facts.hidden[axis] +=
+        voxel[axis] > coarseByCell * cellSize[axis] ? deflectionByRange * missed : 0;
+    }
+  }
+  if (facts.range <= negligible)
+  {
+    facts.neglected = facts.range;
+    return brick;
+  }
+  const int stored = edge + 2 * apron;
+  const int skipped = samples.margin - apron;
+  const std::array<std::size_t, 3> strides{ 1, n, n * n };
+  const std::array<double, 3> perAxis{ unit / voxel[0], unit / voxel[1], unit / voxel[2] };
+  const auto storedPoints = static_cast<std::size_t>(stored * stored * stored);
+  brick.gradients.resize(fields.size() * storedPoints);
+  std::vector<double> gradients(storedPoints);
+  for (std::size_t number = 0; number < fields.size(); ++number)
+  {
+    std::size_t to = 0;
+    for (int k = skipped; k < skipped + stored; ++k)
+    {
+      for (int j = skipped; j < skipped + stored; ++j)
+      {
+        std::size_t at = (static_cast<std::size_t>(k) * n + static_cast<std::size_t>(j)) * n +
+          static_cast<std::size_t>(skipped);
+        for (int i = 0; i < stored; ++i)
+        {
+          gradients[to++] = fields[number].gradientAt(at++, strides, perAxis);
+        }
+      }
+    }
+    if (!isGas.empty())
+    {
+      continueGradients(gradients, stored, samples, skipped, isGas);
+    }
+    for (std::size_t i = 0; i < storedPoints; ++i)
+    {
+      brick.gradients[i * fields.size() + number] = static_cast<float>(gradients[i]);
+    }
+  }
+  return brick;
+}
+
+} // namespace schlieren
