@@ -378,8 +378,14 @@ void CellTree::setValues(const WorkProgress& progress)
   for (std::size_t block = 0; block < mesh.neighbours.size(); ++block)
   {
     const auto number = static_cast<double>(block);
-    this->Blocks[block].setTrends(mesh.neighbours[block].trends(
-      this->Blocks[block], progress.part(0.7 * number / blocks, 0.7 * (number + 1) / blocks)));
+    const WorkProgress part = progress.part(0.7 * number / blocks, 0.7 * (number + 1) / blocks);
+    MeshArrays& arrays = this->Blocks[block];
+    const PointNeighbours& neighbours = mesh.neighbours[block];
+    if (arrays.cellsAround())
+    {
+      arrays.setValues(neighbours.valuesFromCells(arrays, part.part(0, 0.5)));
+    }
+    arrays.setTrends(neighbours.trends(arrays, part.part(0.5, 1)));
   }
   if (mesh.levels.empty())
   {

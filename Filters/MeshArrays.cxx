@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshArrays.h"
 
+#include "CellMeans.h"
 #include "CellTypes.h"
 #include "RefractivityValues.h"
 
@@ -45,10 +46,21 @@ MeshArrays::MeshArrays(vtkDataSet* data)
   , PointCount(data->GetNumberOfPoints())
 {
   this->Values = vtkDoubleArray::SafeDownCast(data->GetPointData()->GetScalars())->GetPointer(0);
+  if (const float* around = numbersOf<float>(data->GetPointData()->GetArray(cellsAroundName)))
+  {
+    this->Around = reinterpret_cast<const CellsAround*>(around); // as arrayOf() has put them there
+  }
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
   this->Ghosts = ghosts ? ghosts->GetPointer(0) : nullptr;
   this->setPoints();
   this->setCells();
+}
+
+void MeshArrays::setValues(std::vector<double> values)
+{
+  this->OwnValues = std::move(values);
+  this->Values = this->OwnValues.data();
+  this->Around = nullptr;
 }
 
 bool MeshArrays::isVisible(vtkIdType cell) const
@@ -60,7 +72,7 @@ std::size_t MeshArrays::bytes() const
 {
   return this->OwnPoints.size() * sizeof(double) + this->OwnTypes.size() +
     (this->OwnOffsets.size() + this->OwnCells.size()) * sizeof(vtkTypeInt64) +
-    this->Trends.size() * sizeof(PointTrend);
+    this->Trends.size() * sizeof(PointTrend) + this->OwnValues.size() * sizeof(double);
 }
 
 std::vector<int> MeshArrays::types() const

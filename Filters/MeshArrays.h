@@ -22,6 +22,15 @@ struct PointTrend
   float lowest = 0, highest = 0;
 };
 
+/// What the value at a point is a mean of, where values belong to cells: of those around it, each by itself. Moments are
+/// counted from the point, values from the mean.
+struct CellsAround
+{
+  float first[3] = {};
+  float second[6] = {}; // xx, yy, zz, xy, yz, zx
+  float lowest = 0, highest = 0;
+};
+
 /**
  * The points and cells of a dataset as plain arrays, for many threads at once.
  *
@@ -38,6 +47,11 @@ public:
   vtkIdType cells() const { return this->CellCount; }
   vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
+
+  /// Of each point, where its value is a mean over cells; else null.
+  const CellsAround* cellsAround() const { return this->Around; }
+  /// Others than the dataset's, at the points themselves.
+  void setValues(std::vector<double> values);
 
   /// Memory of what is not the dataset's own.
   std::size_t bytes() const;
@@ -175,6 +189,8 @@ private:
   vtkDataSet* Data;
   vtkIdType CellCount, PointCount;
   const double* Values = nullptr;
+  const CellsAround* Around = nullptr;
+  std::vector<double> OwnValues;
   const unsigned char* Ghosts = nullptr;
   std::vector<PointTrend> Trends;
 

@@ -18,6 +18,13 @@ namespace
 constexpr double leastSecond = 1e-5;
 /// And for first ones, where all points lie in a plane or on a line.
 constexpr double leastFirst = 1e-12;
+/// Both for those of means: what first and second derivatives explain nearly alike, as at the boundary, is taken for a
+/// first one.
+constexpr double leastSecondOfMeans = 1e-2;
+constexpr double leastFirstOfMeans = 1e-6;
+/// Means have nothing to be compared with along directions in which their places are spread by less than this part of
+/// their size, squared.
+constexpr double flat = 0.01;
 /// Added to squares of distances, of the mean one: no weight is infinite.
 constexpr double leastSquare = 1e-6;
 
@@ -29,10 +36,12 @@ constexpr std::size_t fewest = 3;
 
 } // namespace
 
-void PointFit::clear(std::size_t most)
+void PointFit::clear(std::size_t most, Values ofWhat)
 {
+  this->values = ofWhat;
   this->neighbours = most;
-  this->numbers.assign(4 * points * most, 0);
+  this->perNeighbour = ofWhat == Values::Means ? 10 : 4;
+  this->numbers.assign(this->perNeighbour * points * most, 0);
   std::fill(std::begin(this->counts), std::end(this->counts), 0);
 }
 

@@ -11,32 +11,57 @@ namespace refractivity
 /**
  * Several points, each with its neighbours, and the quadratic polynomials that fit best what their values are, by least
  * squares: see PointNeighbours.
+ *
+ * Values are those at the points, or means over some volume around each of them, whose moments are known (see
+ * CellsAround): then the polynomials' means over these volumes are what fits the values.
  */
 struct PointFit
 {
   static constexpr int points = 8; // at once
+  enum class Values
+  {
+    AtPoints,
+    Means
+  };
 
   /// Sets how many neighbours the points have at most, and that they have none as yet.
-  void clear(std::size_t most);
+  void clear(std::size_t most, Values values = Values::AtPoints);
 
   /// Adds one, counted from the point.
   void add(std::size_t point, const double x[3], double value)
   {
-    double* to = this->numbers.data() + 4 * points * this->counts[point]++ + point;
+    double* to = this->numbers.data() + this->perNeighbour * points * this->counts[point]++ + point;
     to[0] = x[0];
     to[points] = x[1];
     to[2 * points] = x[2];
     to[3 * points] = value;
   }
 
-  std::size_t neighbours = 0; // of the point with most of them
+  /// Of means: adds one with its first and second moments (xx, yy, zz, xy, yz, zx) around the point, both less those
+  /// of the point's own mean.
+  void add(std::size_t point, const double first[3], const double second[6], double value)
+  {
+    double* to =
+      this->numbers.data() + (this->perNeighbour * this->counts[point] + 4) * points + point;
+    for (int i = 0; i < 6; ++i)
+    {
+      to[i * points] = second[i];
+    }
+    this->add(point, first, value);
+  }
+
+  Values values = Values::AtPoints;
+  std::size_t neighbours = 0;   // of the point with most of them
+  std::size_t perNeighbour = 4; // numbers
   std::vector<double>
-    numbers; // x, y, z and value of each neighbour, of all points at a time; else 0
+    numbers; // x, y, z, value (and second moments) of each neighbour, of all points at a time; else 0
   std::size_t counts[points] = {};
+  double own[9][points] = {}; // of means: first and second moments of the points' own ones
 
   // What is found of each point: 0 where there is no good gradient.
   double gradient[3][points];
-  double unfit[points]; // the part of the values' squares that the polynomial leaves
+  double correction[points]; // of means: what makes its own one the value at the point
+  double unfit[points];      // the part of the values' squares that the polynomial leaves
   double lowest[points], highest[points]; // of the values and 0
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointTrends.h"
 
+#include "CellShape.h"
 #include "PointFit.h"
 #include "Vectors.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -196,6 +198,132 @@ PointTrend trendOf(const PointFit& fit, std::size_t point)
   return trend;
 }
 
+/// How much steeper a field may be at the boundary than at any point beside.
+constexpr double steeperAtBoundary = 2;
+
+/// The least density at a point, of that in any cell around.
+constexpr double leastByCell = 0.5;
+
+/// 0 where a point has cells on all sides, 1 where it is at the boundary: by how far from the point they are, in units of
+/// how far they reach along the same direction.
+double partAtBoundary(const CellsAround& cells)
+{
+  const float* s = cells.second;
+  const Vector columns[3] = { { s[0], s[3], s[5] }, { s[3], s[1], s[4] }, { s[5], s[4], s[2] } };
+  const Vector first = { cells.first[0], cells.first[1], cells.first[2] };
+  Vector rows[3];
+  if (!invert(columns, rows))
+  {
+    return 0;
+  }
+  const double away =
+    dot(first, { dot(rows[0], first), dot(rows[1], first), dot(rows[2], first) }); // up to 3/4
+  constexpr double inside = 0.15, outside = 0.45;
+  return std::clamp((away - inside) / (outside - inside), 0., 1.);
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Fits polynomials of points that come one by one, several at once. Calls take(fit, its number there, point).
+template <class Take>
+class FitOfPoints
+{
+public:
+  FitOfPoints(PointFit::Values values, Take take)
+    : Kind(values)
+    , Taken(std::move(take))
+  {
+  }
+
+  void add(
+    const MeshArrays& mesh, vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+  {
+    this->Points[this->Count] = point;
+    this->Ids.insert(this->Ids.end(), first, last);
+    this->Ends[this->Count++] = this->Ids.size();
+    this->Most = std::max(this->Most, static_cast<std::size_t>(last - first));
+    if (this->Count == PointFit::points)
+    {
+      this->finish(mesh);
+    }
+  }
+
+  void finish(const MeshArrays& mesh)
+  {
+    this->Fit.clear(this->Most, this->Kind);
+    for (std::size_t i = 0, next = 0; i < this->Count; ++i)
+    {
+      for (; next < this->Ends[i]; ++next)
+      {
+        this->add(mesh, i, this->Points[i], static_cast<vtkIdType>(this->Ids[next]));
+      }
+      this->setOwn(mesh, i, this->Points[i]);
+    }
+    fitPoints(this->Fit);
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      this->Taken(this->Fit, i, this->Points[i]);
+    }
+    this->Ids.clear();
+    this->Count = this->Most = 0;
+  }
+
+private:
+  void add(const MeshArrays& mesh, std::size_t i, vtkIdType point, vtkIdType other)
+  {
+    Vector x, away;
+    mesh.coordinates(point, x.data());
+    mesh.coordinates(other, away.data());
+    away = away - x;
+    if (away[0] == 0 && away[1] == 0 && away[2] == 0) // a double of the point
+    {
+      return;
+    }
+    const double value = mesh.values()[other] - mesh.values()[point];
+    if (this->Kind == PointFit::Values::AtPoints)
+    {
+      this->Fit.add(i, away.data(), value);
+      return;
+    }
+    const CellsAround& here = mesh.cellsAround()[point];
+    const CellsAround& there = mesh.cellsAround()[other];
+    Vector firsts;
+    double seconds[6];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::size_t next = (axis + 1) % 3;
+      firsts[axis] = away[axis] + there.first[axis] - here.first[axis];
+      seconds[axis] =
+        away[axis] * (away[axis] + 2 * there.first[axis]) + there.second[axis] - here.second[axis];
+      seconds[axis + 3] = away[axis] * (away[next] + there.first[next]) +
+        away[next] * there.first[axis] + there.second[axis + 3] - here.second[axis + 3];
+    }
+    this->Fit.add(i, firsts.data(), seconds, value);
+  }
+
+  void setOwn(const MeshArrays& mesh, std::size_t i, vtkIdType point)
+  {
+    if (this->Kind == PointFit::Values::Means)
+    {
+      const CellsAround& here = mesh.cellsAround()[point];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        this->Fit.own[axis][i] = here.first[axis];
+        this->Fit.own[axis + 3][i] = here.second[axis];
+        this->Fit.own[axis + 6][i] = here.second[axis + 3];
+      }
+    }
+  }
+
+  PointFit::Values Kind;
+  Take Taken;
+  PointFit Fit;
+  vtkIdType Points[PointFit::points];
+  std::vector<std::uint32_t> Ids;     // of all points that are fitted at once
+  std::size_t Ends[PointFit::points]; // in them
+  std::size_t Count = 0, Most = 0;
+};
+
 } // namespace
 
 PointNeighbours::PointNeighbours(
@@ -240,81 +368,130 @@ PointNeighbours::PointNeighbours(
   }
 }
 
-std::vector<PointTrend> PointNeighbours::trends(
-  const MeshArrays& mesh, const WorkProgress& progress) const
+/// Calls visit(point, begin, end) for points in turn, with the numbers of their neighbours.
+template <class Visit>
+void PointNeighbours::forNeighbours(
+  const MeshArrays& mesh, vtkIdType begin, vtkIdType end, const Visit& visit) const
 {
-  std::vector<PointTrend> trends(static_cast<std::size_t>(mesh.points()));
-  const auto forCells = [&](vtkIdType point, const auto& visit)
+  const auto forCells = [&](vtkIdType point, const auto& visitCell)
   {
     mesh.forCellsAround(point,
       [&](vtkIdType cell)
       {
         if (this->IsCellUsed[static_cast<std::size_t>(cell)])
         {
-          visit(cell);
+          visitCell(cell);
         }
       });
   };
+  PointSet found;
+  for (vtkIdType point = begin; point < end; ++point)
+  {
+    if (mesh.isStructured())
+    {
+      findNeighbours(mesh, forCells, point, found);
+      const std::uint32_t* ids = found.points().data();
+      visit(point, ids + 1, ids + found.points().size());
+    }
+    else
+    {
+      const auto at = static_cast<std::size_t>(point);
+      visit(point, this->Ids.data() + this->Starts[at], this->Ids.data() + this->Starts[at + 1]);
+    }
+  }
+}
+
+std::vector<PointTrend> PointNeighbours::trends(
+  const MeshArrays& mesh, const WorkProgress& progress) const
+{
+  std::vector<PointTrend> trends(static_cast<std::size_t>(mesh.points()));
   forParts(mesh.points(), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
-      PointSet found;
-      std::vector<std::uint32_t> ids;     // of all points that are fitted at once
-      std::size_t ends[PointFit::points]; // in them
-      PointFit fit;
-      for (vtkIdType first = begin; first < end; first += PointFit::points)
-      {
-        const auto count =
-          static_cast<std::size_t>(std::min<vtkIdType>(PointFit::points, end - first));
-        ids.clear();
-        std::size_t most = 0;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          const vtkIdType point = first + static_cast<vtkIdType>(i);
-          const auto at = static_cast<std::size_t>(point);
-          const std::size_t before = ids.size();
-          if (mesh.isStructured())
-          {
-            findNeighbours(mesh, forCells, point, found);
-            ids.insert(ids.end(), found.points().begin() + 1, found.points().end());
-          }
-          else
-          {
-            ids.insert(ids.end(), this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Starts[at]),
-              this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Starts[at + 1]));
-          }
-          ends[i] = ids.size();
-          most = std::max(most, ends[i] - before);
-        }
-        fit.clear(most);
-        std::size_t next = 0;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          const vtkIdType point = first + static_cast<vtkIdType>(i);
-          Vector x;
-          mesh.coordinates(point, x.data());
-          for (; next < ends[i]; ++next)
-          {
-            Vector away;
-            mesh.coordinates(ids[next], away.data());
-            for (std::size_t axis = 0; axis < 3; ++axis)
-            {
-              away[axis] -= x[axis];
-            }
-            if (away[0] != 0 || away[1] != 0 || away[2] != 0) // not a double of the point
-            {
-              fit.add(i, away.data(), mesh.values()[ids[next]] - mesh.values()[point]);
-            }
-          }
-        }
-        fitPoints(fit);
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          trends[static_cast<std::size_t>(first) + i] = trendOf(fit, i);
-        }
-      }
+      FitOfPoints fit(PointFit::Values::AtPoints,
+        [&](const PointFit& of, std::size_t i, vtkIdType point)
+        { trends[static_cast<std::size_t>(point)] = trendOf(of, i); });
+      this->forNeighbours(mesh, begin, end,
+        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+        { fit.add(mesh, point, first, last); });
+      fit.finish(mesh);
     });
   return trends;
+}
+
+std::vector<double> PointNeighbours::valuesFromCells(
+  const MeshArrays& mesh, const WorkProgress& progress) const
+{
+  const auto points = static_cast<std::size_t>(mesh.points());
+  const double* means = mesh.values();
+  const CellsAround* around = mesh.cellsAround();
+  struct Change
+  {
+    float correction, gradient[3];
+  };
+  std::vector<Change> changes(points);
+  forParts(mesh.points(), progress.part(0, 0.9),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      FitOfPoints fit(PointFit::Values::Means,
+        [&](const PointFit& of, std::size_t i, vtkIdType point)
+        {
+          changes[static_cast<std::size_t>(point)] = { static_cast<float>(of.correction[i]),
+            { static_cast<float>(of.gradient[0][i]), static_cast<float>(of.gradient[1][i]),
+              static_cast<float>(of.gradient[2][i]) } };
+        });
+      this->forNeighbours(mesh, begin, end,
+        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+        { fit.add(mesh, point, first, last); });
+      fit.finish(mesh);
+    });
+  double lowest = infinity, largest = 0; // of the cells
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    lowest = std::min(lowest, means[i] + around[i].lowest); // NaN: nothing is known
+    largest = std::max(largest, std::abs(means[i]));
+  }
+  const bool isPositive = lowest > -1e-6 * largest;
+  std::vector<double> values(points);
+  forParts(mesh.points(), progress.part(0.9, 1),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      this->forNeighbours(mesh, begin, end,
+        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+        {
+          const auto at = static_cast<std::size_t>(point);
+          const CellsAround& cells = around[at];
+          // The corrections nearby, and what gradients nearby make of the way from the cells to the point, which is long
+          // at the boundary only.
+          const auto along = [&](const Change& change)
+          {
+            return -(change.gradient[0] * cells.first[0] + change.gradient[1] * cells.first[1] +
+              change.gradient[2] * cells.first[2]);
+          };
+          float low = changes[at].correction, high = low;
+          float down = along(changes[at]), up = down;
+          for (const std::uint32_t* other = first; other != last; ++other)
+          {
+            const Change& change = changes[*other];
+            low = std::max(low, change.correction);
+            high = std::min(high, change.correction);
+            down = std::max(down, along(change));
+            up = std::min(up, along(change));
+          }
+          low = std::min(low, 0.f);
+          high = std::max(high, 0.f);
+          const auto part = static_cast<float>(steeperAtBoundary * partAtBoundary(cells));
+          down *= part;
+          up *= part;
+          // What is positive in all cells, as a density is, stays so.
+          const double least = std::max(means[at] + std::min(cells.lowest, down) + low,
+            isPositive ? leastByCell * (means[at] + cells.lowest) : -infinity);
+          const double most = means[at] + std::max(cells.highest, up) + high;
+          const double value = means[at] + changes[at].correction;
+          values[at] = value < least ? least : value > most ? most : value;
+        });
+    });
+  return values;
 }
 
 std::size_t PointNeighbours::bytes() const

@@ -33,9 +33,20 @@ public:
   std::vector<PointTrend> trends(
     const MeshArrays& mesh, const WorkProgress& progress = WorkProgress()) const;
 
+  /// The values at the points that are right for a mesh whose values are means over cells (see CellsAround): those of
+  /// the polynomials whose means fit these best. Beyond the values of the cells around it goes only a point where all
+  /// others nearby do so, too, at a smooth extremum, or where the field goes on evenly, at the boundary: so there is no
+  /// overshoot beside a shock.
+  std::vector<double> valuesFromCells(
+    const MeshArrays& mesh, const WorkProgress& progress = WorkProgress()) const;
+
   std::size_t bytes() const;
 
 private:
+  template <class Visit>
+  void forNeighbours(
+    const MeshArrays& mesh, vtkIdType begin, vtkIdType end, const Visit& visit) const;
+
   // Those of point i are Ids[Starts[i]] to Ids[Starts[i + 1]]; structured grids have none, whose cells are found as
   // fast.
   std::vector<std::uint64_t> Starts;

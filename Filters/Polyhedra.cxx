@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Polyhedra.h"
 
+#include "CellMeans.h"
 #include "CellTypes.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -16,6 +18,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace refractivity
 {
@@ -23,9 +26,10 @@ namespace refractivity
 namespace
 {
 
-/// Adds the mean of the cell's corners and of their values. Returns its number.
-vtkIdType addMiddle(
-  vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points, vtkDoubleArray* values)
+/// Adds the mean of the cell's corners and of their values, or the cell's own value where that is known. Returns its
+/// number.
+vtkIdType addMiddle(vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points,
+  vtkDoubleArray* values, vtkFloatArray* around)
 {
   vtkNew<vtkIdList> corners;
   mesh->GetCellPoints(cell, corners);
@@ -40,6 +44,22 @@ vtkIdType addMiddle(
       middle[axis] += corner[axis] / count;
     }
     value += values->GetValue(corners->GetId(i)) / count;
+  }
+  if (around)
+  {
+    const CellMoments moments = momentsOfPolyhedron(mesh, cell);
+    CellsAround own;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const double x = moments.middle[i] - middle[i];
+      own.first[i] = static_cast<float>(x);
+      own.second[i] = static_cast<float>(moments.second[i] + x * x);
+      const std::size_t next = (i + 1) % 3;
+      own.second[i + 3] =
+        static_cast<float>(moments.second[i + 3] + x * (moments.middle[next] - middle[next]));
+    }
+    around->InsertNextTypedTuple(own.first); // its other members follow
+    value = mesh->GetCellData()->GetScalars()->GetComponent(cell, 0);
   }
   values->InsertNextValue(value);
   return points->InsertNextPoint(middle);
@@ -78,6 +98,13 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
   points->DeepCopy(mesh->GetPoints());
   vtkNew<vtkDoubleArray> values;
   values->DeepCopy(scalars);
+  auto* aroundPoints = vtkFloatArray::SafeDownCast(mesh->GetPointData()->GetArray(cellsAroundName));
+  vtkSmartPointer<vtkFloatArray> around;
+  if (aroundPoints)
+  {
+    around = vtkSmartPointer<vtkFloatArray>::New();
+    around->DeepCopy(aroundPoints);
+  }
   vtkNew<vtkUnsignedCharArray> kept;
   kept->SetName(vtkDataSetAttributes::GhostArrayName());
   cut->Allocate(mesh->GetNumberOfCells());
@@ -92,7 +119,7 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
       kept->InsertNextValue(ghost);
       continue;
     }
-    const vtkIdType middle = addMiddle(mesh, cell, points, values);
+    const vtkIdType middle = addMiddle(mesh, cell, points, values, around);
     mesh->GetFaceStream(cell, ids); // faces, and for each its points' number and the points
     vtkIdType at = 1;
     for (vtkIdType face = 0; face < ids->GetId(0); ++face)
@@ -112,6 +139,10 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
   }
   cut->SetPoints(points);
   cut->GetPointData()->SetScalars(values);
+  if (around)
+  {
+    cut->GetPointData()->AddArray(around);
+  }
   cut->GetCellData()->AddArray(kept);
   return cut;
 }

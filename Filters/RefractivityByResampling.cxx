@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityByResampling.h"
 
+#include "CellMeans.h"
 #include "CellTypes.h"
 #include "FlatData.h"
 #include "Polyhedra.h"
@@ -11,7 +12,6 @@
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
 #include "vtkCellData.h"
-#include "vtkCellDataToPointData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -207,32 +207,10 @@ vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
   return copy;
 }
 
-/// The mean over the valid cells at each point, NaN where there are none: sums of value and of
-/// validity, divided. Clears `valid` at cells whose value is not finite.
-vtkSmartPointer<vtkDataArray> cellsToPoints(
-  const Leaf& leaf, const Model& model, vtkUnsignedCharArray* valid, Tally& tally)
-{
-  vtkNew<vtkDoubleArray> share;
-  auto cells = withoutArrays(leaf.data);
-  cells->GetCellData()->AddArray(convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally));
-  share->DeepCopy(valid);
-  cells->GetCellData()->AddArray(share);
-  vtkNew<vtkCellDataToPointData> toPoints;
-  toPoints->SetInputData(cells);
-  toPoints->Update();
-  vtkPointData* sums = toPoints->GetOutput()->GetPointData();
-  vtkSmartPointer<vtkDataArray> means = sums->GetArray(arrayName);
-  vtkDataArray* shares = sums->GetArray(maskName);
-  for (vtkIdType i = 0; i < means->GetNumberOfTuples(); ++i)
-  {
-    means->SetComponent(i, 0, means->GetComponent(i, 0) / shares->GetComponent(i, 0));
-  }
-  return means;
-}
-
-/// A leaf that holds nothing but N at its points (NaN where invalid), its other cells hidden.
+/// A leaf that holds nothing but N at its points (NaN where invalid), its other cells hidden. Values of cells become
+/// their means around each point.
 vtkSmartPointer<vtkDataSet> prepare(
-  const Leaf& leaf, int dimension, const Model& model, Tally& tally)
+  const Leaf& leaf, int dimension, const Model& model, CellValues cellValues, Tally& tally)
 {
   vtkDataSet* data = leaf.data;
   const vtkIdType cells = data->GetNumberOfCells();
@@ -251,7 +229,19 @@ vtkSmartPointer<vtkDataSet> prepare(
   auto prepared = withoutArrays(data);
   if (leaf.ofCells)
   {
-    prepared->GetPointData()->SetScalars(cellsToPoints(leaf, model, valid, tally));
+    const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);
+    vtkNew<vtkDoubleArray> ofPoints;
+    ofPoints->SetName(arrayName);
+    ofPoints->SetNumberOfValues(data->GetNumberOfPoints());
+    prepared->GetPointData()->SetScalars(ofPoints);
+    std::vector<CellsAround> around;
+    setMeansAroundPoints(MeshArrays(prepared), ofCells, valid, ofPoints,
+      cellValues == CellValues::Known ? &around : nullptr);
+    if (cellValues == CellValues::Known)
+    {
+      prepared->GetPointData()->AddArray(arrayOf(around));
+      prepared->GetCellData()->SetScalars(ofCells);
+    }
   }
   else
   {
@@ -384,7 +374,8 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   }
 }
 
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, Tally& tally)
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
+  const Source& source, CellValues cellValues, Tally& tally)
 {
   const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
   std::vector<vtkSmartPointer<vtkDataSet>> prepared;
@@ -392,7 +383,7 @@ std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, Ta
   {
     if (hasCells(leaf.data, dimension))
     {
-      prepared.push_back(prepare(leaf, dimension, source.model, tally));
+      prepared.push_back(prepare(leaf, dimension, source.model, cellValues, tally));
     }
   }
   return prepared;
@@ -402,7 +393,8 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
 {
   Tally tally;
-  const std::vector<vtkSmartPointer<vtkDataSet>> prepared = preparedLeaves(source, tally);
+  const std::vector<vtkSmartPointer<vtkDataSet>> prepared =
+    preparedLeaves(source, CellValues::Averaged, tally);
   const std::vector<vtkDataSet*> leaves(prepared.begin(), prepared.end());
   setPoints(plan, output);
   vtkNew<vtkDoubleArray> values;

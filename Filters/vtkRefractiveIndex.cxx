@@ -451,11 +451,12 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       take(made);
       return;
     }
-    const auto leaves = preparedLeaves(source, tally);
+    const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
+    const auto leaves =
+      preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
     progress.reach(0.1);
-    const auto reconstruction = this->Reconstruction == LINEAR_IN_CELLS
-      ? CellTree::Reconstruction::Linear
-      : CellTree::Reconstruction::Smooth;
+    const auto reconstruction =
+      isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
     const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
     KeptMesh& kept = *this->Mesh;
     const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);

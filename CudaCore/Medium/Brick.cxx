@@ -633,6 +633,10 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
     storeCoefficients(samples, brick);
     findBounds(place, brick);
   }
+  else
+  {
+    facts.difference = 0; // of gas beside it
+  }
   return brick;
 }
 

@@ -234,7 +234,7 @@ double fullColorOf(std::vector<double> gathered)
 
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, int threads)
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads)
 {
   // What of the column is over the box.
   const Grid& grid = medium.grid;
@@ -255,7 +255,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     high[side] = std::min(middle + half, column.middle[side] + column.halfWidth[side]);
     if (!(low[side] < high[side]))
     {
-      return {};
+      return least;
     }
   }
   constexpr int ofLattice = latticeEdge * latticeEdge;
@@ -295,6 +295,8 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   const bool areAllBlocked =
     std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
   RayFindings findings;
+  findings.deflection = least.deflection;
+  findings.opticalPath = least.opticalPath;
   std::vector<double> gathered;
   for (std::size_t n = 0; n < bends.size(); ++n)
   {
@@ -309,7 +311,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
       }
     }
   }
-  findings.gathered = fullColorOf(std::move(gathered));
+  findings.gathered = std::max(least.gathered, fullColorOf(std::move(gathered)));
   for (const Bend& bend : bends)
   {
     if (bend.isBlocked == areAllBlocked)
@@ -324,9 +326,9 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   return findings;
 }
 
-template RayFindings lookAlongRays(
-  const LeavesView<float>&, const Column&, const std::vector<Vec3<double>>&, double, int);
-template RayFindings lookAlongRays(
-  const LeavesView<double>&, const Column&, const std::vector<Vec3<double>>&, double, int);
+template RayFindings lookAlongRays(const LeavesView<float>&, const Column&,
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
+template RayFindings lookAlongRays(const LeavesView<double>&, const Column&,
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
 
 } // namespace schlieren

@@ -57,8 +57,9 @@ struct RayFindings
   std::vector<std::int32_t>
     coarseInFields; ///< the same of leaves without gradients, and of `gathered`
 };
+/// `least`: what is known of the largest ones, e.g. from samples that are no longer there.
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, int threads);
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads);
 
 } // namespace schlieren

@@ -353,11 +353,13 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
     if (work_.tasksDone == work_.tasks.size())
     {
       numberLeaves();
-      measure(view);
+      const RayFindings found = measure(view, {});
       if (!isMeasured_ && (work_.largest > 0 || work_.gathered > 0))
       {
         forgetNegligible(view);
         isMeasured_ = true;
+        numberLeaves();
+        measure(view, found); // what is negligible leaf by leaf may not be so along a ray
       }
       hasChanged = plan(view) || hasChanged;
       work_.isFinished = work_.tasks.empty();
@@ -382,7 +384,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
 
 /// Finds the largest deflection in the tree as it is and what rays gather, and leaves that are too coarse for it.
 template <class Real>
-void MediumTree<Real>::measure(const View& view)
+RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least)
 {
   std::vector<std::pair<double, std::int32_t>>
     steepest; // sorts by the deflection over a leaf, about
@@ -419,7 +421,7 @@ void MediumTree<Real>::measure(const View& view)
     { grid_, finder(), leaves_.data(), differences.data(), samples().data(), gasDistances().data(),
       gradients(), ofFields.empty() ? nullptr : ofFields.data(), samplesPerBrick(), apron(),
       settings_.interpolation },
-    work_.column, places, settings_.tolerance, settings_.threads);
+    work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
   const auto nodeOf = [this](std::int32_t leaf)
@@ -432,6 +434,7 @@ void MediumTree<Real>::measure(const View& view)
   {
     nodeFields_[nodeOf(leaf)].isCoarse = true;
   }
+  return findings;
 }
 
 /// What there is to do: leaves to be made, and leaves to be divided.

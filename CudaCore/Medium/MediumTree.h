@@ -142,7 +142,7 @@ private:
   class View;
 
   void makeRoots();
-  void measure(const View& view);
+  RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
   std::vector<Task> tasksOf(const View& view) const;
   std::size_t costOf(const Task& task) const;

@@ -486,6 +486,76 @@ double gasDistanceAt(const MediumTree<Real>& tree, const Vec3<double>& place)
   return sum;
 }
 
+namespace
+{
+
+/// A layer a fiftieth of the domain thick at its lower side, with cells as thin as a hundredth of their width.
+class LayerSource : public AnalyticSource
+{
+public:
+  static constexpr double thickness = 0.04;
+  static double profile(double b)
+  {
+    return 1e-4 * std::exp(-(b + 1) * (b + 1) / (thickness * thickness));
+  }
+  double refractivity(double, double b, double) const override { return profile(b); }
+  Range rangeOver(const Box& box) const override
+  {
+    return { profile(box.high[1]), profile(std::max(box.low[1], -1.)) };
+  }
+  double cellSizeOver(const Box& box) const override { return box.low[1] < -0.9 ? 5e-4 : 0.05; }
+  std::array<double, 3> voxelShape() const override { return { 1, 1. / 32, 1 }; }
+};
+
+/// Says of each box that gas and a window may be there.
+class VagueSource : public HalfSource
+{
+public:
+  using HalfSource::HalfSource;
+  void findPlaces(const Box&, Content& content) const override
+  {
+    content.hasGas = content.hasWindow = true;
+  }
+};
+
+} // namespace
+
+// A leaf with gas beside it only has one value for all, and no samples would change that.
+TEST(MediumTree, GasBesideALeafIsNothingToRefine)
+{
+  for (const double border : { -0.06, -0.07, -0.08, -0.1 })
+  {
+    Tree tree(std::make_shared<VagueSource>(0, 1e-4, border, 0.02), 0, settingsOf(1e-3));
+    int calls = 0;
+    Monitor monitor;
+    monitor.aborted = [&calls] { return ++calls > 5000; };
+    tree.refine({ x, y, { 0, 0 }, { 1, 1 }, 0.01 }, monitor);
+    EXPECT_FALSE(tree.isUnfinished()) << border;
+  }
+}
+
+// What is negligible leaf by leaf is not so along a ray through many of them: even a rough tree shows it.
+TEST(MediumTree, ThinLayerAlongTheRaysIsSeen)
+{
+  for (const double tolerance : { 0.1, 0.25 })
+  {
+    const auto source = std::make_shared<LayerSource>();
+    Tree tree(source, 0, settingsOf(tolerance));
+    tree.refine({ x, y, { 0, -0.94 }, { 0.06, 0.06 }, 1e-4 });
+    EXPECT_GT(tree.statistics().bricks, 0);
+    double worst = 0, largest = 0;
+    for (double b = -0.998; b < -0.89; b += 0.002)
+    {
+      const double truth = 2 * -2 * (b + 1) * LayerSource::profile(b) /
+        (LayerSource::thickness * LayerSource::thickness);
+      const Vec3<double> bend = bendAlong(tree, Interpolation::Quadratic, { 0.01, b, 0 }, z);
+      worst = std::max(worst, std::abs(bend.y - truth));
+      largest = std::max(largest, std::abs(truth));
+    }
+    EXPECT_LT(worst, 2 * tolerance * largest) << tolerance;
+  }
+}
+
 TEST(MediumTree, WallsAreSharp)
 {
   const auto source = std::make_shared<SphereSource>();

@@ -4,11 +4,13 @@
 // What is made of values at points, in cells: smoother than what is linear along each edge.
 #include "CellMeshes.h"
 
+#include "CellMeans.h"
 #include "CellSampler.h"
 #include "PointFit.h"
 
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkSMPTools.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <random>
 
@@ -16,6 +18,9 @@ using refractivity::CellSampler;
 using refractivity::CellTree;
 using schlieren::Lattice;
 using Reconstruction = refractivity::CellTree::Reconstruction;
+using refractivity::operator+;
+using refractivity::operator-;
+using refractivity::operator*;
 
 namespace
 {
@@ -50,6 +55,124 @@ Mesh jittered(int n, double by)
   }
   mesh->SetPoints(points);
   return mesh;
+}
+
+/// Boxes in the unit cube as hexahedra, their points moved at random by so many cells.
+Mesh boxesOf(const std::array<int, 3>& n, double by)
+{
+  auto mesh = Mesh::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> move(-by, by);
+  for (int k = 0; k <= n[2]; ++k)
+  {
+    for (int j = 0; j <= n[1]; ++j)
+    {
+      for (int i = 0; i <= n[0]; ++i)
+      {
+        const int at[3] = { i, j, k };
+        double x[3];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const double moved = at[axis] > 0 && at[axis] < n[axis] ? move(random) : 0;
+          x[axis] = (at[axis] + moved) / n[axis];
+        }
+        points->InsertNextPoint(x);
+      }
+    }
+  }
+  mesh->SetPoints(points);
+  for (int k = 0; k < n[2]; ++k)
+  {
+    for (int j = 0; j < n[1]; ++j)
+    {
+      for (int i = 0; i < n[0]; ++i)
+      {
+        const vtkIdType row = n[0] + 1, layer = row * (n[1] + 1), first = k * layer + j * row + i;
+        const vtkIdType ids[8] = { first, first + 1, first + row + 1, first + row, first + layer,
+          first + layer + 1, first + layer + row + 1, first + layer + row };
+        mesh->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Calls visit(x, weight) for places in a tetrahedron, exact to the second degree in each of 8^depth parts.
+template <class Visit>
+void forPlacesIn(const std::array<Vec, 4>& corners, int depth, const Visit& visit)
+{
+  const auto between = [&](std::size_t a, std::size_t b)
+  { return 0.5 * (corners[a] + corners[b]); };
+  if (depth > 0)
+  {
+    const Vec m[6] = { between(0, 1), between(0, 2), between(0, 3), between(1, 2), between(1, 3),
+      between(2, 3) };
+    const std::array<Vec, 4> parts[8] = { { corners[0], m[0], m[1], m[2] },
+      { m[0], corners[1], m[3], m[4] }, { m[1], m[3], corners[2], m[5] },
+      { m[2], m[4], m[5], corners[3] }, { m[0], m[1], m[2], m[4] }, { m[0], m[1], m[3], m[4] },
+      { m[1], m[2], m[4], m[5] }, { m[1], m[3], m[4], m[5] } };
+    for (const auto& part : parts)
+    {
+      forPlacesIn(part, depth - 1, visit);
+    }
+    return;
+  }
+  const double volume = std::abs(dot(corners[1] - corners[0],
+                          cross(corners[2] - corners[0], corners[3] - corners[0]))) /
+    6;
+  const Vec sum = corners[0] + corners[1] + corners[2] + corners[3];
+  for (const Vec& corner : corners)
+  {
+    constexpr double near = 0.58541019662496852, far = 0.1381966011250105;
+    visit(far * sum + (near - far) * corner, volume / 4);
+  }
+}
+
+/// Calls visit(x, weight) for places in a cell, cut into tetrahedra.
+template <class Visit>
+void forPlacesIn(vtkCell* cell, int depth, const Visit& visit)
+{
+  vtkNew<vtkIdList> ids;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  cell->Triangulate(0, ids, points);
+  for (vtkIdType first = 0; first < points->GetNumberOfPoints(); first += 4)
+  {
+    std::array<Vec, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      points->GetPoint(first + static_cast<vtkIdType>(i), corners[i].data());
+    }
+    forPlacesIn(corners, depth, visit);
+  }
+}
+
+/// Gives a mesh the means of a field over its cells, as the filter does before it looks into the cells.
+void setMeans(vtkDataSet* data, const ScalarField& field, int depth = 1)
+{
+  vtkNew<vtkDoubleArray> ofCells, ofPoints;
+  vtkNew<vtkUnsignedCharArray> valid;
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    double sum = 0, volume = 0;
+    forPlacesIn(data->GetCell(i), depth,
+      [&](const Vec& x, double weight)
+      {
+        sum += weight * field(x);
+        volume += weight;
+      });
+    ofCells->InsertNextValue(sum / volume);
+    valid->InsertNextValue(1);
+  }
+  ofPoints->SetNumberOfValues(data->GetNumberOfPoints());
+  data->GetPointData()->SetScalars(ofPoints);
+  data->GetCellData()->SetScalars(ofCells);
+  std::vector<refractivity::CellsAround> around;
+  refractivity::setMeansAroundPoints(
+    refractivity::MeshArrays(data), ofCells, valid, ofPoints, &around);
+  data->GetPointData()->AddArray(refractivity::arrayOf(around));
 }
 
 struct Found
@@ -369,6 +492,211 @@ TEST(Reconstruction, FitsOfPointsAreQuadratic)
         EXPECT_EQ(alone.gradient[axis][4], 0);
       }
       EXPECT_EQ(alone.unfit[3], fit.unfit[3]);
+    }
+  }
+}
+
+// Ten cells a radius. The mean of the cells around each point is worse by far.
+TEST(CellMeans, ABallIsSmooth)
+{
+  const auto ball = [](const Vec& x)
+  {
+    const double s = 0.25; // ten cells
+    const Vec r = { (x[0] - 0.5) / s, (x[1] - 0.5) / s, (x[2] - 0.5) / s };
+    return 3e-4 * std::exp(-dot(r, r));
+  };
+  const Mesh tetrahedra = jittered(40, 0.2);
+  const Mesh hexahedra = boxesOf({ 40, 40, 40 }, 0.15);
+  for (const Mesh& mesh : { tetrahedra, hexahedra })
+  {
+    setMeans(mesh, ball);
+    const Errors smooth = errorsOf(mesh, Reconstruction::Smooth, ball, 60);
+    EXPECT_LT(smooth.deflection, 1e-3);
+    EXPECT_LT(smooth.divergence, 1e-2);
+    mesh->GetPointData()->RemoveArray(refractivity::cellsAroundName);
+    const Errors averaged = errorsOf(mesh, Reconstruction::Smooth, ball, 60);
+    EXPECT_GT(averaged.deflection, 6e-3); // what there is to gain
+    EXPECT_GT(averaged.divergence, 3e-2);
+  }
+}
+
+TEST(CellMeans, QuadraticFieldsAreExact)
+{
+  const auto field = [](const Vec& x)
+  { return 1 + x[0] - x[1] * x[2] + 2 * x[2] * x[2] - 3 * x[0] * x[1] + x[1] * x[1]; };
+  const Lattice lattice = { { 0.41, 0.42, 0.43 }, { 0.011, 0.012, 0.013 }, { 15, 14, 13 } };
+  for (const CellKind& kind : linearKinds())
+  {
+    for (const double by : { 0., 0.1 })
+    {
+      const Mesh mesh = meshOf(kind.type, 9, kind.cells, by, false);
+      setMeans(mesh, field, 0);
+      const Found found = sampled(mesh, Reconstruction::Smooth, lattice);
+      double error = 0;
+      for (std::size_t i = 0; i < found.values.size(); ++i)
+      {
+        ASSERT_EQ(found.found[i], 1);
+        error = std::max(error, std::abs(found.values[i] - field(pointOf(lattice, i))));
+      }
+      EXPECT_LT(error, by > 0 ? 1e-3 : 1e-4) << kind.name << by; // of half a unit between cells
+    }
+  }
+}
+
+// Up to the boundary: values go on as far as the points, not only to the cells' middles.
+TEST(CellMeans, LinearFieldsReachTheBoundary)
+{
+  const auto field = [](const Vec& x) { return 2 + x[0] - 0.5 * x[1] + 0.25 * x[2]; };
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 5, kind.cells, 0.1, false);
+    setMeans(mesh, field, 0);
+    const Lattice lattice = { { 0, 0, 0 }, { 0.05, 0.05, 0.05 }, { 21, 21, 21 } };
+    const Found found = sampled(mesh, Reconstruction::Smooth, lattice);
+    double error = 0;
+    for (std::size_t i = 0; i < found.values.size(); ++i)
+    {
+      error = std::max(error, std::abs(found.values[i] - field(pointOf(lattice, i))));
+    }
+    EXPECT_LT(error, 4e-3) << kind.name; // of a tenth between cells' middles and the boundary
+  }
+}
+
+// But for the boundary, where two cells in a row do not tell a shock from a slope.
+TEST(CellMeans, ShocksHaveNoOvershoots)
+{
+  for (const double jump : { 0.5, 0.45, 0.61 })
+  {
+    const auto shock = [jump](const Vec& x) { return x[0] + 0.2 * x[1] * x[1] < jump ? 0. : 1.; };
+    std::vector<Mesh> meshes = { jittered(16, 0.2) };
+    for (const CellKind& kind : linearKinds())
+    {
+      meshes.push_back(meshOf(kind.type, 8, kind.cells, 0.05, false));
+    }
+    for (const Mesh& mesh : meshes)
+    {
+      setMeans(mesh, shock, 2);
+      double low = 0, high = 1;
+      const Lattice lattice = { { 0.16, 0.16, 0.16 }, { 0.02, 0.02, 0.02 }, { 35, 35, 35 } };
+      for (const double value : sampled(mesh, Reconstruction::Smooth, lattice).values)
+      {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      EXPECT_GT(low, -0.0101) << jump;
+      EXPECT_LT(high, 1.0101) << jump;
+    }
+  }
+}
+
+// What is made of cells has their means: of a wave that 16 cells are long, and at a front of three.
+TEST(CellMeans, AreKept)
+{
+  const auto wave = [](const Vec& x) { return std::sin(2 * pi * (x[0] + 0.5 * x[1])); };
+  const auto front = [](const Vec& x) { return std::tanh(20 * (x[0] + 0.3 * x[1] - 0.6)); };
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 16, kind.cells, 0.1, false);
+    for (const auto& [field, most] :
+      { std::pair<ScalarField, double>{ wave, 0.005 }, { front, 0.05 } })
+    {
+      setMeans(mesh, field);
+      const CellTree tree({ mesh }, Reconstruction::Smooth);
+      const CellSampler sampler(tree);
+      double squares = 0;
+      int count = 0;
+      for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); i += 17)
+      {
+        double bounds[6];
+        mesh->GetCellBounds(i, bounds);
+        if (*std::min_element(bounds, bounds + 6) < 0.1 ||
+          *std::max_element(bounds, bounds + 6) > 0.9)
+        {
+          continue;
+        }
+        double sum = 0, volume = 0;
+        forPlacesIn(mesh->GetCell(i), 1,
+          [&](const Vec& x, double weight)
+          {
+            double value = 0;
+            unsigned char isFound = 0;
+            sampler.sample({ x, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isFound);
+            EXPECT_EQ(isFound, 1);
+            sum += weight * value;
+            volume += weight;
+          });
+        const double error = sum / volume - mesh->GetCellData()->GetScalars()->GetComponent(i, 0);
+        squares += error * error;
+        ++count;
+      }
+      EXPECT_LT(std::sqrt(squares / count), most) << kind.name;
+    }
+  }
+}
+
+// One layer of cells tells nothing of what changes across it, however its thickness varies.
+TEST(CellMeans, OneLayerOfCellsIsUniformAcross)
+{
+  const auto field = [](const Vec& x) { return std::sin(9 * x[1]) + std::cos(7 * x[0]); };
+  const Mesh mesh = boxesOf({ 20, 20, 1 }, 0);
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    mesh->GetPoint(i, x);
+    mesh->GetPoints()->SetPoint(i, x[0], x[1], 0.3 * x[1] * (x[2] - 0.5)); // a wedge
+  }
+  setMeans(mesh, field);
+  const CellTree tree({ mesh }, Reconstruction::Smooth);
+  double error = 0;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    Vec x;
+    mesh->GetPoint(i, x.data());
+    const bool isInside = x[0] > 0.15 && x[0] < 0.85 && x[1] > 0.15 && x[1] < 0.85;
+    const double value = tree.cell(0).block->values()[i];
+    error = isInside ? std::max(error, std::abs(value - field(x))) : error;
+  }
+  EXPECT_LT(error, 0.004);
+}
+
+TEST(CellMeans, MomentsOfPolyhedraAreThoseOfTheSameCells)
+{
+  for (const CellKind& kind : linearKinds())
+  {
+    const Mesh mesh = meshOf(kind.type, 2, kind.cells, 0, false);
+    setN(mesh, linear);
+    const Mesh asPolyhedra = Mesh::New();
+    asPolyhedra->SetPoints(mesh->GetPoints());
+    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+    {
+      vtkCell* cell = mesh->GetCell(i);
+      vtkNew<vtkIdList> faces;
+      faces->InsertNextId(cell->GetNumberOfFaces());
+      for (int face = 0; face < cell->GetNumberOfFaces(); ++face)
+      {
+        vtkIdList* ids = cell->GetFace(face)->GetPointIds();
+        faces->InsertNextId(ids->GetNumberOfIds());
+        for (vtkIdType n = 0; n < ids->GetNumberOfIds(); ++n)
+        {
+          faces->InsertNextId(ids->GetId(n));
+        }
+      }
+      asPolyhedra->InsertNextCell(VTK_POLYHEDRON, faces);
+    }
+    const refractivity::MeshArrays arrays(mesh);
+    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+    {
+      const auto right = refractivity::momentsOf(arrays, i);
+      const auto made = refractivity::momentsOfPolyhedron(asPolyhedra, i);
+      for (std::size_t n = 0; n < 3; ++n)
+      {
+        EXPECT_NEAR(made.middle[n], right.middle[n], 1e-12) << kind.name;
+      }
+      for (std::size_t n = 0; n < 6; ++n)
+      {
+        EXPECT_NEAR(made.second[n], right.second[n], kind.name == "Wedges" ? 1e-3 : 1e-12)
+          << kind.name;
+      }
     }
   }
 }
