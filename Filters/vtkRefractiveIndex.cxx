@@ -452,8 +452,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       return;
     }
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
-    const auto leaves =
-      preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
+    const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
+    const auto leaves = preparedLeaves(source, cellValues, tally);
     progress.reach(0.1);
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
@@ -478,7 +478,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     for (std::size_t number = 0; number < fields.size(); ++number)
     {
       Tally notReported;
-      made->addField(preparedLeaves(fields[number].source, notReported),
+      made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
     take(made);
