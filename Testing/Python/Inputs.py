@@ -19,7 +19,7 @@ assert output(medium).GetDimensions() == (10, 10, 10)
 assert told_grid(medium) == "10 x 10 x 10 points: the cells of level 1", told_grid(medium)
 bench = Schlieren(pulse, IndexModel="Refractivity", IndexArray=["CELLS", "Gaussian-Pulse"])
 assert np.abs(picture(bench, "Deflection")).max() > 0 and picture(bench, "BlockedFraction").max() == 0
-assert told_grid(bench) == told_grid(medium)
+assert "million voxels" in told_grid(bench), told_grid(bench)
 
 # Six levels of blocks, with layers of ghost cells or without, which give the same medium.
 ranges = []
