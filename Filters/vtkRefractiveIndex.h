@@ -470,7 +470,7 @@ public:
    * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() tells whether the input is for that;
    * what else there is is to be made a grid by Convert(): images, 2-D data, and where SamplingDimensions are given. If
-   * AbortExecute is set on the way, the result is null.
+   * AbortExecute is set meanwhile, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
    * point, where the gas ends. Where the next input has the same mesh, as other time steps and fields have, only

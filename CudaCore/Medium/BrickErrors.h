@@ -17,7 +17,7 @@ namespace schlieren
 /// one as large as itself, one over a sixteenth of it, along the ray, 16 times as much.
 inline constexpr double deflectionByRange = 8;
 
-/// Boxes whose voxels are no larger than this share of a cell are not divided, so that voxels have 0.7 ... 1.4 cells
+/// Boxes whose voxels are no larger than this fraction of a cell are not divided, so that voxels have 0.7 ... 1.4 cells
 /// in the end. Of data that are linear in cells, finer voxels show the facets (a ball of width 0.2 and cells of 0.025,
 /// rays along both: rms error 1.3e-2 with half a cell, 3.4e-3 with one, 5.9e-3 with 1.4; oblique 3e-3 with all).
 inline constexpr double voxelByCell = 1.4;
@@ -26,10 +26,10 @@ inline constexpr double voxelByCell = 1.4;
 inline constexpr double coarseByCell = 2;
 
 /// What the cells have beyond the range of the samples is taken for something that was missed where it is more
-/// than this share of that range: peaks, too, lie between samples.
+/// than this fraction of that range: peaks, too, lie between samples.
 inline constexpr double missedByRange = 0.5;
 
-/// The larger of `most` and a row's third differences, place by place; `s` is the way to the next sample.
+/// The larger of `most` and a row's third differences, place by place; `s` leads to the next sample.
 inline void widenByThirdDifferences(const double* p, std::ptrdiff_t s, int count, double* most)
 {
   for (int i = 0; i < count; ++i)

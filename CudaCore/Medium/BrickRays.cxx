@@ -218,14 +218,14 @@ void makeUnique(std::vector<std::int32_t>& numbers)
 /// flow, its noise is not to be resolved.
 double fullColorOf(std::vector<double> gathered)
 {
-  constexpr double share = 0.99;
+  constexpr double fraction = 0.99;
   if (gathered.empty())
   {
     return 0;
   }
   std::sort(gathered.begin(), gathered.end());
   const double percentile =
-    gathered[static_cast<std::size_t>(share * static_cast<double>(gathered.size() - 1))];
+    gathered[static_cast<std::size_t>(fraction * static_cast<double>(gathered.size() - 1))];
   const double most = gathered.back();
   return percentile > 0 ? std::max(percentile, 0.01 * most) : most;
 }

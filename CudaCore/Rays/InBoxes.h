@@ -41,7 +41,7 @@ SCHLIEREN_HD Real insetOf(const Vec3<Real>& x, const Vec3<Box>& low, const Vec3<
   return minimum(ofX, minimum(ofY, ofZ));
 }
 
-/// The way along a line from x to where it leaves the box [low, high] on one axis; negative if it has.
+/// The length along a line from x to where it leaves the box [low, high] on one axis; negative if it has.
 template <class Real, class Box>
 SCHLIEREN_HD Real wayOut(const Real& x, const Real& along, const Box& low, const Box& high)
 {

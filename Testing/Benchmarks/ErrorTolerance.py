@@ -4,7 +4,7 @@
 
     SCHLIEREN_PLUGIN=…/Schlieren.so Utilities/with-display pvpython Testing/Benchmarks/ErrorTolerance.py [case…]
 
-Prints a table; takes minutes. `bricks`: against the same view with the tolerance 1e-4, as a share of the largest deflection or path; so
+Prints a table; takes minutes. `bricks`: against the same view with the tolerance 1e-4, as a fraction of the largest deflection or path; so
 this is what the sampling of the cells is responsible for. `cells`: that view against the closed form, where there is one;
 so this is what the cells and what is made of them are. Straight rays at the centres of the pixels, in steps of a voxel.
 Rays near walls and at the rim of the mesh do not count: there, what is measured is whether an edge lies within a pixel.
