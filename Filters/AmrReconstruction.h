@@ -126,15 +126,16 @@ void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
 class SplineOfMeans
 {
 public:
-  void set(std::vector<double> means)
+  /// It may be another row each time: memory is kept.
+  void set(const std::vector<double>& means)
   {
-    this->Means = std::move(means);
+    this->Means = means;
     const int n = static_cast<int>(this->Means.size());
-    std::vector<double> bends(this->Means.size());
+    this->Bends.resize(this->Means.size());
     const auto meanAt = [&](int i) { return at(this->Means, i); };
     for (int i = 0; i < n; ++i)
     {
-      bends[static_cast<std::size_t>(i)] = meanAt(i + 1) - 2 * meanAt(i) + meanAt(i - 1);
+      this->Bends[static_cast<std::size_t>(i)] = meanAt(i + 1) - 2 * meanAt(i) + meanAt(i - 1);
     }
     this->Coefficients.resize(this->Means.size());
     for (int i = 0; i < n; ++i)
@@ -146,15 +147,15 @@ public:
       }
       for (int k = -1; k < 1; ++k)
       {
-        third = larger(third, at(bends, i + k + 1) - at(bends, i + k));
+        third = larger(third, at(this->Bends, i + k + 1) - at(this->Bends, i + k));
       }
       constexpr double smooth = 0.35, rough = 0.8; // third by first differences
       const double part =
         first > 0 ? std::clamp((rough - third / first) / (rough - smooth), 0., 1.) : 0;
       // Beside what is missing, like the next one.
-      double bend = at(bends, i);
-      bend = std::isnan(bend) ? at(bends, i - 1) : bend;
-      bend = std::isnan(bend) ? at(bends, i + 1) : bend;
+      double bend = at(this->Bends, i);
+      bend = std::isnan(bend) ? at(this->Bends, i - 1) : bend;
+      bend = std::isnan(bend) ? at(this->Bends, i + 1) : bend;
       this->Coefficients[static_cast<std::size_t>(i)] =
         meanAt(i) - (std::isnan(bend) ? 0 : part * 5 / 24 * bend);
     }
@@ -202,7 +203,7 @@ private:
   static double larger(double most, double x) { return std::abs(x) > most ? std::abs(x) : most; }
   static double orElse(double x, double other) { return std::isnan(x) ? other : x; }
 
-  std::vector<double> Means, Coefficients;
+  std::vector<double> Means, Bends, Coefficients; // bends: second differences
 };
 
 /// Values at places along one axis of a box of cells that hold means; see SplineOfMeans.
