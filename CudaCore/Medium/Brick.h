@@ -24,6 +24,14 @@ struct NodePlace
   std::array<std::int32_t, 3> at; ///< in boxes of that level
 };
 
+/// One of its eight parts, counted x fastest.
+inline NodePlace childOf(const NodePlace& place, std::int32_t child)
+{
+  return { place.level + 1,
+    { 2 * place.at[0] + (child & 1), 2 * place.at[1] + (child >> 1 & 1),
+      2 * place.at[2] + (child >> 2) } };
+}
+
 /// What a box needs to become finer. All of nu or of a deflection, which have the same size.
 struct BrickFacts
 {

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Medium/MediumTree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+namespace schlieren
+{
+
+/// A column, and what it asks of nodes.
+template <class Real>
+class MediumTree<Real>::View
+{
+  /// Layers between samples that are no further apart than this do not matter.
+  static constexpr double pixelsOfLayer = 4;
+
+  /// A column is refined this much wider than it is, so that small turns need nothing new.
+  static constexpr double widening = 1.1;
+
+  /// As many levels as most media have; for the progress that is reported.
+  static constexpr int usualLevels = 10;
+
+public:
+  /// 16 root cells of 16 samples, halved so often, count within 32 bits.
+  static constexpr int finestLevelOfAll = 20;
+
+  explicit View(const MediumTree& tree)
+    : tree_(tree)
+    , work_(tree.work_)
+    , column_(tree.work_.column)
+  {
+  }
+
+  bool sees(const NodePlace& place) const
+  {
+    const Box box = tree_.maker_.boxOf(place);
+    return sees(column_.u, 0, box) && sees(column_.v, 1, box);
+  }
+
+  /// Whether voxels of the next level are wanted along an axis.
+  bool allows(int level, std::size_t axis) const
+  {
+    constexpr double rounding = 1 - 1e-9;
+    return level < finestLevelOfAll &&
+      tree_.maker_.voxelOf(level + 1)[axis] >= rounding * column_.finest;
+  }
+  bool allows(int level) const { return allows(level, 0) || allows(level, 1) || allows(level, 2); }
+
+  /// The error of a node, or of its fields, that the next level would lessen, without edges.
+  template <class Facts>
+  double errorOf(int level, const Facts& facts) const
+  {
+    const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
+    const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
+    double error = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      // Between samples there may be a layer, of which few pixels are to be seen. Light that crosses it is bent no more
+      // than by a layer as thick as a voxel.
+      const bool isBent = std::is_same_v<Facts, BrickFacts>;
+      const double across = isBent ? std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge) : 1;
+      const bool isSeen = voxel[axis] > pixelsOfLayer * column_.finest;
+      error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
+      error = allows(level, axis) ? std::max(error, facts.error[axis]) : error;
+    }
+    return error;
+  }
+
+  /// How badly a leaf needs to be divided; 0: not at all.
+  double urgencyOf(const Node& node, const FieldFacts& ofFields) const
+  {
+    const double error = errorOf(node.place.level, node.facts);
+    const bool hasWindow = node.facts.besideWindow > negligible().deflection;
+    const bool hasEdge = hasWindow || (node.facts.hasWallEdge && !showsWalls(node));
+    double urgency = error > negligible().deflection ? error : 0;
+    if (const double gathered = errorOf(node.place.level, ofFields);
+        gathered > negligible().gathered)
+    {
+      const double deflection = work_.largest;
+      const bool canCompare = deflection > 0 && work_.gathered > 0;
+      urgency = std::max(urgency, canCompare ? gathered * (deflection / work_.gathered) : gathered);
+    }
+    if (hasEdge && !node.facts.areEdgesFine && allows(node.place.level))
+    {
+      // A shadow's edge that is wrong by a voxel is as wrong as can be.
+      urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
+    }
+    return urgency;
+  }
+
+  /// Whether walls are where they should be, as far as pixels show. Voxels must not be much larger than pixels for
+  /// that to be known.
+  bool showsWalls(const Node& node) const
+  {
+    constexpr double pixels = 0.1, pixelsOfVoxel = 4; // at most
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    return node.facts.edgeError <= pixels * column_.finest &&
+      *std::max_element(voxel.begin(), voxel.end()) <= pixelsOfVoxel * column_.finest;
+  }
+
+  Negligible negligible() const
+  {
+    const double tolerance = tree_.settings_.tolerance;
+    return { tolerance * work_.largest, tolerance * work_.gathered };
+  }
+
+  /// What is negligible to a leaf; nothing is where too much has been neglected along rays.
+  Negligible negligibleTo(const Node& node, const NodeFields& fields) const
+  {
+    const Negligible usual = negligible();
+    return { node.isCoarse ? 0 : usual.deflection, fields.isCoarse ? 0 : usual.gathered };
+  }
+
+  /// Whether a leaf lacks something that is not negligible.
+  bool lacks(const Node& node, const NodeFields& fields) const
+  {
+    return node.isCoarse || fields.isCoarse || node.facts.neglected > negligible().deflection ||
+      fields.facts.neglected > negligible().gathered;
+  }
+
+  /// How far refining has come, when so much of this round is done. Each level takes some four times as long as
+  /// the one before; there may be less of them than the view allows, and rounds that refine no level.
+  double progressAt(double ofRound) const
+  {
+    int levels = 1;
+    while (levels < usualLevels && allows(levels))
+    {
+      ++levels;
+    }
+    return std::pow(4, -std::max(0., levels - (work_.rounds - 1) - ofRound));
+  }
+
+private:
+  bool sees(const Vec3<double>& direction, int side, const Box& box) const
+  {
+    const double a[3] = { direction.x, direction.y, direction.z };
+    double middle = 0, half = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      middle += a[axis] * 0.5 * (box.low[axis] + box.high[axis]);
+      half += std::abs(a[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
+    }
+    return !(std::abs(middle - column_.middle[side]) > widening * column_.halfWidth[side] + half);
+  }
+
+  const MediumTree& tree_;
+  const Work& work_;
+  const Column& column_;
+};
+
+} // namespace schlieren
