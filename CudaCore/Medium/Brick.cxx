@@ -79,6 +79,7 @@ struct BrickMaker<Real>::Samples
 {
   int margin;                       ///< points beyond the box
   int n;                            ///< points along each axis
+  int layers;                       ///< along z; 1: there is no margin either
   std::array<int, 3> begin, end;    ///< those that are within the domain
   std::vector<double> nu;           ///< everywhere, in the end
   std::vector<Place> places;        ///< only where there may be others than gas
@@ -94,8 +95,8 @@ struct BrickMaker<Real>::Samples
   }
   bool isWithin(int i, int j, int k) const
   {
-    return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] && k >= begin[2] &&
-      k < end[2];
+    return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] &&
+      (layers == 1 || (k >= begin[2] && k < end[2]));
   }
   std::array<int, 3> nearestWithin(std::array<int, 3> at) const
   {
@@ -107,7 +108,7 @@ struct BrickMaker<Real>::Samples
   }
   bool isAllWithin() const
   {
-    return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, n };
+    return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, layers };
   }
   bool hasGas() const { return lowest <= highest; }
   /// What linear interpolation of distances misses half a voxel away from a point: an eighth of second differences.
@@ -115,7 +116,7 @@ struct BrickMaker<Real>::Samples
   {
     const float* at = &distances[index(i, j, k)];
     float sum = 0;
-    for (const std::ptrdiff_t stride : { 1, n, n * n })
+    for (const std::ptrdiff_t stride : { 1, n, layers > 1 ? n * n : 0 })
     {
       sum += std::abs(at[stride] - 2 * at[0] + at[-stride]);
     }
@@ -135,6 +136,7 @@ BrickMaker<Real>::BrickMaker(const MediumSource& source, const Grid& grid, doubl
   , ambient_(ambient)
   , smallest_(1e-20 * largestNu)
   , interpolation_(interpolation)
+  , shape_(source.isFlat() ? BrickShape::Layer : BrickShape::Cube)
   , apron_(apronOf(interpolation))
   , support_(
       interpolation == Interpolation::Quadratic || interpolation == Interpolation::Cubic ? 1 : 0)
@@ -144,23 +146,23 @@ BrickMaker<Real>::BrickMaker(const MediumSource& source, const Grid& grid, doubl
 template <class Real>
 std::int64_t BrickMaker<Real>::samplesPerBrick() const
 {
-  const std::int64_t n = edge + 2 * apron_;
-  return n * n * n;
+  const int n = edge + 2 * apron_;
+  return std::int64_t{ n } * n * layersOf(n);
 }
 
 template <class Real>
 std::array<double, 3> BrickMaker<Real>::voxelOf(int level) const
 {
   return { std::ldexp(grid_.spacing[0], -level), std::ldexp(grid_.spacing[1], -level),
-    std::ldexp(grid_.spacing[2], -level) };
+    std::ldexp(grid_.spacing[2], shape_ == BrickShape::Layer ? 0 : -level) };
 }
 
 template <class Real>
 Box BrickMaker<Real>::boxOf(const NodePlace& place) const
 {
   const std::array<double, 3> voxel = voxelOf(place.level);
-  Box box{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  Box box = bounds_;
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     box.low[axis] = grid_.origin[axis] + edge * voxel[axis] * place.at[axis];
     box.high[axis] = grid_.origin[axis] + edge * voxel[axis] * (place.at[axis] + 1);
@@ -176,8 +178,12 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
   const int marginOfFields = hasFields ? 1 : 0; // for central differences
   samples.margin = apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
   samples.n = edge + 2 * samples.margin;
-  Lattice lattice{ {}, voxelOf(place.level), { samples.n, samples.n, samples.n } };
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  samples.layers = layersOf(samples.n);
+  Lattice lattice{ {}, voxelOf(place.level), { samples.n, samples.n, samples.layers } };
+  lattice.first[2] = 0.5 * (bounds_.low[2] + bounds_.high[2]);
+  samples.begin[2] = 0;
+  samples.end[2] = 1;
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     const std::int64_t first = std::int64_t{ edge } * place.at[axis] - samples.margin;
     lattice.first[axis] =
@@ -195,6 +201,7 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
   {
     samples.fields.voxel = lattice.spacing;
     samples.fields.n = samples.n;
+    samples.fields.shape = shape_;
     samples.fields.margin = samples.margin;
     samples.fields.values.resize(static_cast<std::size_t>(source_.fields()) * points);
     source_.sampleWithFields(
@@ -232,7 +239,7 @@ void BrickMaker<Real>::Samples::findGas()
     }
   }
   isGas.resize(nu.size());
-  for (int k = 0; k < n; ++k)
+  for (int k = 0; k < layers; ++k)
   {
     for (int j = 0; j < n; ++j)
     {
@@ -272,9 +279,9 @@ void BrickMaker<Real>::Samples::continueGas()
   }
   if (hasHoles)
   {
-    PaddedVolume<double> volume({ n, n, n });
-    PointMask empty({ n, n, n });
-    for (int k = 0; k < n; ++k)
+    PaddedVolume<double> volume({ n, n, layers });
+    PointMask empty({ n, n, layers });
+    for (int k = 0; k < layers; ++k)
     {
       for (int j = 0; j < n; ++j)
       {
@@ -288,7 +295,7 @@ void BrickMaker<Real>::Samples::continueGas()
       }
     }
     fillEmpty(volume, empty, 1);
-    for (int k = 0; k < n; ++k)
+    for (int k = 0; k < layers; ++k)
     {
       for (int j = 0; j < n; ++j)
       {
@@ -300,6 +307,7 @@ void BrickMaker<Real>::Samples::continueGas()
   std::array<int, 3> from = begin;
   std::array<int, 3> to = end;
   const std::array<int, 3> strides{ 1, n, n * n };
+  const std::array<int, 3> points{ n, n, layers };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::size_t a = (axis + 1) % 3;
@@ -315,14 +323,14 @@ void BrickMaker<Real>::Samples::continueGas()
         {
           at(i) = 3 * (at(i + 1) - at(i + 2)) + at(i + 3);
         }
-        for (int i = end[axis]; i < n; ++i)
+        for (int i = end[axis]; i < points[axis]; ++i)
         {
           at(i) = 3 * (at(i - 1) - at(i - 2)) + at(i - 3);
         }
       }
     }
     from[axis] = 0;
-    to[axis] = n;
+    to[axis] = points[axis];
   }
 }
 
@@ -337,7 +345,8 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   float bend = 0; // of distances, in the middle of a voxel
   const int first = samples.margin - 1;
   const int last = samples.margin + edge;
-  for (int k = first; k <= last; ++k)
+  const bool isLayer = shape_ == BrickShape::Layer;
+  for (int k = isLayer ? 0 : first; k <= (isLayer ? 0 : last); ++k)
   {
     for (int j = first; j <= last; ++j)
     {
@@ -375,8 +384,9 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
   facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
   const std::array<double, 3> voxel = voxelOf(place.level);
-  facts.edgeError = static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.end());
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  facts.edgeError =
+    static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     facts.areEdgesFine =
       facts.areEdgesFine && !(voxel[axis] > edgeVoxelByCell * content.cellSize[axis]);
@@ -391,7 +401,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   const int stored = edge + 2 * apron_;
   const int skipped = samples.margin - apron_;
   brick.gasDistances.reserve(static_cast<std::size_t>(samplesPerBrick()));
-  for (int k = 0; k < stored; ++k)
+  for (int k = 0; k < layersOf(stored); ++k)
   {
     for (int j = 0; j < stored; ++j)
     {
@@ -399,17 +409,17 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
       {
         // Where gas ends with the domain there is no edge: rounding would tell where rays that end there are.
         const std::array<int, 3> nearest =
-          samples.nearestWithin({ i + skipped, j + skipped, k + skipped });
+          samples.nearestWithin({ i + skipped, j + skipped, isLayer ? 0 : k + skipped });
         const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
         // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
         bool isWindow = samples.places[at] == Place::Window;
         if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
         {
           bool isBesideWall = false;
-          for (int neighbour = 0; neighbour < 27; ++neighbour)
+          for (int neighbour = 0; neighbour < (isLayer ? 9 : 27); ++neighbour)
           {
             const Place there = samples.places[samples.index(nearest[0] + neighbour % 3 - 1,
-              nearest[1] + neighbour / 3 % 3 - 1, nearest[2] + neighbour / 9 - 1)];
+              nearest[1] + neighbour / 3 % 3 - 1, isLayer ? 0 : nearest[2] + neighbour / 9 - 1)];
             isWindow = isWindow || there == Place::Window;
             isBesideWall = isBesideWall || there == Place::Wall;
           }
@@ -431,17 +441,17 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   const Samples& samples, BrickFacts& facts) const
 {
   const std::array<double, 3> voxel = voxelOf(place.level);
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     if (!(voxel[axis] > voxelByCell * content.cellSize[axis]))
     {
       continue;
     }
     const double largest = largestThirdDifference(
-      samples.nu.data(), samples.isGas, { samples.n, samples.margin - 1, edge + 2 }, axis);
+      samples.nu.data(), samples.isGas, { samples.n, samples.margin - 1, edge + 2, shape_ }, axis);
     // Along the ray the box may be longer than along this axis.
     double longest = 0;
-    for (std::size_t other = 0; other < 3; ++other)
+    for (std::size_t other = 0; other < axes(); ++other)
     {
       longest = other == axis ? longest : std::max(longest, voxel[other]);
     }
@@ -449,7 +459,7 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   }
   const double missed = std::max(0., nuOf(content.highest) - samples.highest) +
     std::max(0., samples.lowest - nuOf(content.lowest));
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     if (voxel[axis] > coarseByCell * content.cellSize[axis] &&
       missed > missedByRange * (samples.highest - samples.lowest))
@@ -469,10 +479,11 @@ void BrickMaker<Real>::storeCoefficients(Samples& samples, Brick<Real>& brick) c
     const double outer = interpolation_ == Interpolation::Cubic ? -1. / 6 : -1. / 8;
     const double inner = 1 - 2 * outer;
     std::vector<double> line(samples.nu.size());
-    for (const int stride : { 1, n, n * n })
+    const std::array<int, 3> strides{ 1, n, n * n };
+    for (std::size_t axis = 0; axis < axes(); ++axis)
     {
       // The outermost layers come out wrong, one more with each axis but only along it: none is stored.
-      const std::size_t s = static_cast<std::size_t>(stride);
+      const std::size_t s = static_cast<std::size_t>(strides[axis]);
       const double* from = samples.nu.data();
       for (std::size_t i = s; i + s < line.size(); ++i)
       {
@@ -486,11 +497,12 @@ void BrickMaker<Real>::storeCoefficients(Samples& samples, Brick<Real>& brick) c
   brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
   brick.samples.resize(static_cast<std::size_t>(samplesPerBrick()));
   Real* to = brick.samples.data();
-  for (int k = 0; k < stored; ++k)
+  for (int k = 0; k < layersOf(stored); ++k)
   {
     for (int j = 0; j < stored; ++j)
     {
-      const double* row = samples.nu.data() + samples.index(skipped, j + skipped, k + skipped);
+      const double* row = samples.nu.data() +
+        samples.index(skipped, j + skipped, shape_ == BrickShape::Layer ? 0 : k + skipped);
       for (int i = 0; i < stored; ++i)
       {
         const double relative = row[i] - static_cast<double>(brick.offset);
@@ -511,9 +523,9 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
   const auto offset = static_cast<double>(brick.offset);
   facts.largestNu = std::max(std::abs(offset + static_cast<double>(*lowest)),
     std::abs(offset + static_cast<double>(*highest)));
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
-    std::array<int, 3> to{ stored, stored, stored };
+    std::array<int, 3> to{ stored, stored, layersOf(stored) };
     to[axis] -= 1;
     const auto rowAt = [&](int j, int k)
     { return brick.samples.data() + k * strides[2] + j * strides[1]; };
@@ -550,7 +562,8 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
       at[1] += at[0] + 1 == to[0] ? 1 : 0;
       at[0] = at[0] + 1 == to[0] ? 0 : at[0] + 1;
     }
-    for (std::size_t other = 0; other < 3; ++other)
+    facts.steepestAt[2] = 0.5 * static_cast<double>(grid_.dimensions[2] - 1);
+    for (std::size_t other = 0; other < axes(); ++other)
     {
       const double local =
         std::clamp(at[other] - apron_ + (other == axis ? 0.5 : 0), -0.49, edge - 0.51);
@@ -566,7 +579,7 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   Brick<Real> brick;
   Box box = boxOf(place);
   const std::array<double, 3> voxel = voxelOf(place.level);
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     box.low[axis] = std::max(box.low[axis] - apron_ * voxel[axis], bounds_.low[axis]);
     box.high[axis] = std::min(box.high[axis] + apron_ * voxel[axis], bounds_.high[axis]);

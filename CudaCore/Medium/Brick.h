@@ -86,9 +86,12 @@ public:
   Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
 
   int apron() const { return apron_; }
+  BrickShape shape() const { return shape_; }
+  /// The axes along which there is more than one sample.
+  std::size_t axes() const { return shape_ == BrickShape::Layer ? 2 : 3; }
   std::int64_t samplesPerBrick() const;
-  Box boxOf(const NodePlace& place) const; ///< without apron; data units
-  std::array<double, 3> voxelOf(int level) const;
+  Box boxOf(const NodePlace& place) const;        ///< without apron; data units
+  std::array<double, 3> voxelOf(int level) const; ///< of one layer: as deep as the domain
 
 private:
   struct Samples;
@@ -101,6 +104,8 @@ private:
   void storeCoefficients(Samples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
   double nuOf(double refractivity) const { return (refractivity - ambient_) / (1 + ambient_); }
+  /// Of points along z, where there are so many along the other axes.
+  int layersOf(int points) const { return shape_ == BrickShape::Layer ? 1 : points; }
 
   const MediumSource& source_;
   Grid grid_;
@@ -108,6 +113,7 @@ private:
   double ambient_;
   double smallest_; ///< |nu| of a coefficient that is not 0
   Interpolation interpolation_;
+  BrickShape shape_;
   int apron_;
   int support_; ///< samples beyond a coefficient's place that it is made of
 };
@@ -115,9 +121,10 @@ private:
 /// Value and gradient, by local coordinates, of a brick whose first stored sample is at `samples`. The place is
 /// taken to the nearest one in the leaf.
 template <class Scheme, class Real>
-Sample<Real> interpolateBrick(const Real* samples, int apron, const Vec3<Real>& place)
+Sample<Real> interpolateBrick(
+  const Real* samples, int apron, BrickShape shape, const Vec3<Real>& place)
 {
-  const MediumView<Real> view = viewOfBricks(samples, BrickMaker<Real>::edge, apron);
+  const MediumView<Real> view = viewOfBricks(samples, BrickMaker<Real>::edge, apron, shape);
   return interpolate<Scheme>(view, clampTo(place, view.leafLow, view.leafHigh));
 }
 

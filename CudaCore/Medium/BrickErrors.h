@@ -4,6 +4,8 @@
 // What tells how fine a box of the medium's tree needs to be: of N, and of the fields whose gradients rays gather.
 #pragma once
 
+#include "Medium/Leaves.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,10 +54,11 @@ inline void widenByThirdDifferences(
   }
 }
 
-/// A cube of `points` along each edge within a larger one of `n`, `first` from its sides.
+/// A cube of `points` along each edge within a larger one of `n`, `first` from its sides; or a square of one layer.
 struct InnerCube
 {
   int n, first, points;
+  BrickShape shape;
 };
 
 /// The largest third difference of `values` along an axis. Of differences with places where `counts` is 0, none; empty:
@@ -65,7 +68,9 @@ inline double largestThirdDifference(const double* values, const std::vector<uns
 {
   constexpr std::size_t mostPoints = 64;
   std::array<double, mostPoints> most{};
-  std::array<int, 3> to{ cube.points, cube.points, cube.points };
+  const bool isLayer = cube.shape == BrickShape::Layer;
+  const int firstLayer = isLayer ? 0 : cube.first;
+  std::array<int, 3> to{ cube.points, cube.points, isLayer ? 1 : cube.points };
   to[axis] -= 3;
   const std::array<std::ptrdiff_t, 3> strides{ 1, cube.n, std::ptrdiff_t{ cube.n } * cube.n };
   for (int k = 0; k < to[2]; ++k)
@@ -73,7 +78,7 @@ inline double largestThirdDifference(const double* values, const std::vector<uns
     for (int j = 0; j < to[1]; ++j)
     {
       const std::ptrdiff_t row =
-        cube.first + (cube.first + j) * strides[1] + (cube.first + k) * strides[2];
+        cube.first + (cube.first + j) * strides[1] + (firstLayer + k) * strides[2];
       if (counts.empty())
       {
         widenByThirdDifferences(values + row, strides[axis], to[0], most.data());

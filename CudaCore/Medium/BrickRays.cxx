@@ -79,7 +79,7 @@ std::int16_t gasDistanceAt(
 {
   const int stride = 16 + 2 * medium.apron;
   std::int64_t at = 0;
-  for (int axis = 2; axis >= 0; --axis)
+  for (int axis = medium.axes() - 1; axis >= 0; --axis)
   {
     const int i = static_cast<int>(std::lround(std::clamp(local[axis], 0., 15.)));
     at = at * stride + i + medium.apron;
@@ -107,6 +107,10 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     {
       local[axis] = (at(s, axis) - leaf.first[axis]) * leaf.perIndex;
       along[axis] = ray.direction[axis] * leaf.perIndex; // samples by data unit
+      if (axis == medium.axes())
+      {
+        continue;
+      }
       fastest = std::max(fastest, std::abs(along[axis]));
       if (along[axis] != 0)
       {
@@ -115,7 +119,8 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       }
     }
     // Into the next leaf, whatever rounding does.
-    const double beyond = std::max(1e-4 / fastest, 1e-12 * std::abs(ray.exit));
+    const double beyond =
+      fastest > 0 ? std::max(1e-4 / fastest, 1e-12 * std::abs(ray.exit)) : ray.exit - s;
     if (leaf.kind == Leaf<Real>::Solid)
     {
       bend.isBlocked = true;
@@ -128,9 +133,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     if ((difference > 0 || ofFields > 0) && way > 0)
     {
       // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
-      const double edge =
-        *std::min_element(medium.grid.spacing.begin(), medium.grid.spacing.end()) * brickEdge /
-        leaf.perIndex;
+      const double edge = medium.smallestSpacing() * brickEdge / leaf.perIndex;
       bend.neglected.push_back({ found, static_cast<float>(difference * way / edge),
         static_cast<float>(0.5 * difference * way), static_cast<float>(ofFields * way / edge) });
     }
@@ -160,7 +163,8 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
           gatherGradients(
             medium.gradients, found, here, static_cast<Real>(step / unit), sums.data());
         }
-        const Sample<Real> sample = interpolateBrick<Scheme>(samples, medium.apron, here);
+        const Sample<Real> sample =
+          interpolateBrick<Scheme>(samples, medium.apron, medium.shape, here);
         bend.opticalPath += static_cast<double>(sample.value) * step;
         gradient[0] += static_cast<double>(sample.gradient.x) * leaf.perIndex * step;
         gradient[1] += static_cast<double>(sample.gradient.y) * leaf.perIndex * step;

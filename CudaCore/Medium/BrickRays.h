@@ -9,6 +9,7 @@
 #include "Medium/Leaves.h"
 #include "Schlieren.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -40,7 +41,16 @@ struct LeavesView
     fieldDifferences; ///< of each leaf, as `differences`, of all fields; null: there are none
   std::int64_t samplesPerBrick;
   int apron;
+  BrickShape shape;
   Interpolation interpolation;
+
+  /// The axes along which there is more than one sample.
+  int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
+  /// The smallest edge of a voxel that is as large as the index coordinates' unit.
+  double smallestSpacing() const
+  {
+    return *std::min_element(grid.spacing.begin(), grid.spacing.begin() + axes());
+  }
 };
 
 /// What straight rays tell: those on a lattice over the column, and those through some places (index coordinates)

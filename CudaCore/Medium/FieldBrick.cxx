@@ -58,7 +58,7 @@ struct OneField
   double range() const { return std::max(0., highest - lowest); }
 
   /// By 1 / perAxis[...] on each axis; 0 where the field is not known.
-  double gradientAt(std::size_t at, const std::array<std::size_t, 3>& strides,
+  double gradientAt(std::size_t at, std::size_t axes, const std::array<std::size_t, 3>& strides,
     const std::array<double, 3>& perAxis) const
   {
     if (!isKnown.empty() && isKnown[at] == 0)
@@ -66,7 +66,7 @@ struct OneField
       return 0;
     }
     double square = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < axes; ++axis)
     {
       std::size_t below = at - strides[axis], above = at + strides[axis];
       double run = 2;
@@ -87,12 +87,15 @@ struct OneField
 void continueGradients(std::vector<double>& gradients, int stored, const FieldSamples& samples,
   int skipped, const std::vector<unsigned char>& isGas)
 {
-  PaddedVolume<double> volume({ stored, stored, stored });
-  PointMask empty({ stored, stored, stored });
+  const bool isLayer = samples.shape == BrickShape::Layer;
+  const int layers = isLayer ? 1 : stored;
+  const int firstLayer = isLayer ? 0 : skipped;
+  PaddedVolume<double> volume({ stored, stored, layers });
+  PointMask empty({ stored, stored, layers });
   const auto n = static_cast<std::size_t>(samples.n);
   bool hasHoles = false;
   std::size_t at = 0;
-  for (int k = 0; k < stored; ++k)
+  for (int k = 0; k < layers; ++k)
   {
     for (int j = 0; j < stored; ++j)
     {
@@ -100,7 +103,8 @@ void continueGradients(std::vector<double>& gradients, int stored, const FieldSa
       for (int i = 0; i < stored; ++i, ++at)
       {
         const std::size_t of =
-          (static_cast<std::size_t>(k + skipped) * n + static_cast<std::size_t>(j + skipped)) * n +
+          (static_cast<std::size_t>(k + firstLayer) * n + static_cast<std::size_t>(j + skipped)) *
+            n +
           static_cast<std::size_t>(i + skipped);
         gas |= std::uint64_t{ isGas[of] } << i;
         volume.at(i, j, k) = gradients[at];
@@ -115,7 +119,7 @@ void continueGradients(std::vector<double>& gradients, int stored, const FieldSa
   }
   fillEmpty(volume, empty, 1);
   at = 0;
-  for (int k = 0; k < stored; ++k)
+  for (int k = 0; k < layers; ++k)
   {
     for (int j = 0; j < stored; ++j)
     {
@@ -147,22 +151,24 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
   FieldBrick brick;
   FieldFacts& facts = brick.facts;
   const auto n = static_cast<std::size_t>(samples.n);
-  const std::size_t points = n * n * n;
+  const bool isLayer = samples.shape == BrickShape::Layer;
+  const std::size_t axes = isLayer ? 2 : 3;
+  const std::size_t points = n * n * (isLayer ? 1 : n);
   const auto& voxel = samples.voxel;
   const int edge = samples.n - 2 * samples.margin;
-  const double longest = *std::max_element(voxel.begin(), voxel.end());
+  const double longest = *std::max_element(voxel.begin(), voxel.begin() + axes);
   std::vector<OneField> fields;
   for (int number = 0; number < source.fields(); ++number)
   {
     const OneField& field = fields.emplace_back(
       samples.values.data() + static_cast<std::size_t>(number) * points, points, isGas);
     facts.range += deflectionByRange * field.range();
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < axes; ++axis)
     {
       if (voxel[axis] > voxelByCell * cellSize[axis])
       {
-        const double largest = largestThirdDifference(
-          field.values, field.isKnown, { samples.n, samples.margin - 1, edge + 2 }, axis);
+        const double largest = largestThirdDifference(field.values, field.isKnown,
+          { samples.n, samples.margin - 1, edge + 2, samples.shape }, axis);
         facts.error[axis] += errorByThirdDifference * largest * edge * longest / voxel[axis];
       }
     }
@@ -170,7 +176,7 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
     const double missed = all.lowest > all.highest || field.lowest > field.highest
       ? 0
       : std::max(0., all.highest - field.highest) + std::max(0., field.lowest - all.lowest);
-    for (std::size_t axis = 0; axis < 3 && missed > missedByRange * field.range(); ++axis)
+    for (std::size_t axis = 0; axis < axes && missed > missedByRange * field.range(); ++axis)
     {
       facts.hidden[axis] +=
         voxel[axis] > coarseByCell * cellSize[axis] ? deflectionByRange * missed : 0;
@@ -185,13 +191,15 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
   const int skipped = samples.margin - apron;
   const std::array<std::size_t, 3> strides{ 1, n, n * n };
   const std::array<double, 3> perAxis{ unit / voxel[0], unit / voxel[1], unit / voxel[2] };
-  const auto storedPoints = static_cast<std::size_t>(stored * stored * stored);
+  const int layers = isLayer ? 1 : stored;
+  const int firstLayer = isLayer ? 0 : skipped;
+  const auto storedPoints = static_cast<std::size_t>(stored * stored * layers);
   brick.gradients.resize(fields.size() * storedPoints);
   std::vector<double> gradients(storedPoints);
   for (std::size_t number = 0; number < fields.size(); ++number)
   {
     std::size_t to = 0;
-    for (int k = skipped; k < skipped + stored; ++k)
+    for (int k = firstLayer; k < firstLayer + layers; ++k)
     {
       for (int j = skipped; j < skipped + stored; ++j)
       {
@@ -199,7 +207,7 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
           static_cast<std::size_t>(skipped);
         for (int i = 0; i < stored; ++i)
         {
-          gradients[to++] = fields[number].gradientAt(at++, strides, perAxis);
+          gradients[to++] = fields[number].gradientAt(at++, axes, strides, perAxis);
         }
       }
     }

@@ -4,6 +4,7 @@
 // One box of the medium's tree: the gradients of the fields that rays gather there.
 #pragma once
 
+#include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
 
 #include <array>
@@ -31,10 +32,11 @@ struct FieldBrick
   FieldFacts facts;
 };
 
-/// Values of fields at n^3 points around a box.
+/// Values of fields at n^3 points around a box, or at n^2 of one layer.
 struct FieldSamples
 {
   std::array<double, 3> voxel;
+  BrickShape shape = BrickShape::Cube;
   int n = 0;
   int margin = 0;             ///< points beyond the box, more than the apron of what is made
   std::vector<double> values; ///< field after field

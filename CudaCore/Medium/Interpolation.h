@@ -40,18 +40,24 @@ struct MediumView
   const std::int16_t* gasDistances = nullptr;
 };
 
-/// Of bricks of edge^3 samples with `apron` ghost points around each; `samples`: the first of them.
+/// Local coordinates along z that leaves of one layer reach to, which is beyond any domain; floats still tell voxels.
+constexpr int depthOfLayers = 1 << 22;
+
+/// Of bricks with `apron` ghost points around each; `samples`: the first of them. Those of one layer have no ghost
+/// points along z: its samples are found at all z.
 template <class Real>
-MediumView<Real> viewOfBricks(const Real* samples, int edge, int apron)
+MediumView<Real> viewOfBricks(const Real* samples, int edge, int apron, BrickShape shape)
 {
   const std::int64_t row = edge + 2 * apron;
-  const std::int64_t plane = row * row;
+  const bool isLayer = shape == BrickShape::Layer;
+  const std::int64_t plane = isLayer ? 0 : row * row;
   // Views begin at the first of the ghost points that all schemes have.
   const std::int64_t ghost = (apron - 1) * (plane + row + 1);
   constexpr Real low = Real(-0.5);
   const Real high = std::nextafter(Real(edge - 0.5), low); // its nearest sample is the last one
   MediumView<Real> view{ samples + ghost, row, plane, { low, low, low }, { high, high, high }, {} };
-  view.brickStride = row * plane;
+  view.leafHigh.z = isLayer ? Real(depthOfLayers) : high;
+  view.brickStride = isLayer ? row * row : row * plane;
   return view;
 }
 

@@ -16,6 +16,14 @@
 namespace schlieren
 {
 
+/// What bricks are made of: edge^3 samples; or one layer of edge^2, where nothing depends on z. Such leaves have all of
+/// the domain's depth, and a root cell is divided along x and y alone.
+enum class BrickShape
+{
+  Cube,
+  Layer
+};
+
 template <class Real>
 struct Leaf
 {

@@ -470,7 +470,8 @@ template <class Real>
 MediumView<Real> viewOf(const MediumTree<Real>& tree)
 {
   const Real* samples = tree.samples().data();
-  MediumView<Real> view = viewOfBricks(samples, MediumTree<Real>::brickEdge, tree.apron());
+  MediumView<Real> view =
+    viewOfBricks(samples, MediumTree<Real>::brickEdge, tree.apron(), tree.shape());
   const std::array<std::int64_t, 3>& points = tree.grid().dimensions;
   view.last = { static_cast<double>(points[0] - 1), static_cast<double>(points[1] - 1),
     static_cast<double>(points[2] - 1) };

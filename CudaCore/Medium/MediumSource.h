@@ -51,6 +51,10 @@ public:
   /// Proportions that voxels should have, e.g. (1, 0.1, 1) where cells are ten times finer along y.
   virtual std::array<double, 3> voxelShape() const { return { 1, 1, 1 }; }
 
+  /// Whether nothing depends on z: along it, bounds() tell a depth and nothing else. Then lattices to be sampled
+  /// have one layer, in the middle of the depth, which is their spacing along z.
+  virtual bool isFlat() const { return false; }
+
   /// What is known of a box without looking at single places. It may say less than there is to say, never
   /// something wrong: a wider range, smaller cells, more kinds of places.
   struct Content

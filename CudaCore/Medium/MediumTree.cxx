@@ -23,8 +23,11 @@ namespace
 constexpr double fewestRoots = 4;
 constexpr double mostRoots = 16;
 
-std::array<std::int32_t, 3> rootCellsOf(const Box& box, const std::array<double, 3>& voxelShape)
+/// One along z where nothing depends on it.
+std::array<std::int32_t, 3> rootCellsOf(const MediumSource& source)
 {
+  const Box box = source.bounds();
+  const std::array<double, 3> voxelShape = source.voxelShape();
   std::array<double, 3> length{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -38,6 +41,10 @@ std::array<std::int32_t, 3> rootCellsOf(const Box& box, const std::array<double,
     length[axis] =
       voxelShape[axis] > 0 && std::isfinite(voxelShape[axis]) ? edge / voxelShape[axis] : edge;
   }
+  if (source.isFlat())
+  {
+    length[2] = std::min(length[0], length[1]);
+  }
   const double longest = *std::max_element(length.begin(), length.end());
   const double shortest = *std::min_element(length.begin(), length.end());
   const double most = std::clamp(std::round(longest / shortest), fewestRoots, mostRoots);
@@ -47,17 +54,21 @@ std::array<std::int32_t, 3> rootCellsOf(const Box& box, const std::array<double,
     cells[axis] = std::max<std::int32_t>(
       1, static_cast<std::int32_t>(std::lround(most * length[axis] / longest)));
   }
+  cells[2] = source.isFlat() ? 1 : cells[2];
   return cells;
 }
 
-Grid gridOf(const Box& box, const std::array<std::int32_t, 3>& rootCells, std::int64_t brickEdge)
+/// Where nothing depends on z, two points apart by the depth tell it.
+Grid gridOf(const MediumSource& source, std::int64_t brickEdge)
 {
+  const Box box = source.bounds();
+  const std::array<std::int32_t, 3> rootCells = rootCellsOf(source);
   Grid grid;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    grid.dimensions[axis] = brickEdge * rootCells[axis] + 1;
-    grid.spacing[axis] =
-      (box.high[axis] - box.low[axis]) / static_cast<double>(brickEdge * rootCells[axis]);
+    const std::int64_t voxels = axis == 2 && source.isFlat() ? 1 : brickEdge * rootCells[axis];
+    grid.dimensions[axis] = voxels + 1;
+    grid.spacing[axis] = (box.high[axis] - box.low[axis]) / static_cast<double>(voxels);
     grid.origin[axis] = box.low[axis];
   }
   validate(grid);
@@ -89,9 +100,8 @@ MediumTree<Real>::MediumTree(
   std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings)
   : source_(std::move(source))
   , settings_(settings)
-  , grid_(
-      gridOf(source_->bounds(), rootCellsOf(source_->bounds(), source_->voxelShape()), brickEdge))
-  , rootCells_(rootCellsOf(source_->bounds(), source_->voxelShape()))
+  , grid_(gridOf(*source_, brickEdge))
+  , rootCells_(rootCellsOf(*source_))
   , maker_(*source_, grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
       settings.interpolation)
   , samples_({ static_cast<std::size_t>(maker_.samplesPerBrick()), 1,
@@ -145,8 +155,7 @@ typename MediumTree<Real>::NodeFields MediumTree<Real>::fieldsOf(std::int32_t no
 
 Grid coarsestGrid(const MediumSource& source)
 {
-  const Box bounds = source.bounds();
-  return gridOf(bounds, rootCellsOf(bounds, source.voxelShape()), MediumTree<float>::brickEdge);
+  return gridOf(source, MediumTree<float>::brickEdge);
 }
 
 template <class Real>
@@ -154,18 +163,20 @@ LeafFinder MediumTree<Real>::finder() const
 {
   constexpr double perIndex = 1. / brickEdge;
   return { roots_.data(), children_.data(), { rootCells_[0], rootCells_[1], rootCells_[2] },
-    { perIndex, perIndex, perIndex } };
+    { perIndex, perIndex, shape() == BrickShape::Layer ? 0 : perIndex } };
 }
 
 template <class Real>
 FieldGradientsView MediumTree<Real>::gradients() const
 {
   const std::int64_t row = brickEdge + 2 * apron();
-  const std::int64_t plane = row * row;
+  const bool isLayer = shape() == BrickShape::Layer;
+  const std::int64_t plane = isLayer ? 0 : row * row;
   const int fields = source_->fields();
   const std::int64_t first = fields * apron() * (plane + row + 1);
   return { fields > 0 ? gradients_.values().data() + first : nullptr, fields, row, plane,
-    { brickEdge - 1, brickEdge - 1, brickEdge - 1 }, gradientBricks_.data(), samplesPerBrick() };
+    { brickEdge - 1, brickEdge - 1, isLayer ? depthOfLayers : brickEdge - 1 },
+    gradientBricks_.data(), samplesPerBrick() };
 }
 
 template <class Real>
@@ -209,7 +220,7 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
       leaf.kind =
         leaf.kind == Leaf<Real>::Constant && gradients > 0 ? Leaf<Real>::Samples : leaf.kind;
     }
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
     {
       leaf.first[axis] =
         std::ldexp(brickEdge * static_cast<double>(node.place.at[axis]) + 0.5, -node.place.level);
@@ -220,8 +231,8 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
   }
   const std::size_t first = children_.size();
   code = static_cast<std::int32_t>(first / 8);
-  children_.resize(first + 8);
-  for (std::int32_t child = 0; child < 8; ++child)
+  children_.resize(first + 8, -1); // where nothing depends on z, rays take the lower four
+  for (std::int32_t child = 0; child < parts(); ++child)
   {
     std::int32_t ofChild = 0;
     number(node.children + child, ofChild);
@@ -243,7 +254,7 @@ void MediumTree<Real>::arrange()
     if (const std::int32_t children = arranged[n].children; children >= 0)
     {
       arranged[n].children = static_cast<std::int32_t>(arranged.size());
-      for (std::int32_t child = 0; child < 8; ++child)
+      for (std::int32_t child = 0; child < parts(); ++child)
       {
         arranged.push_back(nodes_[static_cast<std::size_t>(children + child)]);
         if (hasFields)
@@ -321,8 +332,9 @@ void MediumTree<Real>::summarize(const View& view)
   }
   statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, statistics_.finestLevel);
   const std::array<double, 3> voxel = maker_.voxelOf(statistics_.finestLevel);
-  statistics_.smallestVoxel = *std::min_element(voxel.begin(), voxel.end());
-  statistics_.voxels = statistics_.bricks * brickEdge * brickEdge * brickEdge;
+  statistics_.smallestVoxel = *std::min_element(voxel.begin(), voxel.begin() + maker_.axes());
+  statistics_.voxels =
+    statistics_.bricks * brickEdge * brickEdge * (shape() == BrickShape::Layer ? 1 : brickEdge);
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
   const double deflection = work_.largest, gathered = work_.gathered;
   statistics_.largestDeflection = deflection;

@@ -62,6 +62,7 @@ public:
   const std::vector<std::int32_t>& children() const { return children_; }
   LeafFinder finder() const;
   int apron() const { return maker_.apron(); } ///< samples around each brick
+  BrickShape shape() const { return maker_.shape(); }
   /// All bricks, one after the other; brick 0 is 0 everywhere. It is that of leaves that are uniform, even of
   /// Leaf::Mixed ones. Where no view has looked, leaves are Leaf::Constant with 0.
   const std::vector<Real>& samples() const { return samples_.values(); }
@@ -91,7 +92,7 @@ private:
   struct Node
   {
     NodePlace place;
-    std::int32_t children = -1; ///< the first of eight nodes, x fastest; -1: a leaf
+    std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has asked for
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
@@ -141,6 +142,8 @@ private:
   };
   class View;
 
+  /// Of a node that is divided.
+  std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
   void makeRoots();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);

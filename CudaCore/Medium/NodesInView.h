@@ -48,12 +48,26 @@ public:
   bool allows(int level, std::size_t axis) const
   {
     constexpr double rounding = 1 - 1e-9;
-    return level < finestLevelOfAll &&
+    return level < finestLevelOfAll && axis < tree_.maker_.axes() &&
       tree_.maker_.voxelOf(level + 1)[axis] >= rounding * column_.finest;
   }
   bool allows(int level) const { return allows(level, 0) || allows(level, 1) || allows(level, 2); }
 
-  /// The error of a node, or of its fields, that the next level would lessen, without edges.
+  /// How long a ray is in a leaf, by the leaf's edge, as far as that is not about 1: in one as deep as the domain.
+  double lengthIn(int level) const
+  {
+    if (tree_.maker_.shape() == BrickShape::Cube)
+    {
+      return 1;
+    }
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
+    const double edge = brickEdge * std::max(voxel[0], voxel[1]);
+    const double along = std::abs(cross(column_.u, column_.v).z);
+    const double aside = std::sqrt(std::max(0., 1 - along * along));
+    return aside * voxel[2] > along * edge ? 1 / aside : voxel[2] / (along * edge);
+  }
+
+  /// The error of a node, or of its fields, that the next level would lessen, without edges: of rays.
   template <class Facts>
   double errorOf(int level, const Facts& facts) const
   {
@@ -61,7 +75,7 @@ public:
     const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
     double error = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
     {
       // Between samples there may be a layer, of which few pixels are to be seen. Light that crosses it is bent no more
       // than by a layer as thick as a voxel.
@@ -71,18 +85,17 @@ public:
       error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
       error = allows(level, axis) ? std::max(error, facts.error[axis]) : error;
     }
-    return error;
+    return lengthIn(level) * error;
   }
 
   /// How badly a leaf needs to be divided; 0: not at all.
   double urgencyOf(const Node& node, const FieldFacts& ofFields) const
   {
     const double error = errorOf(node.place.level, node.facts);
-    const bool hasWindow = node.facts.besideWindow > negligible().deflection;
+    const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
     const bool hasEdge = hasWindow || (node.facts.hasWallEdge && !showsWalls(node));
-    double urgency = error > negligible().deflection ? error : 0;
-    if (const double gathered = errorOf(node.place.level, ofFields);
-        gathered > negligible().gathered)
+    double urgency = error > allowed().deflection ? error : 0;
+    if (const double gathered = errorOf(node.place.level, ofFields); gathered > allowed().gathered)
     {
       const double deflection = work_.largest;
       const bool canCompare = deflection > 0 && work_.gathered > 0;
@@ -103,27 +116,30 @@ public:
     constexpr double pixels = 0.1, pixelsOfVoxel = 4; // at most
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
     return node.facts.edgeError <= pixels * column_.finest &&
-      *std::max_element(voxel.begin(), voxel.end()) <= pixelsOfVoxel * column_.finest;
+      *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
+      pixelsOfVoxel * column_.finest;
   }
 
-  Negligible negligible() const
+  /// Of what a level's leaves have, as facts of them tell it.
+  Negligible negligible(int level) const
   {
-    const double tolerance = tree_.settings_.tolerance;
-    return { tolerance * work_.largest, tolerance * work_.gathered };
+    const double perLength = 1 / lengthIn(level);
+    return { perLength * allowed().deflection, perLength * allowed().gathered };
   }
 
   /// What is negligible to a leaf; nothing is where too much has been neglected along rays.
   Negligible negligibleTo(const Node& node, const NodeFields& fields) const
   {
-    const Negligible usual = negligible();
+    const Negligible usual = negligible(node.place.level);
     return { node.isCoarse ? 0 : usual.deflection, fields.isCoarse ? 0 : usual.gathered };
   }
 
   /// Whether a leaf lacks something that is not negligible.
   bool lacks(const Node& node, const NodeFields& fields) const
   {
-    return node.isCoarse || fields.isCoarse || node.facts.neglected > negligible().deflection ||
-      fields.facts.neglected > negligible().gathered;
+    const Negligible usual = negligible(node.place.level);
+    return node.isCoarse || fields.isCoarse || node.facts.neglected > usual.deflection ||
+      fields.facts.neglected > usual.gathered;
   }
 
   /// How far refining has come, when so much of this round is done. Each level takes some four times as long as
@@ -139,6 +155,13 @@ public:
   }
 
 private:
+  /// Errors of rays.
+  Negligible allowed() const
+  {
+    const double tolerance = tree_.settings_.tolerance;
+    return { tolerance * work_.largest, tolerance * work_.gathered };
+  }
+
   bool sees(const Vec3<double>& direction, int side, const Box& box) const
   {
     const double a[3] = { direction.x, direction.y, direction.z };

@@ -123,7 +123,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   const RayFindings findings = lookAlongRays<Real>(
     { grid_, finder(), leaves_.data(), differences.data(), samples().data(), gasDistances().data(),
       gradients(), ofFields.empty() ? nullptr : ofFields.data(), samplesPerBrick(), apron(),
-      settings_.interpolation },
+      shape(), settings_.interpolation },
     work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
@@ -173,7 +173,7 @@ std::size_t MediumTree<Real>::costOf(const Task& task) const
   const std::size_t ofOne = samples_.bytesOfBrick() +
     (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0) +
     (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
-  return task.divides ? 8 * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
+  return task.divides ? parts() * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
 }
 
 /// Finds the tasks of the next round: those that memory suffices for. Returns whether it has thrown something away
@@ -262,7 +262,7 @@ void MediumTree<Real>::findBricks(const View& view)
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
     const NodePlace& place = node.place;
     const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node));
-    for (std::int32_t child = 0; child < (task.divides ? 8 : 1); ++child)
+    for (std::int32_t child = 0; child < (task.divides ? parts() : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
       if (!task.divides || view.sees(ofOne))
@@ -291,7 +291,7 @@ void MediumTree<Real>::keepBricks(const View& view)
     const auto at = static_cast<std::size_t>(task.node);
     nodes_[at].children = firstChild;
     const NodePlace place = nodes_[at].place;
-    for (std::int32_t child = 0; child < 8; ++child)
+    for (std::int32_t child = 0; child < parts(); ++child)
     {
       addNode(childOf(place, child));
       if (view.sees(nodes_.back().place))
@@ -402,7 +402,7 @@ void MediumTree<Real>::forgetNegligible(const View& view)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
     BrickFacts& facts = node.facts;
-    const Negligible negligible = view.negligible();
+    const Negligible negligible = view.negligible(node.place.level);
     if (NodeFields fields = fieldsOf(at);
         fields.brick > 0 && fields.facts.range <= negligible.gathered)
     {
@@ -433,7 +433,7 @@ template <class Real>
 void MediumTree<Real>::forgetBelow(std::int32_t at)
 {
   std::int32_t& children = nodes_[static_cast<std::size_t>(at)].children;
-  for (std::int32_t child = 0; children >= 0 && child < 8; ++child)
+  for (std::int32_t child = 0; children >= 0 && child < parts(); ++child)
   {
     forgetBelow(children + child);
   }
@@ -465,7 +465,7 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
     return hasAny;
   }
   bool hasChanged = false;
-  for (std::int32_t child = 0; isInner && child < 8; ++child)
+  for (std::int32_t child = 0; isInner && child < parts(); ++child)
   {
     hasChanged = forgetUnneeded(node.children + child, view) || hasChanged;
   }

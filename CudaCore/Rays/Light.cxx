@@ -221,16 +221,14 @@ Light lightFrom(
   return light;
 }
 
-double Light::fastest() const
+double Light::fastest(const Vec3<double>& scale) const
 {
   // Of w and slopes, which is more than of their unit vector; convex, so that it is largest in a corner.
   double most = 0;
   for (const double sign : { -1., 1. })
   {
-    most =
-      std::max(most, length(scaled(indexScale, w + steepest[0] * u + (sign * steepest[1]) * v)));
-    most =
-      std::max(most, length(scaled(indexScale, w - steepest[0] * u + (sign * steepest[1]) * v)));
+    most = std::max(most, length(scaled(scale, w + steepest[0] * u + (sign * steepest[1]) * v)));
+    most = std::max(most, length(scaled(scale, w - steepest[0] * u + (sign * steepest[1]) * v)));
   }
   return most;
 }

@@ -72,8 +72,9 @@ struct Light
   {
     return 1 / std::sqrt(1 + steepest[0] * steepest[0] + steepest[1] * steepest[1]);
   }
-  /// Index coordinates that a ray crosses at most per unit of length.
-  double fastest() const;
+  /// Index coordinates that a ray crosses at most per unit of length; or others, of which there are `scale` per unit.
+  double fastest() const { return fastest(indexScale); }
+  double fastest(const Vec3<double>& scale) const;
 };
 
 /// The light of the picture `frame` of `grid`, all of it along w.

@@ -177,6 +177,8 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
   constexpr std::int32_t worthIt = 4;
   const bool isTree = a.isTree();
   const bool mayBePlain = !a.isGathering();
+  // What blocks are for, long rows of leaves, are not what leaves of one layer are crossed in.
+  const bool hasBlocks = isTree && task.medium.planeStride != 0;
   // To look again: a tree's leaves are left often.
   const std::int32_t pause = isTree ? 2 : 8;
   std::int32_t next = 0;
@@ -185,7 +187,7 @@ SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
     if (mayBePlain && a.steps >= next && a.isPlain() && b.isPlain())
     {
       const std::int32_t before = a.steps;
-      if (isTree)
+      if (hasBlocks)
       {
         takeStepsInBlocks(a, b);
       }

@@ -591,8 +591,12 @@ struct March
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
     const Vec3<Real> x = Path::position(ray, light);
-    const Real least = minimum(leastOf(scaled(task.medium.leafHigh - x, stepsToLast)),
-      leastOf(scaled(x - task.medium.leafLow, stepsToFirst)));
+    // A leaf of one layer reaches beyond the domain.
+    Vec3<Real> low = Vec3<Real>{} + task.medium.leafLow, high = Vec3<Real>{} + task.medium.leafHigh;
+    low.z = maximum(low.z, domainLow.z);
+    high.z = minimum(high.z, domainHigh.z);
+    const Real least =
+      minimum(leastOf(scaled(high - x, stepsToLast)), leastOf(scaled(x - low, stepsToFirst)));
     Number most[lanes];
     toArray(least, most);
     const std::int32_t left = task.stepLimit - steps;

@@ -13,6 +13,31 @@
 namespace schlieren
 {
 
+namespace
+{
+
+/// Index coordinates that steps are to be measured in, by the light's unit of length. Where nothing depends on z, only
+/// the bending of rays asks for steps along it: by one of d, leapfrog takes a ray's deflection wrong by
+/// d^2 |nu''| / 6, which shall be a thousandth. |nu''| is no more than twice the steepest gradient by a smallest voxel.
+template <class Real>
+Vec3<double> scaleOfSteps(const Medium<Real>& medium, const Light& light, PathModel path)
+{
+  Vec3<double> scale = light.indexScale;
+  if (medium.tree == nullptr || medium.tree->shape() == BrickShape::Cube)
+  {
+    return scale;
+  }
+  const double perVoxel = std::max(scale.x, scale.y);
+  const double finest = std::exp2(medium.tree->statistics().finestLevel);
+  constexpr double allowed = 1e-3;
+  const double steepest = std::max(medium.slope.x, medium.slope.y) / finest; // nu by voxel
+  const double voxelsAlong = std::sqrt(6 * allowed / (2 * steepest));
+  scale.z = path == PathModel::Straight ? 0 : perVoxel / std::max(1., voxelsAlong);
+  return scale;
+}
+
+} // namespace
+
 template <class Real>
 RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
   const FieldGradientsView& gradients, const Light& light, const RaySettings& settings)
@@ -32,9 +57,13 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   // Beside solids no longer than a voxel, or rays would step through thin ones.
   const double voxels =
     task.medium.solid == nullptr ? settings.stepVoxels : std::min(settings.stepVoxels, 1.);
-  const double step = voxels / light.fastest();
+  const double finest = medium.tree ? std::exp2(medium.tree->statistics().finestLevel) : 1;
+  // No longer than it takes to be through all of it with one step, whatever rounding does.
+  const double fastest = std::max(light.fastest(scaleOfSteps(medium, light, settings.kernel.path)),
+    std::min(settings.stepVoxels, 1.) / (2 * finest * light.depth));
+  const double step = voxels / fastest;
   task.step = static_cast<Real>(step);
-  task.stepAtEdge = static_cast<Real>(std::min(settings.stepVoxels, 1.) / light.fastest());
+  task.stepAtEdge = static_cast<Real>(std::min(settings.stepVoxels, 1.) / fastest);
   constexpr double stepsAhead = 4;
   const auto ahead = [&](double along, double scale)
   { return std::llround(stepsAhead * step * along * scale); };
@@ -45,7 +74,6 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   const double largestQ = medium.largestNu + (std::isfinite(bend) ? bend : 2);
   constexpr double margin = 1.01; // for the integrator's error
   task.largestQ = static_cast<Real>(margin * largestQ);
-  const double finest = medium.tree ? std::exp2(medium.tree->statistics().finestLevel) : 1;
   const double straightSteps =
     std::ceil(light.depth / light.smallestCosine() / task.stepAtEdge * finest) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();

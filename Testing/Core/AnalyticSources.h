@@ -553,7 +553,8 @@ Sample<double> sampleAt(
   const Vec3<Real> at{ local(place.x, 0), local(place.y, 1), local(place.z, 2) };
   const Real* samples = tree.samples().data() + leaf.brick * tree.samplesPerBrick();
   const Sample<Real> found = visitScheme(interpolation,
-    [&](auto scheme) { return interpolateBrick<decltype(scheme)>(samples, tree.apron(), at); });
+    [&](auto scheme)
+    { return interpolateBrick<decltype(scheme)>(samples, tree.apron(), tree.shape(), at); });
   return { static_cast<double>(leaf.offset) + static_cast<double>(found.value),
     { static_cast<double>(found.gradient.x) * leaf.perIndex / grid.spacing[0],
       static_cast<double>(found.gradient.y) * leaf.perIndex / grid.spacing[1],

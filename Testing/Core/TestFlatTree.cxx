@@ -1,0 +1,365 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Trees of leaves of one layer, for data of which nothing depends on z.
+#include "AnalyticSources.h"
+#include "Fields.h"
+#include "Medium/Medium.h"
+#include "Rays/Tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+struct Column2d
+{
+  double x, y, width, height; ///< N = height exp(-(r / width)^2)
+};
+
+/// Columns with Gaussian profiles in a far field, around a wall of radius 1 or none.
+class ColumnsSource : public AnalyticSource
+{
+public:
+  ColumnsSource(std::vector<Column2d> columns, double half, double depth, double wall = 0)
+    : AnalyticSource(half)
+    , columns_(std::move(columns))
+    , depth_(depth)
+    , wall_(wall)
+  {
+  }
+
+  bool isFlat() const override { return true; }
+  Box bounds() const override
+  {
+    return { { -half_, -half_, -0.5 * depth_ }, { half_, half_, 0.5 * depth_ } };
+  }
+  double refractivity(double x, double y, double z) const override
+  {
+    EXPECT_EQ(z, 0);
+    double sum = 0;
+    for (const Column2d& column : columns_)
+    {
+      sum += column.height * std::exp(-squareOf(column, x, y));
+    }
+    return sum;
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    Range sum{ 0, 0 };
+    for (const Column2d& column : columns_)
+    {
+      const Range r = distancesTo({ column.x, column.y, 0 }, flat(box));
+      const auto profile = [&](double x)
+      { return column.height * std::exp(-x * x / (column.width * column.width)); };
+      sum.first += std::min(profile(r.first), profile(r.second));
+      sum.second += std::max(profile(r.first), profile(r.second));
+    }
+    return sum;
+  }
+  double cellSizeOver(const Box& box) const override
+  {
+    double size = 0.05 * half_;
+    for (const Column2d& column : columns_)
+    {
+      const double away = distancesTo({ column.x, column.y, 0 }, flat(box)).first;
+      size = std::min(size, 0.02 * std::max(column.width, away));
+    }
+    return wall_ > 0 ? std::min(size, 0.02 * std::max(wall_, distancesTo({}, flat(box)).first))
+                     : size;
+  }
+  Place placeAt(double x, double y, double) const override
+  {
+    return std::hypot(x, y) < wall_ ? Place::Wall : Place::Gas;
+  }
+  double distanceAt(double x, double y, double) const override { return std::hypot(x, y) - wall_; }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, flat(box));
+    content.hasWall = r.first < wall_;
+    content.hasGas = r.second > wall_;
+  }
+
+  /// Of a straight ray through a place: along u and v.
+  std::array<double, 2> deflectionAt(
+    const Vec3<double>& place, const Vec3<double>& u, const Vec3<double>& v) const
+  {
+    const Vec3<double> w = cross(u, v);
+    const Vec3<double> start = place - dot(place, w) * w;
+    double from = -4 * half_, to = 4 * half_;
+    const double at[3] = { start.x, start.y, start.z }, along[3] = { w.x, w.y, w.z };
+    const double high[3] = { half_, half_, 0.5 * depth_ };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (std::abs(along[axis]) < 1e-12)
+      {
+        to = std::abs(at[axis]) > high[axis] ? from : to;
+        continue;
+      }
+      const double a = (-high[axis] - at[axis]) / along[axis];
+      const double b = (high[axis] - at[axis]) / along[axis];
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    }
+    Vec3<double> sum{ 0, 0, 0 };
+    constexpr int steps = 2000;
+    for (int n = 0; n < steps && from < to; ++n)
+    {
+      const Vec3<double> x = start + (from + (n + 0.5) / steps * (to - from)) * w;
+      for (const Column2d& column : columns_)
+      {
+        const double slope = -2 * column.height / (column.width * column.width) *
+          std::exp(-squareOf(column, x.x, x.y)) * (to - from) / steps;
+        sum += slope * Vec3<double>{ x.x - column.x, x.y - column.y, 0 };
+      }
+    }
+    return { dot(sum, u), dot(sum, v) };
+  }
+
+private:
+  static Box flat(Box box)
+  {
+    box.low[2] = box.high[2] = 0;
+    return box;
+  }
+  static double squareOf(const Column2d& column, double x, double y)
+  {
+    const double dx = x - column.x, dy = y - column.y;
+    return (dx * dx + dy * dy) / (column.width * column.width);
+  }
+
+  std::vector<Column2d> columns_;
+  double depth_, wall_;
+};
+
+Field fieldOf(const std::shared_ptr<const MediumSource>& source)
+{
+  static std::uint64_t versions = 0;
+  Field field;
+  field.source = source;
+  field.grid = coarsestGrid(*source);
+  field.version = ++versions;
+  return field;
+}
+
+Scene sceneOf(const Vector& direction, Device device = Device::Cpu)
+{
+  Scene scene;
+  scene.view.viewDirection = direction;
+  scene.view.viewUp = { 0.1, 1, 0.2 };
+  scene.view.width = 160;
+  scene.view.height = 120;
+  scene.view.parallelScale = 0.8;
+  scene.view.focalPoint = Vector{ 0, 0, 0 };
+  scene.samplesPerPixel = 1;
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.screenDistance = 0;
+  scene.device = device;
+  return scene;
+}
+
+const std::vector<Vector> someDirections{ { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 0 },
+  { 0.02, 0.01, -1 }, { 0.3, -0.5, -0.8 } };
+
+Vec3<double> vec(const Vector& a) { return { a[0], a[1], a[2] }; }
+
+const std::vector<Column2d> twoColumns{ { -0.1, 0.05, 0.4, 1e-7 }, { 0.32, -0.31, 0.3, 0.5e-7 } };
+
+} // namespace
+
+class RaysInAFlatTree : public OnDevice
+{
+};
+
+TEST_P(RaysInAFlatTree, AreBentAsTheFormulaSays)
+{
+  for (const double depth : { 0.01, 1., 30. })
+  {
+    const auto source = std::make_shared<ColumnsSource>(twoColumns, 40, depth);
+    const Field field = fieldOf(source);
+    for (const Vector& direction : someDirections)
+    {
+      Scene scene = sceneOf(direction, GetParam());
+      scene.mediumTolerance = 3e-3;
+      const Frame frame = frameOf(field.grid, scene.view);
+      const Vec3<double> u = vec(frame.u), v = vec(frame.v);
+      std::vector<double> expected;
+      double largest = 0;
+      for (int row = 0; row < scene.view.height; row += 3)
+      {
+        for (int column = 0; column < scene.view.width; column += 3)
+        {
+          const double a = frame.origin[0] + column * frame.pixelSize;
+          const double b = frame.origin[1] + row * frame.pixelSize;
+          for (const double of : source->deflectionAt(a * u + b * v, u, v))
+          {
+            expected.push_back(of);
+            largest = std::max(largest, std::abs(of));
+          }
+        }
+      }
+      for (const Precision precision : { Precision::Single, Precision::Double })
+      {
+        for (const PathModel path : { PathModel::Straight, PathModel::Refracted })
+        {
+          SCOPED_TRACE(std::to_string(depth) + " deep, along " + std::to_string(direction[0]) +
+            (path == PathModel::Straight ? ", straight" : ", bent"));
+          scene.precision = precision;
+          scene.pathModel = path;
+          const Image image = Bench().render(field, scene);
+          double worst = 0;
+          auto next = expected.begin();
+          for (int row = 0; row < image.height; row += 3)
+          {
+            for (int column = 0; column < image.width; column += 3)
+            {
+              const std::size_t pixel = 2 * pixelOf(image, column, row);
+              for (std::size_t i = 0; i < 2; ++i)
+              {
+                const auto found = static_cast<double>(image.deflection[pixel + i]);
+                worst = std::max(worst, std::abs(found - *next++));
+              }
+            }
+          }
+          EXPECT_LT(worst, 6e-3 * largest);
+          EXPECT_LT(image.medium.bytes, 10 << 20);
+          EXPECT_EQ(image.raysLost, 0);
+        }
+      }
+    }
+  }
+}
+
+// A straight ray across the layer needs no more than one step, wherever it is and however deep the layer.
+TEST_P(RaysInAFlatTree, TakeNoMoreStepsThanTheyNeed)
+{
+  for (const double depth : { 0.01, 1., 30. })
+  {
+    const auto source = std::make_shared<ColumnsSource>(twoColumns, 40, depth, 0.2);
+    Scene scene = sceneOf({ 0, 0, -1 }, GetParam());
+    scene.pathModel = PathModel::Straight;
+    const Image straight = Bench().render(fieldOf(source), scene);
+    EXPECT_LE(straight.stepsTaken, straight.raysTraced) << depth;
+    scene.pathModel = PathModel::Refracted;
+    const Image bent = Bench().render(fieldOf(source), scene);
+    EXPECT_LE(bent.stepsTaken, 4 * bent.raysTraced) << depth;
+  }
+}
+
+// Where light is bent much in a layer that is deep, against short steps.
+TEST_P(RaysInAFlatTree, TakeTheStepsThatBendingNeeds)
+{
+  const auto source =
+    std::make_shared<ColumnsSource>(std::vector<Column2d>{ { 0, 0, 0.1, -3e-4 } }, 2, 5);
+  Scene scene = sceneOf({ 0, 0, -1 }, GetParam());
+  scene.view.parallelScale = 0.3;
+  scene.pathModel = PathModel::Refracted;
+  std::vector<Image> images;
+  for (const double step : { 2., 0.05 })
+  {
+    scene.stepSize = step;
+    images.push_back(Bench().render(fieldOf(source), scene));
+  }
+  EXPECT_GT(images[0].stepsTaken, 3 * images[0].raysTraced);
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < images[0].deflection.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(static_cast<double>(images[1].deflection[i])));
+    difference = std::max(
+      difference, std::abs(static_cast<double>(images[0].deflection[i] - images[1].deflection[i])));
+  }
+  EXPECT_LT(difference, 4e-3 * largest);
+}
+
+TEST_P(RaysInAFlatTree, EndAtWalls)
+{
+  const auto source = std::make_shared<ColumnsSource>(twoColumns, 50, 1, 1);
+  for (const PathModel path : { PathModel::Straight, PathModel::Refracted })
+  {
+    Scene scene = sceneOf({ 0, 0, -1 }, GetParam());
+    scene.view.width = scene.view.height = 300;
+    scene.view.parallelScale = 3;
+    scene.pathModel = path;
+    const Image image = Bench().render(fieldOf(source), scene);
+    double area = 0, worst = 0;
+    for (int row = 0; row < image.height; ++row)
+    {
+      for (int column = 0; column < image.width; ++column)
+      {
+        const PixelCentre at = centreOf(image, column, row);
+        const double blocked = image.blockedFraction[pixelOf(image, column, row)];
+        area += blocked;
+        const double outside = (std::hypot(at.u, at.v) - 1) / image.frame.pixelSize;
+        worst = (blocked > 0.5) != (outside < 0) ? std::max(worst, std::abs(outside)) : worst;
+      }
+    }
+    area *= image.frame.pixelSize * image.frame.pixelSize;
+    EXPECT_NEAR(area, std::acos(-1.), 5e-3 * area);
+    EXPECT_LT(worst, 0.1); // pixels
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, RaysInAFlatTree, bothDevices(), deviceName);
+
+TEST(RaysSideBySideInAFlatTree, DoWhatOneDoes)
+{
+  const auto source = std::make_shared<ColumnsSource>(
+    std::vector<Column2d>{ { -0.1, 0.05, 0.3, 1e-3 }, { 0.32, -0.31, 0.15, 1e-3 } }, 1, 0.5);
+  const Field field = fieldOf(source);
+  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    for (const Integrator integrator :
+      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    {
+      SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
+        std::to_string(static_cast<int>(integrator)));
+      TreeSettings settings;
+      settings.interpolation = interpolation;
+      Medium<float> medium = buildTree<float>(field, settings);
+      View view;
+      view.viewDirection = { 0.3, -0.5, -0.8 };
+      view.width = 37;
+      view.height = 29;
+      const Frame frame = frameOf(field.grid, view);
+      const Light light = collimatedLight(field.grid, frame);
+      refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
+      RaySettings rays;
+      rays.kernel = { PathModel::Refracted, integrator, interpolation };
+      const RayTask<float> task =
+        makeTask<float>(medium, nullptr, FieldGradientsView{}, light, rays);
+      const Pass pass{ 0, 0, 37, 29, { 0.25, -0.125 } };
+      std::vector<TracedPass> traced(all.size());
+      double largest = 0;
+      for (std::size_t n = 0; n < all.size(); ++n)
+      {
+        traced[n].resize(pass, 0);
+        ASSERT_TRUE(traceOnCpu(task, pass, traced[n], 2, {}, all[n]));
+        for (std::size_t i = 0; i < traced[n].exits.size(); ++i)
+        {
+          const RayExit& one = traced[0].exits[i];
+          const RayExit& other = traced[n].exits[i];
+          largest = std::max(largest, std::abs(one.deflection[0]));
+          EXPECT_EQ(one.fate, other.fate);
+          const double allowed = 3e-2 * 1e-3;
+          EXPECT_NEAR(one.deflection[0], other.deflection[0], allowed);
+          EXPECT_NEAR(one.deflection[1], other.deflection[1], allowed);
+          EXPECT_NEAR(one.opticalPathDifference, other.opticalPathDifference, allowed);
+        }
+      }
+      EXPECT_GT(largest, 1e-3);
+    }
+  }
+}
+
+} // namespace schlieren
