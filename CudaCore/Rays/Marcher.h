@@ -344,14 +344,22 @@ struct March
   /// long as a voxel where that is; through a leaf where nothing changes, up to its far side.
   SCHLIEREN_HD Real settle()
   {
-    const Vec3<Real> middle = Path::ahead(ray, light, Number(0.5) * cruise);
+    Real step = cruise;
+    // In leaves of one layer, a usual step may lead far beyond the domain.
+    Real within = cruise;
+    if (task.medium.planeStride == 0)
+    {
+      const Real out =
+        wayOut(Path::position(ray, light), Path::along(ray, light), domainLow, domainHigh);
+      within = minimum(cruise, maximum(out, Real{}));
+    }
+    const Vec3<Real> middle = Path::ahead(ray, light, Number(0.5) * within);
     const auto isOut =
       (insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0) & (cruise > 0);
-    Real step = cruise;
     if (any(isOut))
     {
       RaysBetweenLeaves<Real> rays{ isOut ? Real{} + 1 : Real{}, Path::position(ray, light),
-        Path::along(ray, light), cruise, ray.start, ray.length, {} };
+        Path::along(ray, light), within, ray.start, ray.length, {} };
       if (changeLeaves(task.medium, stepsInLeaves(), batch.perLength, in, rays))
       {
         ray.start = rays.start;
@@ -359,7 +367,7 @@ struct March
         ray.offset = rays.finer * ray.offset;
         takeLeaves();
       }
-      step = rays.step;
+      step = rays.step < within ? rays.step : step;
     }
     if (someConstant && !isAdaptive)
     {
