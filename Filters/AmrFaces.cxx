@@ -14,7 +14,7 @@ bool AmrFaces::isInDomain(std::size_t level, const Counts& cell) const
 
 void AmrFaces::addAround(std::size_t level, const Counts& cell, bool isHidden)
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < this->Axes; ++axis)
   {
     for (const bool isAbove : { false, true })
     {
@@ -28,7 +28,7 @@ void AmrFaces::addAround(std::size_t level, const Counts& cell, bool isHidden)
 void AmrFaces::addDomain()
 {
   const Counts& cells = this->Levels[0].cells;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < this->Axes; ++axis)
   {
     Counts layer = cells;
     layer[axis] = 1;

@@ -36,11 +36,14 @@ public:
   };
 
   /// `origin`: the domain's first corner. `levels`: coarsest first. `stateOf`: of cells in the domain.
-  AmrFaces(const std::array<double, 3>& origin, std::vector<Level> levels, StateOf stateOf)
+  AmrFaces(
+    const std::array<double, 3>& origin, std::vector<Level> levels, StateOf stateOf, Extent extent)
     : Origin(origin)
     , Levels(std::move(levels))
     , State(std::move(stateOf))
+    , Axes(extent == Extent::Layer ? 2 : 3)
   {
+    this->Faces.extent = extent;
   }
 
   /// The faces around a cell without gas.
@@ -61,6 +64,7 @@ private:
   std::array<double, 3> Origin;
   std::vector<Level> Levels;
   StateOf State;
+  std::size_t Axes;
   BoundaryFaces Faces;
   std::unordered_map<std::uint64_t, std::int32_t> Points; // by their place on the finest level
 };

@@ -217,6 +217,33 @@ std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
   return found;
 }
 
+AmrLevels turnedAcrossZ(AmrLevels levels)
+{
+  if (levels.flat < 0)
+  {
+    return levels;
+  }
+  // The order of cells stays as it is: x is before y, and only one layer is across.
+  const auto flat = static_cast<std::size_t>(levels.flat);
+  const std::size_t along = flat == 0 ? 1 : 0, up = flat == 2 ? 1 : 2;
+  const auto turn = [&](auto& of) { of = { of[along], of[up], of[flat] }; };
+  levels.origin = { levels.origin[along], levels.origin[up],
+    flat == 1 ? -levels.origin[1] - 1 : levels.origin[flat] };
+  for (AmrLevel& level : levels.levels)
+  {
+    turn(level.spacing);
+    turn(level.cells);
+    for (AmrBlock& block : level.blocks)
+    {
+      turn(block.first);
+      turn(block.cells);
+      turn(block.ownBegin);
+      turn(block.ownEnd);
+    }
+  }
+  return levels;
+}
+
 CellBox boxOf(const AmrBlock& block)
 {
   CellBox box{ block.first, block.first };

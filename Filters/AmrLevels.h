@@ -49,6 +49,9 @@ struct AmrLevels
 /// Nothing where the leaves are no such blocks: with point arrays, turned, or not on one lattice.
 std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves);
 
+/// Flat levels in the axes of directionAcross().
+AmrLevels turnedAcrossZ(AmrLevels levels);
+
 /// Calls visit(i, j, k) for all cells from `first` on, x fastest.
 template <class Visit>
 void forCells(const Counts& first, const Counts& count, const Visit& visit)

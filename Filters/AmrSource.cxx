@@ -103,7 +103,8 @@ AmrSource::Block AmrSource::coarser(const Block& block, const Counts& ratio)
 
 AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies,
   Outside outside, Tally& tally, const WorkProgress& progress)
-  : Origin(levels.origin)
+  : FlatAxis(levels.flat)
+  , Origin(levels.origin)
 {
   std::size_t blocks = 0, done = 0;
   for (const AmrLevel& level : levels.levels)
@@ -215,8 +216,10 @@ BoundaryFaces AmrSource::findFaces()
   {
     lattices.push_back({ level.spacing, level.cells });
   }
-  AmrFaces faces(this->Origin, std::move(lattices),
-    [this](std::size_t level, const Counts& cell) { return this->stateOf(level, cell); });
+  AmrFaces faces(
+    this->Origin, std::move(lattices),
+    [this](std::size_t level, const Counts& cell) { return this->stateOf(level, cell); },
+    this->isFlat() ? Extent::Layer : Extent::Volume);
   for (std::size_t level = 0; level < this->Levels.size(); ++level)
   {
     for (const Block& block : this->Levels[level].blocks)
@@ -293,7 +296,7 @@ double AmrSource::ambient() const
       {
         const Counts at = { i, j, k };
         double outer = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t axis = 0; axis < this->axes(); ++axis)
         {
           const int sides = (at[axis] == 0 ? 1 : 0) + (at[axis] == level.cells[axis] - 1 ? 1 : 0);
           outer += sides * level.spacing[(axis + 1) % 3] * level.spacing[(axis + 2) % 3];
@@ -316,8 +319,8 @@ double AmrSource::ambient() const
 /// The cells of a level that a box meets, with some around them.
 CellBox AmrSource::cellsIn(const Level& level, const schlieren::Box& box, int margin) const
 {
-  CellBox cells{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  CellBox cells{ { 0, 0, 0 }, { 0, 0, 1 } };
+  for (std::size_t axis = 0; axis < this->axes(); ++axis)
   {
     const auto clamped = [&](double at)
     {
@@ -377,15 +380,15 @@ std::vector<double> AmrSource::valuesIn(std::size_t number, const CellBox& box) 
     return sums;
   }
   const Counts ratio = ratioOf(level.cells, this->Levels[number - 1].cells);
-  CellBox coarse{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  CellBox coarse{ { 0, 0, 0 }, { 0, 0, 1 } };
+  for (std::size_t axis = 0; axis < this->axes(); ++axis)
   {
     coarse.begin[axis] = missing.begin[axis] / ratio[axis] - 2;
     coarse.end[axis] = (missing.end[axis] - 1) / ratio[axis] + 3;
   }
   std::vector<double> values = this->valuesIn(number - 1, coarse);
   Counts cells = coarse.size();
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < this->axes(); ++axis)
   {
     std::vector<double> middles;
     for (int i = missing.begin[axis]; i < missing.end[axis]; ++i)
@@ -421,7 +424,7 @@ std::size_t AmrSource::levelFor(const schlieren::Lattice& lattice) const
       { isThere = isThere || here.blocks[block].isOfLevel; });
     found = isThere ? level : found;
     bool isFine = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < this->axes(); ++axis)
     {
       constexpr double slightly = 1.01;
       isFine = isFine && here.spacing[axis] <= slightly * lattice.spacing[axis];
@@ -505,7 +508,7 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
   const CellBox box = this->cellsIn(level, range, reach);
   std::vector<double> values = this->valuesIn(number, box);
   Counts cells = box.size();
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < this->axes(); ++axis)
   {
     for (double& middle : middles[axis])
     {

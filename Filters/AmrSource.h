@@ -4,6 +4,7 @@
 
 #include "AmrFaces.h"
 #include "AmrLevels.h"
+#include "FlatData.h"
 #include "GasBoundary.h"
 #include "Medium/MediumSource.h"
 #include "WorkProgress.h"
@@ -29,7 +30,7 @@ namespace refractivity
 class AmrSource : public schlieren::MediumSource
 {
 public:
-  /// `bodies`: may be null.
+  /// `levels`: turned, where they are flat (see turnedAcrossZ). `bodies`: may be null.
   AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies, Outside outside,
     Tally& tally, const WorkProgress& progress = WorkProgress());
 
@@ -43,6 +44,8 @@ public:
   schlieren::Box bounds() const override;
   double ambient() const override;
   std::array<double, 3> voxelShape() const override;
+  bool isFlat() const override { return this->FlatAxis >= 0; }
+  std::array<double, 9> direction() const override { return directionAcross(this->FlatAxis); }
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override;
@@ -83,6 +86,7 @@ private:
   static constexpr int pieceEdge = 8; // cells
 
   static Block coarser(const Block& block, const Counts& ratio);
+  std::size_t axes() const { return this->isFlat() ? 2 : 3; } // along which there are several cells
   CellBox cellsIn(const Level& level, const schlieren::Box& box, int margin) const;
   std::vector<double> valuesIn(std::size_t level, const CellBox& box) const;
   std::size_t levelFor(const schlieren::Lattice& lattice) const;
@@ -90,6 +94,7 @@ private:
   bool hasGasAt(const Point& place) const;
   BoundaryFaces findFaces();
 
+  int FlatAxis;
   std::array<double, 3> Origin;
   std::vector<Level> Levels;
   std::unique_ptr<const GasBoundary> Boundary;

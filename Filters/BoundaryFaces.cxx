@@ -389,6 +389,28 @@ Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progre
   return faces;
 }
 
+/// Leaves out the sides of a layer across z, of which all corners have one z.
+Faces withoutSidesAcrossZ(const Faces& all)
+{
+  Faces faces;
+  faces.points = all.points;
+  faces.firstShares = all.firstShares;
+  faces.shares = all.shares;
+  for (std::size_t face = 0; face < all.size(); ++face)
+  {
+    const auto begin = all.corners.begin() + static_cast<std::ptrdiff_t>(all.starts[face]);
+    const auto end = all.corners.begin() + static_cast<std::ptrdiff_t>(all.starts[face + 1]);
+    const auto zOf = [&](std::int32_t corner)
+    { return all.points[static_cast<std::size_t>(corner)][2]; };
+    if (std::any_of(begin, end, [&](std::int32_t corner) { return zOf(corner) != zOf(*begin); }))
+    {
+      faces.corners.insert(faces.corners.end(), begin, end);
+      faces.finish(all.owners[face], all.states[face], all.hidesBehind[face] != 0);
+    }
+  }
+  return faces;
+}
+
 /// A face seen from its cell.
 struct Sides
 {
@@ -702,10 +724,14 @@ std::vector<std::int32_t> coincidentPoints(
   return numbers;
 }
 
-BoundaryFaces boundaryOf(
-  const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell, const WorkProgress& progress)
+BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
+  const WorkProgress& progress, Extent extent)
 {
   Faces faces = facesOf(leaves, progress.part(0, 0.7));
+  if (extent == Extent::Layer)
+  {
+    faces = withoutSidesAcrossZ(faces);
+  }
   progress.reach(0.7);
   const double rounding = relativeRounding(faces.points);
   mergePoints(faces, rounding);
@@ -716,7 +742,9 @@ BoundaryFaces boundaryOf(
     removeCovered(faces, isInCell, kept, progress.part(0.8, 0.9));
   }
   progress.reach(0.9);
-  return triangulate(faces, kept);
+  BoundaryFaces result = triangulate(faces, kept);
+  result.extent = extent;
+  return result;
 }
 
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)

@@ -29,6 +29,14 @@ struct Share
   double weight;
 };
 
+/// What cells are: all that there is, or a layer of what does not depend on z. Nothing ends at the sides of a layer
+/// across z.
+enum class Extent
+{
+  Volume,
+  Layer
+};
+
 /// Where the gas ends: the faces that belong to one visible cell only.
 struct BoundaryFaces
 {
@@ -37,6 +45,7 @@ struct BoundaryFaces
   std::vector<Share> shares;            ///< of the value there
   std::vector<unsigned char>
     hidesBehind; ///< of each triangle: whether there is a hidden cell on the other side
+  Extent extent = Extent::Volume;
 };
 
 /// The boundary of all leaves together: datasets with a double scalar at each point, NaN where there is no gas.
@@ -52,7 +61,7 @@ struct BoundaryFaces
 /// Sheets without thickness within a mesh, whose cells meet at the same points, are not known to be there: give them
 /// as Bodies.
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
-  const WorkProgress& progress = WorkProgress());
+  const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
 
 /// The scalars at the points of the surface, of these leaves or of others on the same mesh.
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);

@@ -3,13 +3,26 @@
 #include "FlatData.h"
 
 #include "CellTypes.h"
+#include "InputDescription.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCell.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
+#include "vtkLinearExtrusionFilter.h"
 #include "vtkMatrix3x3.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +60,253 @@ int onlyFlatAxis(const bool isFlat[3], const Source& source)
   return isFlat[0] ? 0 : (isFlat[1] ? 1 : (isFlat[2] ? 2 : -1));
 }
 
+/// A point in the axes of directionAcross().
+std::array<double, 3> turned(const double x[3], int flat)
+{
+  const std::array<double, 9> d = directionAcross(flat);
+  std::array<double, 3> own{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    own[i] = d[i] * x[0] + d[3 + i] * x[1] + d[6 + i] * x[2];
+  }
+  return own;
+}
+
+/// The points along each axis of structured data of one layer; 0 of others.
+std::array<int, 3> layerOf(vtkDataSet* data)
+{
+  std::array<int, 3> points{};
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    image->GetDimensions(points.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    rectilinear->GetDimensions(points.data());
+  }
+  else if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
+  {
+    grid->GetDimensions(points.data());
+  }
+  const auto flat = std::count(points.begin(), points.end(), 1);
+  return flat == 1 ? points : std::array<int, 3>{};
+}
+
+/// What the points and cells of an extruded dataset were.
+struct Extrusion
+{
+  vtkSmartPointer<vtkPointSet> data;
+  vtkNew<vtkIdList> points, cells;
+};
+
+void addPoint(vtkDataSet* from, vtkIdType point, int flat, double offset, vtkPoints* to)
+{
+  double x[3];
+  from->GetPoint(point, x);
+  const std::array<double, 3> own = turned(x, flat);
+  to->InsertNextPoint(own[0], own[1], own[2] + offset);
+}
+
+/// Structured data stay so: their faces are found at once.
+void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, int flat, Extrusion& to)
+{
+  const auto across =
+    static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
+  const std::array<int, 3> before = points;
+  points[across] = 2;
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  for (int k = 0; k < points[2]; ++k)
+  {
+    for (int j = 0; j < points[1]; ++j)
+    {
+      for (int i = 0; i < points[0]; ++i)
+      {
+        std::array<int, 3> at{ i, j, k };
+        const double offset = at[across] - 0.5;
+        at[across] = 0;
+        const vtkIdType point = (vtkIdType{ at[2] } * before[1] + at[1]) * before[0] + at[0];
+        addPoint(data, point, flat, offset, places);
+        to.points->InsertNextId(point);
+      }
+    }
+  }
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetDimensions(points.data());
+  grid->SetPoints(places);
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    to.cells->InsertNextId(cell);
+  }
+  to.data = grid;
+}
+
+/// Cells other than linear triangles, quadrilaterals and pixels become triangles.
+void extrudeCells(vtkDataSet* data, int flat, Extrusion& to)
+{
+  const vtkIdType count = data->GetNumberOfPoints();
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  for (const double offset : { -0.5, 0.5 })
+  {
+    for (vtkIdType point = 0; point < count; ++point)
+    {
+      addPoint(data, point, flat, offset, places);
+      to.points->InsertNextId(point);
+    }
+  }
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  mesh->SetPoints(places);
+  mesh->Allocate(data->GetNumberOfCells());
+  vtkNew<vtkIdList> ids;
+  vtkNew<vtkPoints> notUsed;
+  const auto add = [&](int type, const vtkIdType* corners, vtkIdType ofFace, vtkIdType cell)
+  {
+    std::array<vtkIdType, 8> both{};
+    for (vtkIdType i = 0; i < ofFace; ++i)
+    {
+      both[static_cast<std::size_t>(i)] = corners[i];
+      both[static_cast<std::size_t>(ofFace + i)] = corners[i] + count;
+    }
+    mesh->InsertNextCell(type, 2 * ofFace, both.data());
+    to.cells->InsertNextId(cell);
+  };
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    if (dimensionOfCell(data, cell) != 2)
+    {
+      continue;
+    }
+    const int type = data->GetCellType(cell);
+    if (type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL)
+    {
+      data->GetCellPoints(cell, ids);
+      add(type == VTK_TRIANGLE ? VTK_WEDGE : (type == VTK_QUAD ? VTK_HEXAHEDRON : VTK_VOXEL),
+        ids->GetPointer(0), ids->GetNumberOfIds(), cell);
+      continue;
+    }
+    data->GetCell(cell)->Triangulate(0, ids, notUsed);
+    for (vtkIdType corner = 0; corner + 2 < ids->GetNumberOfIds(); corner += 3)
+    {
+      add(VTK_WEDGE, ids->GetPointer(corner), 3, cell);
+    }
+  }
+  to.data = mesh;
+}
+
+/// The values of an array for what was made of its points or cells.
+vtkSmartPointer<vtkDataArray> chosenValues(vtkDataArray* from, vtkIdList* ids)
+{
+  auto to = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
+  to->SetName(from->GetName());
+  to->SetNumberOfComponents(from->GetNumberOfComponents());
+  to->SetNumberOfTuples(ids->GetNumberOfIds());
+  from->GetTuples(ids, to);
+  return to;
+}
+
+/// A surface in the axes of directionAcross(); a prism where it lies in the plane.
+vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(surface);
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  double bounds[6];
+  surface->GetBounds(bounds);
+  vtkBoundingBox box(bounds);
+  const bool isPlane =
+    box.GetLength(flat) <= planeTolerance * box.GetMaxLength() && surface->GetNumberOfPolys() > 0;
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+  {
+    addPoint(surface, point, flat, isPlane ? -1 : 0, places);
+  }
+  result->SetPoints(places);
+  if (!isPlane)
+  {
+    return result;
+  }
+  vtkNew<vtkLinearExtrusionFilter> prism;
+  prism->SetInputData(result);
+  prism->SetExtrusionTypeToVectorExtrusion();
+  prism->SetVector(0, 0, 2);
+  prism->CappingOn();
+  prism->Update();
+  return prism->GetOutput();
+}
+
 } // namespace
+
+std::array<double, 9> directionAcross(int flat)
+{
+  switch (flat)
+  {
+    case 0: // its axes are y, z, x
+      return { 0, 0, 1, 1, 0, 0, 0, 1, 0 };
+    case 1: // x, z, -y
+      return { 1, 0, 0, 0, 0, -1, 0, 1, 0 };
+    default:
+      return { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  }
+}
+
+Source extruded(const Source& source, int flat)
+{
+  Source result = source;
+  result.image = nullptr;
+  result.leaves.clear();
+  for (const Leaf& leaf : source.leaves)
+  {
+    Extrusion made;
+    const std::array<int, 3> layer = layerOf(leaf.data);
+    if (layer[0] > 0)
+    {
+      extrudeStructured(leaf.data, layer, flat, made);
+    }
+    else
+    {
+      extrudeCells(leaf.data, flat, made);
+    }
+    Leaf one{ made.data, {}, leaf.ofCells, leaf.input };
+    for (vtkDataArray* array : leaf.arrays)
+    {
+      const auto values = chosenValues(array, leaf.ofCells ? made.cells : made.points);
+      one.data->GetAttributes(leaf.ofCells ? vtkDataObject::CELL : vtkDataObject::POINT)
+        ->AddArray(values);
+      one.arrays.push_back(values);
+    }
+    if (vtkUnsignedCharArray* ghosts = leaf.data->GetCellGhostArray())
+    {
+      one.data->GetCellData()->AddArray(chosenValues(ghosts, made.cells));
+    }
+    if (vtkUnsignedCharArray* ghosts = leaf.data->GetPointGhostArray())
+    {
+      one.data->GetPointData()->AddArray(chosenValues(ghosts, made.points));
+    }
+    result.leaves.push_back(std::move(one));
+    result.made.emplace_back(made.data);
+  }
+  return result;
+}
+
+vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat)
+{
+  if (!bodies || flat < 0)
+  {
+    return bodies;
+  }
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (vtkDataObject* leaf : leavesOf(bodies))
+  {
+    auto* surface = vtkPolyData::SafeDownCast(leaf);
+    if (!surface)
+    {
+      return bodies; // whoever reads them says what is wrong
+    }
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), turnedSurface(surface, flat));
+  }
+  return blocks;
+}
 
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
 {

@@ -6,6 +6,8 @@
 
 #include "vtkType.h"
 
+#include <array>
+
 /// Two-dimensional data: extruded by one data unit across their plane, half a unit to each side.
 namespace refractivity
 {
@@ -20,6 +22,16 @@ int flatAxisOf(const Source& source);
 
 /// What the user should hear of the extrusion.
 std::string warningOfExtrusion(int flat);
+
+/// By rows, the rotation from axes in which the data's plane is across z to the data's own; -1: none. Of the other two
+/// axes, the order stays.
+std::array<double, 9> directionAcross(int flat);
+
+/// The source with 3-D cells in place of flat ones, in the axes of directionAcross().
+Source extruded(const Source& source, int flat);
+
+/// Bodies in these axes; those that lie in the plane are extruded, too. Null: there are none.
+vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat);
 
 /// Gives a grid of one layer a second one, one unit behind it.
 void extrudeGrid(vtkImageData* grid, int flat);

@@ -13,9 +13,9 @@ namespace refractivity
 {
 
 GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
-  Outside outside, const CellTest& isInCell, const WorkProgress& progress)
-  : GasBoundary(
-      boundaryOf(leaves, isInCell, progress.part(0, 0.8)), bodies, outside, progress.part(0.8, 1))
+  Outside outside, const CellTest& isInCell, const WorkProgress& progress, Extent extent)
+  : GasBoundary(boundaryOf(leaves, isInCell, progress.part(0, 0.8), extent), bodies, outside,
+      progress.part(0.8, 1))
 {
 }
 
@@ -28,8 +28,8 @@ GasBoundary::GasBoundary(
   , Bodies(bodies ? std::make_unique<BodySurfaces>(bodies) : nullptr)
 {
   progress.reach(0.5);
-  this->IsOuter =
-    findOuter(this->Faces.surface, this->Tree, relativeRounding(this->Faces.surface.points));
+  this->IsOuter = findOuter(this->Faces.surface, this->Tree,
+    relativeRounding(this->Faces.surface.points), this->Faces.extent == Extent::Layer ? 2 : 3);
   for (std::size_t t = 0; t < this->Walls.size(); ++t)
   {
     const bool isWall = this->Faces.hidesBehind[t] || outside == Outside::Blocks ||

@@ -36,7 +36,8 @@ public:
   /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see BodySurfaces. All of it is kept
   /// as it is: neither need outlive this.
   GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
-    const CellTest& isInCell, const WorkProgress& progress = WorkProgress());
+    const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
+    Extent extent = Extent::Volume);
   /// Of faces that were found otherwise.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());

@@ -330,7 +330,8 @@ void LatticeSampling::separate(const Index& low)
   std::size_t count = 0;
   const std::array<float, 3>* side = nullptr;
   bool mayBeCrossed = false;
-  for (int c = 0; c < 8; ++c)
+  const int corners = this->Lattice.points[2] > 1 ? 8 : 4;
+  for (int c = 0; c < corners; ++c)
   {
     const Index at{ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) };
     const std::size_t p = this->numberOf(at);
@@ -457,14 +458,17 @@ void LatticeSampling::thickenPlates()
   this->findSides();
   this->Marked.assign(this->States.size(), 0);
   const auto& points = this->Lattice.points;
-  for (int k = 0; k + 1 < points[2]; ++k)
+  // Voxels of one layer are squares.
+  const int layers = std::max(1, points[2] - 1);
+  const int up = points[2] > 1 ? 1 : 0;
+  for (int k = 0; k < layers; ++k)
   {
     for (int j = 0; j + 1 < points[1]; ++j)
     {
       const unsigned char* rows[4] = { &this->IsBeside[this->numberOf({ 0, j, k })],
         &this->IsBeside[this->numberOf({ 0, j + 1, k })],
-        &this->IsBeside[this->numberOf({ 0, j, k + 1 })],
-        &this->IsBeside[this->numberOf({ 0, j + 1, k + 1 })] };
+        &this->IsBeside[this->numberOf({ 0, j, k + up })],
+        &this->IsBeside[this->numberOf({ 0, j + 1, k + up })] };
       for (int i = 0; i + 1 < points[0]; ++i)
       {
         int beside = 0;

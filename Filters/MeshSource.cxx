@@ -64,25 +64,28 @@ bool holds(const CellSampler& cells, const Point& place)
 
 MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction,
-  const WorkProgress& progress)
+  const WorkProgress& progress, int flatAxis)
   : Leaves(leaves)
   , Cells(pointersTo(leaves), reconstruction, progress.part(0, 0.6))
   , Values(this->Cells)
   , Boundary(std::make_shared<GasBoundary>(
       pointersTo(leaves), bodies, outside,
-      [this](const Point& place) { return holds(this->Values, place); }, progress.part(0.6, 1)))
+      [this](const Point& place) { return holds(this->Values, place); }, progress.part(0.6, 1),
+      flatAxis < 0 ? Extent::Volume : Extent::Layer))
+  , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
 {
 }
 
 MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-  const SourceMesh& mesh, const WorkProgress& progress)
+  const SourceMesh& mesh, const WorkProgress& progress, int flatAxis)
   : Leaves(leaves)
   , Cells(pointersTo(leaves), mesh.cells, progress)
   , Values(this->Cells)
   , Boundary(mesh.boundary)
   , Lattices(mesh.lattices ? mesh.lattices : std::make_shared<LatticesOfMesh>())
+  , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
 {

@@ -4,6 +4,7 @@
 
 #include "CellSampler.h"
 #include "CellTree.h"
+#include "FlatData.h"
 #include "GasBoundary.h"
 #include "LatticesOfMesh.h"
 
@@ -34,13 +35,15 @@ struct SourceMesh
 class MeshSource : public schlieren::MediumSource
 {
 public:
-  /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null.
+  /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null. `flatAxis`: -1, or that across which
+  /// both were flat (see extrude()).
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* bodies,
-    Outside outside, CellTree::Reconstruction reconstruction, const WorkProgress& progress);
+    Outside outside, CellTree::Reconstruction reconstruction, const WorkProgress& progress,
+    int flatAxis = -1);
 
   /// Of other values on the same mesh: see keyOf().
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const SourceMesh& mesh,
-    const WorkProgress& progress);
+    const WorkProgress& progress, int flatAxis = -1);
   SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary, this->Lattices }; }
 
   /// A hash of all that the mesh of a source depends on.
@@ -58,6 +61,8 @@ public:
   schlieren::Box bounds() const override;
   double ambient() const override;
   std::array<double, 3> voxelShape() const override;
+  bool isFlat() const override { return this->FlatAxis >= 0; }
+  std::array<double, 9> direction() const override { return directionAcross(this->FlatAxis); }
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override
@@ -79,6 +84,7 @@ private:
   CellSampler Values;
   std::shared_ptr<const GasBoundary> Boundary;
   std::shared_ptr<LatticesOfMesh> Lattices;
+  int FlatAxis;
   double Ambient; // NaN: there is no boundary
   schlieren::Box Bounds;
 

@@ -22,10 +22,11 @@ constexpr double touchingPart = 1e-4;   // of a triangle's height
 class Finder
 {
 public:
-  Finder(const Triangles& surface, const TriangleTree& tree, double rounding)
+  Finder(const Triangles& surface, const TriangleTree& tree, double rounding, std::size_t axes)
     : surface_(surface)
     , tree_(tree)
     , rounding_(rounding)
+    , axes_(axes)
     , edges_(edgesOf(surface))
     , normals_(surface.size())
     , heights_(surface.size())
@@ -274,7 +275,7 @@ private:
       {
         const Point& x = surface_.corner(t, i);
         const unsigned facedHere = faced[static_cast<std::size_t>(surface_.corners[t][i])];
-        for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t axis = 0; axis < axes_; ++axis)
         {
           const bool touchesLow = x[axis] <= low[axis] + most;
           const bool touchesHigh = x[axis] >= high[axis] - most;
@@ -291,6 +292,7 @@ private:
   const Triangles& surface_;
   const TriangleTree& tree_;
   double rounding_;
+  std::size_t axes_;
   std::vector<EdgeOfTriangle> edges_;
   std::vector<Point> normals_; // outward
   std::vector<double> heights_;
@@ -301,9 +303,9 @@ private:
 } // namespace
 
 std::vector<unsigned char> findOuter(
-  const Triangles& surface, const TriangleTree& tree, double rounding)
+  const Triangles& surface, const TriangleTree& tree, double rounding, std::size_t axes)
 {
-  return Finder(surface, tree, rounding).find();
+  return Finder(surface, tree, rounding, axes).find();
 }
 
 } // namespace refractivity

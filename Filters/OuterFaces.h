@@ -23,9 +23,9 @@ namespace refractivity
  * - or if it touches the domain's bounding box where the hull does not face that side of the box: the wall of a
  *   nozzle, whose inlet is at its widest place.
  *
- * `rounding`: see relativeRounding().
+ * `rounding`: see relativeRounding(). `axes`: along which there is an outside; 2: not along z.
  */
 std::vector<unsigned char> findOuter(
-  const Triangles& surface, const TriangleTree& tree, double rounding);
+  const Triangles& surface, const TriangleTree& tree, double rounding, std::size_t axes = 3);
 
 } // namespace refractivity

@@ -337,14 +337,14 @@ void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSet
     }
     isFound = true;
     requireScalars(found[0], { selection }, dataSets);
-    source.masked.push_back(hideMasked(leaf,
+    source.made.push_back(hideMasked(leaf,
       { found[0].arrays[0], found[0].ofCells, self->GetMaskThreshold(),
         self->GetMaskedSide() == vtkRefractiveIndex::MASKED_ABOVE }));
     if (source.image == leaf.data)
     {
-      source.image = vtkImageData::SafeDownCast(source.masked.back());
+      source.image = vtkImageData::SafeDownCast(source.made.back());
     }
-    leaf.data = source.masked.back();
+    leaf.data = source.made.back();
   }
   if (!isFound)
   {

@@ -41,8 +41,9 @@ struct Leaf
 /// What to read from an input.
 struct Source
 {
-  std::vector<Leaf> leaves;                        // at least one
-  std::vector<vtkSmartPointer<vtkDataSet>> masked; // their data, where there is a mask
+  std::vector<Leaf> leaves; // at least one
+  std::vector<vtkSmartPointer<vtkDataSet>>
+    made;                        // their data that are not the input's: masked, extruded
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
   std::string noteOnGases; // what the user should know once, mostly empty

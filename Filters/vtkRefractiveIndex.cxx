@@ -400,8 +400,12 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  return !source.image && std::all_of(given, given + 3, [](int count) { return count == 0; }) &&
-    flatAxisOf(source) < 0;
+  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }))
+  {
+    return false;
+  }
+  flatAxisOf(source); // throws where there is no volume and no plane
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -409,6 +413,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   Source source = chooseSource(this, input);
+  const int flat = flatAxisOf(source);
   this->Grid.clear();
   this->Search->release();
   Tally tally;
@@ -439,10 +444,12 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     }
     progress.reach(0.02);
     const auto outside = static_cast<refractivity::Outside>(this->Outside);
-    if (const std::optional<AmrLevels> levels = findLevels(source.leaves))
+    const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat);
+    if (std::optional<AmrLevels> levels = findLevels(source.leaves))
     {
+      levels = turnedAcrossZ(std::move(*levels));
       const auto made = std::make_shared<AmrSource>(
-        *levels, source, bodies, outside, tally, progress.part(0.02, 1));
+        *levels, source, ownBodies, outside, tally, progress.part(0.02, 1));
       for (FieldValues& field : fields)
       {
         bringToCells(field);
@@ -451,25 +458,34 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       take(made);
       return;
     }
+    if (flat >= 0)
+    {
+      source = extruded(source, flat);
+      for (FieldValues& field : fields)
+      {
+        field.source = extruded(field.source, flat);
+      }
+    }
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
     const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
     const auto leaves = preparedLeaves(source, cellValues, tally);
     progress.reach(0.1);
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
-    const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
+    const std::uint64_t key = MeshSource::keyOf(leaves, ownBodies, outside, reconstruction);
     KeptMesh& kept = *this->Mesh;
     const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
     std::shared_ptr<MeshSource> made;
     if (kept.key == key)
     {
-      made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium);
+      made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium, flat);
     }
     else
     {
       kept.release();
       ++kept.builds;
-      made = std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, ofMedium);
+      made =
+        std::make_shared<MeshSource>(leaves, ownBodies, outside, reconstruction, ofMedium, flat);
       kept.key = key;
     }
     kept.mesh = made->mesh();
@@ -501,6 +517,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnGases(source));
+  if (flat >= 0)
+  {
+    addText(warning, warningOfExtrusion(flat));
+  }
   return result;
 }
 

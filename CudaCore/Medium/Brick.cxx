@@ -180,7 +180,11 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
   samples.n = edge + 2 * samples.margin;
   samples.layers = layersOf(samples.n);
   Lattice lattice{ {}, voxelOf(place.level), { samples.n, samples.n, samples.layers } };
-  lattice.first[2] = 0.5 * (bounds_.low[2] + bounds_.high[2]);
+  if (shape_ == BrickShape::Layer)
+  {
+    lattice.first[2] = 0.5 * (bounds_.low[2] + bounds_.high[2]);
+    lattice.spacing[2] = std::max(lattice.spacing[0], lattice.spacing[1]);
+  }
   samples.begin[2] = 0;
   samples.end[2] = 1;
   for (std::size_t axis = 0; axis < axes(); ++axis)

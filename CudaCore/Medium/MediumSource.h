@@ -52,8 +52,11 @@ public:
   virtual std::array<double, 3> voxelShape() const { return { 1, 1, 1 }; }
 
   /// Whether nothing depends on z: along it, bounds() tell a depth and nothing else. Then lattices to be sampled
-  /// have one layer, in the middle of the depth, which is their spacing along z.
+  /// have one layer, in the middle of the depth, and along z the larger one of their spacings.
   virtual bool isFlat() const { return false; }
+
+  /// By rows, the rotation from its axes to those of the data, whose images are to be made.
+  virtual std::array<double, 9> direction() const { return { 1, 0, 0, 0, 1, 0, 0, 0, 1 }; }
 
   /// What is known of a box without looking at single places. It may say less than there is to say, never
   /// something wrong: a wider range, smaller cells, more kinds of places.

@@ -155,7 +155,15 @@ typename MediumTree<Real>::NodeFields MediumTree<Real>::fieldsOf(std::int32_t no
 
 Grid coarsestGrid(const MediumSource& source)
 {
-  return gridOf(source, MediumTree<float>::brickEdge);
+  Grid grid = gridOf(source, MediumTree<float>::brickEdge);
+  const std::array<double, 3> origin = grid.origin;
+  grid.direction = source.direction();
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    const double* toData = grid.direction.data() + 3 * row;
+    grid.origin[row] = toData[0] * origin[0] + toData[1] * origin[1] + toData[2] * origin[2];
+  }
+  return grid;
 }
 
 template <class Real>
