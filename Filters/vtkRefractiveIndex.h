@@ -469,7 +469,7 @@ public:
   /**
    * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() tells whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images, 2-D data, and where SamplingDimensions are given. If
+   * what else there is is to be made a grid by Convert(): images, and where SamplingDimensions are given. If
    * AbortExecute is set meanwhile, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each

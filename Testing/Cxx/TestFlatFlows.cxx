@@ -415,3 +415,91 @@ TEST(FlatFlows, SamplingDimensionsMakeAGrid)
   filter->Update();
   EXPECT_EQ(gridOf(filter).find("65 x 65 x 2 points"), 0u) << gridOf(filter);
 }
+
+TEST(FlatFlows, MaskedCellsAreBodies)
+{
+  const Plane plane{ 0 };
+  auto mesh = cylinderMesh(plane);
+  addPointArray(mesh, "solid", [](const Vec& x) { return x[1] > 0 && std::abs(x[2]) < 3 ? 1 : 0; });
+  auto filter = bench(mesh, 128);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "solid");
+  plane.look(filter);
+  filter->SetParallelScale(6);
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
+  for (std::size_t i = 0; i < blocked.size(); ++i)
+  {
+    const double* x = image->GetPoint(static_cast<vtkIdType>(i));
+    const bool isIn = std::hypot(x[0], x[1]) < 0.9 || (x[0] > 0.3 && std::abs(x[1]) < 2.8);
+    const bool isOut = std::hypot(x[0], x[1]) > 1.1 && (x[0] < -0.7 || std::abs(x[1]) > 3.5);
+    EXPECT_TRUE(isIn ? blocked[i] == 1 : !isOut || blocked[i] == 0) << x[0] << ' ' << x[1];
+  }
+}
+
+TEST(FlatFlows, FieldsTintWhereTheyChange)
+{
+  const Plane plane{ 1 };
+  auto mesh = cylinderMesh(plane);
+  const auto field = [](double a, double b) { return std::exp(-((a - 3) * (a - 3) + b * b)); };
+  addPointArray(mesh, "f", [&](const Vec& x) { return field(x[0], x[2]); });
+  auto filter = bench(mesh, 128);
+  filter->AddField("f");
+  for (const double color : { 1., 0., 0. })
+  {
+    filter->AddFieldColor(color);
+  }
+  filter->ColorByFieldOn();
+  filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
+  plane.look(filter);
+  filter->SetParallelScale(5);
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* color = arrayOf(filter, "Color");
+  ASSERT_NE(color, nullptr);
+  std::vector<double> gathered;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* x = image->GetPoint(i);
+    const std::array<double, 2> slope = slopes(field, x[0], x[1]);
+    gathered.push_back(std::hypot(slope[0], slope[1]));
+  }
+  std::vector<double> sorted = gathered;
+  std::sort(sorted.begin(), sorted.end());
+  const double full = sorted[sorted.size() * 99 / 100];
+  double worst = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* x = image->GetPoint(i);
+    const double red = color->GetComponent(i, 0), green = color->GetComponent(i, 1);
+    if (std::hypot(x[0], x[1]) > 1.3 && red > 0)
+    {
+      const double expected = std::min(1., gathered[static_cast<std::size_t>(i)] / full);
+      worst = std::max(worst, std::abs(1 - green / red - expected));
+    }
+  }
+  EXPECT_LT(worst, 0.1);
+}
+
+// Other values on the same mesh.
+TEST(FlatFlows, TimeStepsKeepWhatIsKnownOfTheMesh)
+{
+  auto mesh = cylinderMesh({ 2 });
+  auto filter = bench(mesh, 64);
+  filter->SetParallelScale(3);
+  filter->SetFocalPoint(0, 0, 0);
+  for (const double factor : { 1., 2., 4. })
+  {
+    addPointArray(
+      mesh, "N", [&](const Vec& x) { return factor * 1e-6 * CylinderFlow::density(x[0], x[1]); });
+    mesh->Modified();
+    filter->Update();
+    EXPECT_EQ(filter->GetMeshBuilds(), 1);
+    auto fresh = bench(mesh, 64);
+    fresh->SetParallelScale(3);
+    fresh->SetFocalPoint(0, 0, 0);
+    fresh->Update();
+    EXPECT_EQ(valuesOf(filter, "Deflection"), valuesOf(fresh, "Deflection")) << factor;
+  }
+}
