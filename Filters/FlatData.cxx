@@ -99,16 +99,24 @@ struct Extrusion
   vtkNew<vtkIdList> points, cells;
 };
 
-void addPoint(vtkDataSet* from, vtkIdType point, int flat, double offset, vtkPoints* to)
+/// A plane across an axis. All points are moved into it: those that are flat may miss it by rounding.
+struct Plane
 {
-  double x[3];
-  from->GetPoint(point, x);
-  const std::array<double, 3> own = turned(x, flat);
-  to->InsertNextPoint(own[0], own[1], own[2] + offset);
-}
+  int flat;
+  double height; // along z, when it is turned
+
+  void add(vtkDataSet* from, vtkIdType point, double offset, vtkPoints* to) const
+  {
+    double x[3];
+    from->GetPoint(point, x);
+    const std::array<double, 3> own = turned(x, this->flat);
+    to->InsertNextPoint(own[0], own[1], this->height + offset);
+  }
+};
 
 /// Structured data stay so: their faces are found at once.
-void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, int flat, Extrusion& to)
+void extrudeStructured(
+  vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Extrusion& to)
 {
   const auto across =
     static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
@@ -126,7 +134,7 @@ void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, int flat, Ex
         const double offset = at[across] - 0.5;
         at[across] = 0;
         const vtkIdType point = (vtkIdType{ at[2] } * before[1] + at[1]) * before[0] + at[0];
-        addPoint(data, point, flat, offset, places);
+        plane.add(data, point, offset, places);
         to.points->InsertNextId(point);
       }
     }
@@ -142,7 +150,7 @@ void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, int flat, Ex
 }
 
 /// Cells other than linear triangles, quadrilaterals and pixels become triangles.
-void extrudeCells(vtkDataSet* data, int flat, Extrusion& to)
+void extrudeCells(vtkDataSet* data, const Plane& plane, Extrusion& to)
 {
   const vtkIdType count = data->GetNumberOfPoints();
   vtkNew<vtkPoints> places;
@@ -151,7 +159,7 @@ void extrudeCells(vtkDataSet* data, int flat, Extrusion& to)
   {
     for (vtkIdType point = 0; point < count; ++point)
     {
-      addPoint(data, point, flat, offset, places);
+      plane.add(data, point, offset, places);
       to.points->InsertNextId(point);
     }
   }
@@ -219,7 +227,10 @@ vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat)
     box.GetLength(flat) <= planeTolerance * box.GetMaxLength() && surface->GetNumberOfPolys() > 0;
   for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
   {
-    addPoint(surface, point, flat, isPlane ? -1 : 0, places);
+    double x[3];
+    surface->GetPoint(point, x);
+    const std::array<double, 3> own = turned(x, flat);
+    places->InsertNextPoint(own[0], own[1], own[2] - (isPlane ? 1 : 0));
   }
   result->SetPoints(places);
   if (!isPlane)
@@ -255,17 +266,28 @@ Source extruded(const Source& source, int flat)
   Source result = source;
   result.image = nullptr;
   result.leaves.clear();
+  vtkBoundingBox box;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (dimensionOf(leaf.data) == 2)
+    {
+      box.AddBounds(leaf.data->GetBounds());
+    }
+  }
+  double middle[3];
+  box.GetCenter(middle);
+  const Plane plane{ flat, turned(middle, flat)[2] };
   for (const Leaf& leaf : source.leaves)
   {
     Extrusion made;
     const std::array<int, 3> layer = layerOf(leaf.data);
     if (layer[0] > 0)
     {
-      extrudeStructured(leaf.data, layer, flat, made);
+      extrudeStructured(leaf.data, layer, plane, made);
     }
     else
     {
-      extrudeCells(leaf.data, flat, made);
+      extrudeCells(leaf.data, plane, made);
     }
     Leaf one{ made.data, {}, leaf.ofCells, leaf.input };
     for (vtkDataArray* array : leaf.arrays)
