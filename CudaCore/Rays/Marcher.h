@@ -78,12 +78,29 @@ SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
   return steps < beyond ? minimum(static_cast<std::int32_t>(steps), most) : most;
 }
 
+/// In place of a scheme: the one that the task names, looked up for each sample. For integrators whose samples are a
+/// function of their own anyway, so that their steps are compiled once for all schemes.
+struct SchemeOfTask
+{
+  template <class Scheme>
+  using Of = Scheme;
+};
+
 /// A function of its own where a step takes several samples: in line, their code would be too much.
 template <class Scheme, class Real>
 SCHLIEREN_APART Sample<Real> sampleApart(
-  const MediumView<NumberOf<Real>>& medium, const std::int64_t* base, const Vec3<Real>& at)
+  const RayTask<NumberOf<Real>>& task, const std::int64_t* base, const Vec3<Real>& at)
 {
-  return interpolate<Scheme>(medium, base, at);
+  if constexpr (std::is_base_of_v<SchemeOfTask, Scheme>)
+  {
+    return visitScheme(task.kernel.interpolation,
+      [&](auto scheme)
+      { return interpolate<typename Scheme::template Of<decltype(scheme)>>(task.medium, base, at); });
+  }
+  else
+  {
+    return interpolate<Scheme>(task.medium, base, at);
+  }
 }
 
 /// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
@@ -400,7 +417,7 @@ struct March
   {
     PlacesElsewhere<Real> places;
     findElsewhere(task.medium, in, at, places);
-    Sample<Real> found = sampleApart<Scheme>(task.medium, places.base, withinLeaf(places.at));
+    Sample<Real> found = sampleApart<Scheme>(task, places.base, withinLeaf(places.at));
     found.value += places.value;
     found.gradient = places.finer * found.gradient;
     return onlyGas(found);
@@ -451,7 +468,7 @@ struct March
       {
         return sampleElsewhere(at);
       }
-      found = sampleApart<Scheme>(task.medium, base, withinLeaf(at));
+      found = sampleApart<Scheme>(task, base, withinLeaf(at));
     }
     else
     {
@@ -751,8 +768,9 @@ SCHLIEREN_HD void march(
   rays.findDrift();
 }
 
-/// Calls visit with an object of the kernel's type, whose scheme is given.
-template <class Scheme, class Visit>
+/// Calls visit with an object of the kernel's type, whose scheme is given; of integrators that take several samples
+/// a step another one may be.
+template <class Scheme, class SchemeApart = Scheme, class Visit>
 auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
 {
   if (choice.path == PathModel::Straight)
@@ -762,22 +780,22 @@ auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
   switch (choice.integrator)
   {
     case Integrator::Rk4:
-      return visit(Kernel<RefractedPath, Rk4, Scheme>{});
+      return visit(Kernel<RefractedPath, Rk4, SchemeApart>{});
     case Integrator::Adaptive:
-      return visit(Kernel<RefractedPath, Adaptive, Scheme>{});
+      return visit(Kernel<RefractedPath, Adaptive, SchemeApart>{});
     case Integrator::Euler:
-      return visit(Kernel<RefractedPath, Euler, Scheme>{});
+      return visit(Kernel<RefractedPath, Euler, SchemeApart>{});
     default:
       return visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
   }
 }
 
-/// The same with the scheme that is chosen.
+/// The same with the scheme that is chosen, for the CPU.
 template <class Visit>
 auto visitKernel(const KernelChoice& choice, const Visit& visit)
 {
   return visitScheme(choice.interpolation,
-    [&](auto scheme) { return visitKernelOf<decltype(scheme)>(choice, visit); });
+    [&](auto scheme) { return visitKernelOf<decltype(scheme), SchemeOfTask>(choice, visit); });
 }
 
 } // namespace schlieren

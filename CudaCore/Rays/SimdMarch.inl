@@ -27,6 +27,12 @@ void marchPacks(const RayTask<NumberOf<Pack>>& task, RayBatch<NumberOf<Pack>, la
   }
 }
 
+struct SchemeOfTaskByRows : SchemeOfTask
+{
+  template <class Scheme>
+  using Of = ByRows<Scheme>;
+};
+
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice)
 {
@@ -41,7 +47,7 @@ MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice)
   return visitScheme(choice.interpolation,
     [&choice](auto scheme)
     {
-      return visitKernelOf<ByRows<decltype(scheme)>>(choice,
+      return visitKernelOf<ByRows<decltype(scheme)>, SchemeOfTaskByRows>(choice,
         [](auto kernel) -> MarchFunction<Number, Lanes>
         { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
     });
