@@ -20,7 +20,7 @@ namespace
 /// voxel.
 constexpr double errorByThirdDifference = 1. / 12;
 
-/// Edges are linear in their distances: finer voxels than this share of a cell show nothing new.
+/// Edges are linear in their distances: finer voxels than this part of a cell show nothing new.
 constexpr double edgeVoxelByCell = 0.5;
 
 /// Layers around the samples of a brick with edges that continued values may depend on.
@@ -121,6 +121,16 @@ struct BrickMaker<Real>::Samples
       sum += std::abs(at[stride] - 2 * at[0] + at[-stride]);
     }
     return sum / 8;
+  }
+  void addNormal(int i, int j, int k, std::array<std::array<float, 2>, 3>& normals) const
+  {
+    const float* at = &distances[index(i, j, k)];
+    const std::ptrdiff_t strides[3] = { 1, n, layers > 1 ? n * n : 0 };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const float slope = (at[strides[axis]] - at[-strides[axis]]) / 2;
+      normals[axis] = { std::min(normals[axis][0], slope), std::max(normals[axis][1], slope) };
+    }
   }
 
   void findGas();
@@ -347,6 +357,9 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
   double besideEdge = 0;
   float bend = 0; // of distances, in the middle of a voxel
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::array<std::array<float, 2>, 3> normals;
+  normals.fill({ infinity, -infinity });
   const int first = samples.margin - 1;
   const int last = samples.margin + edge;
   const bool isLayer = shape_ == BrickShape::Layer;
@@ -370,7 +383,11 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
         const bool isNear =
           samples.distances[at] > -1 && samples.distances[at] < (isLast ? 0.45f : 1.f);
         hasEdge = hasEdge || isNear;
-        bend = isNear && !isLast ? std::max(bend, samples.bendAt(i, j, k)) : bend;
+        if (isNear && !isLast)
+        {
+          bend = std::max(bend, samples.bendAt(i, j, k));
+          samples.addNormal(i, j, k, normals);
+        }
         if (isNear && samples.places[at] == Place::Gas)
         {
           besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
@@ -388,6 +405,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
   facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
   const std::array<double, 3> voxel = voxelOf(place.level);
+  facts.normals = bend > 0 ? normals : facts.normals;
   facts.edgeError =
     static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());
   for (std::size_t axis = 0; axis < axes(); ++axis)

@@ -47,6 +47,8 @@ struct BrickFacts
   bool hasWallEdge = false; ///< gas, or a window, ends at a wall in it
   double edgeError = 0;     ///< how far an edge is from where it should be; data units
   bool areEdgesFine = true; ///< with voxels much finer than cells, edges show nothing new
+  /// Lowest and highest components of the edges' normals, by voxel.
+  std::array<std::array<float, 2>, 3> normals{};
   double largestNu = 0;     ///< |nu| of its coefficients
   std::array<double, 3> slope{ 0, 0,
     0 };               ///< largest difference of neighbouring coefficients, a voxel

@@ -45,13 +45,16 @@ public:
   }
 
   /// Whether voxels of the next level are wanted along an axis.
-  bool allows(int level, std::size_t axis) const
+  bool allows(int level, std::size_t axis, double pixels = 1) const
   {
     constexpr double rounding = 1 - 1e-9;
     return level < finestLevelOfAll && axis < tree_.maker_.axes() &&
-      tree_.maker_.voxelOf(level + 1)[axis] >= rounding * column_.finest;
+      tree_.maker_.voxelOf(level + 1)[axis] >= rounding * pixels * column_.finest;
   }
-  bool allows(int level) const { return allows(level, 0) || allows(level, 1) || allows(level, 2); }
+  bool allows(int level, double pixels = 1) const
+  {
+    return allows(level, 0, pixels) || allows(level, 1, pixels) || allows(level, 2, pixels);
+  }
 
   /// How long a ray is in a leaf, by the leaf's edge, as far as that is not about 1: in one as deep as the domain.
   double lengthIn(int level) const
@@ -93,7 +96,12 @@ public:
   {
     const double error = errorOf(node.place.level, node.facts);
     const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
-    const bool hasEdge = hasWindow || (node.facts.hasWallEdge && !showsWalls(node));
+    const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
+    const bool isFine = node.facts.areEdgesFine || !allows(node.place.level);
+    // A sharp edge is rounded off by a quarter of a voxel.
+    const bool isSharp = node.facts.hasWallEdge && !node.facts.areEdgesFine &&
+      !showsWalls(node, 0.2) && isEdgeOn(node) && allows(node.place.level, 0.25);
+    const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
     double urgency = error > allowed().deflection ? error : 0;
     if (const double gathered = errorOf(node.place.level, ofFields); gathered > allowed().gathered)
     {
@@ -101,7 +109,7 @@ public:
       const bool canCompare = deflection > 0 && work_.gathered > 0;
       urgency = std::max(urgency, canCompare ? gathered * (deflection / work_.gathered) : gathered);
     }
-    if (hasEdge && !node.facts.areEdgesFine && allows(node.place.level))
+    if (hasEdge)
     {
       // A shadow's edge that is wrong by a voxel is as wrong as can be.
       urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
@@ -109,15 +117,34 @@ public:
     return urgency;
   }
 
-  /// Whether walls are where they should be, as far as pixels show. Voxels must not be much larger than pixels for
-  /// that to be known.
-  bool showsWalls(const Node& node) const
+  /// Whether walls are where they should be, but for such a part of a pixel. Voxels must not be much larger than
+  /// pixels for that to be known.
+  bool showsWalls(const Node& node, double pixels) const
   {
-    constexpr double pixels = 0.1, pixelsOfVoxel = 4; // at most
+    constexpr double pixelsOfVoxel = 4; // at most
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
     return node.facts.edgeError <= pixels * column_.finest &&
       *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
       pixelsOfVoxel * column_.finest;
+  }
+
+  /// Whether walls are seen edge-on in a leaf, or would be after a small turn.
+  bool isEdgeOn(const Node& node) const
+  {
+    constexpr double margin = 0.2; // sine of the turn
+    const Vec3<double> along = cross(column_.u, column_.v);
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    const double d[3] = { along.x / voxel[0], along.y / voxel[1], along.z / voxel[2] };
+    double least = 0, most = 0, square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = node.facts.normals[axis];
+      least += d[axis] * (d[axis] > 0 ? low : high);
+      most += d[axis] * (d[axis] > 0 ? high : low);
+      square += d[axis] * d[axis];
+    }
+    const double limit = margin * std::sqrt(square);
+    return least <= limit && most >= -limit;
   }
 
   /// Of what a level's leaves have, as facts of them tell it.

@@ -424,10 +424,10 @@ struct March
   }
 
   /// Ends the rays that have come to a wall, and finds out which are where there is no gas.
-  SCHLIEREN_HD void lookForEdges(Real& step, const Vec3<Real>& middle)
+  SCHLIEREN_HD void lookForEdges(Real& step, const Vec3<Real>& middle, const Vec3<Real>& half)
   {
     Real gas = inGas;
-    const auto which = meetWalls(task.medium, in.leaf, middle, cruise, gas) > 0;
+    const auto which = meetWalls(task.medium, in.leaf, middle, half, cruise, gas) > 0;
     inGas = gas;
     if (any(which))
     {
@@ -687,7 +687,7 @@ struct March
     }
     if (someNearEdge)
     {
-      lookForEdges(step, withinLeaf(next.middle));
+      lookForEdges(step, withinLeaf(next.middle), (Number(0.5) * step) * along);
       areUnderWay = any(cruise > 0);
     }
     return next;

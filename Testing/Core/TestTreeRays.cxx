@@ -81,6 +81,58 @@ private:
   double radius_;
 };
 
+/// A cube with sharp edges around the origin, in such gas.
+class CubeSource : public BodySource
+{
+public:
+  explicit CubeSource(double halfEdge, double half)
+    : BodySource(halfEdge, half)
+    , halfEdge_(halfEdge)
+  {
+  }
+  Place placeAt(double a, double b, double c) const override
+  {
+    return distanceAt(a, b, c) < 0 ? Place::Wall : Place::Gas;
+  }
+  double distanceAt(double a, double b, double c) const override
+  {
+    const double x = std::abs(a) - halfEdge_, y = std::abs(b) - halfEdge_,
+                 z = std::abs(c) - halfEdge_;
+    return length(std::max(x, 0.), std::max(y, 0.), std::max(z, 0.)) +
+      std::min(std::max({ x, y, z }), 0.);
+  }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    content.hasWall = true;
+    content.hasGas = false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      content.hasWall =
+        content.hasWall && box.low[axis] < halfEdge_ && box.high[axis] > -halfEdge_;
+      content.hasGas =
+        content.hasGas || box.low[axis] < -halfEdge_ || box.high[axis] > halfEdge_;
+    }
+  }
+  /// Whether a straight line meets a cube that is larger by so much.
+  bool isMet(const Vec3<double>& from, const Vec3<double>& along, double larger) const
+  {
+    const double edge = halfEdge_ + larger;
+    const double x[3] = { from.x, from.y, from.z }, d[3] = { along.x, along.y, along.z };
+    double first = -1e9, last = 1e9;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double step = std::abs(d[axis]) > 1e-9 ? d[axis] : 1e-9;
+      const double one = (-edge - x[axis]) / step, other = (edge - x[axis]) / step;
+      first = std::max(first, std::min(one, other));
+      last = std::min(last, std::max(one, other));
+    }
+    return first < last;
+  }
+
+private:
+  double halfEdge_;
+};
+
 } // namespace
 
 class RaysInATree : public OnDevice
@@ -183,6 +235,46 @@ TEST_P(RaysInATree, EndAtWalls)
   area *= image.frame.pixelSize * image.frame.pixelSize;
   EXPECT_NEAR(area, std::acos(-1.) * 0.16, 3e-3 * area);
   EXPECT_LT(worst, 0.1); // pixels
+}
+
+TEST_P(RaysInATree, DoNotMissSharpEdges)
+{
+  const auto source = std::make_shared<CubeSource>(0.3, 1);
+  for (const Vector& direction : { Vector{ 1, 1, 0 }, Vector{ 1, 0.2, 0.1 }, Vector{ 1, 1, 1 } })
+  {
+    for (const int size : { 100, 400 })
+    {
+      Scene scene = sceneOf(direction, GetParam());
+      scene.view.viewUp = { 0, 0, 1 };
+      scene.view.width = scene.view.height = size;
+      scene.view.parallelScale = 0.6;
+      const Image image = Bench().render(fieldOf(source), scene);
+      const Vec3<double> u = vec(image.frame.u), v = vec(image.frame.v), d = vec(direction);
+      // By how much the cube seems to be smaller or larger, in pixels.
+      double smaller = 0, larger = 0;
+      for (int row = 0; row < image.height; ++row)
+      {
+        for (int column = 0; column < image.width; ++column)
+        {
+          const PixelCentre at = centreOf(image, column, row);
+          const Vec3<double> from = at.u * u + at.v * v;
+          const bool isBlocked = image.blockedFraction[pixelOf(image, column, row)] > 0.5f;
+          const auto isMet = [&](double pixels)
+          { return source->isMet(from, d, pixels * image.frame.pixelSize); };
+          while (!isBlocked && isMet(-smaller - 0.01))
+          {
+            smaller += 0.01;
+          }
+          while (isBlocked && !isMet(larger + 0.01))
+          {
+            larger += 0.01;
+          }
+        }
+      }
+      EXPECT_LT(smaller, 0.2) << direction[1] << " " << size;
+      EXPECT_LT(larger, 0.02) << direction[1] << " " << size;
+    }
+  }
 }
 
 TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
