@@ -308,7 +308,7 @@ void BrickMaker<Real>::Samples::continueGas()
         *empty.row(j, k) = ~gas;
       }
     }
-    fillEmpty(volume, empty, 1);
+    fillEmpty(volume, empty, 1, Continuation::Linear);
     for (int k = 0; k < layers; ++k)
     {
       for (int j = 0; j < n; ++j)

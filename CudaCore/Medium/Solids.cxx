@@ -33,39 +33,61 @@ std::uint64_t besideValues(const PointMask& empty, std::int64_t n, std::int64_t 
   return beside;
 }
 
+/// Of the neighbours that have a value or, in a linear continuation, of what lines from them through the points behind
+/// them lead to, where there are any.
 template <class Real>
-Real meanOfNeighbours(const PaddedVolume<Real>& volume, const PointMask& empty, std::int64_t i,
-  std::int64_t j, std::int64_t k)
+Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, std::int64_t i,
+  std::int64_t j, std::int64_t k, Continuation continuation)
 {
   const auto [nx, ny, nz] = volume.dimensions;
-  // Relative to one of them, so that the mean of equal values is exactly that value.
-  double first = 0, excess = 0;
-  int count = 0;
-  for (std::int64_t kk = std::max<std::int64_t>(k - 1, 0); kk <= std::min(k + 1, nz - 1); ++kk)
+  const auto hasValue = [&](std::int64_t ii, std::int64_t jj, std::int64_t kk)
   {
-    for (std::int64_t jj = std::max<std::int64_t>(j - 1, 0); jj <= std::min(j + 1, ny - 1); ++jj)
+    return ii >= 0 && ii < nx && jj >= 0 && jj < ny && kk >= 0 && kk < nz &&
+      ((empty.row(jj, kk)[ii >> 6] >> (ii & 63)) & 1) == 0;
+  };
+  const auto valueAt = [&](std::int64_t ii, std::int64_t jj, std::int64_t kk)
+  { return static_cast<double>(volume.samples[volume.index(ii, jj, kk)]); };
+  // Relative to one of them, so that the mean of equal values is exactly that value.
+  struct Mean
+  {
+    double first = 0, excess = 0;
+    int count = 0;
+    void add(double value)
     {
-      const std::uint64_t* isEmpty = empty.row(jj, kk);
-      const Real* row = volume.samples.data() + volume.index(0, jj, kk);
-      for (std::int64_t ii = std::max<std::int64_t>(i - 1, 0); ii <= std::min(i + 1, nx - 1); ++ii)
+      first = count == 0 ? value : first;
+      excess += value - first;
+      ++count;
+    }
+  };
+  Mean ofNeighbours, ofLines;
+  for (int dk = -1; dk <= 1; ++dk)
+  {
+    for (int dj = -1; dj <= 1; ++dj)
+    {
+      for (int di = -1; di <= 1; ++di)
       {
-        if (((isEmpty[ii >> 6] >> (ii & 63)) & 1) == 0)
+        if (hasValue(i + di, j + dj, k + dk))
         {
-          const auto value = static_cast<double>(row[ii]);
-          first = count == 0 ? value : first;
-          excess += value - first;
-          ++count;
+          const double value = valueAt(i + di, j + dj, k + dk);
+          ofNeighbours.add(value);
+          if (continuation == Continuation::Linear &&
+            hasValue(i + 2 * di, j + 2 * dj, k + 2 * dk))
+          {
+            ofLines.add(2 * value - valueAt(i + 2 * di, j + 2 * dj, k + 2 * dk));
+          }
         }
       }
     }
   }
-  return static_cast<Real>(first + excess / count);
+  const Mean& mean = ofLines.count > 0 ? ofLines : ofNeighbours;
+  return static_cast<Real>(mean.first + mean.excess / mean.count);
 }
 
 } // namespace
 
 template <class Real>
-void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads)
+void fillEmpty(
+  PaddedVolume<Real>& volume, PointMask empty, int threads, Continuation continuation)
 {
   PointMask next = empty; // those left when a layer has been filled
   const std::int64_t ny = volume.dimensions[1];
@@ -90,7 +112,7 @@ void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads)
               {
                 if ((layer & 1) != 0)
                 {
-                  volume.at(i, j, k) = meanOfNeighbours(volume, empty, i, j, k);
+                  volume.at(i, j, k) = valueFromAround(volume, empty, i, j, k, continuation);
                   isDone = false;
                 }
               }
@@ -130,8 +152,8 @@ std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<Real>& volume, const
   return bits;
 }
 
-template void fillEmpty(PaddedVolume<float>&, PointMask, int);
-template void fillEmpty(PaddedVolume<double>&, PointMask, int);
+template void fillEmpty(PaddedVolume<float>&, PointMask, int, Continuation);
+template void fillEmpty(PaddedVolume<double>&, PointMask, int, Continuation);
 template std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<float>&, const PointMask&);
 template std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<double>&, const PointMask&);
 

@@ -56,11 +56,19 @@ struct PointMask
   std::vector<std::uint64_t> words;
 };
 
+/// How values go on where there is no gas.
+enum class Continuation
+{
+  Constant,
+  Linear ///< so that gradients are not bent at walls
+};
+
 /// Gives the points of `empty` the mean of those neighbours (of 26) that have a value already, layer
 /// after layer, outward from the gas. Gas keeps its values; next to a body in uniform gas there is no
 /// gradient. Needs two bits of memory a point, `empty` included.
 template <class Real>
-void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads);
+void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads,
+  Continuation continuation = Continuation::Constant);
 
 /// The mask laid out as in MediumView, one bit per sample of `volume`.
 template <class Real>

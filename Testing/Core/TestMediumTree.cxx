@@ -594,6 +594,65 @@ TEST(MediumTree, WallsAreSharp)
   }
 }
 
+/// Gas that becomes denser towards an oblique wall.
+class ObliqueWallSource : public AnalyticSource
+{
+public:
+  static constexpr double slope = 1e-4, border = 0.21;
+
+  static double depth(double a, double b, double c) { return 0.8 * a + 0.36 * b + 0.48 * c; }
+  double refractivity(double a, double b, double c) const override
+  {
+    return slope * depth(a, b, c);
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    return { slope * depth(box.low[0], box.low[1], box.low[2]),
+      slope * depth(box.high[0], box.high[1], box.high[2]) };
+  }
+  double cellSizeOver(const Box&) const override { return 0.02; }
+  Place placeAt(double a, double b, double c) const override
+  {
+    return depth(a, b, c) < border ? Place::Gas : Place::Wall;
+  }
+  double distanceAt(double a, double b, double c) const override { return border - depth(a, b, c); }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    content.hasGas = depth(box.low[0], box.low[1], box.low[2]) < border;
+    content.hasWall = depth(box.high[0], box.high[1], box.high[2]) > border;
+  }
+};
+
+// Which values there are in a wall must not be seen in the gas beside it.
+TEST(MediumTree, GradientsReachWalls)
+{
+  const auto source = std::make_shared<ObliqueWallSource>();
+  Tree tree(source, 0, settingsOf(1e-2));
+  tree.refine(everything(x, y, 0.01));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-0.8, 0.8), part(0, 1);
+  int looked = 0;
+  for (int n = 0; n < 20000; ++n)
+  {
+    const double b = any(random), c = any(random);
+    const double a = (ObliqueWallSource::border - 0.36 * b - 0.48 * c) / 0.8;
+    const Vec3<double> wall{ a, b, c };
+    if (std::abs(a) > 0.8)
+    {
+      continue;
+    }
+    const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, wall))];
+    const double voxel = tree.grid().spacing[0] / leaf.perIndex;
+    const Vec3<double> normal{ 0.8, 0.36, 0.48 };
+    const Vec3<double> at = wall - (part(random) * voxel) * normal;
+    const Sample<double> found = sampleAt(tree, Interpolation::Quadratic, at);
+    const Vec3<double> error = found.gradient - ObliqueWallSource::slope * normal;
+    ASSERT_LT(length(error), 0.02 * ObliqueWallSource::slope) << at.x << " " << at.y << " " << at.z;
+    ++looked;
+  }
+  EXPECT_GT(looked, 1000);
+}
+
 TEST(MediumTree, ContinuedValuesDoNotDependOnTheBrick)
 {
   const auto source = std::make_shared<SphereSource>(2);
