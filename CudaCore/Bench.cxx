@@ -110,6 +110,7 @@ struct Bench::Unfinished
   Device device = Device::Cpu;
   std::string deviceNote;
   GrowingPicture picture;
+  std::optional<DisplacementBound> bound;
   double kScale = 0;
   double momentumDrift = 0;
   double traceSeconds = 0;
@@ -197,6 +198,7 @@ void Bench::Stages::refineFor(
   {
     rays.clear();
     held.cuda.reset();
+    asked.bound.reset();
   }
 }
 
@@ -259,18 +261,25 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
       return aborted;
     }
   }
-  const DisplacementBound bound = boundDisplacement(held.medium, light);
+  // What differs by rounding only is homogeneous.
+  constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  const double tolerance =
+    std::max(scene.homogeneityTolerance * held.medium.rangeOfNu, rounding * held.medium.largestNu);
+  if (!asked.bound)
+  {
+    const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
+    asked.bound = boundDisplacement(held.medium, light, view, scene.stepSize,
+      maySkip ? steepestOf(scene.interpolation) * tolerance : 0);
+  }
+  const DisplacementBound& bound = *asked.bound;
   image.displacementBound = bound.displacement;
+  image.displacementWithin = bound.withinMedium;
   const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
   image.pathModel = settings.kernel.path;
   // An adaptive step is as long as the medium lets it be without a map.
   const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
     ? 0
     : scene.homogeneityTolerance;
-  // What differs by rounding only is homogeneous.
-  constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-  const double tolerance =
-    std::max(skips * held.medium.rangeOfNu, rounding * held.medium.largestNu);
   const HomogeneityMap<Real>* map =
     skips > 0 ? held.mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
   image.skippingBound =

@@ -348,13 +348,14 @@ struct Image
   double saturatedShare = 0;
   LightBalance light;
   Histogram histogram;
-  double ambient = 0;           ///< the ambient refractivity used
-  std::int64_t raysTraced = 0;  ///< rays of this picture that crossed the grid
-  std::int64_t stepsTaken = 0;  ///< integration steps of these rays
-  std::int64_t raysBlocked = 0; ///< rays that a solid stopped
-  std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
-  double traceSeconds = 0;      ///< spent tracing for it; 0 when held rays were re-shaded
-  double displacementBound = 0; ///< no ray of this medium is displaced further, data units
+  double ambient = 0;            ///< the ambient refractivity used
+  std::int64_t raysTraced = 0;   ///< rays of this picture that crossed the grid
+  std::int64_t stepsTaken = 0;   ///< integration steps of these rays
+  std::int64_t raysBlocked = 0;  ///< rays that a solid stopped
+  std::int64_t raysLost = 0;     ///< rays trapped in the medium (step limit) or turned back by it
+  double traceSeconds = 0;       ///< spent tracing for it; 0 when held rays were re-shaded
+  double displacementBound = 0;  ///< no ray of this image is displaced further, data units
+  double displacementWithin = 0; ///< the same up to where the medium bends it for the last time
   /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
   /// because it is elsewhere then, which is of second order.
   double skippingBound = 0;

@@ -17,7 +17,7 @@ RaySettings settingsOf(
 {
   RaySettings settings;
   const bool straightWillDo = scene.pathModel == PathModel::Auto &&
-    bound.displacement <= scene.pathTolerance * frame.pixelSize;
+    bound.withinMedium <= scene.pathTolerance * frame.pixelSize;
   settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
     ? PathModel::Straight
     : PathModel::Refracted;
@@ -35,12 +35,17 @@ RaySettings settingsOf(
   return settings;
 }
 
+double steepestOf(Interpolation interpolation)
+{
+  return visitScheme(
+    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
+}
+
 template <class Real>
 double skippingBound(
   const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
 {
-  const double steepest = visitScheme(
-    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
+  const double steepest = steepestOf(interpolation);
   const double way = light.depth / light.smallestCosine();
   return 2 * steepest * tolerance * length(light.indexScale) * way * (1 + medium.largestNu);
 }

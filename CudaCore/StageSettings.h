@@ -102,6 +102,9 @@ struct RaysKey
 RaySettings settingsOf(
   const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame);
 
+/// The largest |d nu / d index| in a cube in which nu varies by 1: see NuRange.
+double steepestOf(Interpolation interpolation);
+
 /// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
 /// each: see NuRange, with the whole way through the grid as the way through cubes.
 template <class Real>

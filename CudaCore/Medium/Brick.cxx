@@ -595,6 +595,43 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
   }
 }
 
+/// Of the octants: each from all coefficients that are looked at there.
+template <class Real>
+void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
+{
+  const int stored = edge + 2 * apron_;
+  const int strides[3] = { 1, stored, stored * stored };
+  const int count = edge / 2 + 2 * apron_; // of an octant, along an axis
+  for (int octant = 0; octant < 8; ++octant)
+  {
+    Vec3<float>& slope = brick.facts.slopeOf[static_cast<std::size_t>(octant)];
+    float* const of[3] = { &slope.x, &slope.y, &slope.z };
+    const Real* corner = brick.samples.data() +
+      edge / 2 *
+        ((octant & 1) * strides[0] + (octant >> 1 & 1) * strides[1] + (octant >> 2) * strides[2]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::array<Real, edge / 2 + 4> most{};
+      int to[3] = { count, count, count };
+      to[axis] -= 1;
+      for (int k = 0; k < to[2]; ++k)
+      {
+        for (int j = 0; j < to[1]; ++j)
+        {
+          const Real* row = corner + k * strides[2] + j * strides[1];
+          for (int i = 0; i < to[0]; ++i)
+          {
+            const Real difference = std::abs(row[i + strides[axis]] - row[i]);
+            Real& largest = most[static_cast<std::size_t>(i)];
+            largest = largest < difference ? difference : largest;
+          }
+        }
+      }
+      *of[axis] = static_cast<float>(*std::max_element(most.begin(), most.end()));
+    }
+  }
+}
+
 template <class Real>
 Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& negligible) const
 {
@@ -667,6 +704,7 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   {
     storeCoefficients(samples, brick);
     findBounds(place, brick);
+    findSlopes(brick);
   }
   else
   {

@@ -51,8 +51,9 @@ struct BrickFacts
   std::array<std::array<float, 2>, 3> normals{};
   double largestNu = 0;     ///< |nu| of its coefficients
   std::array<double, 3> slope{ 0, 0,
-    0 };               ///< largest difference of neighbouring coefficients, a voxel
-  double steepest = 0; ///< largest gradient, about; nu by data unit
+    0 }; ///< largest difference of neighbouring coefficients, a voxel
+  std::array<Vec3<float>, 8> slopeOf{};        ///< the same of its octants, x fastest
+  double steepest = 0;                         ///< largest gradient, about; nu by data unit
   std::array<double, 3> steepestAt{ 0, 0, 0 }; ///< index coordinates
 };
 
@@ -105,6 +106,7 @@ private:
     const Samples& samples, BrickFacts& facts) const;
   void storeCoefficients(Samples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
+  void findSlopes(Brick<Real>& brick) const;
   double nuOf(double refractivity) const { return (refractivity - ambient_) / (1 + ambient_); }
   /// Of points along z, where there are so many along the other axes.
   int layersOf(int points) const { return shape_ == BrickShape::Layer ? 1 : points; }

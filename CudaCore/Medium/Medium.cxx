@@ -244,8 +244,65 @@ void widenByDifferences(const Real* a, const Real* b, std::int64_t count, Real* 
   }
 }
 
-/// Largest difference of neighbouring samples along each axis, ghosts included where they are used,
-/// and largest |sample|. With all schemes the value is a weighted mean of samples and a derivative one of
+/// Cells along the edges of Medium::slopes.
+constexpr std::int64_t slopeEdge = SlopeBlock::voxels;
+
+/// Largest differences of neighbours along each axis.
+template <class Real>
+struct Steepest
+{
+  Real x, y, z;
+};
+
+/// The samples that any scheme looks at in the cells of block n along an axis, ghosts included: [first, last].
+struct SamplesOfBlock
+{
+  std::int64_t first, last;
+  SamplesOfBlock(std::int64_t n, std::int64_t points)
+    : first(n * slopeEdge - 1)
+    , last(std::min((n + 1) * slopeEdge + 1, points))
+  {
+  }
+};
+
+/// Of the blocks of a plane of samples: of one row of blocks after the other. z: to the plane above, where there is one.
+template <class Real>
+void findSlopesOfPlane(
+  const PaddedVolume<Real>& volume, std::int64_t k, std::int64_t columns, Steepest<Real>* blocks)
+{
+  const auto [nx, ny, nz] = volume.dimensions;
+  const std::int64_t width = nx + 2;
+  const std::int64_t toZ = k < nz ? volume.strides[2] : 0;
+  const std::int64_t rows = (ny - 2) / slopeEdge + 1;
+  std::vector<Real> x(static_cast<std::size_t>(width)), y(x), z(x);
+  for (std::int64_t row = 0; row < rows; ++row)
+  {
+    for (std::vector<Real>* most : { &x, &y, &z })
+    {
+      std::fill(most->begin(), most->end(), Real(0));
+    }
+    const SamplesOfBlock ofRow(row, ny);
+    for (std::int64_t j = ofRow.first; j <= ofRow.last; ++j)
+    {
+      const Real* samples = volume.samples.data() + volume.index(-1, j, k);
+      widenByDifferences(samples, samples + 1, width - 1, x.data());
+      widenByDifferences(
+        samples, samples + (j < ofRow.last ? volume.strides[1] : 0), width, y.data());
+      widenByDifferences(samples, samples + toZ, width, z.data());
+    }
+    for (std::int64_t column = 0; column < columns; ++column)
+    {
+      const SamplesOfBlock ofColumn(column, nx);
+      const auto first = ofColumn.first + 1, last = ofColumn.last + 1; // in arrays
+      *blocks++ = { *std::max_element(x.begin() + first, x.begin() + last),
+        *std::max_element(y.begin() + first, y.begin() + last + 1),
+        *std::max_element(z.begin() + first, z.begin() + last + 1) };
+    }
+  }
+}
+
+/// Largest |sample|, and, box by box, largest difference of neighbouring samples along each axis, ghosts included
+/// where they are used. With all schemes the value is a weighted mean of samples and a derivative one of
 /// these differences, no weight negative, so that neither can be larger: the derivative of a B-spline is a
 /// B-spline of one degree less of the differences; Central's, at f within a cell, has the weights
 /// (1 - f) / 2, 1 / 2 and f / 2; across the derivative's axis all schemes weigh as for the value.
@@ -254,44 +311,51 @@ void findBounds(Medium<Real>& medium, int threads)
 {
   const PaddedVolume<Real>& volume = medium.volume;
   const auto [nx, ny, nz] = volume.dimensions;
-  struct Bounds
-  {
-    double nu = 0, x = 0, y = 0, z = 0;
-  };
-  std::vector<Bounds> planes(static_cast<std::size_t>(nz + 2));
+  const std::int64_t columns = (nx - 2) / slopeEdge + 1;
+  const std::int64_t rows = (ny - 2) / slopeEdge + 1;
+  const std::int64_t layers = (nz - 2) / slopeEdge + 1;
+  const std::int64_t ofPlane = columns * rows;
+  std::vector<Steepest<Real>> planes(static_cast<std::size_t>(ofPlane * (nz + 2)));
+  std::vector<Real> largestNu(static_cast<std::size_t>(nz + 2));
   parallelFor(nz + 2, 1, threads,
-    [&, nx = nx, ny = ny, nz = nz](std::int64_t begin, std::int64_t end)
+    [&, nx = nx, ny = ny](std::int64_t begin, std::int64_t end)
     {
-      const std::int64_t width = nx + 2;
-      const std::vector<Real> zeros(static_cast<std::size_t>(width), 0);
-      std::vector<Real> nu, x, y, z;
-      for (std::int64_t k = begin; k < end; ++k)
+      const std::vector<Real> zeros(static_cast<std::size_t>(nx + 2), 0);
+      for (std::int64_t plane = begin; plane < end; ++plane)
       {
-        for (std::vector<Real>* most : { &nu, &x, &y, &z })
-        {
-          most->assign(static_cast<std::size_t>(width), 0);
-        }
+        std::vector<Real> nu(zeros);
         for (std::int64_t j = -1; j <= ny; ++j)
         {
-          const Real* row = volume.samples.data() + volume.index(-1, j, k - 1);
-          const std::int64_t toY = j < ny ? volume.strides[1] : 0;
-          const std::int64_t toZ = k - 1 < nz ? volume.strides[2] : 0;
-          widenByDifferences(row, zeros.data(), width, nu.data());
-          widenByDifferences(row, row + 1, width - 1, x.data());
-          widenByDifferences(row, row + toY, width, y.data());
-          widenByDifferences(row, row + toZ, width, z.data());
+          widenByDifferences(volume.samples.data() + volume.index(-1, j, plane - 1), zeros.data(),
+            nx + 2, nu.data());
         }
-        const auto largest = [](const std::vector<Real>& most)
-        { return static_cast<double>(*std::max_element(most.begin(), most.end())); };
-        planes[static_cast<std::size_t>(k)] = { largest(nu), largest(x), largest(y), largest(z) };
+        largestNu[static_cast<std::size_t>(plane)] = *std::max_element(nu.begin(), nu.end());
+        findSlopesOfPlane(volume, plane - 1, columns, planes.data() + plane * ofPlane);
       }
     });
-  for (const Bounds& plane : planes)
+  medium.largestNu = static_cast<double>(*std::max_element(largestNu.begin(), largestNu.end()));
+  medium.slopes.reserve(static_cast<std::size_t>(ofPlane * layers));
+  for (std::int64_t n = 0; n < ofPlane * layers; ++n)
   {
-    medium.largestNu = std::max(medium.largestNu, plane.nu);
-    medium.slope.x = std::max(medium.slope.x, plane.x);
-    medium.slope.y = std::max(medium.slope.y, plane.y);
-    medium.slope.z = std::max(medium.slope.z, plane.z);
+    const std::int64_t at[3] = { n % columns, n / columns % rows, n / ofPlane };
+    const SamplesOfBlock ofLayer(at[2], nz);
+    Steepest<Real> most{ 0, 0, 0 };
+    for (std::int64_t k = ofLayer.first; k <= ofLayer.last; ++k)
+    {
+      const Steepest<Real>& one = planes[static_cast<std::size_t>((k + 1) * ofPlane + n % ofPlane)];
+      most = { std::max(most.x, one.x), std::max(most.y, one.y),
+        k < ofLayer.last ? std::max(most.z, one.z) : most.z };
+    }
+    if (most.x == 0 && most.y == 0 && most.z == 0)
+    {
+      continue;
+    }
+    const auto low = [&](std::size_t axis) { return static_cast<float>(at[axis] * slopeEdge); };
+    medium.slopes.push_back({ { low(0), low(1), low(2) }, static_cast<float>(slopeEdge),
+      { static_cast<float>(most.x), static_cast<float>(most.y), static_cast<float>(most.z) } });
+    medium.slope.x = std::max(medium.slope.x, static_cast<double>(most.x));
+    medium.slope.y = std::max(medium.slope.y, static_cast<double>(most.y));
+    medium.slope.z = std::max(medium.slope.z, static_cast<double>(most.z));
   }
 }
 
@@ -460,6 +524,10 @@ bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor)
   medium.rangeOfNu = tree.rangeOfNu();
   medium.largestNu = tree.largestNu();
   medium.slope = tree.slope();
+  if (hasChanged || medium.slopes.empty())
+  {
+    medium.slopes = tree.slopes();
+  }
   return hasChanged;
 }
 

@@ -6,6 +6,7 @@
 #include "Medium/Interpolation.h"
 #include "Medium/MediumTree.h"
 #include "Medium/Prefilter.h"
+#include "Medium/SlopeBlocks.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -29,6 +30,7 @@ struct Medium
   double rangeOfNu = 0;          ///< highest less lowest nu of the gas's samples
   double largestNu = 0;          ///< no interpolated |nu| is larger (up to the spline's overshoot)
   Vec3<double> slope{ 0, 0, 0 }; ///< no interpolated |d nu / d index| is larger, axis by axis
+  SlopeBlocks slopes{};          ///< the same box by box
 
   MediumView<Real> view() const;
   FieldGradientsView gradientsOf(const Field& field) const; ///< that rays gather

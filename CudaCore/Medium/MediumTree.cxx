@@ -350,6 +350,36 @@ void MediumTree<Real>::summarize(const View& view)
     std::max(deflection > 0 ? error / deflection : 0, gathered > 0 ? errorOfFields / gathered : 0);
 }
 
+template <class Real>
+SlopeBlocks MediumTree<Real>::slopes() const
+{
+  SlopeBlocks blocks;
+  blocks.reserve(8 * static_cast<std::size_t>(statistics_.bricks));
+  for (const std::int32_t at : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    for (std::int32_t octant = 0; node.brick > 0 && octant < 8; ++octant)
+    {
+      const Vec3<float>& slope = node.facts.slopeOf[static_cast<std::size_t>(octant)];
+      if (slope.x == 0 && slope.y == 0 && slope.z == 0)
+      {
+        continue;
+      }
+      const NodePlace place = childOf(node.place, octant);
+      const auto low = [&](std::size_t axis)
+      {
+        return static_cast<float>(
+          std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level));
+      };
+      const auto perIndex = static_cast<float>(std::ldexp(1., node.place.level));
+      static_assert(SlopeBlock::voxels == brickEdge / 2);
+      blocks.push_back(
+        { { low(0), low(1), low(2) }, SlopeBlock::voxels / perIndex, perIndex * slope });
+    }
+  }
+  return blocks;
+}
+
 template class MediumTree<float>;
 template class MediumTree<double>;
 

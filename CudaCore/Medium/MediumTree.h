@@ -8,6 +8,7 @@
 #include "Medium/FieldGradients.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
+#include "Medium/SlopeBlocks.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -85,6 +86,7 @@ public:
   double largestN() const { return largestN_; }
   /// Largest |d nu / d index| of all leaves, axis by axis.
   Vec3<double> slope() const { return slope_; }
+  SlopeBlocks slopes() const; ///< box by box
   using Statistics = MediumStatistics;
   Statistics statistics() const { return statistics_; }
 

@@ -70,7 +70,7 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   task.medium.ahead = ahead(light.w.z, light.indexScale.z) * task.medium.planeStride +
     ahead(light.w.y, light.indexScale.y) * task.medium.rowStride +
     ahead(light.w.x, light.indexScale.x);
-  const double bend = boundDisplacement(medium, light).bend;
+  const double bend = boundBySteepest(medium, light).bend;
   const double largestQ = medium.largestNu + (std::isfinite(bend) ? bend : 2);
   constexpr double margin = 1.01; // for the integrator's error
   task.largestQ = static_cast<Real>(margin * largestQ);
@@ -94,30 +94,6 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   task.allowedBend = static_cast<Real>(allowed);
   task.allowedOffset = static_cast<Real>(allowed * light.depth);
   return task;
-}
-
-template <class Real>
-DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& light)
-{
-  const double steepest = length(scaled(medium.slope, light.indexScale));
-  const double bend = (1 + medium.largestNu) * steepest;
-  if (bend == 0)
-  {
-    return { 0, 0, 0 };
-  }
-  // The way s after which the ray has advanced by the depth at the latest, for the ray that is inclined most:
-  // (1 - nu) cosine s - bend s^2 / 2.
-  const double cosine = light.smallestCosine();
-  const double forward = (1 - medium.largestNu) * cosine;
-  const double discriminant = forward * forward - 2 * bend * light.depth;
-  if (!(forward > 0) || !(discriminant > 0))
-  {
-    constexpr double unknown = std::numeric_limits<double>::infinity();
-    return { unknown, unknown, unknown };
-  }
-  const double way = 2 * light.depth / (forward + std::sqrt(discriminant));
-  return { 0.5 * bend * way * way * light.unit / cosine,
-    bend * way / ((forward - bend * way) * cosine), bend * way };
 }
 
 namespace
@@ -309,8 +285,6 @@ template RayTask<float> makeTask(const Medium<float>&, const HomogeneityMap<floa
   const FieldGradientsView&, const Light&, const RaySettings&);
 template RayTask<double> makeTask(const Medium<double>&, const HomogeneityMap<double>*,
   const FieldGradientsView&, const Light&, const RaySettings&);
-template DisplacementBound boundDisplacement(const Medium<float>&, const Light&);
-template DisplacementBound boundDisplacement(const Medium<double>&, const Light&);
 template bool traceOnCpu(
   const RayTask<float>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
 template bool traceOnCpu(

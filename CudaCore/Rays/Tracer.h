@@ -5,6 +5,7 @@
 #include "Medium/FieldGradients.h"
 #include "Medium/Medium.h"
 #include "Rays/CudaPass.h"
+#include "Rays/DisplacementBound.h"
 #include "Rays/Light.h"
 #include "Rays/Marcher.h"
 #include "Rays/RayExit.h"
@@ -188,19 +189,6 @@ struct RaySettings
 template <class Real>
 RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
   const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
-
-/// The furthest that any ray is displaced sideways on the exit plane, the most that its slope differs there
-/// from that of the undisturbed ray, and the length of what all kicks add to its momentum; infinite where no
-/// bound is known. From |dq/ds| <= (1 + nu) |grad nu| with the medium's largest values, for a ray that goes
-/// through all of the grid's depth.
-struct DisplacementBound
-{
-  double displacement; ///< data units
-  double slope;
-  double bend;
-};
-template <class Real>
-DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& light);
 
 /// The rays of a pass, row by row, and what each has gathered of each field's gradient: its integral
 /// over the ray, a number without unit. Nothing where the view has no fields.

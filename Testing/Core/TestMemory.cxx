@@ -14,7 +14,7 @@ namespace schlieren
 namespace
 {
 
-constexpr double mostPerVolume = 1.35;
+constexpr double mostPerVolume = 1.365;
 
 enum class Body
 {
