@@ -175,6 +175,7 @@ std::vector<float> fieldGradients(
     vtkNew<vtkRefractiveIndex> reader;
     chooseField(reader, medium, field);
     reader->SetSamplingDimensions(refractivity->GetDimensions());
+    reader->SetSamplingBounds(medium->GetSamplingBounds());
     reader->SetNumberOfThreads(threads);
     reader->ShareMeshSearch(medium);
     vtkNew<vtkImageData> values;

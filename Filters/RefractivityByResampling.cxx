@@ -66,20 +66,26 @@ int orderOf(vtkDataSet* data, vtkIdType cell)
     : 1;
 }
 
-/// The sizes of the cells along each axis, sorted; empty along an axis along which no cell has any.
+/// The sizes of the cells in a box along each axis, sorted; empty along an axis along which no cell has any.
 std::array<std::vector<double>, 3> sizesOfCells(
-  const std::vector<vtkDataSet*>& leaves, int dimension)
+  const std::vector<vtkDataSet*>& leaves, int dimension, const SamplingBox& box)
 {
   std::array<std::vector<double>, 3> sizes;
   for (vtkDataSet* leaf : leaves)
   {
     const vtkIdType cells = leaf->GetNumberOfCells();
-    for (vtkIdType i = 0; i < cells; i += 1 + cells / mostCellsMeasured)
+    // Of a box, too, that few of all cells are in.
+    const vtkIdType each = box.isGiven() ? 1 : 1 + cells / mostCellsMeasured;
+    for (vtkIdType i = 0; i < cells; i += each)
     {
       if (dimensionOfCell(leaf, i) == dimension)
       {
         double bounds[6];
         leaf->GetCellBounds(i, bounds);
+        if (!box.meets(bounds))
+        {
+          continue;
+        }
         const int order = orderOf(leaf, i);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
@@ -320,9 +326,15 @@ Resampling boxOf(const Source& source)
   return plan;
 }
 
-Resampling planResampling(const Source& source, const int samplingDimensions[3])
+Resampling planResampling(
+  const Source& source, const int samplingDimensions[3], const SamplingBox& box)
 {
   Resampling plan = boxOf(source);
+  const std::array<double, 6> bounds = box.within(plan.bounds);
+  for (std::size_t n = 0; n < 6; ++n)
+  {
+    plan.bounds[n] = static_cast<int>(n / 2) == plan.flatAxis ? plan.bounds[n] : bounds[n];
+  }
   const int dimension = plan.flatAxis < 0 ? 3 : 2;
   double points = 0;
   std::vector<vtkDataSet*> leaves;
@@ -335,7 +347,7 @@ Resampling planResampling(const Source& source, const int samplingDimensions[3])
     }
   }
   std::array<int, 3> given = requireDimensions(samplingDimensions);
-  const std::array<std::vector<double>, 3> sizes = sizesOfCells(leaves, dimension);
+  const std::array<std::vector<double>, 3> sizes = sizesOfCells(leaves, dimension, box);
   std::array<double, 3> lengths{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

@@ -4,6 +4,7 @@
 
 #include "MeshSearch.h"
 #include "RefractivitySource.h"
+#include "SamplingBox.h"
 
 #include "vtkSmartPointer.h"
 
@@ -33,7 +34,8 @@ std::array<int, 3> requireDimensions(const int samplingDimensions[3]);
 void requireFits(const std::array<int, 3>& dimensions);
 
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
-Resampling planResampling(const Source& source, const int samplingDimensions[3]);
+Resampling planResampling(
+  const Source& source, const int samplingDimensions[3], const SamplingBox& box);
 
 /// The grid of two points along each axis.
 Resampling boxOf(const Source& source);

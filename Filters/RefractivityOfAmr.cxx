@@ -129,6 +129,16 @@ void resampleTo(std::vector<double>& values, Counts cells, const Counts& counts)
   }
 }
 
+/// Leaves some of the cells.
+void crop(Grid& grid, const CellBox& box)
+{
+  Grid part(box.size());
+  forCells(box.begin, box.size(),
+    [&](int i, int j, int k)
+    { part.values[box.index(i, j, k)] = grid.values[grid.index(i, j, k)]; });
+  grid = std::move(part);
+}
+
 /// The values of the level that is used, all over the domain.
 Grid valuesOf(const Amr& amr, const Source& source, Tally& tally)
 {
@@ -166,7 +176,8 @@ Grid valuesOf(const Amr& amr, const Source& source, Tally& tally)
 
 } // namespace
 
-std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3])
+std::optional<Amr> planAmr(
+  const Source& source, const int samplingDimensions[3], const SamplingBox& box)
 {
   std::optional<AmrLevels> found = findLevels(source.leaves);
   if (!found)
@@ -178,10 +189,26 @@ std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]
   const Counts given = requireDimensions(samplingDimensions);
   const bool isGiven = std::find(given.begin(), given.end(), 0) == given.end();
   // Not a finer level than fits, or than a grid that is given can show.
+  const auto cellsIn = [&](std::size_t level)
+  {
+    const AmrLevel& ofLevel = amr.levels[level];
+    CellBox cells;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::array<int, 2> ends = static_cast<int>(axis) == found->flat
+        ? std::array<int, 2>{ 0, ofLevel.cells[axis] }
+        : box.cellsOf(axis, found->origin[axis], ofLevel.spacing[axis], ofLevel.cells[axis]);
+      cells.begin[axis] = ends[0];
+      cells.end[axis] = ends[1];
+    }
+    return cells;
+  };
   const auto fits = [&](std::size_t level)
   {
-    const double cells = static_cast<double>(volume(amr.levels[level].cells));
-    return cells <= (isGiven ? 2 * static_cast<double>(volume(given)) : mostVoxels);
+    const double ofAll = static_cast<double>(volume(amr.levels[level].cells));
+    const double wanted = static_cast<double>(volume(cellsIn(level).size()));
+    const double most = isGiven ? 2 * static_cast<double>(volume(given)) : mostVoxels;
+    return ofAll <= std::max(most, mostVoxels) && wanted <= most;
   };
   amr.used = amr.levels.size() - 1;
   while (amr.used > 0 && !fits(amr.used))
@@ -197,19 +224,28 @@ std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]
       std::to_string(finest[0]) + " " + std::to_string(finest[1]) + " " +
       std::to_string(finest[2]) + ")";
   }
+  amr.cells = cellsIn(amr.used);
+  const Counts cells = amr.cells.size();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    amr.dimensions[axis] =
-      given[axis] ? given[axis] : std::max(amr.levels[amr.used].cells[axis], 2);
+    amr.dimensions[axis] = given[axis] ? given[axis] : std::max(cells[axis], 2);
   }
   requireFits(amr.dimensions);
+  double bounds[6];
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double length = amr.levels[0].cells[axis] * amr.levels[0].spacing[axis];
     const bool isFlat = static_cast<int>(axis) == found->flat;
+    const double cell = amr.levels[amr.used].spacing[axis];
+    const double all = amr.levels[0].cells[axis] * amr.levels[0].spacing[axis];
+    const bool isPart = cells[axis] < amr.levels[amr.used].cells[axis];
+    const double length = isPart ? cells[axis] * cell : all;
     amr.spacing[axis] = isFlat ? 1. / (amr.dimensions[axis] - 1) : length / amr.dimensions[axis];
-    amr.origin[axis] = found->origin[axis] + (isFlat ? 0 : amr.spacing[axis] / 2);
+    amr.origin[axis] =
+      found->origin[axis] + amr.cells.begin[axis] * cell + (isFlat ? 0 : amr.spacing[axis] / 2);
+    bounds[2 * axis] = found->origin[axis];
+    bounds[2 * axis + 1] = found->origin[axis] + (isFlat ? 1 : all);
   }
+  box.within(bounds); // throws where there is nothing
   return amr;
 }
 
@@ -225,6 +261,7 @@ Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtk
 {
   Tally tally;
   Grid grid = valuesOf(amr, source, tally);
+  crop(grid, amr.cells);
   resampleTo(grid.values, grid.cells, amr.dimensions);
   gridOf(amr, output);
   vtkNew<vtkDoubleArray> values;

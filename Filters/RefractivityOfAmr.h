@@ -3,6 +3,7 @@
 #pragma once
 
 #include "AmrLevels.h"
+#include "SamplingBox.h"
 
 #include <array>
 #include <optional>
@@ -26,6 +27,7 @@ struct Amr
 {
   std::vector<AmrLevel> levels;
   std::size_t used; // the level that becomes the grid; finer ones are averaged
+  CellBox cells;    // of that level: what of it is wanted
   std::array<int, 3> dimensions;
   std::array<double, 3> origin, spacing; // of the output
   std::string note;                      // what the user should hear of the grid
@@ -33,7 +35,8 @@ struct Amr
 
 /// Nothing where the leaves are no such blocks: with point arrays, turned, or not on one lattice.
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
-std::optional<Amr> planAmr(const Source& source, const int samplingDimensions[3]);
+std::optional<Amr> planAmr(
+  const Source& source, const int samplingDimensions[3], const SamplingBox& box);
 
 /// Makes `structure` the grid of the plan.
 void gridOf(const Amr& amr, vtkImageData* structure);

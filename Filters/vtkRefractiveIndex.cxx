@@ -16,6 +16,7 @@
 #include "RefractivityOfImage.h"
 #include "RefractivityOutside.h"
 #include "RefractivitySource.h"
+#include "SamplingBox.h"
 
 #include "vtkFieldData.h"
 #include "vtkGasTable.h"
@@ -188,6 +189,8 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
      << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  printList(os, indent, "SamplingBounds",
+    std::vector<double>(this->SamplingBounds, this->SamplingBounds + 6));
   os << indent << "MaskThreshold: " << this->MaskThreshold << "\n";
   os << indent << "MaskedSide: " << this->MaskedSide << "\n";
   os << indent << "Outside: " << this->Outside << "\n";
@@ -351,6 +354,7 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
   if (source.image)
   {
     gridOfImage(source.image, source.leaves[0].ofCells, structure);
+    SamplingBox(this->SamplingBounds).crop(structure);
   }
   else
   {
@@ -374,10 +378,11 @@ const GridPlan& vtkRefractiveIndex::PlanGrid(const Source& source, vtkDataObject
   {
     plan.key.clear();
     ++plan.count;
-    plan.amr = planAmr(source, this->SamplingDimensions);
+    const SamplingBox box(this->SamplingBounds);
+    plan.amr = planAmr(source, this->SamplingDimensions, box);
     if (!plan.amr)
     {
-      plan.resampling = planResampling(source, this->SamplingDimensions);
+      plan.resampling = planResampling(source, this->SamplingDimensions, box);
     }
     plan.key = std::move(key);
   }
@@ -400,7 +405,8 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  if (source.image || std::any_of(given, given + 3, [](int count) { return count != 0; }))
+  if (source.image || SamplingBox(this->SamplingBounds).isGiven() ||
+    std::any_of(given, given + 3, [](int count) { return count != 0; }))
   {
     return false;
   }
@@ -552,6 +558,7 @@ std::string vtkRefractiveIndex::Convert(
       {
         this->Search->release();
         tally = convertImage(source, this->DoublePrecision, output);
+        SamplingBox(this->SamplingBounds).crop(output);
       }
       else if (const GridPlan& plan = this->PlanGrid(source, input); plan.amr)
       {
@@ -653,6 +660,7 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
         whole->SetDirectionMatrix(inInfo->Get(vtkDataObject::DIRECTION()));
       }
       gridOfImage(whole, willReadCells(this, input), grid);
+      SamplingBox(this->SamplingBounds).crop(grid);
     }
     else
     {

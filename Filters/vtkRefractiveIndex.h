@@ -334,6 +334,17 @@ public:
   vtkGetVector3Macro(SamplingDimensions, int);
   ///@}
 
+  ///@{
+  /**
+   * The box that the grid covers: lowest and highest x, y and z. Along an axis whose second number is not larger than the
+   * first (the default: all are 0) it covers all of the data. It is resampled to SamplingDimensions, or as fine as the
+   * cells in it. An image keeps its points, those that cover the box; of AMR it is so with cells, before they are
+   * resampled where dimensions are given.
+   */
+  vtkSetVector6Macro(SamplingBounds, double);
+  vtkGetVector6Macro(SamplingBounds, double);
+  ///@}
+
   /**
    * The grid of the last conversion in words, with how it was chosen, for example "65 x 65 x 65 points:
    * chosen from the sizes of the cells". Empty before the first and after a failed one.
@@ -572,6 +583,7 @@ private:
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
+  double SamplingBounds[6] = { 0, 0, 0, 0, 0, 0 };
   int Outside = OUTSIDE_AUTO;
   int Reconstruction = SMOOTH;
   std::string Grid;

@@ -243,6 +243,16 @@ public:
   {
     return this->Medium->GetSamplingDimensions();
   }
+  virtual void SetSamplingBounds(
+    double xLow, double xHigh, double yLow, double yHigh, double zLow, double zHigh)
+  {
+    this->Medium->SetSamplingBounds(xLow, xHigh, yLow, yHigh, zLow, zHigh);
+  }
+  virtual void SetSamplingBounds(const double bounds[6])
+  {
+    this->Medium->SetSamplingBounds(bounds);
+  }
+  virtual double* GetSamplingBounds() VTK_SIZEHINT(6) { return this->Medium->GetSamplingBounds(); }
   const char* GetGrid() const;
   ///@}
 

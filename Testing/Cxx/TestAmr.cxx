@@ -231,6 +231,39 @@ TEST(Amr, GridIsThatOfTheFinestLevel)
   }
 }
 
+TEST(Amr, GridOfABoxIsThatOfItsCells)
+{
+  vtkNew<vtkRefractiveIndex> filter;
+  filter->SetInputDataObject(ballOnLevels(8, { { 0, 8, true }, { 4, 8, true } }));
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  filter->Update();
+  vtkNew<vtkImageData> whole;
+  whole->DeepCopy(filter->GetOutputDataObject(0));
+
+  filter->SetSamplingBounds(-0.2, 0.3, 0, 0, 0.5, 2); // cells of 1/8 cover it
+  filter->Update();
+  auto* part = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_EQ(part->GetDimensions()[0], 5);
+  EXPECT_EQ(part->GetDimensions()[1], 16);
+  EXPECT_EQ(part->GetDimensions()[2], 4);
+  for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
+  {
+    const vtkIdType same = whole->FindPoint(part->GetPoint(i));
+    ASSERT_GE(same, 0);
+    EXPECT_EQ(part->GetPointData()->GetScalars()->GetComponent(i, 0),
+      whole->GetPointData()->GetScalars()->GetComponent(same, 0));
+  }
+
+  filter->SetSamplingDimensions(20, 16, 8);
+  filter->Update();
+  const double* bounds = part->GetBounds();
+  EXPECT_NEAR(bounds[0], -0.25 + 0.5 * 0.625 / 20, 1e-12);
+  EXPECT_NEAR(bounds[1], 0.375 - 0.5 * 0.625 / 20, 1e-12);
+  EXPECT_NEAR(bounds[5], 1 - 0.5 * 0.5 / 8, 1e-12);
+}
+
 TEST(Amr, BlocksOfOneLevelMatchTheClosedForm)
 {
   auto filter = bench(ballOnLevels(32, { { 0, 32, true } }), 128);

@@ -277,6 +277,142 @@ TEST(RefractiveIndex, SamplingDimensionsAreChosenFromTheCells)
   EXPECT_EQ(dimensions[2], 3);
 }
 
+namespace
+{
+
+double sloping(const Vec& x) { return 1e-4 * (1 + 0.2 * x[0] - 0.3 * x[1] + 0.1 * x[2]); }
+
+/// Whether all that is gas has N of `sloping`, and how many points are.
+vtkIdType pointsThatSlope(vtkImageData* output)
+{
+  vtkDataArray* n = output->GetPointData()->GetScalars();
+  vtkDataArray* valid = output->GetPointData()->GetArray("vtkValidPointMask");
+  vtkIdType count = 0;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const double* x = output->GetPoint(i);
+    if (valid->GetComponent(i, 0) == 1)
+    {
+      EXPECT_NEAR(n->GetComponent(i, 0), sloping({ x[0], x[1], x[2] }), 1e-10);
+      ++count;
+    }
+  }
+  return count;
+}
+
+void expectBounds(vtkImageData* output, const std::array<double, 6>& expected)
+{
+  const double* bounds = output->GetBounds();
+  for (std::size_t n = 0; n < 6; ++n)
+  {
+    EXPECT_NEAR(bounds[n], expected[n], 1e-6) << n;
+  }
+}
+
+} // namespace
+
+TEST(RefractiveIndex, OfABoxOfAMesh)
+{
+  auto image = cube(21); // from -1 to 1
+  addPointArray(image, "N", sloping);
+  auto filter = refractiveIndex(
+    voxels(image), vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  filter->SetSamplingBounds(-0.31, 0.2, 0.4, 0.7, 0, 0);
+  filter->Update();
+  expectBounds(outputOf(filter), { -0.31, 0.2, 0.4, 0.7, -1, 1 });
+  EXPECT_EQ(pointsThatSlope(outputOf(filter)), outputOf(filter)->GetNumberOfPoints());
+
+  filter->SetSamplingDimensions(6, 7, 8);
+  filter->Update();
+  EXPECT_EQ(outputOf(filter)->GetNumberOfPoints(), 6 * 7 * 8);
+  expectBounds(outputOf(filter), { -0.31, 0.2, 0.4, 0.7, -1, 1 });
+
+  // Another box of as many points is searched anew.
+  filter->SetSamplingBounds(0.1, 0.61, -0.4, -0.1, 0, 0);
+  filter->Update();
+  expectBounds(outputOf(filter), { 0.1, 0.61, -0.4, -0.1, -1, 1 });
+  EXPECT_EQ(pointsThatSlope(outputOf(filter)), 6 * 7 * 8);
+
+  // What is beyond the mesh is no gas.
+  filter->SetSamplingBounds(0.5, 1.5, -2, 2, -2, 2);
+  filter->SetSamplingDimensions(11, 21, 21);
+  filter->Update();
+  expectBounds(outputOf(filter), { 0.5, 1.5, -2, 2, -2, 2 });
+  EXPECT_EQ(pointsThatSlope(outputOf(filter)), 6 * 11 * 11);
+
+  filter->SetSamplingBounds(0, 0, 0, 0, 0, 0);
+  filter->Update();
+  expectBounds(outputOf(filter), { -1, 1, -1, 1, -1, 1 });
+}
+
+TEST(RefractiveIndex, GridOfABoxIsAsFineAsTheCellsThere)
+{
+  // Cells of 0.2 along x, but of 0.02 from 0 on.
+  auto image = cube(21);
+  auto mesh = voxels(image);
+  vtkPoints* points = mesh->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    points->GetPoint(i, x);
+    points->SetPoint(i, x[0] > 0 ? 0.2 * x[0] : 2 * x[0], x[1], x[2]);
+  }
+  addPointArray(mesh, "N", sloping);
+  auto filter =
+    refractiveIndex(mesh, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  const auto ratio = [&](double low, double high)
+  {
+    filter->SetSamplingBounds(low, high, -0.5, 0.5, -0.5, 0.5);
+    filter->Update();
+    return outputOf(filter)->GetSpacing()[1] / outputOf(filter)->GetSpacing()[0];
+  };
+  EXPECT_NEAR(ratio(-1.9, -0.5), 0.5, 0.03);
+  EXPECT_NEAR(ratio(0.01, 0.19), 5, 0.3);
+}
+
+TEST(RefractiveIndex, OfABoxOfAnImage)
+{
+  auto image = cube(21);
+  image->SetExtent(3, 23, -4, 16, 0, 20);
+  image->SetOrigin(-1.3, -0.6, -1);
+  addPointArray(image, "N", sloping);
+  auto filter =
+    refractiveIndex(image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+  filter->SetSamplingBounds(-0.31, 0.2, 0.4, 0.7, 0, 0);
+  filter->UpdateInformation();
+  filter->Update();
+  expectBounds(outputOf(filter), { -0.4, 0.2, 0.4, 0.7, -1, 1 });
+  EXPECT_EQ(pointsThatSlope(outputOf(filter)), 7 * 4 * 21);
+  EXPECT_EQ(
+    filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())[1],
+    outputOf(filter)->GetExtent()[1]);
+}
+
+TEST(RefractiveIndex, BoxesWithoutDataAreAMistake)
+{
+  auto image = cube(5);
+  addPointArray(image, "N", sloping);
+  const auto mesh = voxels(image);
+  for (vtkDataSet* data : std::initializer_list<vtkDataSet*>{ image, mesh })
+  {
+    auto filter =
+      refractiveIndex(data, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
+    auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+    for (const double low : { 5., std::numeric_limits<double>::quiet_NaN() })
+    {
+      complaints->Errors.clear();
+      filter->SetSamplingBounds(low, low + 1, -1, 1, -1, 1);
+      filter->Update();
+      ASSERT_EQ(complaints->Errors.size(), 1u);
+      EXPECT_NE(complaints->Errors[0].find("SamplingBounds"), std::string::npos);
+      EXPECT_TRUE(isEmpty(filter));
+    }
+    filter->SetSamplingBounds(-0.5, 0.5, 0, 0, 0, 0);
+    filter->Update();
+    EXPECT_FALSE(isEmpty(filter));
+  }
+}
+
 TEST(RefractiveIndex, ChosenGridHasAtLeastTwoPointsAlongEachAxis)
 {
   vtkNew<vtkImageData> sheet;

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Adaptive meshes of ParaView's own sources, 2-D data, the grid that is told, and the array that is chosen."""
 
+import math
+
 import numpy as np
-from paraview.simple import AMRGaussianPulseSource, Calculator, HierarchicalFractal, PassArrays, Slice
-from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, is_empty, output, picture
+from paraview.simple import AMRGaussianPulseSource, Calculator, HierarchicalFractal, PassArrays, Slice, Tetrahedralize
+from plugin_testing import RADIUS, RefractiveIndex, Schlieren, gaussian_column, is_empty, output, picture
 
 
 def told_grid(bench):
@@ -59,3 +61,22 @@ for kind in (Schlieren, RefractiveIndex):
     assert not is_empty(bench)
     assert not is_empty(kind(temperature, Density=["POINTS", "T"]))
     assert list(kind(both).Density) == ["POINTS", "rho"]
+
+# A box of a mesh, of an image, and what Schlieren sees of it: the screen is one depth of the box behind it.
+tetrahedra = Tetrahedralize(column)
+for source in (column, tetrahedra):
+    source.UpdatePipeline()
+    low, high = source.GetDataInformation().GetBounds()[4:]
+    box = [0, 0, 0, 0, 0.6 * low + 0.4 * high, 0.4 * low + 0.6 * high]
+    boxed = RefractiveIndex(source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], SamplingBounds=box)
+    made = output(boxed).GetBounds()
+    spacing = output(boxed).GetSpacing()[2]
+    assert abs(made[4] - box[4]) <= spacing and abs(made[5] - box[5]) <= spacing, made
+    whole = Schlieren(source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1],
+                      Cutoff="Shadowgraph", SamplesPerPixel=1, AutoAmbientRefractivity=0)
+    part = Schlieren(source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1],
+                     Cutoff="Shadowgraph", SamplesPerPixel=1, AutoAmbientRefractivity=0, SamplingBounds=box)
+    bent, ofPart = (np.abs(picture(bench, "Deflection")).max() for bench in (whole, part))
+    # Light along z meets as much of the column as is in the box.
+    expected = math.erf(0.5 * (made[5] - made[4]) / RADIUS) / math.erf(1 / RADIUS)
+    assert abs(ofPart / bent / expected - 1) < 0.01, (ofPart / bent, expected)

@@ -9,7 +9,7 @@ from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, 
 source = gaussian_column(32)
 
 MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "DensityScale": 1.0,
-          "SamplingDimensions": [0, 0, 0], "MixtureArrays": [], "MixtureConstants": [],
+          "SamplingDimensions": [0, 0, 0], "SamplingBounds": 6 * [0.0], "MixtureArrays": [], "MixtureConstants": [],
           "Gas": "Custom", "MixtureGases": [], "BackgroundGas": "Custom",
           "MixtureMolarMasses": [], "BackgroundConstant": 2.26e-4, "BackgroundMolarMass": 0.0289647,
           "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
