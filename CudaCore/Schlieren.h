@@ -313,8 +313,9 @@ struct MediumStatistics
   std::int64_t bytes = 0;
   double smallestVoxel = 0;     ///< data units, along the axis where it is smallest
   double largestDeflection = 0; ///< of straight rays of the last view
-  /// Of the deflection over a leaf of the last view, of the largest one, or of what a ray gathers of fields there, of the
-  /// full colour: what memory did not suffice for. Voxels of the size of cells, or as fine as the view asks, have none.
+  /// Of the deflection of a ray of the last view, of the largest one, or of what it gathers of fields, of the full
+  /// colour: the largest sum of what the leaves along a ray lack, as far as finer voxels would mend it. Voxels of the size
+  /// of cells, or as fine as the view asks, lack nothing.
   double estimatedError = 0;
 };
 

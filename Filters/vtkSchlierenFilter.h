@@ -733,7 +733,8 @@ public:
   ///@{
   /**
    * Of meshes: memory, MiB, for voxels. Default: 1024. Where it does not do, MediumTolerance is not met, and the
-   * field data MediumError say by how much (the larger of both errors).
+   * field data MediumError say by how much (the larger of both errors). MediumError is the largest of a ray through
+   * many leaves, so it may be up to some twice MediumTolerance where memory does, too.
    */
   vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
   vtkGetMacro(MediumMemory, int);

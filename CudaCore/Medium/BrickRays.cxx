@@ -33,6 +33,7 @@ struct Bend
   double deflection = 0;
   double opticalPath = 0; // nu times data units
   double gathered = 0;
+  double error = 0, errorOfGathered = 0; // sums of squares
   bool isBlocked = false;
   std::vector<Neglected> neglected;
 };
@@ -128,14 +129,25 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     }
     bend.opticalPath += static_cast<double>(leaf.offset) * way;
     const auto difference = static_cast<double>(medium.differences[found]);
+    const auto edgeOf = [&](double voxel) { return voxel * brickEdge / leaf.perIndex; };
+    const auto [shortest, longest] = std::minmax_element(spacing.begin(), spacing.begin() + medium.axes());
+    const auto squared = [](double x) { return x * x; };
+    const double edges = way / edgeOf(*longest);
+    bend.error += squared(edges * static_cast<double>(medium.errors[found]));
+    if (medium.fieldErrors != nullptr)
+    {
+      bend.errorOfGathered += squared(edges * static_cast<double>(medium.fieldErrors[found]));
+    }
     const double ofFields =
       medium.fieldDifferences != nullptr ? static_cast<double>(medium.fieldDifferences[found]) : 0;
     if ((difference > 0 || ofFields > 0) && way > 0)
     {
       // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
-      const double edge = medium.smallestSpacing() * brickEdge / leaf.perIndex;
+      const double edge = edgeOf(*shortest);
       bend.neglected.push_back({ found, static_cast<float>(difference * way / edge),
         static_cast<float>(0.5 * difference * way), static_cast<float>(ofFields * way / edge) });
+      bend.error += squared(difference * way / edge);
+      bend.errorOfGathered += squared(ofFields * way / edge);
     }
     if (leaf.kind != Leaf<Real>::Constant && way > 0)
     {
@@ -313,6 +325,9 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
       {
         gathered.push_back(bend.gathered);
       }
+      findings.error = std::max(findings.error, std::sqrt(bend.error));
+      findings.errorOfGathered =
+        std::max(findings.errorOfGathered, std::sqrt(bend.errorOfGathered));
     }
   }
   findings.gathered = std::max(least.gathered, fullColorOf(std::move(gathered)));

@@ -34,11 +34,14 @@ struct LeavesView
   const Leaf<Real>* leaves;
   const float*
     differences; ///< of each leaf: by how much nu differs there, where one value stands for all; else 0
+  const float*
+    errors; ///< of each leaf: of a ray's deflection over its longest edge, from its samples
   const Real* samples;
   const std::int16_t* gasDistances;
   FieldGradientsView gradients;
   const float*
-    fieldDifferences; ///< of each leaf, as `differences`, of all fields; null: there are none
+    fieldDifferences;       ///< of each leaf, as `differences`, of all fields; null: there are none
+  const float* fieldErrors; ///< of each leaf, as `errors`, of all fields; null: there are none
   std::int64_t samplesPerBrick;
   int apron;
   BrickShape shape;
@@ -46,11 +49,6 @@ struct LeavesView
 
   /// The axes along which there is more than one sample.
   int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
-  /// The smallest edge of a voxel that is as large as the index coordinates' unit.
-  double smallestSpacing() const
-  {
-    return *std::min_element(grid.spacing.begin(), grid.spacing.begin() + axes());
-  }
 };
 
 /// What straight rays tell: those on a lattice over the column, and those through some places (index coordinates)
@@ -61,6 +59,9 @@ struct RayFindings
   double opticalPath = 0; ///< the largest; nu times data units
   /// Of all fields, by the rays of the lattice: what 99 % do not exceed; or, where less have gathered anything, the most.
   double gathered = 0;
+  /// The largest errors of a deflection and of what is gathered: along a ray, those of the leaves and what leaves with one
+  /// value neglect, each with any sign, add up by their squares.
+  double error = 0, errorOfGathered = 0;
   /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
   /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;

@@ -314,7 +314,8 @@ void MediumTree<Real>::summarize(const View& view)
   largestNu_ = 0;
   slope_ = { 0, 0, 0 };
   statistics_.smallestVoxel = std::numeric_limits<double>::infinity();
-  double error = 0, errorOfFields = 0;
+  // Rays may miss the worst leaf.
+  double error = work_.error, errorOfFields = work_.errorOfGathered;
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];

@@ -74,6 +74,12 @@ public:
   template <class Facts>
   double errorOf(int level, const Facts& facts) const
   {
+    return lengthIn(level) * errorOverEdge(level, facts);
+  }
+  /// The same of rays that are in it for as long as its edge.
+  template <class Facts>
+  double errorOverEdge(int level, const Facts& facts) const
+  {
     const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
     const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
@@ -88,7 +94,7 @@ public:
       error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
       error = allows(level, axis) ? std::max(error, facts.error[axis]) : error;
     }
-    return lengthIn(level) * error;
+    return error;
   }
 
   /// How badly a leaf needs to be divided; 0: not at all.

@@ -110,23 +110,34 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   }
   std::vector<float> differences(leafNodes_.size(), 0.f);
   std::vector<float> ofFields(nodeFields_.empty() ? 0 : leafNodes_.size(), 0.f);
+  std::vector<float> errors(leafNodes_.size(), 0.f), fieldErrors(ofFields);
   for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
   {
     const Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
     differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
+    errors[leaf] = node.brick == 0
+      ? 0.f
+      : static_cast<float>(view.errorOverEdge(node.place.level, node.facts));
     if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
         fields.brick == 0 && !ofFields.empty())
     {
       ofFields[leaf] = static_cast<float>(fields.facts.neglected / deflectionByRange);
     }
+    else if (!ofFields.empty())
+    {
+      fieldErrors[leaf] = static_cast<float>(view.errorOverEdge(node.place.level, fields.facts));
+    }
   }
   const RayFindings findings = lookAlongRays<Real>(
-    { grid_, finder(), leaves_.data(), differences.data(), samples().data(), gasDistances().data(),
-      gradients(), ofFields.empty() ? nullptr : ofFields.data(), samplesPerBrick(), apron(),
-      shape(), settings_.interpolation },
+    { grid_, finder(), leaves_.data(), differences.data(), errors.data(), samples().data(),
+      gasDistances().data(), gradients(), ofFields.empty() ? nullptr : ofFields.data(),
+      ofFields.empty() ? nullptr : fieldErrors.data(), samplesPerBrick(), apron(), shape(),
+      settings_.interpolation },
     work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
+  work_.error = findings.error;
+  work_.errorOfGathered = findings.errorOfGathered;
   const auto nodeOf = [this](std::int32_t leaf)
   { return static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)]); };
   for (const std::int32_t leaf : findings.coarse)

@@ -340,9 +340,9 @@ def away_from(mask, pixels=3):
 
 def main():
     chosen = sys.argv[1:] or list(CASES)
-    print("| case | tolerance | levels | voxels | MB | CPU s | bricks: rms | worst | cells: rms | worst "
+    print("| case | tolerance | estimated | levels | voxels | MB | CPU s | bricks: rms | worst | cells: rms | worst "
           "| path, bricks: rms | worst | path, cells: rms |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
     for case in chosen:
         source, arguments, field = CASES[case]()
         best, _, _ = look(source, arguments, 1e-4)
@@ -367,7 +367,7 @@ def main():
             def text(value):
                 return f"{value:.1e}" if value != "" else ""
 
-            print(f"| {case} | {tolerance:.0e} | {fact('MediumLevels'):.0f}-{fact('MediumLevels', 1):.0f} "
+            print(f"| {case} | {tolerance:.0e} | {fact('MediumError'):.1e} | {fact('MediumLevels'):.0f}-{fact('MediumLevels', 1):.0f} "
                   f"| {fact('MediumVoxels'):.1e} | {fact('MediumBytes') * 1e-6:.1f} | {seconds:.1f} "
                   f"| {of_bricks[0]:.1e} | {of_bricks[1]:.1e} | {text(of_cells[0])} | {text(of_cells[1])} "
                   f"| {along[0]:.1e} | {along[1]:.1e} | {text(of_path[0])} |", flush=True)

@@ -215,7 +215,19 @@ TEST(MediumTree, DeflectionIsWithinTolerance)
           EXPECT_LT(worstError(tree, *source, interpolation, u, v, half, centre), 2 * tolerance)
             << width << " " << tolerance;
         }
-        EXPECT_LE(tree.statistics().estimatedError, tolerance);
+        const double estimated = tree.statistics().estimatedError;
+        EXPECT_LE(estimated, 2 * tolerance);
+        if (interpolation == Interpolation::Quadratic)
+        {
+          const double worst = worstError(tree, *source, interpolation, x, y, width, centre);
+          EXPECT_LT(worst, 2 * estimated);
+          EXPECT_GT(worst, 0.1 * estimated);
+        }
+        // No leaf may lack more than the tolerance, but rays go through many.
+        if (width == 0.25 && tolerance == 1e-3)
+        {
+          EXPECT_GT(estimated, 1.2 * tolerance);
+        }
         EXPECT_NEAR(
           tree.statistics().largestDeflection / source->largestDeflection(), 1, 0.05 + tolerance);
       }
@@ -737,7 +749,7 @@ TEST(MediumTree, MemoryIsBounded)
   Tree enough(source, 0, settingsOf(1e-4));
   enough.refine(everything());
   const auto needed = static_cast<double>(enough.statistics().bytes);
-  EXPECT_LE(enough.statistics().estimatedError, 1e-4);
+  EXPECT_LE(enough.statistics().estimatedError, 3e-4);
   double before = 10;
   for (const double part : { 0.2, 0.4, 0.7, 0.9 })
   {
@@ -747,7 +759,7 @@ TEST(MediumTree, MemoryIsBounded)
     tree.refine(everything());
     EXPECT_LE(static_cast<double>(tree.statistics().bytes), part * needed);
     EXPECT_GE(static_cast<double>(tree.statistics().bytes), 0.9 * part * needed);
-    EXPECT_GT(tree.statistics().estimatedError, 1e-4);
+    EXPECT_GT(tree.statistics().estimatedError, enough.statistics().estimatedError);
     const double error = worstError(tree, *source, Interpolation::Quadratic, x, y, 0.9);
     EXPECT_LT(error, 2 * tree.statistics().estimatedError);
     EXPECT_LT(tree.statistics().estimatedError, before);
@@ -767,7 +779,7 @@ TEST(MediumTree, MemoryGoesToTheLastView)
   tree.refine(around(0.42, -0.31, 0.3));
   tree.refine(around(-0.1, 0.05, 0.3));
   EXPECT_LE(tree.statistics().bytes, static_cast<std::int64_t>(settings.memory));
-  EXPECT_LE(tree.statistics().estimatedError, 1e-4);
+  EXPECT_LE(tree.statistics().estimatedError, 3e-4);
   const Vec3<double> first{ -0.1, 0.05, 0.02 };
   EXPECT_LT(worstError(tree, *source, Interpolation::Quadratic, x, y, 0.3, first),
     1.1 * worstError(alone, *source, Interpolation::Quadratic, x, y, 0.3, first));
