@@ -601,18 +601,18 @@ void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
 {
   const int stored = edge + 2 * apron_;
   const int strides[3] = { 1, stored, stored * stored };
-  const int count = edge / 2 + 2 * apron_; // of an octant, along an axis
-  for (int octant = 0; octant < 8; ++octant)
+  const int count = edge / 2 + 2 * apron_;                 // of an octant, along an axis
+  for (int octant = 0; octant < layersOf(2) * 4; ++octant) // of one layer: quarters
   {
     Vec3<float>& slope = brick.facts.slopeOf[static_cast<std::size_t>(octant)];
     float* const of[3] = { &slope.x, &slope.y, &slope.z };
     const Real* corner = brick.samples.data() +
       edge / 2 *
         ((octant & 1) * strides[0] + (octant >> 1 & 1) * strides[1] + (octant >> 2) * strides[2]);
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < axes(); ++axis)
     {
       std::array<Real, edge / 2 + 4> most{};
-      int to[3] = { count, count, count };
+      int to[3] = { count, count, layersOf(count) };
       to[axis] -= 1;
       for (int k = 0; k < to[2]; ++k)
       {

@@ -359,7 +359,7 @@ SlopeBlocks MediumTree<Real>::slopes() const
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
-    for (std::int32_t octant = 0; node.brick > 0 && octant < 8; ++octant)
+    for (std::int32_t octant = 0; node.brick > 0 && octant < parts(); ++octant)
     {
       const Vec3<float>& slope = node.facts.slopeOf[static_cast<std::size_t>(octant)];
       if (slope.x == 0 && slope.y == 0 && slope.z == 0)

@@ -40,12 +40,18 @@ struct Range
 class BoxesAlongLight
 {
 public:
-  BoxesAlongLight(const SlopeBlocks& blocks, const Light& light, double stepVoxels)
+  /// `layerDepth`: index coordinates along z of blocks that are of one layer, which do not ask for steps along it; 0:
+  /// they are cubes.
+  BoxesAlongLight(
+    const SlopeBlocks& blocks, const Light& light, double stepVoxels, double layerDepth)
     : blocks_(blocks)
     , light_(light)
     , isCollimated_(light.smallestCosine() == 1)
-    , halfStep_(0.5 * stepVoxels / light.fastest())
+    , layerDepth_(layerDepth)
   {
+    Vec3<double> scale = light.indexScale;
+    scale.z = layerDepth > 0 ? 0 : scale.z;
+    halfStep_ = 0.5 * stepVoxels / light.fastest(scale);
   }
 
   template <class Visit>
@@ -60,7 +66,8 @@ public:
   SteepBox boxOf(const SlopeBlock& block) const
   {
     const Vec3<double> low = static_cast<Vec3<double>>(block.low);
-    const Vec3<double> high = static_cast<Vec3<double>>(block.high());
+    Vec3<double> high = static_cast<Vec3<double>>(block.high());
+    high.z = layerDepth_ > 0 ? layerDepth_ : high.z;
     const Vec3<double> middle = scaled(light_.unitsPerIndex, 0.5 * (low + high) - light_.corner);
     const Vec3<double> half = scaled(light_.unitsPerIndex, 0.5 * (high - low));
     const Vec3<double> gradient = scaled(light_.indexScale, static_cast<Vec3<double>>(block.slope));
@@ -73,8 +80,9 @@ public:
       constexpr double rounding = 1e-5;
       const double at = dot(middle, *axes[axis]);
       // One kick is for all of a step, in whose middle the ray looks.
+      const double ofStep = halfStep_ * static_cast<double>(block.edge) / SlopeBlock::voxels;
       const double reach = along(*axes[axis], half) * (1 + rounding) + rounding * std::abs(at) +
-        (axis == 2 ? halfStep_ * static_cast<double>(block.edge) / SlopeBlock::voxels : 0);
+        (axis == 2 ? std::min(ofStep, light_.depth) : 0);
       box.low[axis] = static_cast<float>(at - reach);
       box.high[axis] = static_cast<float>(at + reach);
     }
@@ -89,6 +97,7 @@ private:
   const SlopeBlocks& blocks_;
   const Light& light_;
   bool isCollimated_;
+  double layerDepth_;
   double halfStep_;
 };
 
@@ -364,7 +373,9 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
   const auto margin = static_cast<double>(mostMargin(view)) + 1;
   const std::array<Range, 3> ranges{ { { -margin * pixel, (view.width - 1 + margin) * pixel },
     { -margin * pixel, (view.height - 1 + margin) * pixel }, { 0, light.depth } } };
-  const BoxesAlongLight boxes(medium.slopes, light, stepVoxels);
+  const bool isOfLayer = medium.tree && medium.tree->shape() == BrickShape::Layer;
+  const BoxesAlongLight boxes(
+    medium.slopes, light, stepVoxels, isOfLayer ? medium.view().last.z : 0);
   const auto ofAxis = [&](double most) { return static_cast<float>(std::min(atLeast, most)); };
   const SlopeBlock any{ {}, 0,
     { ofAxis(medium.slope.x), ofAxis(medium.slope.y), ofAxis(medium.slope.z) } };
