@@ -49,7 +49,7 @@ struct BrickFacts
   bool areEdgesFine = true; ///< with voxels much finer than cells, edges show nothing new
   /// Lowest and highest components of the edges' normals, by voxel.
   std::array<std::array<float, 2>, 3> normals{};
-  double largestNu = 0;     ///< |nu| of its coefficients
+  double largestNu = 0; ///< |nu| of its coefficients
   std::array<double, 3> slope{ 0, 0,
     0 }; ///< largest difference of neighbouring coefficients, a voxel
   std::array<Vec3<float>, 8> slopeOf{};        ///< the same of its octants, x fastest

@@ -130,7 +130,8 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     bend.opticalPath += static_cast<double>(leaf.offset) * way;
     const auto difference = static_cast<double>(medium.differences[found]);
     const auto edgeOf = [&](double voxel) { return voxel * brickEdge / leaf.perIndex; };
-    const auto [shortest, longest] = std::minmax_element(spacing.begin(), spacing.begin() + medium.axes());
+    const auto [shortest, longest] =
+      std::minmax_element(spacing.begin(), spacing.begin() + medium.axes());
     const auto squared = [](double x) { return x * x; };
     const double edges = way / edgeOf(*longest);
     bend.error += squared(edges * static_cast<double>(medium.errors[found]));

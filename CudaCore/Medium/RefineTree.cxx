@@ -115,9 +115,8 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   {
     const Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
     differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
-    errors[leaf] = node.brick == 0
-      ? 0.f
-      : static_cast<float>(view.errorOverEdge(node.place.level, node.facts));
+    errors[leaf] =
+      node.brick == 0 ? 0.f : static_cast<float>(view.errorOverEdge(node.place.level, node.facts));
     if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
         fields.brick == 0 && !ofFields.empty())
     {

@@ -70,8 +70,7 @@ Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, s
         {
           const double value = valueAt(i + di, j + dj, k + dk);
           ofNeighbours.add(value);
-          if (continuation == Continuation::Linear &&
-            hasValue(i + 2 * di, j + 2 * dj, k + 2 * dk))
+          if (continuation == Continuation::Linear && hasValue(i + 2 * di, j + 2 * dj, k + 2 * dk))
           {
             ofLines.add(2 * value - valueAt(i + 2 * di, j + 2 * dj, k + 2 * dk));
           }
@@ -86,8 +85,7 @@ Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, s
 } // namespace
 
 template <class Real>
-void fillEmpty(
-  PaddedVolume<Real>& volume, PointMask empty, int threads, Continuation continuation)
+void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads, Continuation continuation)
 {
   PointMask next = empty; // those left when a layer has been filled
   const std::int64_t ny = volume.dimensions[1];

@@ -311,7 +311,7 @@ template <class Number>
 SCHLIEREN_HD bool meetsWallBesideMiddle(const MediumView<Number>& medium, const Leaf<Number>& leaf,
   const Vec3<Number>& middle, const Vec3<Number>& half, float distance)
 {
-  constexpr int finest = 8; // parts of half a step
+  constexpr int finest = 8;              // parts of half a step
   constexpr Number apron = Number(0.49); // around the leaf there is half a voxel more
   const Vec3<Number> beyond = { apron, apron, apron };
   const Vec3<Number> across = { half.x, half.y, medium.planeStride == 0 ? Number(0) : half.z };
@@ -326,7 +326,8 @@ SCHLIEREN_HD bool meetsWallBesideMiddle(const MediumView<Number>& medium, const 
     }
     for (int part = 1 - parts; part < parts; part += 2)
     {
-      const Vec3<Number> at = middle + (static_cast<Number>(part) / static_cast<Number>(parts)) * across;
+      const Vec3<Number> at =
+        middle + (static_cast<Number>(part) / static_cast<Number>(parts)) * across;
       const GasEdge edge = gasEdge(medium, leaf.map * medium.brickStride,
         clampTo(at, medium.leafLow - beyond, medium.leafHigh + beyond));
       if (edge.distance < 0 && !edge.isWindow)

@@ -94,8 +94,9 @@ SCHLIEREN_APART Sample<Real> sampleApart(
   if constexpr (std::is_base_of_v<SchemeOfTask, Scheme>)
   {
     return visitScheme(task.kernel.interpolation,
-      [&](auto scheme)
-      { return interpolate<typename Scheme::template Of<decltype(scheme)>>(task.medium, base, at); });
+      [&](auto scheme) {
+        return interpolate<typename Scheme::template Of<decltype(scheme)>>(task.medium, base, at);
+      });
   }
   else
   {

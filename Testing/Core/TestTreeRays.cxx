@@ -107,10 +107,8 @@ public:
     content.hasGas = false;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      content.hasWall =
-        content.hasWall && box.low[axis] < halfEdge_ && box.high[axis] > -halfEdge_;
-      content.hasGas =
-        content.hasGas || box.low[axis] < -halfEdge_ || box.high[axis] > halfEdge_;
+      content.hasWall = content.hasWall && box.low[axis] < halfEdge_ && box.high[axis] > -halfEdge_;
+      content.hasGas = content.hasGas || box.low[axis] < -halfEdge_ || box.high[axis] > halfEdge_;
     }
   }
   /// Whether a straight line meets a cube that is larger by so much.
