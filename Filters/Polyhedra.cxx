@@ -65,6 +65,14 @@ vtkIdType addMiddle(vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points
   return points->InsertNextPoint(middle);
 }
 
+/// The corners of each end of a prism that VTK has no place in by its own coordinates; 0: another cell.
+int cornersOfPrism(int type)
+{
+  return type == VTK_PENTAGONAL_PRISM ? 5 : type == VTK_HEXAGONAL_PRISM ? 6 : 0;
+}
+
+bool isCut(int type) { return type == VTK_POLYHEDRON || cornersOfPrism(type) > 0; }
+
 } // namespace
 
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
@@ -76,13 +84,13 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
   {
     const unsigned char* first = types->GetPointer(0);
     const unsigned char* end = first + types->GetNumberOfValues();
-    hasAny = std::find(first, end, static_cast<unsigned char>(VTK_POLYHEDRON)) != end;
+    hasAny = std::any_of(first, end, isCut);
   }
   else
   {
     for (vtkIdType cell = 0; mesh && !hasAny && cell < mesh->GetNumberOfCells(); ++cell)
     {
-      hasAny = mesh->GetCellType(cell) == VTK_POLYHEDRON;
+      hasAny = isCut(mesh->GetCellType(cell));
     }
   }
   if (!hasAny)
@@ -112,10 +120,27 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
   for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
   {
     const unsigned char ghost = ghosts ? ghosts->GetValue(cell) : 0;
-    if (mesh->GetCellType(cell) != VTK_POLYHEDRON)
+    const int type = mesh->GetCellType(cell);
+    if (const int count = cornersOfPrism(type))
     {
       mesh->GetCellPoints(cell, ids);
-      cut->InsertNextCell(mesh->GetCellType(cell), ids);
+      const vtkIdType* low = ids->GetPointer(0);
+      const vtkIdType* high = low + count;
+      const auto first = static_cast<int>(std::min_element(low, high) - low);
+      for (int i = 1; i + 1 < count; ++i)
+      {
+        const int second = (first + i) % count, third = (first + i + 1) % count;
+        const vtkIdType wedge[6] = { low[first], low[second], low[third], high[first], high[second],
+          high[third] };
+        cut->InsertNextCell(VTK_WEDGE, 6, wedge);
+        kept->InsertNextValue(ghost);
+      }
+      continue;
+    }
+    if (type != VTK_POLYHEDRON)
+    {
+      mesh->GetCellPoints(cell, ids);
+      cut->InsertNextCell(type, ids);
       kept->InsertNextValue(ghost);
       continue;
     }
