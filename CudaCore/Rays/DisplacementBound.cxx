@@ -344,7 +344,7 @@ DisplacementBound boundBySteepest(const Medium<Real>& medium, const Light& light
   {
     return { 0, 0, 0, 0 };
   }
-  // The way s after which the ray has advanced by the depth at the latest, for the ray that is inclined most:
+  // The path s after which the ray has advanced by the depth at the latest, for the ray that is inclined most:
   // (1 - nu) cosine s - bend s^2 / 2.
   const double cosine = light.smallestCosine();
   const double forward = (1 - medium.largestNu) * cosine;
@@ -353,9 +353,10 @@ DisplacementBound boundBySteepest(const Medium<Real>& medium, const Light& light
   {
     return noBound;
   }
-  const double way = 2 * light.depth / (forward + std::sqrt(discriminant));
-  const double displacement = 0.5 * bend * way * way * light.unit / cosine;
-  return { displacement, displacement, bend * way / ((forward - bend * way) * cosine), bend * way };
+  const double path = 2 * light.depth / (forward + std::sqrt(discriminant));
+  const double displacement = 0.5 * bend * path * path * light.unit / cosine;
+  return { displacement, displacement, bend * path / ((forward - bend * path) * cosine),
+    bend * path };
 }
 
 template <class Real>

@@ -20,7 +20,7 @@ struct DisplacementBound
   double bend;
 };
 
-/// For a ray that meets the medium's largest gradient on all of its way through the grid.
+/// For a ray that meets the medium's largest gradient all along its path through the grid.
 template <class Real>
 DisplacementBound boundBySteepest(const Medium<Real>& medium, const Light& light);
 
