@@ -18,6 +18,18 @@
 namespace schlieren
 {
 
+/// A new version of data, each time.
+inline Field fieldOf(const std::shared_ptr<const MediumSource>& source)
+{
+  static std::uint64_t versions = 0;
+  Field field;
+  field.source = source;
+  field.grid = coarsestGrid(*source);
+  field.version = ++versions;
+  field.gradients = { source->fields(), nullptr, versions };
+  return field;
+}
+
 using Range = std::pair<double, double>;
 
 /// Of |x - centre| over a box.

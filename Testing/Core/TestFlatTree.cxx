@@ -5,6 +5,7 @@
 #include "AnalyticSources.h"
 #include "Fields.h"
 #include "Medium/Medium.h"
+#include "PacksInTrees.h"
 #include "Rays/Tracer.h"
 
 #include <algorithm>
@@ -139,16 +140,6 @@ private:
   std::vector<Column2d> columns_;
   double depth_, wall_;
 };
-
-Field fieldOf(const std::shared_ptr<const MediumSource>& source)
-{
-  static std::uint64_t versions = 0;
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  field.version = ++versions;
-  return field;
-}
 
 Scene sceneOf(const Vector& direction, Device device = Device::Cpu)
 {
@@ -337,55 +328,8 @@ INSTANTIATE_TEST_SUITE_P(Devices, RaysInAFlatTree, bothDevices(), deviceName);
 
 TEST(RaysSideBySideInAFlatTree, DoWhatOneDoes)
 {
-  const auto source = std::make_shared<ColumnsSource>(
-    std::vector<Column2d>{ { -0.1, 0.05, 0.3, 1e-3 }, { 0.32, -0.31, 0.15, 1e-3 } }, 1, 0.5);
-  const Field field = fieldOf(source);
-  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
-  all.erase(
-    std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
-  for (const Interpolation interpolation : allInterpolations)
-  {
-    for (const Integrator integrator :
-      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
-    {
-      SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
-        std::to_string(static_cast<int>(integrator)));
-      TreeSettings settings;
-      settings.interpolation = interpolation;
-      Medium<float> medium = buildTree<float>(field, settings);
-      View view;
-      view.viewDirection = { 0.3, -0.5, -0.8 };
-      view.width = 37;
-      view.height = 29;
-      const Frame frame = frameOf(field.grid, view);
-      const Light light = collimatedLight(field.grid, frame);
-      refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
-      RaySettings rays;
-      rays.kernel = { PathModel::Refracted, integrator, interpolation };
-      const RayTask<float> task =
-        makeTask<float>(medium, nullptr, FieldGradientsView{}, light, rays);
-      const Pass pass{ 0, 0, 37, 29, { 0.25, -0.125 } };
-      std::vector<TracedPass> traced(all.size());
-      double largest = 0;
-      for (std::size_t n = 0; n < all.size(); ++n)
-      {
-        traced[n].resize(pass, 0);
-        ASSERT_TRUE(traceOnCpu(task, pass, traced[n], 2, {}, all[n]));
-        for (std::size_t i = 0; i < traced[n].exits.size(); ++i)
-        {
-          const RayExit& one = traced[0].exits[i];
-          const RayExit& other = traced[n].exits[i];
-          largest = std::max(largest, std::abs(one.deflection[0]));
-          EXPECT_EQ(one.fate, other.fate);
-          const double allowed = 3e-2 * 1e-3;
-          EXPECT_NEAR(one.deflection[0], other.deflection[0], allowed);
-          EXPECT_NEAR(one.deflection[1], other.deflection[1], allowed);
-          EXPECT_NEAR(one.opticalPathDifference, other.opticalPathDifference, allowed);
-        }
-      }
-      EXPECT_GT(largest, 1e-3);
-    }
-  }
+  expectPacksToDoWhatOneDoes(fieldOf(std::make_shared<ColumnsSource>(
+    std::vector<Column2d>{ { -0.1, 0.05, 0.3, 1e-3 }, { 0.32, -0.31, 0.15, 1e-3 } }, 1, 0.5)));
 }
 
 } // namespace schlieren

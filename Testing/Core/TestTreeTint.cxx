@@ -40,17 +40,6 @@ Source withFields(const Source& medium, const std::vector<FieldFormula>& fields)
 /// Faint enough for rays to be straight.
 Source balls() { return std::make_shared<BallsSource>(threeBalls(1e-6)); }
 
-Field fieldOf(const Source& source)
-{
-  static std::uint64_t versions = 0;
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  field.version = ++versions;
-  field.gradients = { source->fields(), nullptr, versions };
-  return field;
-}
-
 /// What rays through the pixels' centres of an orthographic view gather.
 template <class Real = float>
 struct Gathering

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Rays side by side through the leaves of a tree, beside one at a time.
+#pragma once
+
+#include "Fields.h"
+#include "Medium/Medium.h"
+#include "Rays/Tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace schlieren
+{
+
+/// For all schemes and integrators. Refractivities of `field` are 1e-3, about.
+inline void expectPacksToDoWhatOneDoes(const Field& field)
+{
+  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    for (const Integrator integrator :
+      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    {
+      SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
+        std::to_string(static_cast<int>(integrator)));
+      TreeSettings settings;
+      settings.interpolation = interpolation;
+      Medium<float> medium = buildTree<float>(field, settings);
+      View view;
+      view.viewDirection = { 0.3, -0.5, -0.8 };
+      view.width = 37;
+      view.height = 29;
+      const Frame frame = frameOf(field.grid, view);
+      const Light light = collimatedLight(field.grid, frame);
+      refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
+      RaySettings rays;
+      rays.kernel = { PathModel::Refracted, integrator, interpolation };
+      const RayTask<float> task =
+        makeTask<float>(medium, nullptr, FieldGradientsView{}, light, rays);
+      const Pass pass{ 0, 0, 37, 29, { 0.25, -0.125 } };
+      std::vector<TracedPass> traced(all.size());
+      double largest = 0;
+      for (std::size_t n = 0; n < all.size(); ++n)
+      {
+        traced[n].resize(pass, 0);
+        ASSERT_TRUE(traceOnCpu(task, pass, traced[n], 2, {}, all[n]));
+        for (std::size_t i = 0; i < traced[n].exits.size(); ++i)
+        {
+          const RayExit& one = traced[0].exits[i];
+          const RayExit& other = traced[n].exits[i];
+          largest = std::max(largest, std::abs(one.deflection[0]));
+          EXPECT_EQ(one.fate, other.fate);
+          const double allowed = 3e-2 * 1e-3;
+          EXPECT_NEAR(one.deflection[0], other.deflection[0], allowed);
+          EXPECT_NEAR(one.deflection[1], other.deflection[1], allowed);
+          EXPECT_NEAR(one.opticalPathDifference, other.opticalPathDifference, allowed);
+          EXPECT_NEAR(one.displacement[0], other.displacement[0], 4 * allowed);
+          EXPECT_NEAR(one.displacement[1], other.displacement[1], 4 * allowed);
+        }
+      }
+      EXPECT_GT(largest, 1e-3);
+      for (const TracedPass& pack : traced)
+      {
+        EXPECT_LT(pack.worstDrift, 2 * traced[0].worstDrift + 1e-6);
+      }
+    }
+  }
+}
+
+} // namespace schlieren
