@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshSource.h"
 
+#include "InvertedCells.h"
 #include "MeshKey.h"
 
 #include "vtkDataSet.h"
@@ -75,6 +76,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
+  , Warning(warningOfInvertedCells(this->Cells))
 {
 }
 
@@ -88,6 +90,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
+  , Warning(mesh.warning)
 {
   this->Lattices->beginStep();
 }

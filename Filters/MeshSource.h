@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkDataObject;
@@ -29,6 +30,7 @@ struct SourceMesh
   std::shared_ptr<const CellTree::Mesh> cells;
   std::shared_ptr<const GasBoundary> boundary;
   std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
+  std::string warning;
 };
 
 /// The refractivity of meshes, box by box, for the tracer.
@@ -44,7 +46,10 @@ public:
   /// Of other values on the same mesh: see keyOf().
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const SourceMesh& mesh,
     const WorkProgress& progress, int flatAxis = -1);
-  SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary, this->Lattices }; }
+  SourceMesh mesh() const
+  {
+    return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Warning };
+  }
 
   /// A hash of all that the mesh of a source depends on.
   static std::uint64_t keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
@@ -87,6 +92,7 @@ private:
   int FlatAxis;
   double Ambient; // NaN: there is no boundary
   schlieren::Box Bounds;
+  std::string Warning; // of the mesh
 
   struct FieldOfMesh
   {

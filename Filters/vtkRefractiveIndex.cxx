@@ -424,6 +424,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   this->Search->release();
   Tally tally;
   bool hasGas = false, meetsBodies = false;
+  std::string ofMesh;
   std::shared_ptr<const schlieren::MediumSource> result;
   const auto take = [&](const auto& made)
   {
@@ -495,6 +496,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       kept.key = key;
     }
     kept.mesh = made->mesh();
+    ofMesh = kept.mesh.warning;
     const auto begunAt = [&](std::size_t number)
     { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
     for (std::size_t number = 0; number < fields.size(); ++number)
@@ -518,6 +520,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, tally);
+  addText(warning, ofMesh);
   if (bodies && !meetsBodies)
   {
     addText(warning, bodiesAreOutside);
