@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 namespace schlieren
@@ -33,8 +34,12 @@ std::uint64_t besideValues(const PointMask& empty, std::int64_t n, std::int64_t 
   return beside;
 }
 
-/// Of the neighbours that have a value or, in a linear continuation, of what lines from them through the points behind
-/// them lead to, where there are any.
+/// The one of two slopes that is less steep; 0 where they have different signs.
+double gentler(double a, double b) { return a * b > 0 ? (std::abs(a) < std::abs(b) ? a : b) : 0; }
+
+/// Of the neighbours that have a value or, in a linear continuation, of what lines through three points that have one
+/// lead to, where there are any. The gentler of a line's two slopes counts: voxels may be larger than a layer at a wall,
+/// whose slope leads anywhere.
 template <class Real>
 Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, std::int64_t i,
   std::int64_t j, std::int64_t k, Continuation continuation)
@@ -70,9 +75,13 @@ Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, s
         {
           const double value = valueAt(i + di, j + dj, k + dk);
           ofNeighbours.add(value);
-          if (continuation == Continuation::Linear && hasValue(i + 2 * di, j + 2 * dj, k + 2 * dk))
+          if (continuation == Continuation::Linear &&
+            hasValue(i + 2 * di, j + 2 * dj, k + 2 * dk) &&
+            hasValue(i + 3 * di, j + 3 * dj, k + 3 * dk))
           {
-            ofLines.add(2 * value - valueAt(i + 2 * di, j + 2 * dj, k + 2 * dk));
+            const double second = valueAt(i + 2 * di, j + 2 * dj, k + 2 * dk);
+            const double third = valueAt(i + 3 * di, j + 3 * dj, k + 3 * dk);
+            ofLines.add(value + gentler(value - second, second - third));
           }
         }
       }
