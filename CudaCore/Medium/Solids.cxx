@@ -44,10 +44,10 @@ template <class Real>
 Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, std::int64_t i,
   std::int64_t j, std::int64_t k, Continuation continuation)
 {
-  const auto [nx, ny, nz] = volume.dimensions;
+  const std::array<std::int64_t, 3>& n = volume.dimensions;
   const auto hasValue = [&](std::int64_t ii, std::int64_t jj, std::int64_t kk)
   {
-    return ii >= 0 && ii < nx && jj >= 0 && jj < ny && kk >= 0 && kk < nz &&
+    return ii >= 0 && ii < n[0] && jj >= 0 && jj < n[1] && kk >= 0 && kk < n[2] &&
       ((empty.row(jj, kk)[ii >> 6] >> (ii & 63)) & 1) == 0;
   };
   const auto valueAt = [&](std::int64_t ii, std::int64_t jj, std::int64_t kk)

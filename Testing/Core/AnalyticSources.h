@@ -26,7 +26,6 @@ inline Field fieldOf(const std::shared_ptr<const MediumSource>& source)
   field.source = source;
   field.grid = coarsestGrid(*source);
   field.version = ++versions;
-  field.gradients = { source->fields(), nullptr, versions };
   return field;
 }
 

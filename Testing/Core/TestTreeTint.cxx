@@ -23,6 +23,13 @@ namespace
 
 using Source = std::shared_ptr<const MediumSource>;
 
+Field tintedFieldOf(const Source& source)
+{
+  Field field = fieldOf(source);
+  field.gradients = { source->fields(), nullptr, field.version };
+  return field;
+}
+
 /// Cells that are finest in the middle.
 class CalmSource : public AnalyticSource
 {
@@ -46,7 +53,7 @@ struct Gathering
 {
   Gathering(const Source& source, const Vector& direction, double tolerance,
     const RaySettings& raySettings = {}, Simd simd = bestSimd())
-    : field(fieldOf(source))
+    : field(tintedFieldOf(source))
   {
     TreeSettings settings;
     settings.tolerance = tolerance;
@@ -269,9 +276,9 @@ TEST(TreeTint, UniformFieldsLeaveTheImageAsItIs)
   scene.view.width = scene.view.height = 60;
   scene.samplesPerPixel = 1;
   scene.device = Device::Cpu;
-  const Image without = Bench().render(fieldOf(plain), scene);
+  const Image without = Bench().render(tintedFieldOf(plain), scene);
   scene.fieldColors = { { 1, 0, 0 } };
-  const Image with = Bench().render(fieldOf(uniform), scene);
+  const Image with = Bench().render(tintedFieldOf(uniform), scene);
   // But for rounding: rays that gather fields take their steps in another loop.
   ASSERT_EQ(without.deflection.size(), with.deflection.size());
   float largest = 0, difference = 0;
@@ -294,7 +301,7 @@ TEST(TreeTint, KeepsToItsMemoryAndDoesNotDependOnThreads)
   const Source source = withFields(balls(),
     { ballField({ 0.2, 0.1, 0 }, 0.03), ballField({ -0.3, 0.1, 0.4 }, 0.05),
       linearField({ 0.1, 0, 0.1 }) });
-  const Field field = fieldOf(source);
+  const Field field = tintedFieldOf(source);
   Scene scene;
   scene.view.width = scene.view.height = 250;
   scene.samplesPerPixel = 1;
@@ -316,7 +323,7 @@ TEST(TreeTint, KeepsToItsMemoryAndDoesNotDependOnThreads)
 
 TEST(TreeTint, AsManyColoursAsTheSourceHasFields)
 {
-  Field field = fieldOf(withFields(balls(), { linearField({ 1, 0, 0 }) }));
+  Field field = tintedFieldOf(withFields(balls(), { linearField({ 1, 0, 0 }) }));
   Scene scene;
   scene.device = Device::Cpu;
   scene.fieldColors = { { 1, 0, 0 }, { 0, 1, 0 } };
@@ -349,7 +356,7 @@ TEST_P(TreeTintOnDevice, FieldsMixByTheirGradients)
   scene.kScale = 1000;
   scene.mediumTolerance = 0.02;
   scene.device = GetParam();
-  const Image image = Bench().render(fieldOf(source), scene);
+  const Image image = Bench().render(tintedFieldOf(source), scene);
   EXPECT_GE(image.medium.finestLevel - image.medium.coarsestLevel, 2);
   const std::array<double, 3> mixture{ (0.5 + 1.5 * 0.25) / 2, 1.5 * 0.5 / 2, 1.5 / 2 };
   for (int row = 0; row < image.height; ++row)
