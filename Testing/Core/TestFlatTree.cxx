@@ -111,7 +111,7 @@ public:
       to = std::min(to, std::max(a, b));
     }
     Vec3<double> sum{ 0, 0, 0 };
-    constexpr int steps = 2000;
+    constexpr int steps = 500;
     for (int n = 0; n < steps && from < to; ++n)
     {
       const Vec3<double> x = start + (from + (n + 0.5) / steps * (to - from)) * w;
