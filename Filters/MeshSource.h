@@ -38,7 +38,7 @@ class MeshSource : public schlieren::MediumSource
 {
 public:
   /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null. `flatAxis`: -1, or that across which
-  /// both were flat (see extrude()).
+  /// both were flat (see extruded()).
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* bodies,
     Outside outside, CellTree::Reconstruction reconstruction, const WorkProgress& progress,
     int flatAxis = -1);
