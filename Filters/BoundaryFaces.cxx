@@ -14,14 +14,11 @@
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
-#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
-#include "vtkStructuredGrid.h"
 #include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -133,33 +130,6 @@ std::vector<State> statesOf(vtkDataSet* data, bool is3d, const WorkProgress& pro
       }
     });
   return states;
-}
-
-/// The points along each axis of data whose cells are numbered by three indices; 0 of others.
-std::array<int, 3> structureOf(vtkDataSet* data)
-{
-  std::array<int, 3> points{};
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    image->GetDimensions(points.data());
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
-  {
-    const int* extent = rectilinear->GetExtent();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      points[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    }
-  }
-  else if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
-  {
-    const int* extent = grid->GetExtent();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      points[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    }
-  }
-  return points;
 }
 
 void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions,

@@ -72,26 +72,6 @@ std::array<double, 3> turned(const double x[3], int flat)
   return own;
 }
 
-/// The points along each axis of structured data of one layer; 0 of others.
-std::array<int, 3> layerOf(vtkDataSet* data)
-{
-  std::array<int, 3> points{};
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    image->GetDimensions(points.data());
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
-  {
-    rectilinear->GetDimensions(points.data());
-  }
-  else if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
-  {
-    grid->GetDimensions(points.data());
-  }
-  const auto flat = std::count(points.begin(), points.end(), 1);
-  return flat == 1 ? points : std::array<int, 3>{};
-}
-
 /// What the points and cells of an extruded dataset were.
 struct Extrusion
 {
@@ -280,10 +260,10 @@ Source extruded(const Source& source, int flat)
   for (const Leaf& leaf : source.leaves)
   {
     Extrusion made;
-    const std::array<int, 3> layer = layerOf(leaf.data);
-    if (layer[0] > 0)
+    const std::array<int, 3> points = structureOf(leaf.data);
+    if (std::count(points.begin(), points.end(), 1) == 1)
     {
-      extrudeStructured(leaf.data, layer, plane, made);
+      extrudeStructured(leaf.data, points, plane, made);
     }
     else
     {
@@ -328,6 +308,32 @@ vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat)
     blocks->SetBlock(blocks->GetNumberOfBlocks(), turnedSurface(surface, flat));
   }
   return blocks;
+}
+
+std::array<int, 3> structureOf(vtkDataSet* data)
+{
+  std::array<int, 3> points{};
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    image->GetDimensions(points.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    const int* extent = rectilinear->GetExtent();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      points[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
+    }
+  }
+  else if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
+  {
+    const int* extent = grid->GetExtent();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      points[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
+    }
+  }
+  return points;
 }
 
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell)

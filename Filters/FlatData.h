@@ -23,6 +23,9 @@ int flatAxisOf(const Source& source);
 /// What the user should hear of the extrusion.
 std::string warningOfExtrusion(int flat);
 
+/// The points along each axis of data whose cells are numbered by three indices; 0 of others.
+std::array<int, 3> structureOf(vtkDataSet* data);
+
 /// By rows, the rotation from axes in which the data's plane is across z to the data's own; -1: none. Of the other two
 /// axes, the order stays.
 std::array<double, 9> directionAcross(int flat);

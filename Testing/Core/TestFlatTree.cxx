@@ -5,8 +5,8 @@
 #include "AnalyticSources.h"
 #include "Fields.h"
 #include "Medium/Medium.h"
-#include "PacksInTrees.h"
 #include "Rays/Tracer.h"
+#include "TreeRays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -306,19 +306,7 @@ TEST_P(RaysInAFlatTree, EndAtWalls)
     scene.view.parallelScale = 3;
     scene.pathModel = path;
     const Image image = Bench().render(fieldOf(source), scene);
-    double area = 0, worst = 0;
-    for (int row = 0; row < image.height; ++row)
-    {
-      for (int column = 0; column < image.width; ++column)
-      {
-        const PixelCentre at = centreOf(image, column, row);
-        const double blocked = image.blockedFraction[pixelOf(image, column, row)];
-        area += blocked;
-        const double outside = (std::hypot(at.u, at.v) - 1) / image.frame.pixelSize;
-        worst = (blocked > 0.5) != (outside < 0) ? std::max(worst, std::abs(outside)) : worst;
-      }
-    }
-    area *= image.frame.pixelSize * image.frame.pixelSize;
+    const auto [area, worst] = shadowOfDisc(image, 1);
     EXPECT_NEAR(area, std::acos(-1.), 5e-3 * area);
     EXPECT_LT(worst, 0.1); // pixels
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays side by side through the leaves of a tree, beside one at a time.
+// What tests of rays through trees share.
 #pragma once
 
 #include "Fields.h"
@@ -18,7 +18,31 @@
 namespace schlieren
 {
 
-/// For all schemes and integrators. Refractivities of `field` are 1e-3, about.
+/// The area of the shadow, and how many pixels from the circle the farthest pixel is that is wrong.
+struct Shadow
+{
+  double area = 0, worst = 0;
+};
+inline Shadow shadowOfDisc(const Image& image, double radius)
+{
+  Shadow shadow;
+  for (int row = 0; row < image.height; ++row)
+  {
+    for (int column = 0; column < image.width; ++column)
+    {
+      const PixelCentre at = centreOf(image, column, row);
+      const double blocked = image.blockedFraction[pixelOf(image, column, row)];
+      shadow.area += blocked;
+      const double outside = (std::hypot(at.u, at.v) - radius) / image.frame.pixelSize;
+      const bool isWrong = (blocked > 0.5) != (outside < 0);
+      shadow.worst = isWrong ? std::max(shadow.worst, std::abs(outside)) : shadow.worst;
+    }
+  }
+  shadow.area *= image.frame.pixelSize * image.frame.pixelSize;
+  return shadow;
+}
+
+/// Rays side by side, beside one at a time: for all schemes and integrators. Refractivities of `field` are 1e-3, about.
 inline void expectPacksToDoWhatOneDoes(const Field& field)
 {
   std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
