@@ -11,6 +11,7 @@
 #include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
 #include "Rays/CudaTracer.h"
+#include "Rays/TeamTracer.h"
 #include "Rays/Tracer.h"
 #include "StageSettings.h"
 #include "Validation.h"
@@ -38,6 +39,7 @@ struct MediumOnDevices
 
   Medium<Real> medium;
   std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
+  std::unique_ptr<TeamTracer<Real>> team; ///< likewise, together with workers
 
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
   double mapTolerance = 0;                   ///< of nu
@@ -122,6 +124,7 @@ struct Bench::Unfinished
 struct Bench::Stages
 {
   Work work;
+  std::vector<Channel*> workers;
   std::unique_ptr<Unfinished> unfinished; ///< after a pause
 
   std::optional<MediumKey> mediumKey;
@@ -198,6 +201,7 @@ void Bench::Stages::refineFor(
   {
     rays.clear();
     held.cuda.reset();
+    held.team.reset();
     asked.bound.reset();
   }
 }
@@ -208,6 +212,7 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
 {
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
+  const std::uint64_t ofGradients = asked.field.gradients.version;
   bool isTraced = false;
   if (asked.device == Device::Cuda)
   {
@@ -216,8 +221,17 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
       held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
     }
     using Exits = typename CudaTracer<Real>::Exits;
-    isTraced = held.cuda->trace(task, pass, { asked.field.gradients.version, held.mapTolerance },
+    isTraced = held.cuda->trace(task, pass, { ofGradients, held.mapTolerance },
       isWantedOnHost ? Exits::OnHost : Exits::OnDevice, traced, monitor);
+  }
+  else if (!workers.empty())
+  {
+    if (!held.team)
+    {
+      held.team = std::make_unique<TeamTracer<Real>>(held.medium);
+    }
+    isTraced = held.team->trace(task, pass, { ofGradients, held.mapTolerance }, workers, traced,
+      asked.scene.threads, monitor);
   }
   else
   {
@@ -414,6 +428,8 @@ Bench::Bench(Bench&&) noexcept = default;
 Bench& Bench::operator=(Bench&&) noexcept = default;
 
 const Work& Bench::work() const { return stages_->work; }
+
+void Bench::setWorkers(std::vector<Channel*> workers) { stages_->workers = std::move(workers); }
 
 void Bench::giveUp() { stages_->unfinished.reset(); }
 

@@ -12,6 +12,7 @@
 #include "Medium/IndexModels.h"
 #include "Medium/MediumSource.h"
 #include "PixelArray.h"
+#include "Rays/Channel.h"
 
 #include <array>
 #include <cstdint>
@@ -409,6 +410,10 @@ public:
   Image resume(const Monitor& monitor = {});
   bool isUnfinished() const;
   void giveUp(); ///< forgets it
+
+  /// Other processes that trace rays for the next images, each with a RayWorker at the other end of its channel. The
+  /// images are the same to the last bit.
+  void setWorkers(std::vector<Channel*> workers);
 
   const Work& work() const;
 

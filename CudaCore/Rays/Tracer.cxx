@@ -108,21 +108,17 @@ struct Block
   static constexpr int rows = Lanes / columns;
 };
 
-/// Pixels along the sides of what a thread takes at once: its rays share what they read of the medium.
-constexpr std::int64_t tileEdge = 16;
-
 template <class Number, int Lanes>
-bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
-  const Pass& pass, TracedPass& traced, int threads, const Monitor& monitor)
+void traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
+  const Pass& pass, TileQueue& tiles, TracedPass& traced, int threads, const Monitor& monitor)
 {
-  const std::int64_t tilesAlong = (pass.columns + tileEdge - 1) / tileEdge;
-  const std::int64_t tilesUp = (pass.rows + tileEdge - 1) / tileEdge;
   struct OfTile
   {
     double worstDrift = 0;
     std::int64_t crossed = 0;
   };
-  std::vector<OfTile> ofTiles(static_cast<std::size_t>(tilesAlong * tilesUp));
+  const TileQueue::Tiles all = tiles.left();
+  std::vector<OfTile> ofTiles(static_cast<std::size_t>(all.count()));
 
   const auto enterBlock = [&](std::int64_t column, std::int64_t row, RayBatch<Number, Lanes>& batch,
                             Entry(&entries)[Lanes], std::int64_t(&rays)[Lanes])
@@ -155,19 +151,15 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
     }
   };
 
-  if (traced.tilesDone == 0)
-  {
-    traced.worstDrift = 0;
-    traced.crossed = 0;
-  }
-  const std::int64_t done = parallelFrom(
-    traced.tilesDone, tilesAlong * tilesUp, 1, threads,
-    [&](std::int64_t begin, std::int64_t end)
+  parallelFrom(
+    all.first, all.end, 1, threads,
+    [&](std::int64_t number, std::int64_t)
     {
-      for (std::int64_t tile = begin; tile < end; ++tile)
+      const TileQueue::Tiles taken = tiles.takeFront();
+      for (std::int64_t tile = taken.first; tile < taken.end; ++tile)
       {
-        const std::int64_t left = tile % tilesAlong * tileEdge;
-        const std::int64_t low = tile / tilesAlong * tileEdge;
+        const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
+        const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
         for (std::int64_t row = low; row < std::min(low + tileEdge, pass.rows);
              row += Block<Lanes>::rows)
         {
@@ -180,7 +172,7 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
             enterBlock(column, row, batches[0], entries[0], rays[0]);
             enterBlock(column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
             marchBatches(task, batches[0], batches[1]);
-            OfTile& here = ofTiles[static_cast<std::size_t>(tile)];
+            OfTile& here = ofTiles[static_cast<std::size_t>(number - all.first)];
             leaveBlock(batches[0], entries[0], rays[0], here);
             leaveBlock(batches[1], entries[1], rays[1], here);
           }
@@ -193,9 +185,6 @@ bool traceTiles(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchB
     traced.worstDrift = std::max(traced.worstDrift, tile.worstDrift);
     traced.crossed += tile.crossed;
   }
-  const bool isFinished = done == tilesAlong * tilesUp;
-  traced.tilesDone = isFinished ? 0 : done;
-  return isFinished;
 }
 
 template <class Number>
@@ -246,9 +235,37 @@ Simd bestSimd()
   return hasSimd(Simd::Avx2) ? Simd::Avx2 : Simd::Four;
 }
 
+TileQueue TracedPass::tilesLeft(const Pass& pass)
+{
+  if (tilesDone == 0)
+  {
+    worstDrift = 0;
+    crossed = 0;
+  }
+  return { tilesDone, tilesOf(pass) - tilesDoneAtEnd };
+}
+
+bool TracedPass::keepTilesLeft(const TileQueue& tiles, const Pass& pass)
+{
+  const TileQueue::Tiles left = tiles.left();
+  const bool isFinished = left.count() == 0;
+  tilesDone = isFinished ? 0 : left.first;
+  tilesDoneAtEnd = isFinished ? 0 : tilesOf(pass) - left.end;
+  return isFinished;
+}
+
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd)
+{
+  TileQueue tiles = traced.tilesLeft(pass);
+  traceTiles(task, pass, tiles, traced, threads, monitor, simd);
+  return traced.keepTilesLeft(tiles, pass);
+}
+
+template <class Real>
+void traceTiles(const RayTask<Real>& task, const Pass& pass, TileQueue& tiles, TracedPass& traced,
+  int threads, const Monitor& monitor, Simd simd)
 {
   const KernelChoice& kernel = task.kernel;
   if (task.medium.planeStride > std::numeric_limits<std::uint32_t>::max())
@@ -256,29 +273,32 @@ bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
     simd = Simd::None; // the others multiply strides of 32 bits
   }
   const auto traceWith = [&](auto marchBatches)
-  { return traceTiles(task, marchBatches, pass, traced, threads, monitor); };
+  { traceTilesWith(task, marchBatches, pass, tiles, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
 #ifdef SCHLIEREN_HAS_AVX
   if (simd >= Simd::Avx512)
   {
     constexpr int lanes = isSingle ? 16 : 8;
-    return traceWith(
+    traceWith(
       simd == Simd::Avx512 ? simdMarch<Real, lanes>(kernel) : simdMarchByRows<Real, lanes>(kernel));
+    return;
   }
   if (simd == Simd::Avx2)
   {
     constexpr int lanes = isSingle ? 8 : 4;
-    return traceWith(simdMarch<Real, lanes>(kernel));
+    traceWith(simdMarch<Real, lanes>(kernel));
+    return;
   }
 #endif
   if constexpr (isSingle) // for doubles the instructions that all have are too narrow to gain
   {
     if (simd != Simd::None)
     {
-      return traceWith(simdMarch<Real, 4>(kernel));
+      traceWith(simdMarch<Real, 4>(kernel));
+      return;
     }
   }
-  return traceWith(marchOneByOne<Real>(kernel));
+  traceWith(marchOneByOne<Real>(kernel));
 }
 
 template RayTask<float> makeTask(const Medium<float>&, const HomogeneityMap<float>*,
@@ -289,5 +309,9 @@ template bool traceOnCpu(
   const RayTask<float>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
 template bool traceOnCpu(
   const RayTask<double>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
+template void traceTiles(
+  const RayTask<float>&, const Pass&, TileQueue&, TracedPass&, int, const Monitor&, Simd);
+template void traceTiles(
+  const RayTask<double>&, const Pass&, TileQueue&, TracedPass&, int, const Monitor&, Simd);
 
 } // namespace schlieren

@@ -9,6 +9,7 @@
 #include "Rays/Light.h"
 #include "Rays/Marcher.h"
 #include "Rays/RayExit.h"
+#include "Rays/TileQueue.h"
 
 #include <memory>
 #include <vector>
@@ -190,6 +191,17 @@ template <class Real>
 RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
   const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
 
+/// Squares of pixels that a thread takes at once: their rays share what they read of the medium. Row by row.
+constexpr std::int64_t tileEdge = 16;
+inline std::int64_t tilesAlong(const Pass& pass)
+{
+  return (pass.columns + tileEdge - 1) / tileEdge;
+}
+inline std::int64_t tilesOf(const Pass& pass)
+{
+  return tilesAlong(pass) * ((pass.rows + tileEdge - 1) / tileEdge);
+}
+
 /// The rays of a pass, row by row, and what each has gathered of each field's gradient: its integral
 /// over the ray, a number without unit. Nothing where the view has no fields.
 struct TracedPass
@@ -199,14 +211,18 @@ struct TracedPass
   std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
   std::int64_t crossed = 0;           ///< rays that met the grid
   double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
-  std::int64_t tilesDone =
-    0; ///< by traceOnCpu, which goes on there; 0 where it has not begun, or is done
+  /// From the first and from the last tile on, where a pause has interrupted tracing on the CPU; else 0.
+  std::int64_t tilesDone = 0, tilesDoneAtEnd = 0;
+
+  /// What there is to trace on the CPU, where it begins or goes on. keepTilesLeft(): whether it is all done.
+  TileQueue tilesLeft(const Pass& pass);
+  bool keepTilesLeft(const TileQueue& tiles, const Pass& pass);
 
   /// Makes room on the host.
   void resize(const Pass& pass, int fields)
   {
     onDevice.reset();
-    tilesDone = 0;
+    tilesDone = tilesDoneAtEnd = 0;
     const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
     exits.resize(rays);
     gathered.assign(rays * static_cast<std::size_t>(fields), 0);
@@ -239,5 +255,11 @@ Simd bestSimd();
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd = bestSimd());
+
+/// Traces tiles of a pass until none are left, the monitor stops it or an exception is thrown. Others may take tiles
+/// from the queue meanwhile. Adds to what `traced` counts.
+template <class Real>
+void traceTiles(const RayTask<Real>& task, const Pass& pass, TileQueue& tiles, TracedPass& traced,
+  int threads, const Monitor& monitor, Simd simd = bestSimd());
 
 } // namespace schlieren

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture that is made in pieces is the one made in one go, to the last bit.
 #include "Fields.h"
+#include "SameImage.h"
 
 #include <algorithm>
 #include <limits>
@@ -90,34 +91,6 @@ Image inPieces(const Field& field, const Scene& scene, int questions)
   return finished(bench, bench.render(field, scene, pausingAfter(questions)), questions);
 }
 
-void expectSamePicture(const Image& a, const Image& b)
-{
-  ASSERT_EQ(a.intensity.size(), b.intensity.size());
-  EXPECT_EQ(a.intensity, b.intensity);
-  EXPECT_EQ(a.color.size(), b.color.size());
-  EXPECT_EQ(a.color, b.color);
-  EXPECT_EQ(a.background.size(), b.background.size());
-  EXPECT_EQ(a.background, b.background);
-  EXPECT_EQ(a.backgroundDisplacement, b.backgroundDisplacement);
-  EXPECT_EQ(a.deflection, b.deflection);
-  EXPECT_EQ(a.opticalPathDifference, b.opticalPathDifference);
-  EXPECT_EQ(a.displacement, b.displacement);
-  EXPECT_EQ(a.blockedFraction, b.blockedFraction);
-  EXPECT_EQ(a.kScale, b.kScale);
-  EXPECT_EQ(a.undisturbedLevel, b.undisturbedLevel);
-  EXPECT_EQ(a.saturatedShare, b.saturatedShare);
-  EXPECT_EQ(a.light.emitted, b.light.emitted);
-  EXPECT_EQ(a.light.onFilm, b.light.onFilm);
-  EXPECT_EQ(a.light.outside, b.light.outside);
-  EXPECT_EQ(a.histogram.range, b.histogram.range);
-  EXPECT_EQ(a.histogram.rays, b.histogram.rays);
-  EXPECT_EQ(a.raysTraced, b.raysTraced);
-  EXPECT_EQ(a.stepsTaken, b.stepsTaken);
-  EXPECT_EQ(a.raysBlocked, b.raysBlocked);
-  EXPECT_EQ(a.momentumDrift, b.momentumDrift);
-  EXPECT_EQ(a.samples, b.samples);
-}
-
 /// Pauses at every question, and at some; with one thread and with some.
 void expectSameInPieces(const Field& field, Scene scene)
 {
@@ -130,7 +103,7 @@ void expectSameInPieces(const Field& field, Scene scene)
     for (const int questions : { 0, 1, 7 })
     {
       SCOPED_TRACE(testing::Message() << threads << " threads, " << questions << " questions");
-      expectSamePicture(inPieces(field, scene, questions), whole);
+      expectSameImage(inPieces(field, scene, questions), whole);
     }
   }
 }
@@ -240,7 +213,7 @@ TEST(Pausing, NoPauseFinishesWhatWasBegun)
       {
         image = bench.resume();
       }
-      expectSamePicture(image, whole);
+      expectSameImage(image, whole);
       EXPECT_FALSE(bench.isUnfinished());
     }
   }
@@ -269,7 +242,7 @@ TEST(Pausing, ShowsThePictureOfTheSamplesSoFar)
           shown.push_back(image.samples);
           Scene fewer = scene;
           fewer.samplesPerPixel = image.samples;
-          expectSamePicture(image, Bench().render(flow.field, fewer));
+          expectSameImage(image, Bench().render(flow.field, fewer));
         }
       }
       if (questions == 0) // a pass takes longer than a call
@@ -303,7 +276,7 @@ TEST(Pausing, HeldRaysAreShownToo)
     }
     EXPECT_EQ(bench.work().raysTraced, rays);
     EXPECT_EQ(image.traceSeconds, 0);
-    expectSamePicture(image, Bench().render(flow.field, scene));
+    expectSameImage(image, Bench().render(flow.field, scene));
   }
 }
 
@@ -323,7 +296,7 @@ TEST(Pausing, AnotherCutoffInTheMidstKeepsTheRays)
     scene.cutoff = Cutoff::Circular;
     const Image image = finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0);
     Bench fresh;
-    expectSamePicture(image, fresh.render(flow.field, scene));
+    expectSameImage(image, fresh.render(flow.field, scene));
     EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced); // none was traced twice
   }
 }
@@ -335,7 +308,7 @@ TEST(Pausing, AnotherViewOrMediumInTheMidstGivesThePictureUp)
   Scene scene = smallScene();
   bench.render(flow.field, scene, pausingAfter(5));
   scene.view.viewDirection = { 1, 0, 0 };
-  expectSamePicture(bench.render(flow.field, scene), Bench().render(flow.field, scene));
+  expectSameImage(bench.render(flow.field, scene), Bench().render(flow.field, scene));
   EXPECT_EQ(bench.work().mediumBuilds, 1);
   EXPECT_EQ(bench.work().raySets, 2);
 
@@ -343,12 +316,12 @@ TEST(Pausing, AnotherViewOrMediumInTheMidstGivesThePictureUp)
   bench.render(flow.field, scene, pausingAfter(5));
   flow.samples[100] = 1e-4f;
   ++flow.field.version;
-  expectSamePicture(finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0),
+  expectSameImage(finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0),
     Bench().render(flow.field, scene));
 
   bench.render(flow.field, scene, pausingAfter(5));
   scene.precision = Precision::Double;
-  expectSamePicture(finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0),
+  expectSameImage(finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0),
     Bench().render(flow.field, scene));
 
   // A pass that is half traced without gathering what tints.
@@ -356,7 +329,7 @@ TEST(Pausing, AnotherViewOrMediumInTheMidstGivesThePictureUp)
   bench.render(flow.field, scene, pausingAfter(2));
   scene.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
   const Field tinted = flow.tinted();
-  expectSamePicture(finished(bench, bench.render(tinted, scene, pausingAfter(0)), 0),
+  expectSameImage(finished(bench, bench.render(tinted, scene, pausingAfter(0)), 0),
     Bench().render(tinted, scene));
 }
 
@@ -379,7 +352,7 @@ TEST(Pausing, AbortAndErrorsLeaveNothingUnfinished)
     EXPECT_TRUE(image.aborted);
     EXPECT_TRUE(image.intensity.empty());
     EXPECT_FALSE(bench.isUnfinished());
-    expectSamePicture(bench.render(flow.field, scene), Bench().render(flow.field, scene));
+    expectSameImage(bench.render(flow.field, scene), Bench().render(flow.field, scene));
   }
   Scene wrong = scene;
   wrong.stepSize = -1;

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace schlieren
+{
+
+/// A connection to another process of the same program on the same kind of processor. Messages arrive complete and in
+/// order. It is used by one thread.
+class Channel
+{
+public:
+  Channel() = default;
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+  virtual ~Channel() = default;
+
+  /// May wait until the other process receives it.
+  virtual void send(const std::vector<char>& message) = 0;
+  /// Whether a message has arrived. Does not wait.
+  virtual bool hasMessage() = 0;
+  /// The next message, once there is one.
+  virtual std::vector<char> receive() = 0;
+  /// False once the other process has left: it answers nothing any more.
+  virtual bool isOpen() const = 0;
+};
+
+} // namespace schlieren

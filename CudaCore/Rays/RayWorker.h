@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Rays/Channel.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Traces rays for another process.
+class RayWorker
+{
+public:
+  RayWorker();
+  ~RayWorker();
+
+  /// The first bytes of each message. Those who share a channel with rays use other numbers.
+  enum Kind : std::uint32_t
+  {
+    Array = 100, ///< to a worker: an array of the medium
+    Tiles,       ///< to a worker: to be traced
+    Rays,        ///< from a worker: of tiles
+    Lacking      ///< from a worker: it has not the arrays that tiles need
+  };
+  static std::uint32_t kindOf(const std::vector<char>& message);
+
+  /// Does what a message of a TeamTracer asks for, and answers. Throws nothing.
+  void answer(std::vector<char> message, Channel& channel, int threads);
+
+private:
+  struct Arrays;
+  std::unique_ptr<Arrays> arrays_;
+};
+
+} // namespace schlieren

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a TeamTracer and its RayWorkers send each other.
+#pragma once
+
+#include "Rays/RayWorker.h"
+#include "Rays/TileQueue.h"
+#include "Rays/Tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace schlieren
+{
+
+/// The arrays that a task points to.
+constexpr std::size_t arraysOfTask = 9;
+
+/// Calls visit(number of the array, pointer to where the task needs it).
+template <class Real, class Visit>
+void forArrays(RayTask<Real>& task, const Visit& visit)
+{
+  visit(0, task.medium.samples);
+  visit(1, task.medium.solid);
+  visit(2, task.medium.leaves);
+  visit(3, task.medium.finder.roots);
+  visit(4, task.medium.finder.children);
+  visit(5, task.medium.gasDistances);
+  visit(6, task.map.levels);
+  visit(7, task.gradients.values);
+  visit(8, task.gradients.bricks);
+}
+
+/// The beginning of a message with an array, whose values follow.
+struct ArrayMessage
+{
+  std::uint32_t kind = RayWorker::Array;
+  std::uint32_t array = 0;
+  std::uint64_t version = 0;
+};
+
+struct TilesHead
+{
+  std::uint32_t kind = RayWorker::Tiles;
+  std::uint32_t bytesOfReal = 0;
+  std::uint64_t number = 0; ///< of the trace that asks for them
+  TileQueue::Tiles tiles{ 0, 0 };
+};
+
+/// What a worker needs to trace tiles, besides the arrays.
+template <class Real>
+struct TilesMessage
+{
+  TilesHead head{ RayWorker::Tiles, sizeof(Real) };
+  Simd simd = Simd::None;
+  Pass pass{};
+  RayTask<Real> task{}; ///< its pointers mean nothing
+  /// Of the arrays: their versions, and from their beginnings to where the task's pointers point, in values.
+  std::array<std::uint64_t, arraysOfTask> versions{};
+  std::array<std::int64_t, arraysOfTask> offsets{};
+};
+constexpr std::int64_t nowhere =
+  std::numeric_limits<std::int64_t>::min(); // the offset of a null pointer
+
+/// The beginning of a message with rays: of those of each tile, row by row, then of all that they have gathered.
+struct RaysMessage
+{
+  std::uint32_t kind = RayWorker::Rays; ///< or Lacking: nothing follows
+  std::uint32_t fields = 0;
+  std::uint64_t number = 0;
+  TileQueue::Tiles tiles{ 0, 0 };
+  std::int64_t crossed = 0;
+  double worstDrift = 0;
+  double seconds = 0; ///< that it took
+};
+
+static_assert(std::is_trivially_copyable_v<TilesMessage<float>>);
+static_assert(std::is_trivially_copyable_v<TilesMessage<double>>);
+static_assert(std::is_trivially_copyable_v<RayExit>);
+
+template <class Head>
+std::vector<char> messageOf(const Head& head, std::size_t bytesBehind = 0)
+{
+  std::vector<char> message(sizeof(Head) + bytesBehind);
+  std::memcpy(message.data(), &head, sizeof(Head));
+  return message;
+}
+
+/// False where the message is too short for it.
+template <class Head>
+bool read(const std::vector<char>& message, Head& head)
+{
+  if (message.size() < sizeof(Head))
+  {
+    return false;
+  }
+  std::memcpy(&head, message.data(), sizeof(Head));
+  return true;
+}
+
+/// A tile as a pass of its own, with the same rays.
+inline Pass passOfTile(const Pass& pass, std::int64_t tile)
+{
+  const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
+  const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
+  Pass ofTile = pass;
+  ofTile.firstColumn += left;
+  ofTile.firstRow += low;
+  ofTile.columns = std::min(tileEdge, pass.columns - left);
+  ofTile.rows = std::min(tileEdge, pass.rows - low);
+  return ofTile;
+}
+
+inline std::size_t raysOf(const Pass& pass)
+{
+  return static_cast<std::size_t>(pass.columns * pass.rows);
+}
+
+inline std::size_t raysOf(const Pass& pass, const TileQueue::Tiles& tiles)
+{
+  std::size_t rays = 0;
+  for (std::int64_t tile = tiles.first; tile < tiles.end; ++tile)
+  {
+    rays += raysOf(passOfTile(pass, tile));
+  }
+  return rays;
+}
+
+} // namespace schlieren
