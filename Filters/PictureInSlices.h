@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Makes the pictures of a filter one after the other, each as a whole or in slices of time.
@@ -18,6 +19,12 @@ public:
   schlieren::Image GoOn(double seconds, const schlieren::Monitor& monitor);
 
   void GiveUp() { this->Bench.giveUp(); }
+
+  /// Who traces rays, too: see schlieren::Bench.
+  void SetWorkers(std::vector<schlieren::Channel*> workers)
+  {
+    this->Bench.setWorkers(std::move(workers));
+  }
 
   const schlieren::Bench& GetBench() const { return this->Bench; }
   const schlieren::Scene& GetScene() const { return this->Scene; } ///< of the last one

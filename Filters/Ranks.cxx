@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks.h"
 
+#include "GatheredData.h"
 #include "InputDescription.h"
 
 #include "vtkAlgorithm.h"
@@ -18,20 +19,33 @@
 #include "vtkMPIController.h"
 #endif
 
+#include "Rays/RayWorker.h"
+
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <exception>
+#include <new>
+#include <stdexcept>
 #include <thread>
-#include <vector>
+#include <utility>
 
 namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-// Rank 0 knows by then that a rank's pipeline has failed: it had nothing to read, or the same as rank 0.
-constexpr std::chrono::seconds longestWait{ 20 };
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
 constexpr int firstTag = 21300; // a number that nobody else uses
+
+/// How long a rank waits for others that may not come: they read about as much as it has, or nothing.
+constexpr double secondsForInputs = 10;
+constexpr double partsOfOwnTime = 10;
+constexpr double secondsWithout = 2; // where nothing upstream runs
 
 /// What a rank has of an input: numbers of points and cells, bounds.
 using Holdings = std::array<double, 8>;
@@ -71,81 +85,153 @@ vtkMultiProcessController* controllerOfRanks()
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
 }
 
-/// A version of the inputs, and what a rank has of the first one and of the bodies.
-struct Message
+/// The first bytes of messages. Those of rays have other numbers.
+enum Kind : std::uint32_t
 {
-  double changes = 0;
+  Hello = 1, // to rank 0
+  Begin,     // to others: an answer to Hello
+  Leave,     // to rank 0, which does not come
+  GiveData,  // to others
+  Data,      // to rank 0
+  End        // to others
+};
+
+struct HelloMessage
+{
+  std::uint32_t kind = Hello;
+  std::int32_t meeting = 0; // of this rank
+  double changes = 0;       // the version of the inputs
   double timeStep = 0;
   Holdings inputs[2] = {};
-
-  static constexpr vtkIdType size = 2 + 2 * std::tuple_size<Holdings>::value;
-  double* data() { return &this->changes; }
 };
-static_assert(sizeof(Message) == Message::size * sizeof(double), "is sent as an array");
-
-bool hasMessage(vtkMultiProcessController* controller, int rank, int tag)
+struct ShortMessage
 {
-  int has = 0;
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
-  if (auto* mpi = vtkMPIController::SafeDownCast(controller))
-  {
-    mpi->Iprobe(rank, tag, &has, nullptr);
-  }
-#endif
-  return has != 0;
+  std::uint32_t kind = 0;
+  std::int32_t number =
+    0; // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; End: the outcome
+};
+
+template <class Head>
+std::vector<char> messageOf(const Head& head, const std::vector<char>& behind = {})
+{
+  std::vector<char> message(sizeof(Head) + behind.size());
+  std::memcpy(message.data(), &head, sizeof(Head));
+  std::copy(behind.begin(), behind.end(), message.begin() + sizeof(Head));
+  return message;
 }
 
-/// Receives the message of the version that `wanted` says from a rank. False where there is none in time.
-bool receive(vtkMultiProcessController* controller, int rank, int tag,
-  std::chrono::steady_clock::time_point end, Message& wanted)
+template <class Head>
+Head read(const std::vector<char>& message)
 {
-  while (true)
+  Head head;
+  std::memcpy(&head, message.data(), std::min(sizeof(Head), message.size()));
+  return head;
+}
+
+void waitABit() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
+
+/// Messages by MPI.
+class RankChannel : public schlieren::Channel
+{
+public:
+  RankChannel(vtkMultiProcessController* controller, int rank, int tag)
+    : Controller(controller)
+    , Rank(rank)
+    , Tag(tag)
   {
-    if (hasMessage(controller, rank, tag))
+  }
+
+  void send(const std::vector<char>& message) override
+  {
+    const auto size = static_cast<vtkIdType>(message.size());
+    this->Controller->Send(&size, 1, this->Rank, this->Tag);
+    if (size > 0)
     {
-      Message message;
-      controller->Receive(message.data(), Message::size, rank, tag);
-      if (message.changes == wanted.changes && message.timeStep == wanted.timeStep)
+      this->Controller->Send(message.data(), size, this->Rank, this->Tag);
+    }
+  }
+  bool hasMessage() override
+  {
+    this->Poll();
+    return !this->Messages.empty();
+  }
+  std::vector<char> receive() override
+  {
+    while (!this->hasMessage())
+    {
+      waitABit();
+    }
+    std::vector<char> message = std::move(this->Messages.front());
+    this->Messages.pop_front();
+    return message;
+  }
+  bool isOpen() const override { return this->IsOpen; }
+
+  std::optional<HelloMessage> Greeting; // on rank 0
+  bool IsOpen = false;                  // the other rank is at the meeting
+
+  /// Takes what has arrived.
+  void Poll()
+  {
+    while (this->HasArrived())
+    {
+      vtkIdType size = 0;
+      this->Controller->Receive(&size, 1, this->Rank, this->Tag);
+      std::vector<char> message(static_cast<std::size_t>(size));
+      if (size > 0)
       {
-        wanted = message;
-        return true;
-      } // else it was sent when rank 0 did not run
-    }
-    else if (std::chrono::steady_clock::now() > end)
-    {
-      return false;
-    }
-    else
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        this->Controller->Receive(message.data(), size, this->Rank, this->Tag);
+      }
+      switch (schlieren::RayWorker::kindOf(message))
+      {
+        case Hello:
+          this->Greeting = read<HelloMessage>(message);
+          this->Messages.clear(); // of meetings before
+          break;
+        case Leave:
+          this->Greeting.reset();
+          this->IsOpen = false;
+          break;
+        default:
+          this->Messages.push_back(std::move(message));
+          break;
+      }
     }
   }
-}
 
-/// What is wrong with what each rank has of an input, rank 0 first. Those that have the same as rank 0 got all of
-/// it, too.
-std::string problemOf(const std::vector<Holdings>& ofRanks, const std::string& input)
-{
-  int ranks = 1;
-  double cells = ofRanks[0][1];
-  for (const Holdings& holdings : ofRanks)
+private:
+  bool HasArrived()
   {
-    if (holdings[0] > 0 && holdings != ofRanks[0])
+    int has = 0;
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
+    if (auto* mpi = vtkMPIController::SafeDownCast(this->Controller))
     {
-      ++ranks;
-      cells += holdings[1];
+      mpi->Iprobe(this->Rank, this->Tag, &has, nullptr);
+    }
+#endif
+    return has != 0;
+  }
+
+  vtkMultiProcessController* Controller;
+  int Rank, Tag;
+  std::deque<std::vector<char>> Messages;
+};
+
+/// The ranks that have data which rank 0 and those before them have not.
+std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
+{
+  std::vector<std::size_t> more;
+  const Holdings* first = nullptr;
+  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
+  {
+    const Holdings& holdings = ofRanks[rank];
+    if (holdings[0] > 0 && (first == nullptr || holdings != *first))
+    {
+      more.push_back(rank);
+      first = first == nullptr ? &holdings : first;
     }
   }
-  if (ranks == 1)
-  {
-    return "";
-  }
-  const auto text = [](double number) { return std::to_string(static_cast<vtkIdType>(number)); };
-  return "Rank 0 has only " + text(ofRanks[0][1]) + " of " + text(cells) + " cells of the " +
-    input + ": its reader, or a filter such as Redistribute DataSet, has spread them over " +
-    std::to_string(ranks) +
-    " ranks, and rank 0 makes the result alone. Use one process, or take the data from before that "
-    "filter.";
+  return more;
 }
 
 } // namespace
@@ -173,7 +259,29 @@ void setComplete(vtkInformationVector* outputs)
 }
 
 //------------------------------------------------------------------------------
-void InputOnRank0::CountChanges(vtkAlgorithm* filter)
+struct FilterRanks::Others
+{
+  Others(vtkMultiProcessController* controller, int tag)
+  {
+    const bool isFirst = controller->GetLocalProcessId() == 0;
+    const int ranks = controller->GetNumberOfProcesses();
+    for (int rank = isFirst ? 1 : 0; rank < (isFirst ? ranks : 1); ++rank)
+    {
+      this->Channels.push_back(std::make_unique<RankChannel>(controller, rank, tag));
+    }
+  }
+
+  std::vector<std::unique_ptr<RankChannel>> Channels; // on rank 0: to all others; there: to it
+  schlieren::RayWorker Worker;                        // not on rank 0
+  int Meetings = 0;                                   // likewise
+};
+
+//------------------------------------------------------------------------------
+FilterRanks::FilterRanks() = default;
+FilterRanks::~FilterRanks() = default;
+
+//------------------------------------------------------------------------------
+void FilterRanks::CountChanges(vtkAlgorithm* filter)
 {
   vtkMTimeType time = 0;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -188,14 +296,16 @@ void InputOnRank0::CountChanges(vtkAlgorithm* filter)
 }
 
 //------------------------------------------------------------------------------
-bool InputOnRank0::Request(vtkAlgorithm* filter, vtkInformationVector** inputs)
+bool FilterRanks::Request(vtkAlgorithm* filter, vtkInformationVector** inputs)
 {
-  if (this->Tag == 0 && controllerOfRanks())
+  vtkMultiProcessController* controller = controllerOfRanks();
+  if (!this->Inside && controller)
   {
     // All ranks run their filters in the same order.
     static int filters = 0;
-    this->Tag = firstTag + filters++ % 10000;
+    this->Inside = std::make_unique<Others>(controller, firstTag + filters++ % 10000);
   }
+  this->RequestedAt = Clock::now();
   const bool isWanted = isRank0();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
@@ -233,46 +343,260 @@ bool InputOnRank0::Request(vtkAlgorithm* filter, vtkInformationVector** inputs)
 }
 
 //------------------------------------------------------------------------------
-const std::string& InputOnRank0::FindMissing(vtkDataObject* input, vtkDataObject* bodies)
+vtkDataObject* FilterRanks::GetInput(int input, vtkDataObject* own) const
 {
-  vtkMultiProcessController* controller = controllerOfRanks();
-  if (!controller || this->Compared == this->Now)
-  {
-    return this->Problem;
-  }
-  this->Compared = this->Now;
-  this->CountedAt.Modified(); // what is upstream may have modified itself while it ran
+  vtkDataObject* gathered = this->Gathered[input];
+  return gathered && own ? gathered : own;
+}
 
-  Message own{ static_cast<double>(this->Now.changes), this->Now.timeStep,
-    { holdingsOf(input), holdingsOf(bodies) } };
-  if (controller->GetLocalProcessId() > 0)
+//------------------------------------------------------------------------------
+FilterRanks::Meeting::Meeting(FilterRanks& ranks, const std::optional<Inputs>& inputs)
+  : Of(ranks)
+  , Own(inputs)
+{
+  if (!this->Of.Inside)
   {
-    controller->Send(own.data(), Message::size, 0, this->Tag); // so small that it does not block
-    return this->Problem;
+    return;
   }
-  this->Problem.clear();
-  const int ranks = controller->GetNumberOfProcesses();
-  const auto end = std::chrono::steady_clock::now() + longestWait;
-  std::vector<Holdings> ofInput{ own.inputs[0] }, ofBodies{ own.inputs[1] };
-  for (int rank = 1; rank < ranks && this->Problem.empty(); ++rank)
+  const bool areNew = inputs && !(this->Of.Compared == this->Of.Now);
+  const Clock::time_point now = Clock::now();
+  const double ownTime = Seconds(now - this->Of.RequestedAt).count();
+  const double limit = areNew ? secondsForInputs + partsOfOwnTime * ownTime : secondsWithout;
+  const Clock::time_point end = now + std::chrono::duration_cast<Clock::duration>(Seconds(limit));
+  if (areNew)
   {
-    Message message = own;
-    if (!receive(controller, rank, this->Tag, end, message))
+    this->Of.CountedAt.Modified(); // what is upstream may have modified itself while it ran
+  }
+  if (isRank0())
+  {
+    this->WaitForOthers(end);
+    return;
+  }
+  if (areNew)
+  {
+    this->Of.Compared = this->Of.Now;
+  }
+  this->WaitForRank0(end);
+}
+
+//------------------------------------------------------------------------------
+void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
+{
+  for (const auto& channel : this->Of.Inside->Channels)
+  {
+    channel->Poll();
+    while (!channel->Greeting && Clock::now() < end)
     {
-      this->Problem = "Rank " + std::to_string(rank) + " of " + std::to_string(ranks) +
+      waitABit();
+      channel->Poll();
+    }
+    channel->IsOpen = channel->Greeting.has_value();
+    if (channel->IsOpen)
+    {
+      channel->send(messageOf(ShortMessage{ Begin, channel->Greeting->meeting }));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
+{
+  RankChannel& channel = *this->Of.Inside->Channels[0];
+  const int meeting = ++this->Of.Inside->Meetings;
+  HelloMessage hello;
+  hello.meeting = meeting;
+  hello.changes = this->Of.Now.changes;
+  hello.timeStep = this->Of.Now.timeStep;
+  if (this->Own)
+  {
+    hello.inputs[0] = holdingsOf(this->Own->data);
+    hello.inputs[1] = holdingsOf(this->Own->bodies);
+  }
+  channel.send(messageOf(hello));
+  while (!this->HasMet)
+  {
+    while (!channel.hasMessage() && Clock::now() < end)
+    {
+      waitABit();
+    }
+    if (!channel.hasMessage())
+    {
+      channel.send(messageOf(ShortMessage{ Leave, 0 }));
+      return;
+    }
+    const auto message = read<ShortMessage>(channel.receive()); // or of a meeting before
+    this->HasMet = message.kind == Begin && message.number == meeting;
+  }
+}
+
+//------------------------------------------------------------------------------
+FilterRanks::Meeting::~Meeting()
+{
+  if (!this->Of.Inside || !isRank0())
+  {
+    return;
+  }
+  for (const auto& channel : this->Of.Inside->Channels)
+  {
+    if (channel->IsOpen)
+    {
+      channel->send(messageOf(ShortMessage{ End, this->Outcome ? 1 : 0 }));
+    }
+    channel->IsOpen = false;
+    channel->Greeting.reset();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool FilterRanks::Meeting::Serve(int threads)
+{
+  while (this->HasMet)
+  {
+    RankChannel& channel = *this->Of.Inside->Channels[0];
+    std::vector<char> message = channel.receive();
+    const auto head = read<ShortMessage>(message);
+    if (head.kind == End)
+    {
+      return head.number != 0;
+    }
+    if (head.kind != GiveData)
+    {
+      this->Of.Inside->Worker.answer(std::move(message), channel, threads);
+      continue;
+    }
+    std::vector<char> answer;
+    try
+    {
+      answer = messageOf(ShortMessage{ Data, 1 },
+        head.number == 0 ? packedData(this->Own->data, this->Own->arrays)
+                         : packedData(this->Own->bodies, {}));
+    }
+    catch (const std::exception& problem)
+    {
+      const std::string text = problem.what();
+      answer = messageOf(ShortMessage{ Data, 0 }, { text.begin(), text.end() });
+    }
+    channel.send(answer);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+std::vector<schlieren::Channel*> FilterRanks::Meeting::GetWorkers() const
+{
+  std::vector<schlieren::Channel*> workers;
+  if (this->Of.Inside)
+  {
+    for (const auto& channel : this->Of.Inside->Channels)
+    {
+      if (channel->IsOpen)
+      {
+        workers.push_back(channel.get());
+      }
+    }
+  }
+  return workers;
+}
+
+//------------------------------------------------------------------------------
+FilterRanks::Inputs FilterRanks::Meeting::Gather()
+{
+  FilterRanks& of = this->Of;
+  Inputs all = *this->Own;
+  if (of.Inside && !(of.Compared == of.Now))
+  {
+    of.Compared = of.Now;
+    of.Gathered[0] = of.Gathered[1] = nullptr;
+    of.Problem = this->FindAbsent();
+    try
+    {
+      for (int input = 0; input < 2 && of.Problem.empty(); ++input)
+      {
+        of.Gathered[input] = this->Collect(input);
+      }
+    }
+    catch (const std::bad_alloc&)
+    {
+      of.Problem =
+        "Rank 0 has not enough memory for the data that the other ranks have of the input, and it "
+        "makes the medium alone. Use a coarser input.";
+    }
+    catch (const std::exception& problem)
+    {
+      of.Problem = problem.what();
+    }
+  }
+  if (!of.Problem.empty())
+  {
+    throw std::runtime_error(of.Problem);
+  }
+  all.data = of.GetInput(0, all.data);
+  all.bodies = of.GetInput(1, all.bodies);
+  return all;
+}
+
+//------------------------------------------------------------------------------
+std::string FilterRanks::Meeting::FindAbsent() const
+{
+  const auto& channels = this->Of.Inside->Channels;
+  for (std::size_t n = 0; n < channels.size(); ++n)
+  {
+    const Version& now = this->Of.Now;
+    const std::optional<HelloMessage>& greeting = channels[n]->Greeting;
+    if (!greeting || greeting->changes != now.changes || greeting->timeStep != now.timeStep)
+    {
+      return "Rank " + std::to_string(n + 1) + " of " + std::to_string(channels.size() + 1) +
         " does not say what it has of the input, so it is not known whether rank 0 has all of it. "
         "See what that rank has reported, or use one process.";
     }
-    ofInput.push_back(message.inputs[0]);
-    ofBodies.push_back(message.inputs[1]);
   }
-  if (this->Problem.empty())
+  return "";
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
+{
+  vtkDataObject* own = input == 0 ? this->Own->data : this->Own->bodies;
+  const std::vector<std::string> arrays =
+    input == 0 ? this->Own->arrays : std::vector<std::string>();
+  const auto& channels = this->Of.Inside->Channels;
+  std::vector<Holdings> holdings{ holdingsOf(own) };
+  for (const auto& channel : channels)
   {
-    this->Problem = problemOf(ofInput, "input");
+    holdings.push_back(channel->Greeting->inputs[input]);
   }
-  if (this->Problem.empty())
+  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
+  if (ranks.empty() || (ranks.size() == 1 && ranks[0] == 0))
   {
-    this->Problem = problemOf(ofBodies, "Bodies");
+    return nullptr;
   }
-  return this->Problem;
+  for (const std::size_t rank : ranks)
+  {
+    if (rank > 0)
+    {
+      channels[rank - 1]->send(messageOf(ShortMessage{ GiveData, input }));
+    }
+  }
+  std::vector<std::vector<char>> parts;
+  for (const std::size_t rank : ranks)
+  {
+    if (rank == 0)
+    {
+      parts.push_back(packedData(own, arrays));
+      continue;
+    }
+    std::vector<char> message;
+    while (read<ShortMessage>(message).kind != Data)
+    {
+      message = channels[rank - 1]->receive();
+    }
+    const bool hasData = read<ShortMessage>(message).number != 0;
+    message.erase(message.begin(), message.begin() + sizeof(ShortMessage));
+    if (!hasData)
+    {
+      throw std::runtime_error(std::string(message.begin(), message.end()));
+    }
+    parts.push_back(std::move(message));
+  }
+  return gatheredData(parts);
 }

@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
 
+#include "Rays/Channel.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -19,12 +26,16 @@ bool isRank0();
 /// upstream: filters that wait for the other ranks would wait forever.
 void setComplete(vtkInformationVector* outputs);
 
-/// How a filter gets all of its input on rank 0. Every rank calls all functions where VTK lets it. No rank but 0
-/// waits for another, and it only for a while, so that nothing hangs where a rank does not run: its source has
-/// failed, or its output is up to date.
-class InputOnRank0
+/// The ranks of a filter, which works on rank 0 with the help of the others: these send it the data that they have of
+/// the inputs, and trace rays for it. Every rank calls all functions where VTK lets it. No rank waits for another for
+/// long before all have met, so that nothing hangs where a rank does not run: its source has failed, or its output is
+/// up to date. After that none waits but for work.
+class FilterRanks
 {
 public:
+  FilterRanks();
+  ~FilterRanks();
+
   /// In REQUEST_DATA_OBJECT, which comes before anything that reads files and so can fail on one rank alone: counts
   /// the changes of properties upstream, the same on all ranks.
   void CountChanges(vtkAlgorithm* filter);
@@ -33,11 +44,57 @@ public:
   /// they have changed since the last request, or their time step has.
   bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs);
 
-  /// In RequestData: what is wrong where rank 0 has not all of the data, which some sources and filters spread
-  /// over the ranks whatever is requested. Empty on other ranks, and where all is well.
-  const std::string& FindMissing(vtkDataObject* input, vtkDataObject* bodies);
+  /// What the filter works with.
+  struct Inputs
+  {
+    vtkDataObject* data = nullptr;
+    vtkDataObject* bodies = nullptr;   // may be null
+    std::vector<std::string> arrays{}; // of points or cells, that it needs of the data
+  };
+
+  /// The ranks while rank 0 makes something, from the constructor to the destructor.
+  class Meeting
+  {
+  public:
+    /// With the inputs, in RequestData; without, where they are those of the last time.
+    Meeting(FilterRanks& ranks, const std::optional<Inputs>& inputs);
+    ~Meeting();
+    Meeting(const Meeting&) = delete;
+    Meeting& operator=(const Meeting&) = delete;
+
+    /// On rank 0: all of the inputs, some of which other ranks may have sent. Throws std::runtime_error where rank 0
+    /// cannot get them.
+    Inputs Gather();
+
+    /// On rank 0: the connections to those that trace rays.
+    std::vector<schlieren::Channel*> GetWorkers() const;
+
+    /// On rank 0: what Serve() returns on the others.
+    void SetOutcome(bool outcome) { this->Outcome = outcome; }
+
+    /// On other ranks: does what rank 0 asks for, until its meeting is over. False where rank 0 does not come.
+    bool Serve(int threads);
+
+  private:
+    using Time = std::chrono::steady_clock::time_point;
+    void WaitForOthers(Time end);
+    void WaitForRank0(Time end);
+    std::string FindAbsent() const;
+    vtkSmartPointer<vtkDataObject> Collect(int input);
+
+    FilterRanks& Of;
+    const std::optional<Inputs> Own;
+    bool Outcome = false;
+    bool HasMet = false; // rank 0, on another rank
+  };
+
+  /// On rank 0, after it has been gathered: all of an input of which this is what rank 0 has itself.
+  vtkDataObject* GetInput(int input, vtkDataObject* own) const;
 
 private:
+  struct Others;
+  std::unique_ptr<Others> Inside; // null where there are no others
+
   /// Of the inputs. Other ranks than 0 send what they have of each.
   struct Version
   {
@@ -52,7 +109,8 @@ private:
   Version Now;
   vtkTimeStamp CountedAt;
   Version Requested;
+  std::chrono::steady_clock::time_point RequestedAt{};
   Version Compared;
-  std::string Problem; // of Compared
-  int Tag = 0;         // of the messages; 0: none yet
+  std::string Problem;                        // of Compared
+  vtkSmartPointer<vtkDataObject> Gathered[2]; // likewise; null: rank 0 has all of it
 };

@@ -392,6 +392,17 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   return source;
 }
 
+std::vector<std::string> arraysOf(vtkRefractiveIndex* self)
+{
+  std::vector<std::string> names = self->GetFields(); // they may tint, whatever the model
+  for (const Selection& selection : selectionsFrom(self))
+  {
+    names.push_back(selection.name);
+  }
+  names.push_back(selectionFrom(self, vtkRefractiveIndex::MASK, "Mask").name);
+  return names;
+}
+
 bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image)
 {
   try

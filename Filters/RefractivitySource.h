@@ -52,6 +52,9 @@ struct Source
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);
 
+/// The names of all arrays that may be read of an input.
+std::vector<std::string> arraysOf(vtkRefractiveIndex* self);
+
 /// Whether the values of an image will belong to its cells: as the user asked, unless its data, where
 /// they are there already, say otherwise.
 bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image);

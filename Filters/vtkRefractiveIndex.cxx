@@ -128,7 +128,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   : Plan(std::make_shared<GridPlan>())
   , Mesh(std::make_shared<KeptMesh>())
   , Search(std::make_shared<MeshSearch>())
-  , Ranks(std::make_shared<InputOnRank0>())
+  , Ranks(std::make_shared<FilterRanks>())
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -709,15 +709,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   output->Initialize();
   setComplete(outputVector);
 
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkDataObject* bodies = vtkDataObject::GetData(inputVector[BODIES]);
-  const std::string& missing = this->Ranks->FindMissing(input, bodies);
-  if (!isRank0())
-  {
-    return 1;
-  }
-
-  // An empty output lets the pipeline ask again and again: one message is enough.
+  // An empty output lets the pipeline ask again and again, on rank 0 alone: one message is enough.
   const auto latestChange = [this]() {
     return std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
   };
@@ -726,15 +718,20 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   {
     return 1;
   }
+  FilterRanks::Meeting meeting(*this->Ranks,
+    FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
+      vtkDataObject::GetData(inputVector[BODIES]), refractivity::arraysOf(this) });
+  if (!isRank0())
+  {
+    meeting.Serve(this->NumberOfThreads);
+    return 1;
+  }
 
   try
   {
-    if (!missing.empty())
-    {
-      throw std::runtime_error(missing);
-    }
+    const FilterRanks::Inputs inputs = meeting.Gather();
     this->SetAbortExecute(0); // it stays set after an abort
-    const std::string warning = this->Convert(input, output, bodies);
+    const std::string warning = this->Convert(inputs.data, output, inputs.bodies);
     if (!warning.empty())
     {
       vtkWarningMacro(<< warning);

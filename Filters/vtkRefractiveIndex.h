@@ -53,7 +53,7 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
-class InputOnRank0;
+class FilterRanks;
 class vtkPiecewiseFunction;
 
 namespace schlieren
@@ -557,7 +557,7 @@ private:
   std::string ToldOfGases;
   std::string NewNoteOnGases(const refractivity::Source& source);
 
-  std::shared_ptr<InputOnRank0> Ranks;
+  std::shared_ptr<FilterRanks> Ranks;
 
   int IndexModel = GLADSTONE_DALE;
   std::string Gas = "Custom";

@@ -13,6 +13,7 @@
 #include "QualityPresets.h"
 #include "Ranks.h"
 #include "RealOptics.h"
+#include "RefractivitySource.h"
 #include "RgbPictures.h"
 #include "SceneFromFilter.h"
 #include "SensitivityLock.h"
@@ -42,7 +43,24 @@ vtkStandardNewMacro(vtkSchlierenFilter);
 
 struct vtkSchlierenFilter::Internals
 {
-  InputOnRank0 Ranks;
+  /// The other ranks trace rays while this is there.
+  class WithWorkers
+  {
+  public:
+    WithWorkers(Internals& internals, const FilterRanks::Meeting& meeting)
+      : Of(internals)
+    {
+      this->Of.Pictures.SetWorkers(meeting.GetWorkers());
+    }
+    ~WithWorkers() { this->Of.Pictures.SetWorkers({}); }
+    WithWorkers(const WithWorkers&) = delete;
+    WithWorkers& operator=(const WithWorkers&) = delete;
+
+  private:
+    Internals& Of;
+  };
+
+  FilterRanks Ranks;
   PictureInSlices Pictures;
   LastPicture Shown[2]; // at each output
   RgbPictureReader RgbPictures;
@@ -465,6 +483,29 @@ vtkTypeInt64 vtkSchlierenFilter::GetGridPlans() { return this->Medium->GetGridPl
 void vtkSchlierenFilter::Refine()
 {
   Internals& inside = *this->Inside;
+  FilterRanks::Meeting meeting(inside.Ranks, std::nullopt);
+  bool hasMore = false;
+  if (isRank0())
+  {
+    const Internals::WithWorkers withWorkers(inside, meeting);
+    hasMore = this->RefineOnRank0();
+    meeting.SetOutcome(hasMore);
+  }
+  else
+  {
+    hasMore = meeting.Serve(threadsFrom(this));
+  }
+  if (hasMore)
+  {
+    inside.RefineTime.Modified();
+    this->InvokeEvent(vtkCommand::ModifiedEvent);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::RefineOnRank0()
+{
+  Internals& inside = *this->Inside;
   if (this->GetStopped())
   {
     const vtkMTimeType stopped = std::exchange(inside.StoppedOf, 0);
@@ -476,15 +517,9 @@ void vtkSchlierenFilter::Refine()
     {
       inside.UnfinishedOf = stopped;
     }
-    inside.RefineTime.Modified();
-    this->InvokeEvent(vtkCommand::ModifiedEvent);
-    return;
+    return true;
   }
-  if (this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished())
-  {
-    this->Inside->RefineTime.Modified();
-    this->InvokeEvent(vtkCommand::ModifiedEvent);
-  }
+  return this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished();
 }
 
 //------------------------------------------------------------------------------
@@ -555,8 +590,10 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
   return inside.ShownOf != 0 && inside.ShownOf != now && inside.FailedAt != now &&
     inside.Shown[PICTURE_PORT].IsThere() &&
     (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
-    inside.holdsRefractivityOf(describeInputs(this, this->GetInputDataObject(0, 0),
-                                 this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0)),
+    inside.holdsRefractivityOf(
+      describeInputs(this, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
+        inside.Ranks.GetInput(
+          vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField);
 }
 
@@ -885,11 +922,13 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   {
     // Where the picture lies depends on the input's points: RequestData corrects what is told here
     // before the input has been produced.
-    if (vtkDataObject* input = vtkDataObject::GetData(inputVector[0]))
+    const FilterRanks& ranks = this->Inside->Ranks;
+    if (vtkDataObject* input = ranks.GetInput(0, vtkDataObject::GetData(inputVector[0])))
     {
       this->PassToMedium();
       schlieren::Grid grid;
-      vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
+      vtkDataObject* bodies = ranks.GetInput(vtkRefractiveIndex::BODIES,
+        vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
             describeInputs(this, input, bodies), this->Medium, this->ColorByField))
       {
@@ -960,20 +999,24 @@ int vtkSchlierenFilter::RequestData(
   histogram->Initialize();
   setComplete(outputVector);
 
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkDataObject* bodies = vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]);
-  const std::string& missing = inside.Ranks.FindMissing(input, bodies);
-  if (!isRank0())
-  {
-    return 1;
-  }
-
-  // An empty output lets the pipeline ask again and again: one message is enough.
+  this->PassToMedium();
+  // An empty output lets the pipeline ask again and again, on rank 0 alone: one message is enough.
   const vtkMTimeType now = this->GetTimeOfPicture();
   if (inside.FailedAt == now)
   {
     return 1;
   }
+  FilterRanks::Meeting meeting(inside.Ranks,
+    FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
+      vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]),
+      refractivity::arraysOf(this->Medium) });
+  if (!isRank0())
+  {
+    meeting.Serve(threadsFrom(this));
+    return 1;
+  }
+  const Internals::WithWorkers withWorkers(inside, meeting);
+
   const auto showLast = [&]()
   {
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
@@ -1005,17 +1048,15 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    if (!missing.empty())
-    {
-      throw std::runtime_error(missing);
-    }
+    const FilterRanks::Inputs inputs = meeting.Gather();
+    vtkDataObject* input = inputs.data;
+    vtkDataObject* bodies = inputs.bodies;
     if (isAbortedUpstream(this, input))
     {
       this->ForgetPicture();
       this->Status = noIndexYet;
       return 1;
     }
-    this->PassToMedium();
     const bool goesOn = this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;
     if (!(this->TimeLimit > 0))

@@ -915,6 +915,8 @@ private:
   bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
   /// Takes a slice of a picture besides updates. Whether an update has something to do now.
   bool WorkOn();
+  /// Refine() there. Whether the next update has more to show.
+  bool RefineOnRank0();
   /// Whether a new picture can be begun besides updates, `now` being GetTimeOfPicture().
   bool CanBegin(vtkMTimeType now);
   /// The automatic k that is kept from an earlier image; 0 where there is none, or none counts.

@@ -1,0 +1,544 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GatheredData.h"
+
+#include "RefractivitySource.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataArray.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStaticCleanUnstructuredGrid.h"
+#include "vtkStructuredData.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace
+{
+
+/// Where a dataset stands in the data, the same on all ranks: parts of one dataset stand at the same place.
+using Slot = std::vector<int>;
+
+struct Part
+{
+  Slot slot;
+  vtkSmartPointer<vtkDataSet> data;
+};
+
+void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
+{
+  const auto below = [&slot](int child)
+  {
+    Slot of = slot;
+    of.push_back(child);
+    return of;
+  };
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    const bool areParts = vtkPartitionedDataSet::SafeDownCast(data) != nullptr;
+    auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+    iterator->VisitOnlyLeavesOff();
+    iterator->TraverseSubTreeOff();
+    iterator->SkipEmptyNodesOff();
+    int child = 0;
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addParts(iterator->GetCurrentDataObject(), areParts ? slot : below(child), parts);
+      ++child;
+    }
+  }
+  else if (auto* amr = vtkUniformGridAMR::SafeDownCast(data))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(amr->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addParts(iterator->GetCurrentDataObject(),
+        below(static_cast<int>(iterator->GetCurrentFlatIndex())), parts);
+    }
+  }
+  else if (auto* leaf = vtkDataSet::SafeDownCast(data))
+  {
+    if (leaf->GetNumberOfPoints() > 0)
+    {
+      parts.push_back({ slot, leaf });
+    }
+  }
+}
+
+/// Those arrays that are needed.
+void keepArrays(
+  vtkDataSetAttributes* from, const std::vector<std::string>& names, vtkDataSetAttributes* to)
+{
+  to->Initialize();
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = from->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    const bool isKnown = name == vtkDataSetAttributes::GhostArrayName() ||
+      name == refractivity::arrayName || name == refractivity::maskName ||
+      name == refractivity::transparentName;
+    if (array && (isKnown || std::find(names.begin(), names.end(), name) != names.end()))
+    {
+      to->AddArray(array);
+    }
+  }
+  if (vtkDataArray* scalars = from->GetScalars())
+  {
+    to->SetScalars(scalars); // what selections without a name mean
+  }
+}
+
+/// A copy with the arrays that are needed and without copies of other ranks' cells.
+vtkSmartPointer<vtkDataSet> sparseCopy(vtkDataSet* data, const std::vector<std::string>& names)
+{
+  vtkSmartPointer<vtkDataSet> copy;
+  if (vtkImageData::SafeDownCast(data))
+  {
+    copy = vtkSmartPointer<vtkImageData>::New(); // vtkUniformGrid is one that cannot be sent
+  }
+  else
+  {
+    copy.TakeReference(data->NewInstance());
+  }
+  copy->ShallowCopy(data);
+  copy->GetFieldData()->Initialize();
+  keepArrays(data->GetPointData(), names, copy->GetPointData());
+  keepArrays(data->GetCellData(), names, copy->GetCellData());
+  if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(copy))
+  {
+    mesh->RemoveGhostCells();
+  }
+  else if (auto* surface = vtkPolyData::SafeDownCast(copy))
+  {
+    surface->RemoveGhostCells();
+  }
+  return copy;
+}
+
+template <class Value>
+void put(const Value* values, std::size_t count, std::vector<char>& bytes)
+{
+  const auto* first = reinterpret_cast<const char*>(values);
+  bytes.insert(bytes.end(), first, first + count * sizeof(Value));
+}
+
+/// Reads what put() has written.
+class Reader
+{
+public:
+  explicit Reader(const std::vector<char>& bytes)
+    : Bytes(bytes)
+  {
+  }
+
+  bool IsAtEnd() const { return this->At == this->Bytes.size(); }
+
+  template <class Value>
+  void Get(Value* values, std::size_t count)
+  {
+    const std::size_t size = count * sizeof(Value);
+    if (size > this->Bytes.size() - this->At)
+    {
+      throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "
+                               "ranks of the same version of this plugin?");
+    }
+    std::memcpy(values, this->Bytes.data() + this->At, size);
+    this->At += size;
+  }
+
+private:
+  const std::vector<char>& Bytes;
+  std::size_t At = 0;
+};
+
+/// Of an image: VTK's format leaves the direction out and rounds the others.
+struct Place
+{
+  std::array<double, 9> direction{};
+  std::array<double, 3> origin{}, spacing{};
+};
+
+/// A part as it is sent.
+void pack(const Part& part, std::vector<char>& bytes)
+{
+  vtkNew<vtkCharArray> buffer;
+  if (!vtkCommunicator::MarshalDataObject(part.data, buffer))
+  {
+    throw std::runtime_error(std::string("Data of the type ") + part.data->GetClassName() +
+      " are spread over several ranks and cannot be sent from rank to rank. Use one process, or "
+      "take the data from before the filter that has spread them.");
+  }
+  const auto length = static_cast<std::int64_t>(part.slot.size());
+  put(&length, 1, bytes);
+  put(part.slot.data(), part.slot.size(), bytes);
+  Place place;
+  if (auto* image = vtkImageData::SafeDownCast(part.data))
+  {
+    std::copy_n(image->GetDirectionMatrix()->GetData(), 9, place.direction.begin());
+    image->GetOrigin(place.origin.data());
+    image->GetSpacing(place.spacing.data());
+  }
+  put(&place, 1, bytes);
+  const std::int64_t size = buffer->GetNumberOfValues();
+  put(&size, 1, bytes);
+  put(buffer->GetPointer(0), static_cast<std::size_t>(size), bytes);
+}
+
+Part unpack(Reader& reader)
+{
+  Part part;
+  std::int64_t length = 0;
+  reader.Get(&length, 1);
+  part.slot.resize(static_cast<std::size_t>(length));
+  reader.Get(part.slot.data(), part.slot.size());
+  Place place;
+  reader.Get(&place, 1);
+  std::int64_t size = 0;
+  reader.Get(&size, 1);
+  vtkNew<vtkCharArray> buffer;
+  buffer->SetNumberOfValues(size);
+  reader.Get(buffer->GetPointer(0), static_cast<std::size_t>(size));
+  part.data = vtkDataSet::SafeDownCast(
+    vtkCommunicator::UnMarshalDataObject(buffer.GetPointer()).GetPointer());
+  if (!part.data)
+  {
+    throw std::runtime_error("VTK cannot read what another rank has sent of its data.");
+  }
+  if (auto* image = vtkImageData::SafeDownCast(part.data))
+  {
+    image->SetDirectionMatrix(place.direction.data());
+    image->SetOrigin(place.origin.data());
+    image->SetSpacing(place.spacing.data());
+  }
+  return part;
+}
+
+/// Of points or cells.
+std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    image->GetExtent(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    rectilinear->GetExtent(extent.data());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    structured->GetExtent(extent.data());
+  }
+  for (std::size_t axis = 0; ofCells && axis < 3; ++axis)
+  {
+    // Along an axis with one point there is one cell.
+    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
+  }
+  return extent;
+}
+
+vtkIdType sizeOf(const std::array<int, 6>& extent)
+{
+  vtkIdType size = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    size *= extent[2 * axis + 1] - extent[2 * axis] + 1;
+  }
+  return size;
+}
+
+/// Says of no point and no cell that it is a copy of another rank's.
+void forgetCopies(vtkDataSetAttributes* attributes, int copy)
+{
+  vtkUnsignedCharArray* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  if (!ghosts)
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> others; // it may be the input's
+  others->DeepCopy(ghosts);
+  for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)
+  {
+    others->SetValue(i, static_cast<unsigned char>(others->GetValue(i) & ~copy));
+  }
+  attributes->AddArray(others);
+}
+
+/// The arrays of the parts in one grid.
+void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkDataSet* whole)
+{
+  const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
+  const std::array<int, 6> extent = extentOf(whole, ofCells);
+  vtkDataSetAttributes* to = whole->GetAttributes(kind);
+  to->CopyAllOn();
+  to->CopyAllocate(parts[0]->GetAttributes(kind), sizeOf(extent));
+  for (vtkDataSet* part : parts)
+  {
+    vtkDataSetAttributes* from = part->GetAttributes(kind);
+    const int copy = ofCells ? static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
+                             : static_cast<int>(vtkDataSetAttributes::DUPLICATEPOINT);
+    forgetCopies(from, copy);
+    to->CopyStructuredData(from, extentOf(part, ofCells).data(), extent.data());
+  }
+}
+
+/// Along one axis of rectilinear grids.
+vtkSmartPointer<vtkDataArray> joinedCoordinates(
+  const std::vector<vtkDataSet*>& parts, std::size_t axis, const std::array<int, 6>& extent)
+{
+  vtkSmartPointer<vtkDataArray> joined;
+  for (vtkDataSet* part : parts)
+  {
+    auto* grid = vtkRectilinearGrid::SafeDownCast(part);
+    vtkDataArray* of = axis == 0 ? grid->GetXCoordinates()
+      : axis == 1                ? grid->GetYCoordinates()
+                                 : grid->GetZCoordinates();
+    if (!joined)
+    {
+      joined.TakeReference(of->NewInstance());
+      joined->SetNumberOfTuples(extent[2 * axis + 1] - extent[2 * axis] + 1);
+    }
+    joined->InsertTuples(
+      extentOf(part, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
+  }
+  return joined;
+}
+
+/// Points of curvilinear grids.
+vtkSmartPointer<vtkPoints> joinedPoints(
+  const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+{
+  auto joined = vtkSmartPointer<vtkPoints>::New();
+  joined->SetDataType(vtkStructuredGrid::SafeDownCast(parts[0])->GetPoints()->GetDataType());
+  joined->SetNumberOfPoints(sizeOf(extent));
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(part)->GetPoints()->GetData();
+    vtkIdType next = 0;
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const vtkIdType length = of[1] - of[0] + 1;
+        joined->GetData()->InsertTuples(
+          vtkStructuredData::ComputePointIdForExtent(extent.data(), row), length, next, from);
+        next += length;
+      }
+    }
+  }
+  return joined;
+}
+
+bool haveSamePlace(vtkImageData* a, vtkImageData* b)
+{
+  const double* direction = a->GetDirectionMatrix()->GetData();
+  return std::equal(a->GetOrigin(), a->GetOrigin() + 3, b->GetOrigin()) &&
+    std::equal(a->GetSpacing(), a->GetSpacing() + 3, b->GetSpacing()) &&
+    std::equal(direction, direction + 9, b->GetDirectionMatrix()->GetData());
+}
+
+/// Whether all points of an extent are in one of the parts.
+bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+{
+  std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const auto first = isThere.begin() +
+          static_cast<std::ptrdiff_t>(
+            vtkStructuredData::ComputePointIdForExtent(extent.data(), row));
+        std::fill(first, first + (of[1] - of[0] + 1), true);
+      }
+    }
+  }
+  return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
+}
+
+/// Parts of one image or grid as one; null where they are none.
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
+{
+  std::array<int, 6> extent = extentOf(parts[0], false);
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extent[2 * axis] = std::min(extent[2 * axis], of[2 * axis]);
+      extent[2 * axis + 1] = std::max(extent[2 * axis + 1], of[2 * axis + 1]);
+    }
+    auto* image = vtkImageData::SafeDownCast(part);
+    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(parts[0])))
+    {
+      return nullptr;
+    }
+  }
+  vtkIdType points = 0;
+  for (vtkDataSet* part : parts)
+  {
+    points += part->GetNumberOfPoints();
+  }
+  if (sizeOf(extent) > points || !isCovered(parts, extent))
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDataSet> whole;
+  whole.TakeReference(parts[0]->NewInstance());
+  if (auto* image = vtkImageData::SafeDownCast(whole))
+  {
+    auto* first = vtkImageData::SafeDownCast(parts[0]);
+    image->SetOrigin(first->GetOrigin());
+    image->SetSpacing(first->GetSpacing());
+    image->SetDirectionMatrix(first->GetDirectionMatrix());
+    image->SetExtent(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(whole))
+  {
+    rectilinear->SetExtent(extent.data());
+    rectilinear->SetXCoordinates(joinedCoordinates(parts, 0, extent));
+    rectilinear->SetYCoordinates(joinedCoordinates(parts, 1, extent));
+    rectilinear->SetZCoordinates(joinedCoordinates(parts, 2, extent));
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(whole))
+  {
+    structured->SetExtent(extent.data());
+    structured->SetPoints(joinedPoints(parts, extent));
+  }
+  copyAttributes(parts, false, whole);
+  copyAttributes(parts, true, whole);
+  return whole;
+}
+
+/// Parts of one mesh as one.
+vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts)
+{
+  if (vtkPolyData::SafeDownCast(parts[0]))
+  {
+    vtkNew<vtkAppendPolyData> append;
+    for (vtkDataSet* part : parts)
+    {
+      append->AddInputData(vtkPolyData::SafeDownCast(part));
+    }
+    append->Update();
+    return append->GetOutput();
+  }
+  vtkNew<vtkAppendFilter> append;
+  vtkNew<vtkStaticCleanUnstructuredGrid> merge;
+  for (vtkDataSet* part : parts)
+  {
+    append->AddInputData(part);
+  }
+  merge->SetInputConnection(append->GetOutputPort());
+  merge->ToleranceIsAbsoluteOn();
+  merge->SetAbsoluteTolerance(0);
+  merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
+  merge->Update();
+  return merge->GetOutput();
+}
+
+bool isGrid(vtkDataSet* data)
+{
+  return vtkImageData::SafeDownCast(data) || vtkRectilinearGrid::SafeDownCast(data) ||
+    vtkStructuredGrid::SafeDownCast(data);
+}
+
+/// What stands at one place, as few datasets as can be.
+std::vector<vtkSmartPointer<vtkDataSet>> joined(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& parts)
+{
+  const std::vector<vtkDataSet*> all(parts.begin(), parts.end());
+  const int type = all[0]->GetDataObjectType();
+  const bool areOfOneType = std::all_of(
+    all.begin(), all.end(), [type](vtkDataSet* part) { return part->GetDataObjectType() == type; });
+  vtkSmartPointer<vtkDataSet> whole;
+  if (all.size() > 1 && areOfOneType)
+  {
+    whole = isGrid(all[0])                                     ? joinedGrid(all)
+      : type == VTK_UNSTRUCTURED_GRID || type == VTK_POLY_DATA ? joinedMesh(all)
+                                                               : nullptr;
+  }
+  return whole ? std::vector<vtkSmartPointer<vtkDataSet>>{ whole } : parts;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<char> packedData(vtkDataObject* data, const std::vector<std::string>& arrays)
+{
+  std::vector<Part> parts;
+  addParts(data, {}, parts);
+  std::vector<char> bytes;
+  for (Part& part : parts)
+  {
+    part.data = sparseCopy(part.data, arrays);
+    if (part.data->GetNumberOfPoints() > 0)
+    {
+      pack(part, bytes);
+    }
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>& ofRanks)
+{
+  std::map<Slot, std::vector<vtkSmartPointer<vtkDataSet>>> slots;
+  for (const std::vector<char>& bytes : ofRanks)
+  {
+    Reader reader(bytes);
+    while (!reader.IsAtEnd())
+    {
+      Part part = unpack(reader);
+      slots[std::move(part.slot)].push_back(std::move(part.data));
+    }
+  }
+  std::vector<vtkSmartPointer<vtkDataSet>> blocks;
+  for (const auto& slot : slots)
+  {
+    const std::vector<vtkSmartPointer<vtkDataSet>> all = joined(slot.second);
+    blocks.insert(blocks.end(), all.begin(), all.end());
+  }
+  if (blocks.size() < 2)
+  {
+    return blocks.empty() ? nullptr : vtkSmartPointer<vtkDataObject>(blocks[0]);
+  }
+  auto composite = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (std::size_t n = 0; n < blocks.size(); ++n)
+  {
+    composite->SetBlock(static_cast<unsigned int>(n), blocks[n]);
+  }
+  return composite;
+}
