@@ -15,6 +15,8 @@
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkExtractCells.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiBlockDataSet.h"
@@ -91,11 +93,11 @@ void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
   }
 }
 
-/// Those arrays that are needed.
+/// Those arrays that are needed, in the order of their names: the same on all ranks.
 void keepArrays(
   vtkDataSetAttributes* from, const std::vector<std::string>& names, vtkDataSetAttributes* to)
 {
-  to->Initialize();
+  std::map<std::string, vtkDataArray*> kept;
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = from->GetArray(i);
@@ -105,13 +107,43 @@ void keepArrays(
       name == refractivity::transparentName;
     if (array && (isKnown || std::find(names.begin(), names.end(), name) != names.end()))
     {
-      to->AddArray(array);
+      kept[name] = array;
     }
+  }
+  to->Initialize();
+  for (const auto& array : kept)
+  {
+    to->AddArray(array.second);
   }
   if (vtkDataArray* scalars = from->GetScalars())
   {
     to->SetScalars(scalars); // what selections without a name mean
   }
+}
+
+/// Without the cells that are copies of other ranks'; vtkUnstructuredGrid::RemoveGhostCells would remove hidden ones, too.
+vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
+{
+  vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();
+  vtkNew<vtkIdList> own;
+  for (vtkIdType cell = 0; ghosts && cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (!(ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL))
+    {
+      own->InsertNextId(cell);
+    }
+  }
+  if (!ghosts || own->GetNumberOfIds() == mesh->GetNumberOfCells())
+  {
+    return mesh;
+  }
+  vtkNew<vtkExtractCells> extract;
+  extract->SetInputData(mesh);
+  extract->SetCellList(own);
+  extract->Update();
+  vtkUnstructuredGrid* without = extract->GetOutput();
+  without->GetCellData()->RemoveArray("vtkOriginalCellIds");
+  return without;
 }
 
 /// A copy with the arrays that are needed and without copies of other ranks' cells.
@@ -132,9 +164,9 @@ vtkSmartPointer<vtkDataSet> sparseCopy(vtkDataSet* data, const std::vector<std::
   keepArrays(data->GetCellData(), names, copy->GetCellData());
   if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(copy))
   {
-    mesh->RemoveGhostCells();
+    return withoutCopies(mesh);
   }
-  else if (auto* surface = vtkPolyData::SafeDownCast(copy))
+  if (auto* surface = vtkPolyData::SafeDownCast(copy))
   {
     surface->RemoveGhostCells();
   }
@@ -230,11 +262,14 @@ Part unpack(Reader& reader)
   {
     throw std::runtime_error("VTK cannot read what another rank has sent of its data.");
   }
-  if (auto* image = vtkImageData::SafeDownCast(part.data))
+  if (vtkImageData::SafeDownCast(part.data))
   {
+    vtkNew<vtkImageData> image; // it comes as vtkStructuredPoints
+    image->ShallowCopy(part.data);
     image->SetDirectionMatrix(place.direction.data());
     image->SetOrigin(place.origin.data());
     image->SetSpacing(place.spacing.data());
+    part.data = image;
   }
   return part;
 }
@@ -273,22 +308,80 @@ vtkIdType sizeOf(const std::array<int, 6>& extent)
   return size;
 }
 
-/// Says of no point and no cell that it is a copy of another rank's.
-void forgetCopies(vtkDataSetAttributes* attributes, int copy)
+vtkUnsignedCharArray* ghostsOf(vtkDataSetAttributes* attributes)
 {
-  vtkUnsignedCharArray* ghosts = vtkUnsignedCharArray::SafeDownCast(
+  return vtkUnsignedCharArray::SafeDownCast(
     attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  if (!ghosts)
+}
+
+/// Says of no point and no cell that it is a copy of another rank's. What is hidden stays so; all parts have an array
+/// that says it, or none has.
+void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
+{
+  const int copy = kind == vtkDataObject::CELL
+    ? static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
+    : static_cast<int>(vtkDataSetAttributes::DUPLICATEPOINT);
+  const bool isNeeded = std::any_of(parts.begin(), parts.end(),
+    [kind](vtkDataSet* part) { return ghostsOf(part->GetAttributes(kind)) != nullptr; });
+  for (vtkDataSet* part : parts)
   {
-    return;
+    vtkDataSetAttributes* attributes = part->GetAttributes(kind);
+    vtkUnsignedCharArray* ghosts = ghostsOf(attributes);
+    vtkNew<vtkUnsignedCharArray> others; // it may be the input's
+    others->SetName(vtkDataSetAttributes::GhostArrayName());
+    others->SetNumberOfValues(part->GetNumberOfElements(kind));
+    for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)
+    {
+      const int flags = ghosts ? ghosts->GetValue(i) & ~copy : 0;
+      others->SetValue(i, static_cast<unsigned char>(flags));
+    }
+    attributes->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+    if (isNeeded)
+    {
+      attributes->AddArray(others);
+    }
   }
-  vtkNew<vtkUnsignedCharArray> others; // it may be the input's
-  others->DeepCopy(ghosts);
-  for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)
+}
+
+std::string namesOf(vtkDataSetAttributes* attributes)
+{
+  std::string names;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
   {
-    others->SetValue(i, static_cast<unsigned char>(others->GetValue(i) & ~copy));
+    const char* name = attributes->GetAbstractArray(i)->GetName();
+    names += std::string(names.empty() ? "'" : ", '") + (name ? name : "") + "'";
   }
-  attributes->AddArray(others);
+  return names.empty() ? "none" : names;
+}
+
+bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
+{
+  bool areSame = a->GetNumberOfArrays() == b->GetNumberOfArrays() && namesOf(a) == namesOf(b);
+  for (int i = 0; areSame && i < a->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray *one = a->GetAbstractArray(i), *other = b->GetAbstractArray(i);
+    areSame = one->GetDataType() == other->GetDataType() &&
+      one->GetNumberOfComponents() == other->GetNumberOfComponents();
+  }
+  return areSame;
+}
+
+/// Otherwise some would be lost.
+void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
+{
+  vtkDataSetAttributes* first = parts[0]->GetAttributes(kind);
+  for (vtkDataSet* part : parts)
+  {
+    vtkDataSetAttributes* other = part->GetAttributes(kind);
+    if (!haveSameArrays(first, other))
+    {
+      const std::string what = kind == vtkDataObject::CELL ? "cells" : "points";
+      throw std::runtime_error(
+        "The parts of the input on several ranks have not the same arrays of " + what + ": " +
+        namesOf(first) + " on one of them, " + namesOf(other) +
+        " on another, or their types differ. Check the reader or filter that has made them.");
+    }
+  }
 }
 
 /// The arrays of the parts in one grid.
@@ -301,11 +394,8 @@ void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkData
   to->CopyAllocate(parts[0]->GetAttributes(kind), sizeOf(extent));
   for (vtkDataSet* part : parts)
   {
-    vtkDataSetAttributes* from = part->GetAttributes(kind);
-    const int copy = ofCells ? static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
-                             : static_cast<int>(vtkDataSetAttributes::DUPLICATEPOINT);
-    forgetCopies(from, copy);
-    to->CopyStructuredData(from, extentOf(part, ofCells).data(), extent.data());
+    to->CopyStructuredData(
+      part->GetAttributes(kind), extentOf(part, ofCells).data(), extent.data());
   }
 }
 
@@ -486,6 +576,11 @@ std::vector<vtkSmartPointer<vtkDataSet>> joined(
   vtkSmartPointer<vtkDataSet> whole;
   if (all.size() > 1 && areOfOneType)
   {
+    for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
+    {
+      forgetCopies(all, kind);
+      requireSameArrays(all, kind);
+    }
     whole = isGrid(all[0])                                     ? joinedGrid(all)
       : type == VTK_UNSTRUCTURED_GRID || type == VTK_POLY_DATA ? joinedMesh(all)
                                                                : nullptr;
