@@ -262,6 +262,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   image.device = asked.device;
   image.deviceNote = asked.deviceNote;
   image.threads = threadCount(scene.threads);
+  image.workers = asked.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
 
   MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
   image.ambient = held.medium.ambient;

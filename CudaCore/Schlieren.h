@@ -342,6 +342,7 @@ struct Image
 
   Device device = Device::Cpu; ///< where the rays were traced
   int threads = 0;             ///< on the CPU
+  int workers = 0;             ///< other processes that rays could be traced by
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff

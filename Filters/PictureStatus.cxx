@@ -38,9 +38,14 @@ std::string speedInWords(double raysPerSecond)
 
 std::string deviceInWords(const schlieren::Image& image)
 {
-  return image.device == schlieren::Device::Cuda
-    ? "CUDA"
-    : "CPU (" + std::to_string(image.threads) + (image.threads == 1 ? " thread)" : " threads)");
+  if (image.device == schlieren::Device::Cuda)
+  {
+    return "CUDA";
+  }
+  const std::string threads =
+    std::to_string(image.threads) + (image.threads == 1 ? " thread" : " threads");
+  return "CPU (" + threads +
+    (image.workers > 0 ? " on each of " + std::to_string(image.workers + 1) + " ranks)" : ")");
 }
 
 /// What straight rays leave out: a bound on how far refracted ones are beside them where they leave the data. It is

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Several ranks give what one process gives, bit for bit, or an error. Skipped without mpiexec and pvbatch.
+"""Several ranks give what one process gives, bit for bit, or an error, whether rank 0 has all data or a part of them.
+Skipped without mpiexec and pvbatch.
 
 With arguments, a part of the work that one or more ranks do: "same" and the file for its results, or one of
 PARTS.
@@ -11,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+from time import monotonic as time_of_day
 
 import numpy as np
 
@@ -57,11 +59,11 @@ def results():
 
 
 def read_files():
-    """Files give rank 0 all that they have, or an error; so does an adaptive mesh, whose source makes the ranks
-    wait for each other."""
+    """Files that each rank reads a part of, or all, or none, as their readers like it; and an adaptive mesh, whose
+    source makes the ranks wait for each other."""
     from paraview.simple import (ExodusIIReader, HierarchicalFractal, OpenFOAMReader, PLOT3DReader,
                                  XMLImageDataReader, XMLUnstructuredGridReader)
-    from plugin_testing import Schlieren
+    from plugin_testing import Schlieren, picture
     data = os.path.join(HERE, "..", "Data", "")
     foam = OpenFOAMReader(FileName=data + "ladenburg_openfoam/ladenburg.foam")
     foam.MeshRegions = ["internalMesh"]
@@ -71,17 +73,124 @@ def read_files():
     fin = PLOT3DReader(FileName=data + "bluntfin_plot3d/bluntfinxyz.bin",
                        QFileName=data + "bluntfin_plot3d/bluntfinq.bin", FunctionFileName="")
     fin.Functions = [100]
-    for reader, array, isWhole in (
-            (XMLImageDataReader(FileName=[data + "oblique_shock_extruded.vti"]), ["POINTS", "rho"], True),
-            (XMLUnstructuredGridReader(FileName=[data + "heating_coil_fluid.vtu"]),
-             ["POINTS", "Temperature"], True),
-            (HierarchicalFractal(Dimensions=8), ["CELLS", "Fractal Volume Fraction"], True),
-            (foam, ["CELLS", "T"], True), (disk, ["POINTS", "Temp"], True),
-            (fin, ["POINTS", "Density"], False)):  # which each rank reads a part of, whatever is requested
-        seen = Schlieren(Input=reader, Density=array, ImageSize=[32, 32], OutsideBlocksLight=0,
-                         SamplingDimensions=[20, 20, 20])
-        seen.UpdatePipeline()
-        assert seen.GetDataInformation().GetNumberOfPoints() == (32 * 32 if isWhole else 0), array
+    found = {}
+    for name, reader, array in (
+            ("shock", XMLImageDataReader(FileName=[data + "oblique_shock_extruded.vti"]), ["POINTS", "rho"]),
+            ("coil", XMLUnstructuredGridReader(FileName=[data + "heating_coil_fluid.vtu"]), ["POINTS", "Temperature"]),
+            ("fractal", HierarchicalFractal(Dimensions=8), ["CELLS", "Fractal Volume Fraction"]),
+            ("jet", foam, ["CELLS", "T"]), ("disk", disk, ["POINTS", "Temp"]),
+            ("fin", fin, ["POINTS", "Density"])):  # a part on each rank, whatever is requested
+        seen = Schlieren(Input=reader, Density=array, ImageSize=[32, 32], MediumTolerance=0.1)
+        for kind in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
+            found[f"{name}: {kind}"] = picture(seen, kind)
+    return found
+
+
+# A Gaussian ball in a cube of 12 x 12 x 12 cells, of which each rank has a part, whatever is requested.
+WHOLE_EXTENT = """
+info = self.GetExecutive().GetOutputInformation(0)
+info.Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)
+if IS_GRID:
+    info.Set(self.GetExecutive().WHOLE_EXTENT(), [0, 12, 0, 12, 0, 12], 6)
+"""
+BALL = """
+import numpy as np
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersCore import vtkAppendFilter, vtkExtractCells, vtkPointDataToCellData
+from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+from vtkmodules.util.numpy_support import numpy_to_vtk
+ranks = vtkMultiProcessController.GetGlobalController()
+rank, number = ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses()
+kind = KIND
+n = 12
+
+def axis(start, end):
+    return -1 + 2 * np.arange(start, end + 1) / n
+
+def put_values(data, x, y, z):
+    values = numpy_to_vtk((1.2 + 0.1 * np.exp(-(x * x + y * y + z * z) / 0.16)).ravel(), deep=1)
+    values.SetName("rho")
+    data.GetPointData().AddArray(values)
+
+def put_place(image, extent):
+    image.SetOrigin(-1, -1, -1)
+    image.SetSpacing(2 / n, 2 / n, 2 / n)
+    image.SetExtent(*extent)
+
+isGrid = kind in ("image", "rectilinear", "curvilinear")
+first, last = (n * rank // number, n * (rank + 1) // number) if isGrid else (0, n)
+z, y, x = np.meshgrid(axis(first, last), axis(0, n), axis(0, n), indexing="ij")
+extent = (0, n, 0, n, first, last)
+output = self.GetOutputDataObject(0)
+if kind == "image":
+    put_place(output, extent)
+    put_values(output, x, y, z)
+elif kind == "rectilinear":
+    output.SetExtent(*extent)
+    output.SetXCoordinates(numpy_to_vtk(axis(0, n), deep=1))
+    output.SetYCoordinates(numpy_to_vtk(axis(0, n), deep=1))
+    output.SetZCoordinates(numpy_to_vtk(axis(first, last), deep=1))
+    put_values(output, x, y, z)
+elif kind == "curvilinear":
+    x = x * (1 + 0.1 * z)
+    output.SetExtent(*extent)
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], 1), deep=1))
+    output.SetPoints(points)
+    put_values(output, x, y, z)
+else:
+    image = vtkImageData()
+    put_place(image, extent)
+    put_values(image, x, y, z)
+    cells = vtkDataSetTriangleFilter() if kind == "tetrahedra" else vtkAppendFilter()
+    cells.AddInputDataObject(image)
+    cells.Update()
+    mesh = cells.GetOutput()
+    # Those between two oblique planes.
+    normal = np.array([0.3, -0.5, 0.8])
+    own = vtkIdList()
+    bounds = [0] * 6
+    for cell in range(mesh.GetNumberOfCells()):
+        mesh.GetCellBounds(cell, bounds)
+        place = np.dot(normal, [bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]]) / 2
+        if int(np.clip((place / np.abs(normal).sum() + 1) / 2 * number, 0, number - 1)) == rank:
+            own.InsertNextId(cell)
+    extract = vtkExtractCells()
+    extract.SetInputData(mesh)
+    extract.SetCellList(own)
+    means = vtkPointDataToCellData()
+    means.SetInputConnection(extract.GetOutputPort())
+    means.SetPassPointData(kind != "cell data")
+    means.Update()
+    output.ShallowCopy(means.GetOutput())
+    if kind != "cell data":
+        output.GetCellData().Initialize()
+"""
+
+
+def gathered():
+    """The same data whether they are spread or not."""
+    from paraview.servermanager import Fetch
+    from paraview.simple import ProgrammableSource
+    from plugin_testing import RefractiveIndex, Schlieren, picture
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    found = {}
+    for kind, output in (("image", "vtkImageData"), ("rectilinear", "vtkRectilinearGrid"),
+                         ("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
+                         ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid")):
+        source = ProgrammableSource(OutputDataSetType=output, Script=BALL.replace("KIND", repr(kind)),
+                                    ScriptRequestInformation=WHOLE_EXTENT.replace(
+                                        "IS_GRID", str(output != "vtkUnstructuredGrid")))
+        density = ["CELLS" if kind == "cell data" else "POINTS", "rho"]
+        seen = Schlieren(Input=source, Density=density, ImageSize=[40, 40], ViewDirection=[0.2, -0.6, -0.8])
+        for array in ("Intensity", "Deflection", "OpticalPathDifference"):
+            found[f"{kind}: {array}"] = picture(seen, array)
+        medium = RefractiveIndex(Input=source, Density=density, SamplingDimensions=[20, 20, 20])
+        found[f"{kind}: Refractivity"] = vtk_to_numpy(Fetch(medium).GetPointData().GetArray("Refractivity"))
+    return found
 
 
 # A source with 16 x 16 x 16 cells at times 0 and 1. As KIND says, each rank has all of them whatever is requested
@@ -105,9 +214,10 @@ first, last = -8, 8
 if KIND == "spread" or (KIND == "spread later" and time > 0.5):
     first, last = -8 + 16 * rank // number, -8 + 16 * (rank + 1) // number
 wavelet = vtkRTAnalyticSource()
-wavelet.SetWholeExtent(-8, 8, -8, 8, first, last)
+wavelet.SetWholeExtent(-8, 8, -8, 8, -8, 8)
+wavelet.UpdateExtent([-8, 8, -8, 8, first, last])
 cells = vtkAppendFilter()
-cells.SetInputConnection(wavelet.GetOutputPort())
+cells.SetInputData(wavelet.GetOutput())
 cells.Update()
 output = self.GetUnstructuredGridOutput()
 output.ShallowCopy(cells.GetOutput())
@@ -125,13 +235,23 @@ def say(words):
         print(words, file=sys.stderr, flush=True)  # where error messages go
 
 
-def expect(words, bench, isMade, *time):
-    """An update of which `words` are said in the only error message, or "nothing", and whether it makes something."""
+def expect(words, bench, isMade, *time, pixels=None):
+    """An update, and whether it makes something. `words`: of the only error message where there is one."""
     say("Expected: " + words)
+    start = time_of_day()
     bench.UpdatePipeline(*time)
     bench.UpdatePipeline(*time)  # no second error, and nobody waits for ranks that have nothing to do
+    assert time_of_day() - start < 25, words
     points = bench.GetDataInformation().GetNumberOfPoints()
     assert (points > 0) == (isMade and is_rank0()), f"{words}: {points} points"
+    assert pixels in (None, points) or not is_rank0(), f"{words}: {points} points"
+
+
+def values_of(bench, name):
+    """Of rank 0, which need not wait for others; nothing elsewhere."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    image = bench.GetClientSideObject().GetOutputDataObject(0)
+    return vtk_to_numpy(image.GetPointData().GetArray(name)) if is_rank0() else np.zeros(0)
 
 
 def redistribute():
@@ -140,23 +260,29 @@ def redistribute():
 
 
 def spread():
-    """Data of which rank 0 has not all."""
-    from paraview.simple import AppendDatasets, ProgrammableSource, RedistributeDataSet, Sphere, Wavelet
+    """Data that come to be spread over the ranks, and are together again."""
+    from paraview.simple import (AppendDatasets, ExtractSurface, ProgrammableSource, RedistributeDataSet, Sphere,
+                                 Wavelet)
     from plugin_testing import RefractiveIndex, Schlieren
 
-    quarter = "has only 1024 of 4096 cells of the input"
     wavelet = Wavelet(WholeExtent=3 * [-8, 8])
     parts = RedistributeDataSet(Input=wavelet)
-    expect(quarter, Schlieren(Input=AppendDatasets(Input=[parts]), **BENCH), False)
-    expect(quarter, RefractiveIndex(Input=parts, **MEDIUM), False)
+    whole = Schlieren(Input=AppendDatasets(Input=[wavelet]), **BENCH)
+    seen = Schlieren(Input=AppendDatasets(Input=[parts]), **BENCH)
+    expect("of parts", seen, True)
+    expect("of their refractivity", RefractiveIndex(Input=parts, **MEDIUM), True)
+    expect("of all", whole, True)
+    images = [values_of(bench, "OpticalPathDifference") for bench in (whole, seen)]
+    assert not is_rank0() or np.abs(images[0] - images[1]).max() < 1e-6 * np.ptp(images[0])
     ball = RedistributeDataSet(Input=Sphere(Radius=3, ThetaResolution=40, PhiResolution=40))
-    expect("cells of the Bodies", Schlieren(Input=wavelet, Bodies=ball, **BENCH), False)
+    hidden = Schlieren(Input=wavelet, Bodies=ExtractSurface(Input=ball), **BENCH)
+    expect("behind parts", hidden, True)
+    assert not is_rank0() or values_of(hidden, "BlockedFraction").max() == 1
     seen = Schlieren(Input=parts, **BENCH)
-    for words in (quarter, "nothing"):
-        parts.UpdatePipeline()  # another request for the same data
-        expect(words, seen, False)
+    parts.UpdatePipeline()  # another request for the same data
+    expect("of the same parts", seen, True)
     seen.ImageSize = [16, 16]
-    expect(quarter, seen, False)
+    expect("of fewer pixels", seen, True, pixels=16 * 16)
 
     source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", ScriptRequestInformation=INFORMATION)
 
@@ -165,13 +291,16 @@ def spread():
 
     choose("same")
     seen = Schlieren(Input=source, **BENCH)
-    expect("nothing", seen, True)
+    expect("of all", seen, True)
+    same = values_of(seen, "Intensity").copy()
     choose("spread")
-    expect(quarter, seen, False)
+    expect("of slabs", seen, True)
     choose("spread later")
-    expect("nothing", seen, True, 0)
-    expect(quarter, seen, False, 1)
-    expect("nothing", seen, True, 0)
+    expect("of all at first", seen, True, 0)
+    expect("of slabs later", seen, True, 1)
+    slabs = values_of(seen, "Intensity").copy()
+    expect("of all at first again", seen, True, 0)
+    assert np.array_equal(same, slabs)
 
 
 def missing():
@@ -212,26 +341,40 @@ if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == {rank}
         expect("nothing", seen, True)
 
 
-def run(command, *arguments):
+def killed():
+    """A rank that ends while the others work."""
+    from paraview.simple import ProgrammableSource
+    from plugin_testing import Schlieren
+    source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", ScriptRequestInformation=INFORMATION)
+    source.Script = DATA.replace("KIND", repr("spread")) + """
+if rank == 2:
+    import os
+    os.kill(os.getpid(), 9)
+"""
+    Schlieren(Input=source, **BENCH).UpdatePipeline()
+
+
+def run(command, *arguments, ends=True):
     # What tells MPI that a process belongs to others.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     done = subprocess.run([*command, __file__, *arguments], env=environment, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, timeout=150, check=False)
     print(done.stdout)
-    assert done.returncode == 0 and "Traceback" not in done.stdout, command
+    assert (done.returncode == 0) == ends and "Traceback" not in done.stdout, command
     return done.stdout
 
 
-def run_results(command, file):
-    assert "ERR|" not in run(command, "same", file), command
+def run_results(command, what, file):
+    assert "ERR|" not in run(command, what, file), command
     with np.load(file) as arrays:
         return dict(arrays)
 
 
-PARTS = {"files": read_files, "redistribute": redistribute, "spread": spread, "missing": missing}
-if sys.argv[1:2] == ["same"]:
-    np.savez(sys.argv[2], **results())
+SAVED = {"same": results, "files": read_files, "gathered": gathered}
+PARTS = {"redistribute": redistribute, "spread": spread, "missing": missing, "killed": killed}
+if sys.argv[1:2] and sys.argv[1] in SAVED:
+    np.savez(sys.argv[2], **SAVED[sys.argv[1]]())
 elif sys.argv[1:]:
     PARTS[sys.argv[1]]()
     say("Expected: the end")
@@ -245,24 +388,27 @@ else:
     def on(ranks):
         return [mpiexec, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), *pvbatch]
 
-    one, three = run_results(pvbatch, "one.npz"), run_results(on(3), "three.npz")
-    assert one.keys() == three.keys() and len(one) == 72, len(one)
-    for name in one:
-        assert one[name].size > 0, name
-        assert np.array_equal(one[name], three[name]), name
-    assert np.ptp(one["mesh: Intensity, direct"]) > 0.5
-    assert one["mesh with a ball: BlockedFraction, direct"].max() == 1
+    for what, ranks, count in (("same", 3, 72), ("files", 4, 18), ("gathered", 2, 24), ("gathered", 5, 24)):
+        one, several = run_results(pvbatch, what, "one.npz"), run_results(on(ranks), what, "several.npz")
+        assert one.keys() == several.keys() and len(one) == count, (what, len(one))
+        for name in one:
+            assert one[name].size > 0, name
+            if name.startswith("cell data"):  # means of points' cells are summed in another order
+                assert np.abs(one[name] - several[name]).max() <= 1e-6 * np.abs(one[name]).max(), name
+            else:
+                assert np.array_equal(one[name], several[name]), name
+        if what == "same":
+            assert np.ptp(one["mesh: Intensity, direct"]) > 0.5
+            assert one["mesh with a ball: BlockedFraction, direct"].max() == 1
 
-    assert re.findall("ERR.* has only .* cells", run(on(4), "files"))
     assert len(re.findall("ERR.* Rank 2 of 4 does not say", run(on(4), "missing"))) == 1
+    started = time_of_day()
+    run(on(4), "killed", ends=False)
+    assert time_of_day() - started < 30
     # What VTK 9.2 sends from rank to rank, the expat of Debian 12 does not read since its version 2.5.0-1+deb12u2.
     if "Error parsing XML in stream" in run(on(4), "redistribute"):
         print("Skipped: Redistribute DataSet loses cells here. What does not need it is as it should be.")
         sys.exit(77)
     for options in ([], ["--sym"]):
-        parts = re.split("Expected: (.*)", run(on(4) + options, "spread"))[1:]
-        assert parts[-2] == "the end"
-        for words, said in zip(parts[:-2:2], parts[1:-2:2]):
-            errors = [line for line in said.splitlines() if "ERR|" in line]
-            assert len(errors) == (words != "nothing"), f"{words}: {errors}"
-            assert all(words in line for line in errors), f"{words}: {errors}"
+        said = run(on(4) + options, "spread")
+        assert "ERR|" not in said and "Expected: the end" in said
