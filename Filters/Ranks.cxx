@@ -16,6 +16,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
+#include "vtkMPICommunicator.h"
 #include "vtkMPIController.h"
 #endif
 
@@ -27,6 +28,7 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <list>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -93,7 +95,8 @@ enum Kind : std::uint32_t
   Leave,     // to rank 0, which does not come
   GiveData,  // to others
   Data,      // to rank 0
-  End        // to others
+  End,       // to others
+  Ended      // to rank 0, an answer to End
 };
 
 struct HelloMessage
@@ -128,7 +131,7 @@ Head read(const std::vector<char>& message)
   return head;
 }
 
-void waitABit() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
+void waitABit() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
 /// Messages by MPI.
 class RankChannel : public schlieren::Channel
@@ -141,13 +144,16 @@ public:
   {
   }
 
-  void send(const std::vector<char>& message) override
+  void send(std::vector<char> message) override
   {
-    const auto size = static_cast<vtkIdType>(message.size());
-    this->Controller->Send(&size, 1, this->Rank, this->Tag);
-    if (size > 0)
+    const auto size = static_cast<std::int64_t>(message.size());
+    std::vector<char> head(sizeof(size));
+    std::memcpy(head.data(), &size, sizeof(size));
+    this->Begin(std::move(head));
+    this->Begin(std::move(message));
+    while (size > largestSmall && this->HasUnsent())
     {
-      this->Controller->Send(message.data(), size, this->Rank, this->Tag);
+      waitABit();
     }
   }
   bool hasMessage() override
@@ -165,32 +171,58 @@ public:
     this->Messages.pop_front();
     return message;
   }
-  bool isOpen() const override { return this->IsOpen; }
+  /// The next one of a kind, and none before it; empty where the other rank leaves.
+  std::vector<char> ReceiveOne(std::uint32_t kind)
+  {
+    while (this->isOpen())
+    {
+      std::vector<char> message;
+      if (this->hasMessage())
+      {
+        message = this->receive();
+      }
+      else
+      {
+        waitABit();
+      }
+      if (read<ShortMessage>(message).kind == kind)
+      {
+        return message;
+      }
+    }
+    return {};
+  }
+  bool isOpen() const override { return this->Guest.has_value(); }
 
-  std::optional<HelloMessage> Greeting; // on rank 0
-  bool IsOpen = false;                  // the other rank is at the meeting
+  // On rank 0: of a rank that waits for it, and of one that is at the meeting.
+  std::optional<HelloMessage> Greeting, Guest;
+
+  /// Leaves the meeting, or a rank 0 that has not come.
+  void Close()
+  {
+    this->Guest.reset();
+    this->Messages.clear();
+  }
 
   /// Takes what has arrived.
   void Poll()
   {
+    this->HasUnsent();
     while (this->HasArrived())
     {
-      vtkIdType size = 0;
-      this->Controller->Receive(&size, 1, this->Rank, this->Tag);
+      std::int64_t size = 0;
+      this->Receive(reinterpret_cast<char*>(&size), sizeof(size));
       std::vector<char> message(static_cast<std::size_t>(size));
-      if (size > 0)
-      {
-        this->Controller->Receive(message.data(), size, this->Rank, this->Tag);
-      }
+      this->Receive(message.data(), message.size());
       switch (schlieren::RayWorker::kindOf(message))
       {
         case Hello:
-          this->Greeting = read<HelloMessage>(message);
-          this->Messages.clear(); // of meetings before
+          this->Greeting =
+            read<HelloMessage>(message); // to the next meeting, where this one has not ended
           break;
         case Leave:
           this->Greeting.reset();
-          this->IsOpen = false;
+          this->Close();
           break;
         default:
           this->Messages.push_back(std::move(message));
@@ -212,10 +244,82 @@ private:
     return has != 0;
   }
 
+  static constexpr std::int64_t largestSmall = 1 << 16;
+  static constexpr std::size_t largestPiece = std::size_t{ 1 } << 30; // MPI counts by integers
+
+  /// Calls visit(first, count) for the pieces of a message.
+  template <class Visit>
+  static void ForPieces(std::size_t size, const Visit& visit)
+  {
+    for (std::size_t first = 0; first < size; first += largestPiece)
+    {
+      visit(first, static_cast<int>(std::min(largestPiece, size - first)));
+    }
+  }
+
+  void Receive(char* bytes, std::size_t size)
+  {
+    ForPieces(size,
+      [&](std::size_t first, int count)
+      { this->Controller->Receive(bytes + first, count, this->Rank, this->Tag); });
+  }
+
+  // MPI's own way to send may wait until the other process receives, however little it is.
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
+  struct Unsent
+  {
+    std::vector<char> bytes;
+    std::vector<vtkMPICommunicator::Request> requests;
+  };
+  std::list<Unsent> Outgoing; // which MPI reads
+
+  void Begin(std::vector<char> bytes)
+  {
+    auto* mpi = vtkMPIController::SafeDownCast(this->Controller);
+    this->Outgoing.push_back({ std::move(bytes), {} });
+    Unsent& last = this->Outgoing.back();
+    ForPieces(last.bytes.size(),
+      [&](std::size_t first, int count)
+      {
+        last.requests.emplace_back();
+        mpi->NoBlockSend(static_cast<const char*>(last.bytes.data()) + first, count, this->Rank,
+          this->Tag, last.requests.back());
+      });
+  }
+  bool HasUnsent()
+  {
+    const auto isSent = [](vtkMPICommunicator::Request& request) { return request.Test() != 0; };
+    while (!this->Outgoing.empty())
+    {
+      std::vector<vtkMPICommunicator::Request>& requests = this->Outgoing.front().requests;
+      while (!requests.empty() && isSent(requests.back()))
+      {
+        requests.pop_back();
+      }
+      if (!requests.empty())
+      {
+        return true;
+      }
+      this->Outgoing.pop_front();
+    }
+    return false;
+  }
+#else
+  void Begin(std::vector<char>) {}
+  bool HasUnsent() { return false; }
+#endif
+
   vtkMultiProcessController* Controller;
   int Rank, Tag;
   std::deque<std::vector<char>> Messages;
 };
+
+std::string absenceOf(std::size_t rank, std::size_t ranks)
+{
+  return "Rank " + std::to_string(rank) + " of " + std::to_string(ranks) +
+    " does not say what it has of the input, so it is not known whether rank 0 has all of it. "
+    "See what that rank has reported, or use one process.";
+}
 
 /// The ranks that have data which rank 0 and those before them have not.
 std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
@@ -390,10 +494,11 @@ void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
       waitABit();
       channel->Poll();
     }
-    channel->IsOpen = channel->Greeting.has_value();
-    if (channel->IsOpen)
+    channel->Close(); // to what is left of meetings before
+    channel->Guest = std::exchange(channel->Greeting, std::nullopt);
+    if (channel->isOpen())
     {
-      channel->send(messageOf(ShortMessage{ Begin, channel->Greeting->meeting }));
+      channel->send(messageOf(ShortMessage{ Begin, channel->Guest->meeting }));
     }
   }
 }
@@ -438,12 +543,16 @@ FilterRanks::Meeting::~Meeting()
   }
   for (const auto& channel : this->Of.Inside->Channels)
   {
-    if (channel->IsOpen)
+    if (channel->isOpen())
     {
       channel->send(messageOf(ShortMessage{ End, this->Outcome ? 1 : 0 }));
     }
-    channel->IsOpen = false;
-    channel->Greeting.reset();
+  }
+  for (const auto& channel : this->Of.Inside->Channels)
+  {
+    // What it has yet to send of what has failed here it could not send later, and would wait for ever.
+    channel->ReceiveOne(Ended);
+    channel->Close();
   }
 }
 
@@ -457,6 +566,7 @@ bool FilterRanks::Meeting::Serve(int threads)
     const auto head = read<ShortMessage>(message);
     if (head.kind == End)
     {
+      channel.send(messageOf(ShortMessage{ Ended, 0 }));
       return head.number != 0;
     }
     if (head.kind != GiveData)
@@ -489,7 +599,7 @@ std::vector<schlieren::Channel*> FilterRanks::Meeting::GetWorkers() const
   {
     for (const auto& channel : this->Of.Inside->Channels)
     {
-      if (channel->IsOpen)
+      if (channel->isOpen())
       {
         workers.push_back(channel.get());
       }
@@ -542,12 +652,10 @@ std::string FilterRanks::Meeting::FindAbsent() const
   for (std::size_t n = 0; n < channels.size(); ++n)
   {
     const Version& now = this->Of.Now;
-    const std::optional<HelloMessage>& greeting = channels[n]->Greeting;
-    if (!greeting || greeting->changes != now.changes || greeting->timeStep != now.timeStep)
+    const std::optional<HelloMessage>& guest = channels[n]->Guest;
+    if (!guest || guest->changes != now.changes || guest->timeStep != now.timeStep)
     {
-      return "Rank " + std::to_string(n + 1) + " of " + std::to_string(channels.size() + 1) +
-        " does not say what it has of the input, so it is not known whether rank 0 has all of it. "
-        "See what that rank has reported, or use one process.";
+      return absenceOf(n + 1, channels.size() + 1);
     }
   }
   return "";
@@ -563,7 +671,7 @@ vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
   std::vector<Holdings> holdings{ holdingsOf(own) };
   for (const auto& channel : channels)
   {
-    holdings.push_back(channel->Greeting->inputs[input]);
+    holdings.push_back(channel->Guest ? channel->Guest->inputs[input] : Holdings{});
   }
   const std::vector<std::size_t> ranks = ranksWithMore(holdings);
   if (ranks.empty() || (ranks.size() == 1 && ranks[0] == 0))
@@ -585,10 +693,10 @@ vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
       parts.push_back(packedData(own, arrays));
       continue;
     }
-    std::vector<char> message;
-    while (read<ShortMessage>(message).kind != Data)
+    std::vector<char> message = channels[rank - 1]->ReceiveOne(Data);
+    if (message.empty())
     {
-      message = channels[rank - 1]->receive();
+      throw std::runtime_error(absenceOf(rank, holdings.size()));
     }
     const bool hasData = read<ShortMessage>(message).number != 0;
     message.erase(message.begin(), message.begin() + sizeof(ShortMessage));

@@ -18,8 +18,8 @@ public:
   Channel& operator=(const Channel&) = delete;
   virtual ~Channel() = default;
 
-  /// May wait until the other process receives it.
-  virtual void send(const std::vector<char>& message) = 0;
+  /// Of a small message, returns at once; of a large one, when the other process has received it.
+  virtual void send(std::vector<char> message) = 0;
   /// Whether a message has arrived. Does not wait.
   virtual bool hasMessage() = 0;
   /// The next message, once there is one.

@@ -104,7 +104,7 @@ struct RayWorker::Arrays
       });
     head.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     std::memcpy(answer.data(), &head, sizeof(head));
-    channel.send(answer);
+    channel.send(std::move(answer));
     return true;
   }
 };

@@ -14,6 +14,7 @@
 #include <map>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 namespace schlieren
 {
@@ -110,7 +111,7 @@ struct TeamTracer<Real>::State
       const ArrayMessage head{ RayWorker::Array, static_cast<std::uint32_t>(n), arrays[n].version };
       std::vector<char> ofArray = messageOf(head, arrays[n].bytes);
       std::memcpy(ofArray.data() + sizeof(head), arrays[n].first, arrays[n].bytes);
-      channel.send(ofArray);
+      channel.send(std::move(ofArray));
       worker.sent[n] = arrays[n].version;
     }
     worker.given.push_back(message.head.tiles);

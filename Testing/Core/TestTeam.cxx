@@ -63,7 +63,7 @@ public:
     , isOpen_(isOpen)
   {
   }
-  void send(const std::vector<char>& message) override { to_.put(message); }
+  void send(std::vector<char> message) override { to_.put(std::move(message)); }
   bool hasMessage() override { return !from_.isEmpty(); }
   std::vector<char> receive() override { return from_.take(); }
   bool isOpen() const override { return isOpen_; }

@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A picture that a server makes, as scripts of its client ask for it and get it. Skipped without pvserver."""
+"""An image that a server makes, as scripts of its client ask for it and get it. Skipped without pvserver.
+
+With a number, that of its ranks; then skipped without mpiexec, too."""
 
 import os
 import shutil
 import socket
 import subprocess
 import sys
+import time
 
 import numpy as np
 from paraview import servermanager, simple
@@ -50,13 +53,37 @@ def arrays():
     schlieren.ColorFilterImage = PICTURE
     colored = servermanager.Fetch(schlieren)
     made["Color"] = vtk_to_numpy(colored.GetPointData().GetArray("Color")).copy()
+    made["Progressive"] = progressive(schlieren)
     return made
 
 
-pvserver = shutil.which("pvserver")
-if not pvserver:
-    print("Skipped: there is no pvserver.")
+def progressive(schlieren):
+    """As the window asks for it."""
+    schlieren.Cutoff = "Shadowgraph"
+    schlieren.ImageSize = [256, 256]
+    schlieren.SamplesPerPixel = 4
+    schlieren.TimeLimit = 0.001
+    start = time.monotonic()
+    updates = 0
+    schlieren.UpdatePipeline()
+    schlieren.UpdatePropertyInformation()
+    while not schlieren.GetProperty("Finished").GetData():
+        schlieren.InvokeCommand("Refine")
+        schlieren.UpdatePipeline()
+        schlieren.UpdatePropertyInformation()
+        updates += 1
+    # Ranks that wait for each other in vain, do so for seconds.
+    assert updates > 1 and time.monotonic() - start < 2 * updates, (updates, time.monotonic() - start)
+    return vtk_to_numpy(servermanager.Fetch(schlieren).GetPointData().GetArray("Intensity")).copy()
+
+
+pvserver, mpiexec = shutil.which("pvserver"), shutil.which("mpiexec")
+if not pvserver or (sys.argv[1:] and not mpiexec):
+    print("Skipped: there is no pvserver, or no mpiexec (Debian: openmpi-bin).")
     sys.exit(77)
+launcher = [mpiexec, "--allow-run-as-root", "--oversubscribe", "-np", sys.argv[1]] if sys.argv[1:] else []
+# Without what tells MPI that a process belongs to others.
+environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
 simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))
 here = arrays()
 simple.Disconnect()
@@ -65,8 +92,8 @@ with socket.socket() as free:
     free.bind(("localhost", 0))
     port = free.getsockname()[1]
 # It tries until this process listens, and ends when this process does.
-server = subprocess.Popen([pvserver, "--reverse-connection", "--client-host=localhost",
-                           f"--server-port={port}", "--force-offscreen-rendering"])
+server = subprocess.Popen([*launcher, pvserver, "--reverse-connection", "--client-host=localhost",
+                           f"--server-port={port}", "--force-offscreen-rendering"], env=environment)
 try:
     simple.ReverseConnect(str(port))
     assert servermanager.ActiveConnection.IsRemote()

@@ -354,15 +354,33 @@ if rank == 2:
     Schlieren(Input=source, **BENCH).UpdatePipeline()
 
 
-def run(command, *arguments, ends=True):
+def run(command, *arguments, ends=True, script=__file__, folder="."):
     # What tells MPI that a process belongs to others.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
-    done = subprocess.run([*command, __file__, *arguments], env=environment, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=150, check=False)
+    done = subprocess.run([*command, os.path.abspath(script), *arguments], env=environment, cwd=folder, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=150, check=False)
     print(done.stdout)
     assert (done.returncode == 0) == ends and "Traceback" not in done.stdout, command
     return done.stdout
+
+
+def images_of_example(command, folder):
+    """The arrays of all images that the example writes, and its PNG files' bytes."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+    os.makedirs(folder, exist_ok=True)
+    assert "ERR|" not in run(command, script=os.path.join(HERE, "..", "..", "Examples", "distributed.py"), folder=folder)
+    found = {}
+    for name in ("sphere", "jet"):
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(os.path.join(folder, name + ".vti"))
+        reader.Update()
+        arrays = reader.GetOutput().GetPointData()
+        for i in range(arrays.GetNumberOfArrays()):
+            found[f"{name}: {arrays.GetArrayName(i)}"] = vtk_to_numpy(arrays.GetArray(i)).copy()
+        found[f"{name}: PNG"] = np.fromfile(os.path.join(folder, name + ".png"), np.uint8)
+    return found
 
 
 def run_results(command, what, file):
@@ -400,6 +418,12 @@ else:
         if what == "same":
             assert np.ptp(one["mesh: Intensity, direct"]) > 0.5
             assert one["mesh with a ball: BlockedFraction, direct"].max() == 1
+
+    one, several = images_of_example(pvbatch, "one"), images_of_example(on(4), "several")
+    assert len(one) > 8 and one.keys() == several.keys()
+    for name in one:
+        assert np.array_equal(one[name], several[name]), name
+    assert 0.02 < (one["sphere: BlockedFraction"] == 1).mean() < 0.2
 
     assert len(re.findall("ERR.* Rank 2 of 4 does not say", run(on(4), "missing"))) == 1
     started = time_of_day()
