@@ -187,6 +187,16 @@ void addFringeSpacing(vtkImageData* output, double spacing)
 }
 
 //------------------------------------------------------------------------------
+void addExposure(vtkImageData* output, double begin, double end)
+{
+  vtkNew<vtkDoubleArray> interval;
+  interval->SetName("ExposureInterval");
+  interval->InsertNextValue(begin);
+  interval->InsertNextValue(end);
+  output->GetFieldData()->AddArray(interval);
+}
+
+//------------------------------------------------------------------------------
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
 {
   vtkNew<vtkIntArray> levels;

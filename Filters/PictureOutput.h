@@ -35,6 +35,9 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
 /// Adds the spacing of finite fringes, data units.
 void addFringeSpacing(vtkImageData* output, double spacing);
 
+/// Adds the interval of time that the image is the mean over.
+void addExposure(vtkImageData* output, double begin, double end);
+
 /// Adds what the medium of a mesh consists of.
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);
 

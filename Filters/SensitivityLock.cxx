@@ -18,10 +18,16 @@ bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
   return a.time && b.time && *a.time != *b.time;
 }
 
+/// Those of an exposure are of several times: only their sources and its own time tell them.
+bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
+{
+  return a.data && b.data ? *a.data == *b.data : a.upstream == b.upstream && a.time == b.time;
+}
+
 /// Whether they are the same, whenever they were asked for.
 bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 {
-  return std::tie(a.data, a.medium, a.rays) == std::tie(b.data, b.medium, b.rays);
+  return haveSameData(a, b) && std::tie(a.medium, a.rays) == std::tie(b.medium, b.rays);
 }
 
 } // namespace
@@ -62,7 +68,7 @@ double SensitivityLock::For(int mode, const ImageCircumstances& now)
   // A series differs from time to time, and an animation moves the camera before or after the first image of a time
   // is made: only at the time that k is of does the camera make another one.
   const bool holds = this->Last && this->Last->medium == now.medium &&
-    (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
+    (haveSameData(*this->Last, now) || isAtOtherTime(*this->Last, now)) &&
     (this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
       mode == Filter::LOCK_ALWAYS);
   if (mode == Filter::LOCK_OFF || (this->Last && !holds))

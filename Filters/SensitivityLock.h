@@ -10,10 +10,11 @@ class vtkSchlierenFilter;
 /// What an automatic k belongs to.
 struct ImageCircumstances
 {
-  std::optional<double> time; ///< unset: data without time steps
-  std::vector<double> data;   ///< describeInputs
-  std::vector<double> medium; ///< and the kind of cutoff: its settings
-  std::vector<double> rays;   ///< camera, quality, light
+  std::optional<double> time;              ///< unset: data without time steps
+  std::vector<double> upstream;            ///< times of what makes the data
+  std::optional<std::vector<double>> data; ///< describeInputs; unset: of several times
+  std::vector<double> medium;              ///< and the kind of cutoff: its settings
+  std::vector<double> rays;                ///< camera, quality, light
 };
 
 /// Camera, quality and light: all of the filter that an automatic k depends on, but the medium and the cutoff.

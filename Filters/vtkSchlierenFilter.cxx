@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
+#include "ExposureSteps.h"
 #include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "GasChoices.h"
 #include "HurriedPicture.h"
 #include "InputDescription.h"
 #include "LastPicture.h"
+#include "MeanImage.h"
 #include "PictureInSlices.h"
 #include "PictureOutput.h"
 #include "QualityPresets.h"
@@ -106,6 +108,11 @@ struct vtkSchlierenFilter::Internals
 
   SensitivityLock KLock;
   std::optional<double> Time; // of the last update; unset for data without time steps
+
+  TimeExposure Exposure;   // of the last request
+  std::size_t Instant = 0; // of these, the one that is being made
+  // The image of its first instant, whose k and surroundings, and place, are those of all others.
+  std::optional<schlieren::Image> FirstInstant;
 
   // Of Medium, the last time that Precision changed it, and before that.
   vtkMTimeType PrecisionTime = 0;
@@ -214,6 +221,11 @@ ColorScale colorScaleFrom(vtkSchlierenFilter* self)
                          : (isShadow ? ColorScale::LinearToTwice : ColorScale::Linear);
 }
 
+bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
+{
+  return frame.origin == place.origin && frame.pixelSize == place.pixelSize;
+}
+
 /// Tells the executive where the outputs lie.
 void tellPlaces(vtkInformationVector* outputs)
 {
@@ -304,6 +316,8 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << indent << setting.Property << ": " << setting.Get(this) << "\n";
   }
+  os << indent << "ExposureTime: " << this->ExposureTime << "\n";
+  os << indent << "ExposureSamples: " << this->ExposureSamples << "\n";
   os << indent << "NoiseFilter: " << this->NoiseFilter << "\n";
   os << indent << "NoiseFilterRadius: " << this->NoiseFilterRadius << "\n";
   os << indent << "HistogramSize: " << this->HistogramSize << "\n";
@@ -587,8 +601,8 @@ bool vtkSchlierenFilter::WorkOn()
 bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
 {
   Internals& inside = *this->Inside;
-  return inside.ShownOf != 0 && inside.ShownOf != now && inside.FailedAt != now &&
-    inside.Shown[PICTURE_PORT].IsThere() &&
+  return !(this->ExposureTime > 0) && inside.ShownOf != 0 && inside.ShownOf != now &&
+    inside.FailedAt != now && inside.Shown[PICTURE_PORT].IsThere() &&
     (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
       describeInputs(this, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
@@ -671,11 +685,20 @@ void vtkSchlierenFilter::PassToMedium()
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::OnMediumProgress()
 {
-  this->UpdateProgress(mediumShare * this->Medium->GetProgress());
+  this->Progress(mediumShare * this->Medium->GetProgress());
   if (this->GetAbortExecute())
   {
     this->Medium->AbortExecuteOn();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Progress(double fraction)
+{
+  const Internals& inside = *this->Inside;
+  const auto instants =
+    static_cast<double>(std::max<std::size_t>(1, inside.Exposure.Instants.size()));
+  this->UpdateProgress((static_cast<double>(inside.Instant) + fraction) / instants);
 }
 
 //------------------------------------------------------------------------------
@@ -763,7 +786,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     this->Inside->Done = fraction;
     if (!(this->TimeLimit > 0)) // else it would flicker
     {
-      this->UpdateProgress(mediumShare + (1 - mediumShare) * fraction);
+      this->Progress(mediumShare + (1 - mediumShare) * fraction);
     }
   };
   std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
@@ -812,7 +835,10 @@ double vtkSchlierenFilter::KeptK()
     return 0; // what is kept waits: the change may be undone
   }
   return inside.KLock.For(this->LockK,
-    { inside.Time, inside.Input,
+    { inside.Time,
+      { static_cast<double>(upstreamTime(this, 0)),
+        static_cast<double>(upstreamTime(this, vtkRefractiveIndex::BODIES)) },
+      inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt,
       { static_cast<double>(this->Cutoff), static_cast<double>(inside.settingsTimeOf(this->Medium)),
         static_cast<double>(this->AutoAmbientRefractivity),
         this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity },
@@ -832,7 +858,15 @@ schlieren::Image vtkSchlierenFilter::Begin(
   }
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid, inside.RgbPictures);
-  if (const double k = this->KeptK(); k > 0)
+  if (inside.FirstInstant)
+  {
+    field.ambient = inside.FirstInstant->ambient;
+    if (choosesK(this))
+    {
+      scene.kScale = inside.FirstInstant->kScale;
+    }
+  }
+  else if (const double k = this->KeptK(); k > 0)
   {
     scene.kScale = k;
   }
@@ -848,6 +882,65 @@ schlieren::Image vtkSchlierenFilter::Begin(
     hurry(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
   return inside.Pictures.Begin(field, scene, seconds, monitor);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram)
+{
+  Internals& inside = *this->Inside;
+  schlieren::Monitor monitor;
+  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
+  monitor.progress = [this](double fraction)
+  { this->Progress(mediumShare + (1 - mediumShare) * fraction); };
+  MeanImage mean;
+  steps.Hold();
+  for (const TimeExposure::Instant& instant : inside.Exposure.Instants)
+  {
+    while (steps.IsBefore(instant))
+    {
+      steps.GoOn();
+      inside.Pictures.SetWorkers(steps.GetMeeting().GetWorkers());
+      steps.Hold();
+    }
+    const auto input = steps.GetData(0, instant);
+    const auto bodies = steps.GetData(vtkRefractiveIndex::BODIES, instant);
+    if (!this->UpdateRefractivity(input, bodies))
+    {
+      return false;
+    }
+    this->UpdateFieldGradients(input);
+    schlieren::Image image = this->Begin(false, 0, monitor);
+    if (image.aborted)
+    {
+      return false;
+    }
+    if (!inside.FirstInstant)
+    {
+      inside.FirstInstant.emplace();
+      inside.FirstInstant->frame = image.frame;
+      inside.FirstInstant->ambient = image.ambient;
+      inside.FirstInstant->kScale = image.kScale;
+      this->KeepFoundK(image.kScale);
+    }
+    else if (!liesAt(image.frame, inside.FirstInstant->frame))
+    {
+      throw std::runtime_error("The box of the data changes within ExposureTime, and with it what "
+                               "the image shows. Set FocalPoint and ParallelScale.");
+    }
+    mean.Add(std::move(image));
+    ++inside.Instant;
+  }
+  inside.MediumTime = 0; // the refractivity is that of no input
+  return this->Show(mean.Take(), output, histogram);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::KeepFoundK(double k)
+{
+  if (!this->Inside->Pictures.GetScene().kScale && k > 0)
+  {
+    this->Inside->KLock.Found(k);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -874,13 +967,14 @@ bool vtkSchlierenFilter::Show(
       vtkWarningMacro(<< warning);
     }
   }
-  if (isWhole && !scene.kScale && image.kScale > 0)
+  if (isWhole)
   {
-    inside.KLock.Found(image.kScale);
+    this->KeepFoundK(image.kScale);
   }
   const bool isKept = choosesK(this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
   this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) +
+    (inside.Exposure.IsNone() ? "" : ", " + inside.Exposure.GetWords()) +
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
@@ -895,6 +989,10 @@ bool vtkSchlierenFilter::Show(
   if (scene.cutoff == schlieren::Cutoff::Interferogram && scene.fringes.finite)
   {
     addFringeSpacing(output, scene.fringes.spacing);
+  }
+  if (!inside.Exposure.IsNone())
+  {
+    addExposure(output, inside.Exposure.Begin, inside.Exposure.End);
   }
   if (inside.Source)
   {
@@ -978,9 +1076,20 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
+int vtkSchlierenFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  Internals& inside = *this->Inside;
+  // A preview is there to be quick.
+  const double length = this->PreviewReduction > 1 ? 0 : this->ExposureTime;
+  inside.Exposure = exposureFor(inputVector[0]->GetInformationObject(0),
+    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()))),
+    length, this->ExposureSamples);
+  if (!inside.Exposure.IsNone())
+  {
+    requestTime(this, inputVector, inside.Exposure.Steps.front());
+  }
   if (this->Inside->Ranks.Request(this, inputVector))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
@@ -1000,19 +1109,23 @@ int vtkSchlierenFilter::RequestData(
   setComplete(outputVector);
 
   this->PassToMedium();
+  ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure);
+  const bool isExposure = !inside.Exposure.IsNone();
+  inside.Instant = 0;
+  inside.FirstInstant.reset();
   // An empty output lets the pipeline ask again and again, on rank 0 alone: one message is enough.
   const vtkMTimeType now = this->GetTimeOfPicture();
   if (inside.FailedAt == now)
   {
     return 1;
   }
-  FilterRanks::Meeting meeting(inside.Ranks,
-    FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
-      vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]),
-      refractivity::arraysOf(this->Medium) });
+  FilterRanks::Meeting& meeting = steps.Meet(refractivity::arraysOf(this->Medium));
   if (!isRank0())
   {
-    meeting.Serve(threadsFrom(this));
+    do
+    {
+      meeting.Serve(threadsFrom(this));
+    } while (steps.GoOn());
     return 1;
   }
   const Internals::WithWorkers withWorkers(inside, meeting);
@@ -1057,18 +1170,20 @@ int vtkSchlierenFilter::RequestData(
       this->Status = noIndexYet;
       return 1;
     }
-    const bool goesOn = this->GoesOn(input, bodies);
+    const bool goesOn = !isExposure && this->GoesOn(input, bodies);
     inside.UnfinishedOf = 0;
     if (!(this->TimeLimit > 0))
     {
       inside.DropShown(); // there will be a better picture, which wants the memory
     }
-    bool isMade = goesOn || this->UpdateRefractivity(input, bodies);
-    if (isMade && !goesOn)
+    bool isMade = goesOn || isExposure || this->UpdateRefractivity(input, bodies);
+    if (isMade && !goesOn && !isExposure)
     {
       this->UpdateFieldGradients(input);
     }
-    isMade = isMade && this->Render(output, histogram, goesOn);
+    isMade = isMade &&
+      (isExposure ? this->Expose(steps, output, histogram)
+                  : this->Render(output, histogram, goesOn));
     if (isMade)
     {
       showLast();

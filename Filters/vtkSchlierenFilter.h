@@ -27,7 +27,8 @@
  * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
  * `LightEmitted`, `LightOnFilm` and `LightOutside` (behind the cutoff, in full light of all pixels; the
  * first is the sum of the others), `FringeSpacing` (of finite fringes, data units),
- * `AmbientRefractivity` (the value used), `RaysTraced`, `RaysLost` (trapped in the medium or turned back
+ * `ExposureInterval` (of an image with ExposureTime: begin and end, in the data's time), `AmbientRefractivity` (the
+ * value used), `RaysTraced`, `RaysLost` (trapped in the medium or turned back
  * by it), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
  * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
  * changes no direction cosine by more), each left out where it says nothing, and `MomentumDrift` (largest relative error of |p| = n where
@@ -60,6 +61,7 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class ExposureSteps;
 class vtkPiecewiseFunction;
 
 namespace schlieren
@@ -742,6 +744,24 @@ public:
 
   ///@{
   /**
+   * How long light falls on the film, in the time of the data; 0 (the default): an instant. The image is then the mean
+   * of those of ExposureSamples instants (default: 8; 1: as with 0), the middles of as many equal parts of this
+   * interval, which lies around the time that is requested, and ends where the data's time does. All arrays of the
+   * image are such means; the histogram is the sum of all; the sensitivity k and the refractivity around the data
+   * are those of the first instant, unless they are given. Between time steps, arrays of real numbers and the points
+   * of meshes are linear in time, and everything else is of the earlier step; cells that differ are an error. Sources
+   * without time steps, but with a range of time, are asked for each instant.
+   * No effect on data that do not change, and on images with a PreviewReduction. TimeLimit has none on an exposure:
+   * it is made at once, and anew, with what is upstream, whenever anything changes.
+   */
+  vtkSetClampMacro(ExposureTime, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ExposureTime, double);
+  vtkSetClampMacro(ExposureSamples, int, 1, VTK_INT_MAX);
+  vtkGetMacro(ExposureSamples, int);
+  ///@}
+
+  ///@{
+  /**
    * What takes the grain out of the picture, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN whose
    * standard deviation is half of NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or
    * a CONE that shrinks as samples come in (Jensen 1996): it encloses as many as the radius does of one
@@ -922,6 +942,12 @@ private:
   /// The automatic k that is kept from an earlier image; 0 where there is none, or none counts.
   double KeptK();
   schlieren::Image Begin(bool isHurried, double seconds, const schlieren::Monitor& monitor);
+  /// Makes the image of an exposure over time. False if aborted.
+  bool Expose(ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
+  /// Hands k to LockK where it was found for the last image that was begun.
+  void KeepFoundK(double k);
+  /// Reports progress of what is being made, or of an instant of it.
+  void Progress(double fraction);
   /// Makes the picture from the refractivity, or goes on with it. False if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
   /// Hands out what there is of a picture, where there is anything new. False if aborted.
@@ -986,6 +1012,8 @@ private:
   double AdaptiveTolerance = 0;
   double MediumTolerance = 0;
   double PathTolerance = 0;
+  double ExposureTime = 0;
+  int ExposureSamples = 8;
   int NoiseFilter = NO_FILTER;
   double NoiseFilterRadius = 2;
   int HistogramSize = 256;

@@ -26,7 +26,7 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "WhiteLight": 0, "ScreenDistance": -1.0, "FocusOffset": 0.0, "LightSource": "Collimated",
          "SourceDistance": 0.0, "SourceShape": "Point", "BackgroundPattern": "Dots",
          "BackgroundDistance": -1.0, "BackgroundPeriod": 0.0, "BackgroundAngle": 0.0,
-         "BackgroundImage": "", "FilmEstimator": "Sheet", "NoiseFilter": "None",
+         "BackgroundImage": "", "ExposureTime": 0.0, "ExposureSamples": 8, "FilmEstimator": "Sheet", "NoiseFilter": "None",
          "NoiseFilterRadius": 2.0, "HistogramSize": 256, "MemoryBudget": 1024, "MediumMemory": 1024,
          "ColorByField": 0, "FieldColors": [],
          "Quality": "Interactive", "Seed": 1,

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExposureSteps.h"
+
+#include "BetweenTimeSteps.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkAlgorithmOutput.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+std::string textOf(double time)
+{
+  std::ostringstream text;
+  text << time;
+  return text.str();
+}
+
+bool hasOtherRanks()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TimeExposure exposureFor(vtkInformation* input, vtkInformation* output, double length, int samples)
+{
+  std::vector<double> steps;
+  double range[2] = { 0, 0 };
+  if (input->Has(Pipeline::TIME_STEPS()))
+  {
+    const double* times = input->Get(Pipeline::TIME_STEPS());
+    steps.assign(times, times + input->Length(Pipeline::TIME_STEPS()));
+  }
+  if (!steps.empty())
+  {
+    range[0] = steps.front();
+    range[1] = steps.back();
+  }
+  else if (input->Has(Pipeline::TIME_RANGE()))
+  {
+    input->Get(Pipeline::TIME_RANGE(), range);
+  }
+  if (!(length > 0) || !(range[0] < range[1]) || !output->Has(Pipeline::UPDATE_TIME_STEP()))
+  {
+    return {};
+  }
+  return TimeExposure(
+    steps, range[0], range[1], output->Get(Pipeline::UPDATE_TIME_STEP()), length, samples);
+}
+
+//------------------------------------------------------------------------------
+void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double time)
+{
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* inInfo = inputs[port]->GetInformationObject(0))
+    {
+      inInfo->Set(Pipeline::UPDATE_TIME_STEP(), time);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
+  vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure)
+  : Filter(filter)
+  , Ranks(ranks)
+  , Inputs(inputs)
+  , Outputs(outputs)
+  , Exposure(exposure)
+{
+}
+
+//------------------------------------------------------------------------------
+ExposureSteps::~ExposureSteps()
+{
+  while (this->Meeting && hasOtherRanks() && this->GoOn())
+  {
+  }
+  this->Meeting.reset();
+  if (this->Exposure.IsNone())
+  {
+    return;
+  }
+  // So that the next request is not taken for another one.
+  requestTime(this->Filter, this->Inputs, this->Exposure.Steps.front());
+  this->Ranks.Request(this->Filter, this->Inputs);
+  for (int port = 0; port < this->Outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    // Else the pipeline gives them that of the input.
+    vtkDataObject::GetData(this->Outputs, port)
+      ->GetInformation()
+      ->Set(vtkDataObject::DATA_TIME_STEP(), this->Exposure.Time);
+  }
+}
+
+//------------------------------------------------------------------------------
+FilterRanks::Meeting& ExposureSteps::Meet(std::vector<std::string> arrays)
+{
+  this->Arrays = std::move(arrays);
+  return this->Meeting.emplace(this->Ranks,
+    FilterRanks::Inputs{ vtkDataObject::GetData(this->Inputs[0]),
+      vtkDataObject::GetData(this->Inputs[1]), this->Arrays });
+}
+
+//------------------------------------------------------------------------------
+bool ExposureSteps::GoOn()
+{
+  if (this->Step + 1 >= this->Exposure.Steps.size())
+  {
+    return false;
+  }
+  this->Meeting.reset(); // the other ranks go on, too
+  ++this->Step;
+  requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
+  this->Ranks.Request(this->Filter, this->Inputs);
+  this->IsThere = true;
+  for (int port = 0; port < Ports; ++port)
+  {
+    if (this->Filter->GetNumberOfInputConnections(port) > 0)
+    {
+      auto* upstream = Pipeline::SafeDownCast(this->Filter->GetInputExecutive(port, 0));
+      vtkAlgorithmOutput* from = this->Filter->GetInputConnection(port, 0);
+      this->IsThere = upstream && upstream->Update(from->GetIndex()) && this->IsThere;
+    }
+  }
+  this->Meet(this->Arrays);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void ExposureSteps::Hold()
+{
+  if (!this->IsThere)
+  {
+    throw std::runtime_error("There are no data of the time step " +
+      textOf(this->Exposure.Steps[this->Step]) +
+      ", which is within ExposureTime: see what is reported before. Repair that step, or set "
+      "ExposureTime to 0.");
+  }
+  const FilterRanks::Inputs inputs = this->Meeting->Gather();
+  for (int port = 0; port < Ports; ++port)
+  {
+    this->Earlier[port] = this->Later[port];
+    this->Later[port] = nullptr;
+    if (vtkDataObject* data = port == 0 ? inputs.data : inputs.bodies)
+    {
+      this->Later[port].TakeReference(data->NewInstance());
+      this->Later[port]->ShallowCopy(data);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> ExposureSteps::GetData(
+  int port, const TimeExposure::Instant& instant) const
+{
+  if (instant.earlier == instant.later)
+  {
+    return this->Later[port];
+  }
+  try
+  {
+    return betweenTimeSteps(this->Earlier[port], this->Later[port], instant.ratio);
+  }
+  catch (const std::runtime_error& difference)
+  {
+    const std::vector<double>& steps = this->Exposure.Steps;
+    throw std::runtime_error("There are no data between the time steps " +
+      textOf(steps[instant.earlier]) + " and " + textOf(steps[instant.later]) +
+      ", which ExposureTime needs: " + difference.what() +
+      ". Set ExposureTime to 0, or give data with the same cells at all times, as Resample To "
+      "Image makes them.");
+  }
+}

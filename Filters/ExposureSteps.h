@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Ranks.h"
+#include "TimeExposure.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkDataObject;
+class vtkInformation;
+class vtkInformationVector;
+
+/// What an exposure of `length`, of so many instants, is in a request of that output for a time; none where the data do
+/// not change with time.
+TimeExposure exposureFor(
+  vtkInformation* input, vtkInformation* output, double length, int samples);
+
+/// Requests another time of all inputs than that of the output.
+void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
+
+/// The data of an image, for RequestData of a filter that has those of the first step of its exposure, or of the only
+/// one where there is none. What is upstream is updated for one step after the other, on all ranks, and two of them
+/// are held. (VTK's CONTINUE_EXECUTING would do the same, but never ends where the data of a step cannot be read.)
+/// At its end, the other ranks have been followed through all steps, whatever happened on this one, the outputs are of
+/// the time of the image, and the request is that of the first step again.
+class ExposureSteps
+{
+public:
+  ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks, vtkInformationVector** inputs,
+    vtkInformationVector* outputs, const TimeExposure& exposure);
+  ~ExposureSteps();
+  ExposureSteps(const ExposureSteps&) = delete;
+  ExposureSteps& operator=(const ExposureSteps&) = delete;
+
+  /// The ranks meet for the first step. `arrays`: that are needed of the data.
+  FilterRanks::Meeting& Meet(std::vector<std::string> arrays);
+  FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
+
+  /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
+  bool GoOn();
+
+  /// On rank 0: holds the data of the step. Throws std::runtime_error with a message for the user, as the next one.
+  void Hold();
+
+  /// The data of an input at an instant, for which the step must be there.
+  bool IsBefore(const TimeExposure::Instant& instant) const { return this->Step < instant.later; }
+  vtkSmartPointer<vtkDataObject> GetData(int port, const TimeExposure::Instant& instant) const;
+
+private:
+  static constexpr int Ports = 2;
+
+  vtkAlgorithm* Filter;
+  FilterRanks& Ranks;
+  vtkInformationVector** Inputs;
+  vtkInformationVector* Outputs;
+  const TimeExposure& Exposure;
+  std::vector<std::string> Arrays;
+  std::optional<FilterRanks::Meeting> Meeting;
+  std::size_t Step = 0;
+  bool IsThere = true; // the data of Step
+  vtkSmartPointer<vtkDataObject> Earlier[Ports], Later[Ports]; // Later: of Step
+};
