@@ -63,7 +63,7 @@ std::vector<double> settingsOfRays(vtkSchlierenFilter* self)
 }
 
 //------------------------------------------------------------------------------
-double SensitivityLock::For(int mode, const ImageCircumstances& now)
+std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& now)
 {
   // A series differs from time to time, and an animation moves the camera before or after the first image of a time
   // is made: only at the time that k is of does the camera make another one.
@@ -91,16 +91,17 @@ void SensitivityLock::Found(double k)
 }
 
 //------------------------------------------------------------------------------
-void SensitivityLock::Give(double k)
+void SensitivityLock::Give(std::optional<double> k)
 {
-  this->K = k > 0 ? k : 0;
+  this->K = k;
   this->FoundAt.reset();
   this->Origin.reset();
   this->Last.reset();
 }
 
 //------------------------------------------------------------------------------
-double SensitivityLock::GetKept() const
+std::optional<double> SensitivityLock::GetKept() const
 {
-  return this->FoundAt && this->Last && isSame(*this->FoundAt, *this->Last) ? 0 : this->K;
+  const bool isFound = this->FoundAt && this->Last && isSame(*this->FoundAt, *this->Last);
+  return isFound ? std::nullopt : this->K;
 }

@@ -7,39 +7,39 @@
 
 class vtkSchlierenFilter;
 
-/// What an automatic k belongs to.
+/// What a number that is found for an image belongs to.
 struct ImageCircumstances
 {
   std::optional<double> time;              ///< unset: data without time steps
   std::vector<double> upstream;            ///< times of what makes the data
   std::optional<std::vector<double>> data; ///< describeInputs; unset: of several times
-  std::vector<double> medium;              ///< and the kind of cutoff: its settings
-  std::vector<double> rays;                ///< camera, quality, light
+  std::vector<double> medium;              ///< and, of k, the kind of cutoff: its settings
+  std::vector<double> rays;                ///< of k: camera, quality, light
 };
 
 /// Camera, quality and light: all of the filter that an automatic k depends on, but the medium and the cutoff.
 std::vector<double> settingsOfRays(vtkSchlierenFilter* self);
 
-/// Keeps an automatic k, found for one image, for later ones, as vtkSchlierenFilter::LockK says.
+/// Keeps an automatic k, found for one image, for later ones, as vtkSchlierenFilter::LockK says; or another number.
 class SensitivityLock
 {
 public:
-  /// The k of an image that is about to be made; 0: it has to be found. Drops the k of before where that does not
+  /// The k of an image that is about to be made; unset: it has to be found. Drops the k of before where that does not
   /// hold any more.
-  double For(int mode, const ImageCircumstances& now);
+  std::optional<double> For(int mode, const ImageCircumstances& now);
 
   /// The k that was found for the last image asked for.
   void Found(double k);
 
-  /// A k from elsewhere, which holds for the next image whatever it is of; 0: none.
-  void Give(double k);
-  void Drop() { this->Give(0); }
+  /// A k from elsewhere, which holds for the next image whatever it is of; unset: none.
+  void Give(std::optional<double> k);
+  void Drop() { this->Give({}); }
 
-  /// The k of the last image where it was not found for that one, else 0.
-  double GetKept() const;
+  /// The k of the last image where it was not found for that one.
+  std::optional<double> GetKept() const;
 
 private:
-  double K = 0;
+  std::optional<double> K;
   std::optional<ImageCircumstances> FoundAt; // unset: K is from elsewhere
   std::optional<ImageCircumstances> Origin;  // FoundAt, or else the first image with K
   std::optional<ImageCircumstances> Last;

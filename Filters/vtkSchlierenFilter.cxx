@@ -107,6 +107,8 @@ struct vtkSchlierenFilter::Internals
   vtkTimeStamp RefineTime;
 
   SensitivityLock KLock;
+  SensitivityLock AmbientLock;
+  bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // of the last update; unset for data without time steps
 
   TimeExposure Exposure;   // of the last request
@@ -262,6 +264,8 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LengthScale: " << this->LengthScale << "\n";
   os << indent << "AutoAmbientRefractivity: " << this->AutoAmbientRefractivity << "\n";
   os << indent << "AmbientRefractivity: " << this->AmbientRefractivity << "\n";
+  os << indent << "LockAmbient: " << this->LockAmbient << "\n";
+  os << indent << "LockedAmbient: " << this->GetLockedAmbient() << "\n";
   os << indent << "Wavelength: " << this->Wavelength << "\n";
   os << indent << "ViewDirection: " << this->ViewDirection[0] << " " << this->ViewDirection[1]
      << " " << this->ViewDirection[2] << "\n";
@@ -818,31 +822,64 @@ void vtkSchlierenFilter::SetLockedK(double k)
 {
   if (k != this->GetLockedK())
   {
-    this->Inside->KLock.Give(k);
+    this->Inside->KLock.Give(k > 0 ? std::make_optional(k) : std::nullopt);
     this->Modified();
   }
 }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetLockedK() const { return this->Inside->KLock.GetKept(); }
+double vtkSchlierenFilter::GetLockedK() const { return this->Inside->KLock.GetKept().value_or(0); }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::KeptK()
+void vtkSchlierenFilter::SetLockedAmbient(double ambient)
 {
-  Internals& inside = *this->Inside;
+  if (ambient != this->GetLockedAmbient())
+  {
+    this->Inside->AmbientLock.Give(ambient != 0 ? std::make_optional(ambient) : std::nullopt);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetLockedAmbient() const
+{
+  return this->Inside->AmbientLock.GetKept().value_or(0);
+}
+
+//------------------------------------------------------------------------------
+ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
+  std::vector<double> medium, std::vector<double> rays)
+{
+  const Internals& inside = *this->Inside;
+  medium.push_back(static_cast<double>(inside.settingsTimeOf(this->Medium)));
+  return { inside.Time,
+    { static_cast<double>(upstreamTime(this, 0)),
+      static_cast<double>(upstreamTime(this, vtkRefractiveIndex::BODIES)) },
+    inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt, std::move(medium),
+    std::move(rays) };
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> vtkSchlierenFilter::KeptK()
+{
   if (!choosesK(this))
   {
-    return 0; // what is kept waits: the change may be undone
+    return {}; // what is kept waits: the change may be undone
   }
-  return inside.KLock.For(this->LockK,
-    { inside.Time,
-      { static_cast<double>(upstreamTime(this, 0)),
-        static_cast<double>(upstreamTime(this, vtkRefractiveIndex::BODIES)) },
-      inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt,
-      { static_cast<double>(this->Cutoff), static_cast<double>(inside.settingsTimeOf(this->Medium)),
-        static_cast<double>(this->AutoAmbientRefractivity),
+  return this->Inside->KLock.For(this->LockK,
+    this->CircumstancesOf(
+      { static_cast<double>(this->Cutoff), static_cast<double>(this->AutoAmbientRefractivity),
         this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity },
-      settingsOfRays(this) });
+      settingsOfRays(this)));
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> vtkSchlierenFilter::KeptAmbient()
+{
+  this->Inside->AmbientLock.For(
+    this->LockAmbient ? LOCK_OVER_TIME : LOCK_OFF, this->CircumstancesOf({}, {}));
+  // Given at the time that it was found, it would make another medium of the same data.
+  return this->Inside->AmbientLock.GetKept();
 }
 
 //------------------------------------------------------------------------------
@@ -852,21 +889,17 @@ schlieren::Image vtkSchlierenFilter::Begin(
   Internals& inside = *this->Inside;
   inside.Done = 0;
   schlieren::Field field = inside.field();
-  if (!this->AutoAmbientRefractivity)
-  {
-    field.ambient = this->AmbientRefractivity;
-  }
+  field.ambient = !this->AutoAmbientRefractivity ? this->AmbientRefractivity
+    : inside.FirstInstant                        ? inside.FirstInstant->ambient
+                                                 : this->KeptAmbient();
+  inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid, inside.RgbPictures);
-  if (inside.FirstInstant)
+  if (inside.FirstInstant && choosesK(this))
   {
-    field.ambient = inside.FirstInstant->ambient;
-    if (choosesK(this))
-    {
-      scene.kScale = inside.FirstInstant->kScale;
-    }
+    scene.kScale = inside.FirstInstant->kScale;
   }
-  else if (const double k = this->KeptK(); k > 0)
+  else if (const std::optional<double> k = this->KeptK())
   {
     scene.kScale = k;
   }
@@ -920,7 +953,7 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
       inside.FirstInstant->frame = image.frame;
       inside.FirstInstant->ambient = image.ambient;
       inside.FirstInstant->kScale = image.kScale;
-      this->KeepFoundK(image.kScale);
+      this->KeepFound(image);
     }
     else if (!liesAt(image.frame, inside.FirstInstant->frame))
     {
@@ -935,11 +968,16 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::KeepFoundK(double k)
+void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
 {
-  if (!this->Inside->Pictures.GetScene().kScale && k > 0)
+  Internals& inside = *this->Inside;
+  if (!inside.Pictures.GetScene().kScale && image.kScale > 0)
   {
-    this->Inside->KLock.Found(k);
+    inside.KLock.Found(image.kScale);
+  }
+  if (inside.FindsAmbient)
+  {
+    inside.AmbientLock.Found(image.ambient);
   }
 }
 
@@ -969,7 +1007,7 @@ bool vtkSchlierenFilter::Show(
   }
   if (isWhole)
   {
-    this->KeepFoundK(image.kScale);
+    this->KeepFound(image);
   }
   const bool isKept = choosesK(this) && this->GetLockedK() > 0;
   dropIdleBounds(image);

@@ -57,12 +57,14 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for GradedFilter
 
-#include <memory> // for std::unique_ptr
-#include <string> // for std::string
-#include <vector> // for std::vector
+#include <memory>   // for std::unique_ptr
+#include <optional> // for std::optional
+#include <string>   // for std::string
+#include <vector>   // for std::vector
 
 class ExposureSteps;
 class vtkPiecewiseFunction;
+struct ImageCircumstances;
 
 namespace schlieren
 {
@@ -290,6 +292,20 @@ public:
    */
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether an automatic refractivity around the data is that of the first image, kept at all other times, so that
+   * fringes of a series are counted from the same light; else, and with other data or another medium, it is found anew.
+   * Default: on. LockedAmbient is that of the last image where it was kept from an earlier one, else 0; setting it
+   * (state files do) gives it to the next image, 0 lets it be found.
+   */
+  vtkSetMacro(LockAmbient, bool);
+  vtkGetMacro(LockAmbient, bool);
+  vtkBooleanMacro(LockAmbient, bool);
+  void SetLockedAmbient(double ambient);
+  double GetLockedAmbient() const;
   ///@}
 
   ///@{
@@ -939,13 +955,16 @@ private:
   bool RefineOnRank0();
   /// Whether a new picture can be begun besides updates, `now` being GetTimeOfPicture().
   bool CanBegin(vtkMTimeType now);
-  /// The automatic k that is kept from an earlier image; 0 where there is none, or none counts.
-  double KeptK();
+  /// What is kept from an earlier image: the automatic k, and the refractivity of the surroundings. Unset where there is
+  /// none, or none counts.
+  std::optional<double> KeptK();
+  std::optional<double> KeptAmbient();
+  ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
   schlieren::Image Begin(bool isHurried, double seconds, const schlieren::Monitor& monitor);
   /// Makes the image of an exposure over time. False if aborted.
   bool Expose(ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
-  /// Hands k to LockK where it was found for the last image that was begun.
-  void KeepFoundK(double k);
+  /// Hands what was found for the last image that was begun to the locks.
+  void KeepFound(const schlieren::Image& image);
   /// Reports progress of what is being made, or of an instant of it.
   void Progress(double fraction);
   /// Makes the picture from the refractivity, or goes on with it. False if aborted.
@@ -960,6 +979,7 @@ private:
   double LengthScale = 1;
   bool AutoAmbientRefractivity = true;
   double AmbientRefractivity = 0;
+  bool LockAmbient = true;
   double Wavelength = 632.8;
   double ViewDirection[3] = { 0, 0, -1 };
   double ViewUp[3] = { 0, 1, 0 };

@@ -8,6 +8,8 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 
+#include <string>
+
 vtkStandardNewMacro(vtkSMSchlierenLockDomain);
 
 //------------------------------------------------------------------------------
@@ -35,16 +37,21 @@ int vtkSMSchlierenLockDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXM
 void vtkSMSchlierenLockDomain::OnUpdate(vtkObject* object, unsigned long, void*)
 {
   auto* proxy = vtkSMProxy::SafeDownCast(object);
-  vtkSMProperty* information = proxy ? proxy->GetProperty("LockedKInformation") : nullptr;
-  if (!information || !this->GetProperty())
+  if (!proxy || !this->GetProperty())
+  {
+    return;
+  }
+  const std::string name = std::string(this->GetProperty()->GetXMLName()) + "Information";
+  vtkSMProperty* information = proxy->GetProperty(name.c_str());
+  if (!information)
   {
     return;
   }
   proxy->UpdatePropertyInformation(information);
-  const double k = vtkSMPropertyHelper(information).GetAsDouble();
+  const double number = vtkSMPropertyHelper(information).GetAsDouble();
   vtkSMPropertyHelper kept(this->GetProperty());
-  if (kept.GetAsDouble() != k)
+  if (kept.GetAsDouble() != number)
   {
-    kept.Set(k);
+    kept.Set(number);
   }
 }

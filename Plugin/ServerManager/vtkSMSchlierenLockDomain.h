@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMSchlierenLockDomain
- * @brief   makes LockedK of the proxy of vtkSchlierenFilter follow the filter
+ * @brief   makes LockedK or LockedAmbient of the proxy of vtkSchlierenFilter follow the filter
  *
- * After each update its property, LockedK, has the k that the filter has kept from an earlier image
- * (LockedKInformation), so that state files and scripts that are made of the session give the same image.
+ * After each update its property, as LockedK, has what the filter has kept from an earlier image (the property with
+ * "Information" at the end of its name), so that state files and scripts that are made of the session give the same
+ * image.
  *
  * It is a domain because every proxy has its domains, however it is made; a class of proxy with a name of its own would
  * be missing in ParaView's help.

@@ -131,7 +131,7 @@ vtkMTimeType changeOf(vtkSMProxy* filter)
     const char* key = properties->GetKey();
     if (!properties->GetProperty()->GetInformationOnly() && std::strcmp(key, "TimeLimit") != 0 &&
       std::strcmp(key, "PreviewReduction") != 0 && std::strcmp(key, "Refine") != 0 &&
-      std::strcmp(key, "LockedK") != 0)
+      std::strcmp(key, "LockedK") != 0 && std::strcmp(key, "LockedAmbient") != 0)
     {
       latest = std::max(latest, properties->GetProperty()->GetMTime());
     }

@@ -5,24 +5,21 @@
 // known at each time; its mean is that of many times.
 #include "BallOnLevels.h"
 #include "CellMeshes.h"
+#include "Changing.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSphereSource.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
 
 #include <functional>
-#include <set>
 
 namespace
 {
@@ -54,83 +51,6 @@ struct MovingBall
     return std::sqrt(pi) * this->A * this->s * std::exp(-(dx * dx + y * y) / (this->s * this->s));
   }
 };
-
-/// Data that change with time: what `make` makes of one.
-class Changing : public vtkAlgorithm
-{
-public:
-  static Changing* New();
-  vtkTypeMacro(Changing, vtkAlgorithm);
-
-  std::function<vtkSmartPointer<vtkDataObject>(double time)> make;
-  std::vector<double> steps; ///< none: any time from 0 to 2
-  std::vector<double> asked; ///< times that have been asked for
-  std::set<double> broken;   ///< times without data
-
-protected:
-  Changing()
-  {
-    this->SetNumberOfInputPorts(0);
-    this->SetNumberOfOutputPorts(1);
-  }
-
-  int FillOutputPortInformation(int, vtkInformation* info) override
-  {
-    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
-    return 1;
-  }
-
-  vtkTypeBool ProcessRequest(
-    vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    vtkInformation* info = outputs->GetInformationObject(0);
-    if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-    {
-      const auto example = this->make(1);
-      vtkDataObject* output = vtkDataObject::GetData(info);
-      if (!output || !output->IsA(example->GetClassName()))
-      {
-        auto fresh = vtkSmartPointer<vtkDataObject>::Take(example->NewInstance());
-        info->Set(vtkDataObject::DATA_OBJECT(), fresh);
-      }
-    }
-    else if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
-    {
-      if (!this->steps.empty())
-      {
-        info->Set(Pipeline::TIME_STEPS(), this->steps.data(), static_cast<int>(this->steps.size()));
-      }
-      const double range[2] = { this->steps.empty() ? 0 : this->steps.front(),
-        this->steps.empty() ? 2 : this->steps.back() };
-      info->Set(Pipeline::TIME_RANGE(), range, 2);
-      const auto example = this->make(1);
-      if (auto* image = vtkImageData::SafeDownCast(example))
-      {
-        info->Set(Pipeline::WHOLE_EXTENT(), image->GetExtent(), 6);
-      }
-    }
-    else if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
-    {
-      double time = info->Get(Pipeline::UPDATE_TIME_STEP());
-      this->asked.push_back(time);
-      if (!this->steps.empty()) // as readers do
-      {
-        const auto after = std::upper_bound(this->steps.begin(), this->steps.end(), time);
-        time = after == this->steps.begin() ? this->steps.front() : *(after - 1);
-      }
-      if (this->broken.count(time) > 0)
-      {
-        return 0;
-      }
-      vtkDataObject* output = vtkDataObject::GetData(info);
-      output->ShallowCopy(this->make(time));
-      output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    }
-    return 1;
-  }
-};
-
-vtkStandardNewMacro(Changing);
 
 vtkSmartPointer<vtkDataObject> ballOnGrid(double time)
 {

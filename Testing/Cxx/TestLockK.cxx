@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which images have a k of their own, and which keep the one of an earlier image.
-#include "Fixtures.h"
+// Which images have a k, and surroundings, of their own, and which keep those of an earlier image.
+#include "Changing.h"
 #include "Series.h"
 
 #include <map>
@@ -193,4 +193,105 @@ TEST_F(LockK, IsThatOfAWholeImage)
   this->filter->SetPreviewReduction(1);
   this->filter->SetParallelScale(0);
   EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+}
+
+namespace
+{
+
+/// A gas that becomes denser everywhere.
+class LockAmbient : public testing::Test
+{
+protected:
+  LockAmbient()
+    : filter(bench(nullptr, 24))
+  {
+    this->source->make = [](double time)
+    {
+      auto image = cube(24);
+      addPointArray(image, "N",
+        [time, column = GaussianColumn()](const Vec& x)
+        { return (1 + time) * (1e-4 + column(x)); });
+      return image;
+    };
+    this->source->steps = { 0, 1, 2 };
+    this->filter->SetInputConnection(this->source->GetOutputPort());
+    this->filter->SetAutoAmbientRefractivity(true);
+    this->filter->SetCutoff(Filter::INTERFEROGRAM);
+  }
+
+  double ambientAt(double time)
+  {
+    this->filter->UpdateTimeStep(time);
+    return fieldValue(this->filter, "AmbientRefractivity");
+  }
+
+  vtkNew<Changing> source;
+  vtkSmartPointer<Filter> filter;
+};
+
+} // namespace
+
+TEST_F(LockAmbient, KeepsTheSurroundingsOfTheFirstImage)
+{
+  const double first = this->ambientAt(1);
+  EXPECT_NEAR(first, 2e-4, 1e-8);
+  EXPECT_EQ(this->filter->GetLockedAmbient(), 0);
+  for (const double time : { 2., 0., 1., 2. })
+  {
+    EXPECT_EQ(this->ambientAt(time), first) << time;
+  }
+  EXPECT_EQ(this->filter->GetLockedAmbient(), first);
+  // A corner that the column does not reach: fringes count what the gas has become, over a depth of 2.
+  EXPECT_NEAR(valuesOf(this->filter, "OpticalPathDifference")[0], 2 * 1e-4, 1e-8);
+  // Not what only changes the light.
+  this->filter->SetCutoff(Filter::KNIFE_EDGE);
+  this->filter->SetParallelScale(0.3);
+  EXPECT_EQ(this->ambientAt(2), first);
+
+  this->filter->SetLockAmbient(false);
+  EXPECT_NEAR(this->ambientAt(2), 3e-4, 1e-8);
+  EXPECT_NEAR(this->ambientAt(0), 1e-4, 1e-8);
+  EXPECT_EQ(this->filter->GetLockedAmbient(), 0);
+}
+
+TEST_F(LockAmbient, AnotherMediumOrDataHaveTheirOwn)
+{
+  this->ambientAt(0);
+  EXPECT_NEAR(this->ambientAt(2), 1e-4, 1e-8);
+  this->filter->SetInterpolation(Filter::LINEAR);
+  EXPECT_NEAR(this->ambientAt(2), 1e-4, 1e-8);
+  this->filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
+  EXPECT_NEAR(this->ambientAt(2), 3e-4, 1e-8);
+  EXPECT_NEAR(this->ambientAt(0), 3e-4, 1e-8);
+  this->source->Modified();
+  EXPECT_NEAR(this->ambientAt(0), 1e-4, 1e-8);
+  // One that is given is used as it is, and what is kept waits.
+  this->filter->SetAutoAmbientRefractivity(false);
+  this->filter->SetAmbientRefractivity(5e-4);
+  EXPECT_EQ(this->ambientAt(1), 5e-4);
+  this->filter->SetAutoAmbientRefractivity(true);
+  EXPECT_NEAR(this->ambientAt(1), 1e-4, 1e-8);
+}
+
+TEST_F(LockAmbient, CanBeGiven)
+{
+  this->filter->SetLockedAmbient(7e-5);
+  EXPECT_EQ(this->ambientAt(2), 7e-5);
+  EXPECT_EQ(this->ambientAt(1), 7e-5);
+  EXPECT_EQ(this->filter->GetLockedAmbient(), 7e-5);
+  this->filter->SetLockedAmbient(0);
+  EXPECT_NEAR(this->ambientAt(1), 2e-4, 1e-8);
+}
+
+// The medium need not be made again where the surroundings are what was found for it.
+TEST_F(LockAmbient, LightAloneMakesNoMedium)
+{
+  this->ambientAt(1);
+  for (const int cutoff : { Filter::KNIFE_EDGE, Filter::CIRCULAR })
+  {
+    const vtkTypeInt64 builds = this->filter->GetMediumBuilds();
+    this->filter->SetCutoff(cutoff);
+    this->ambientAt(1);
+    EXPECT_EQ(this->filter->GetMediumBuilds(), builds);
+  }
 }

@@ -16,7 +16,7 @@ MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "Den
           "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
           "Fields": [], "TransferFunctions": [], "FieldRanges": [], "RefractivityScale": 3e-4,
           "MaskedSide": "Above", "MaskThreshold": 0.5, "Outside": "Auto", "OutsideBlocksLight": -1, "Reconstruction": "Smooth", "Bodies": None}
-BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0,
+BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0, "LockAmbient": 1, "LockedAmbient": 0.0,
          "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
          "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
          "KnifeEdgeAngle": 0.0, "CutoffOffset": 0.0, "InvertCutoff": 0, "AutoKScale": 1,

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A flow that pulsates: its images have the same k and the same surroundings in whatever order they are made, by a
+script, by an animation that is saved and after a state file is loaded; or each its own."""
+
+import math
+import os
+
+import numpy as np
+from paraview import simple, smstate
+from plugin_testing import Schlieren, picture
+from series_testing import write_series
+
+TIMES = np.linspace(0, 2, 9).tolist()
+SERIES = os.path.abspath("pulse.pvd")
+
+
+def pulse(x, y, z, time):
+    """The gas around it is pressed together and expands, too."""
+    wave = math.sin(math.pi * time)
+    return 1 + 0.05 * wave + (0.5 + 0.4 * wave) * np.exp(-(x**2 + y**2 + z**2) / 0.09)
+
+
+def used(bench):
+    field = bench.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
+    return tuple(field.GetArray(name).GetValue(0) for name in ("KScale", "AmbientRefractivity"))
+
+
+def at(bench, time):
+    bench.UpdatePipeline(time)
+    return used(bench)
+
+
+write_series(SERIES, TIMES, 20, pulse)
+flow = simple.PVDReader(FileName=SERIES, registrationName="flow")
+flow.UpdatePipeline()
+settings = {"Input": flow, "Density": ["POINTS", "rho"], "ImageSize": [32, 24], "ParallelScale": 0.6}
+own = {time: at(Schlieren(LockK="Off", LockAmbient=0, **settings), time) for time in TIMES}
+assert len({round(k, 3) for k, _ in own.values()}) > 4 and len({round(n, 9) for _, n in own.values()}) > 4, own
+
+# Of each time, in whatever order.
+bench = Schlieren(LockK="Off", LockAmbient=0, **settings)
+for time in [0.5, 1.5, 0.5, 0] + TIMES:
+    assert np.allclose(at(bench, time), own[time], rtol=1e-12), time
+
+# Fixed by default: that of the first image, forwards, backwards and anyhow.
+bench = Schlieren(registrationName="bench", **settings)
+fixed = at(bench, 0.5)
+assert fixed == own[0.5]
+images = {}
+for time in TIMES + TIMES[::-1] + [1.5, 0.25, 1.75, 0.5]:
+    assert at(bench, time) == fixed, time
+    image = picture(bench, "Intensity").copy()
+    assert np.array_equal(images.setdefault(time, image), image), time
+
+at(bench, 1.5)
+assert (bench.LockedK, bench.LockedAmbient) == fixed
+
+# Fringes count what the gas around has become, in units of light at the first time.
+bench.Cutoff = "Interferogram"
+assert at(bench, 1.5)[1] == fixed[1]
+path = picture(bench, "OpticalPathDifference")[0, 0]
+assert abs(path / (2 * (own[1.5][1] - own[0.5][1])) - 1) < 0.01, path
+bench.LockAmbient = 0
+at(bench, 1.5)
+assert abs(picture(bench, "OpticalPathDifference")[0, 0]) < 0.01 * abs(path)
+bench.LockAmbient, bench.Cutoff = 1, "Knife Edge"
+bench.LockedAmbient = fixed[1]
+bench.LockedK = fixed[0]
+
+# An animation makes its frames in the order of time; the one that was shown before does not matter.
+view = simple.CreateRenderView(ViewSize=[160, 120])
+simple.Show(bench, view)
+scene = simple.GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.AnimationTime = 1.5
+simple.Render(view)
+made = []
+note = bench.GetClientSideObject().AddObserver("EndEvent", lambda *_: made.append((view.ViewTime, used(bench))))
+simple.SaveAnimation("pulse.png", view)
+bench.GetClientSideObject().RemoveObserver(note)
+assert [time for time, _ in made] == TIMES, made
+assert {values for _, values in made} == {fixed}, made
+
+# State files of both kinds hold them.
+scene.AnimationTime = 1.5
+at(bench, 1.5)
+kept = picture(bench, "Intensity").copy()
+assert (bench.LockedK, bench.LockedAmbient) == fixed
+simple.SaveState("pulse.pvsm")
+script = smstate.get_state()
+simple.Delete(view)
+del view, scene
+
+
+def check_kept():
+    found = simple.FindSource("bench")
+    assert (found.LockedK, found.LockedAmbient) == fixed
+    assert at(found, 1.5) == fixed
+    assert np.array_equal(picture(found, "Intensity"), kept)
+    assert at(found, 0) == fixed
+    for loaded in simple.GetViews():
+        simple.Delete(loaded)
+
+
+simple.ResetSession()
+simple.LoadState(os.path.abspath("pulse.pvsm"))
+check_kept()
+simple.ResetSession()
+exec(script, {})  # pylint: disable=exec-used
+check_kept()
