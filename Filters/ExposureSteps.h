@@ -19,8 +19,7 @@ class vtkInformationVector;
 
 /// What an exposure of `length`, of so many instants, is in a request of that output for a time; none where the data do
 /// not change with time.
-TimeExposure exposureFor(
-  vtkInformation* input, vtkInformation* output, double length, int samples);
+TimeExposure exposureFor(vtkInformation* input, vtkInformation* output, double length, int samples);
 
 /// Requests another time of all inputs than that of the output.
 void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
@@ -64,6 +63,6 @@ private:
   std::vector<std::string> Arrays;
   std::optional<FilterRanks::Meeting> Meeting;
   std::size_t Step = 0;
-  bool IsThere = true; // the data of Step
+  bool IsThere = true;                                         // the data of Step
   vtkSmartPointer<vtkDataObject> Earlier[Ports], Later[Ports]; // Later: of Step
 };

@@ -193,6 +193,38 @@ def gathered():
     return found
 
 
+def exposed():
+    """Exposures over time steps of which each rank has a part, or rank 0 all."""
+    from paraview.simple import ProgrammableSource
+    from plugin_testing import Schlieren, picture
+    found = {}
+    times = """
+key = self.GetExecutive().UPDATE_TIME_STEP()
+time = info.Get(key) if info.Has(key) else 0
+""".replace("info.", "self.GetExecutive().GetOutputInformation(0).")
+    steps = """
+info.Set(self.GetExecutive().TIME_STEPS(), [0, 0.5, 1], 3)
+info.Set(self.GetExecutive().TIME_RANGE(), [0, 1], 2)
+"""
+    for kind, output in (("image", "vtkImageData"), ("tetrahedra", "vtkUnstructuredGrid")):
+        moving = times + BALL.replace("KIND", repr(kind)).replace("-(x * x", "-((x - time)**2") + """
+output.GetInformation().Set(output.DATA_TIME_STEP(), time)
+"""
+        source = ProgrammableSource(OutputDataSetType=output, Script=moving,
+                                    ScriptRequestInformation=WHOLE_EXTENT.replace(
+                                        "IS_GRID", str(output == "vtkImageData")) + steps)
+        seen = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[40, 40], ExposureTime=0.8,
+                         ExposureSamples=4)
+        seen.UpdatePipeline(0.5)
+        assert "ExposureInterval" in seen.FieldData.keys() or not is_rank0()
+        for array in ("Intensity", "Deflection", "OpticalPathDifference"):
+            found[f"{kind}: {array}"] = picture(seen, array)
+        seen.ExposureTime = 0
+        seen.UpdatePipeline(0.5)
+        found[f"{kind} at the instant"] = picture(seen, "Intensity")
+    return found
+
+
 # A source with 16 x 16 x 16 cells at times 0 and 1. As KIND says, each rank has all of them whatever is requested
 # ("same"), or a slab, from the beginning ("spread") or at time 1 ("spread later").
 INFORMATION = """
@@ -389,7 +421,7 @@ def run_results(command, what, file):
         return dict(arrays)
 
 
-SAVED = {"same": results, "files": read_files, "gathered": gathered}
+SAVED = {"same": results, "files": read_files, "gathered": gathered, "exposed": exposed}
 PARTS = {"redistribute": redistribute, "spread": spread, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     np.savez(sys.argv[2], **SAVED[sys.argv[1]]())
@@ -406,7 +438,8 @@ else:
     def on(ranks):
         return [mpiexec, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), *pvbatch]
 
-    for what, ranks, count in (("same", 3, 72), ("files", 4, 18), ("gathered", 2, 24), ("gathered", 5, 24)):
+    for what, ranks, count in (("same", 3, 72), ("files", 4, 18), ("gathered", 2, 24), ("gathered", 5, 24),
+                              ("exposed", 4, 8)):
         one, several = run_results(pvbatch, what, "one.npz"), run_results(on(ranks), what, "several.npz")
         assert one.keys() == several.keys() and len(one) == count, (what, len(one))
         for name in one:
