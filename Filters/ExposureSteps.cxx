@@ -144,7 +144,7 @@ bool ExposureSteps::GoOn()
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::Hold()
+void ExposureSteps::Keep()
 {
   if (!this->IsThere)
   {

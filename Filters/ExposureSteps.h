@@ -26,7 +26,7 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 
 /// The data of an image, for RequestData of a filter that has those of the first step of its exposure, or of the only
 /// one where there is none. What is upstream is updated for one step after the other, on all ranks, and two of them
-/// are held. (VTK's CONTINUE_EXECUTING would do the same, but never ends where the data of a step cannot be read.)
+/// are kept. (VTK's CONTINUE_EXECUTING would do the same, but never ends where the data of a step cannot be read.)
 /// At its end, the other ranks have been followed through all steps, whatever happened on this one, the outputs are of
 /// the time of the image, and the request is that of the first step again.
 class ExposureSteps
@@ -45,8 +45,8 @@ public:
   /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
   bool GoOn();
 
-  /// On rank 0: holds the data of the step. Throws std::runtime_error with a message for the user, as the next one.
-  void Hold();
+  /// On rank 0: keeps the data of the step. Throws std::runtime_error with a message for the user, as the next one.
+  void Keep();
 
   /// The data of an input at an instant, for which the step must be there.
   bool IsBefore(const TimeExposure::Instant& instant) const { return this->Step < instant.later; }

@@ -27,7 +27,8 @@ bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
 /// Whether they are the same, whenever they were asked for.
 bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 {
-  return haveSameData(a, b) && std::tie(a.medium, a.rays) == std::tie(b.medium, b.rays);
+  return a.data.has_value() == b.data.has_value() && haveSameData(a, b) &&
+    std::tie(a.medium, a.rays) == std::tie(b.medium, b.rays);
 }
 
 } // namespace

@@ -926,14 +926,14 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
   monitor.progress = [this](double fraction)
   { this->Progress(mediumShare + (1 - mediumShare) * fraction); };
   MeanImage mean;
-  steps.Hold();
+  steps.Keep();
   for (const TimeExposure::Instant& instant : inside.Exposure.Instants)
   {
     while (steps.IsBefore(instant))
     {
       steps.GoOn();
       inside.Pictures.SetWorkers(steps.GetMeeting().GetWorkers());
-      steps.Hold();
+      steps.Keep();
     }
     const auto input = steps.GetData(0, instant);
     const auto bodies = steps.GetData(vtkRefractiveIndex::BODIES, instant);

@@ -766,7 +766,7 @@ public:
    * image are such means; the histogram is the sum of all; the sensitivity k and the refractivity around the data
    * are those of the first instant, unless they are given. Between time steps, arrays of real numbers and the points
    * of meshes are linear in time, and everything else is of the earlier step; cells that differ are an error. Sources
-   * without time steps, but with a range of time, are asked for each instant.
+   * without time steps, but with a range of time, give the data of each instant.
    * No effect on data that do not change, and on images with a PreviewReduction. TimeLimit has none on an exposure:
    * it is made at once, and anew, with what is upstream, whenever anything changes.
    */

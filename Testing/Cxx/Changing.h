@@ -23,9 +23,9 @@ public:
   vtkTypeMacro(Changing, vtkAlgorithm);
 
   std::function<vtkSmartPointer<vtkDataObject>(double time)> make;
-  std::vector<double> steps; ///< none: any time from 0 to 2
-  std::vector<double> asked; ///< times that have been asked for
-  std::set<double> broken;   ///< times without data
+  std::vector<double> steps;     ///< none: any time from 0 to 2
+  std::vector<double> requested; ///< of all requests for data
+  std::set<double> broken;       ///< times without data
 
 protected:
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -74,7 +74,7 @@ protected:
     else if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
       double time = info->Get(Pipeline::UPDATE_TIME_STEP());
-      this->asked.push_back(time);
+      this->requested.push_back(time);
       if (!this->steps.empty()) // as readers do
       {
         const auto after = std::upper_bound(this->steps.begin(), this->steps.end(), time);

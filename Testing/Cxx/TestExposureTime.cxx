@@ -257,7 +257,7 @@ TEST_F(ExposureTime, TimeStepsAreInterpolatedAndEachIsReadOnce)
   this->filter->SetExposureTime(0.8);
   this->filter->SetExposureSamples(8);
   this->filter->UpdateTimeStep(1.2);
-  EXPECT_EQ(this->source->asked, (std::vector<double>{ 0.75, 1, 1.5, 2 }));
+  EXPECT_EQ(this->source->requested, (std::vector<double>{ 0.75, 1, 1.5, 2 }));
 
   auto* image = vtkImageData::SafeDownCast(this->filter->GetOutputDataObject(0));
   std::vector<double> mean;
@@ -559,7 +559,10 @@ TEST_F(ExposureTime, BodiesMoveAndMasksStay)
   auto* image = vtkImageData::SafeDownCast(this->filter->GetOutputDataObject(0));
   const auto blocked = this->seen("BlockedFraction");
   const auto at = [&](double x)
-  { return blocked[static_cast<std::size_t>(image->FindPoint(x, 0., 0.))]; };
+  {
+    double place[3] = { x, 0, 0 };
+    return blocked[static_cast<std::size_t>(image->FindPoint(place))];
+  };
   EXPECT_EQ(at(0), 1); // by both
   EXPECT_EQ(at(-0.2), 0.5);
   EXPECT_EQ(at(0.2), 0.5);
@@ -620,13 +623,13 @@ TEST_F(ExposureTime, PreviewsAreOfTheInstant)
   this->filter->UpdateTimeStep(1);
   const auto plain = this->seen();
   this->filter->SetExposureTime(1);
-  this->source->asked.clear();
+  this->source->requested.clear();
   this->filter->UpdateTimeStep(1);
-  EXPECT_TRUE(this->source->asked.empty());
+  EXPECT_TRUE(this->source->requested.empty());
   EXPECT_EQ(this->seen(), plain);
   this->filter->SetPreviewReduction(1);
   this->filter->UpdateTimeStep(1);
-  EXPECT_EQ(this->source->asked.size(), 3u);
+  EXPECT_EQ(this->source->requested.size(), 3u);
 }
 
 TEST_F(ExposureTime, AddsUpColoursOfLight)

@@ -17,7 +17,7 @@
 namespace
 {
 
-/// Bytes that have been asked for and not given back, of all threads; 0 where nobody counts.
+/// Bytes that have been allocated and not freed, of all threads; 0 where nobody counts.
 std::size_t memoryInUse()
 {
 #ifdef SCHLIEREN_COUNTS_MEMORY
@@ -91,7 +91,7 @@ void expectNoGrowth(const std::function<vtkSmartPointer<vtkDataObject>(double)>&
   {
     filter->UpdateTimeStep(step);
     ASSERT_FALSE(isEmpty(filter)) << step;
-    source->asked.clear();
+    source->requested.clear();
     if (step == warmedUp)
     {
       inUse = memoryInUse();
