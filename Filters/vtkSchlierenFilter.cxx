@@ -1246,7 +1246,7 @@ int vtkSchlierenFilter::RequestData(
   if (isStopped)
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
-    this->Status = noIndexYet;
+    this->Status = isExposure ? "No image: the exposure was stopped" : noIndexYet;
   }
   return 1;
 }

@@ -798,8 +798,18 @@ TEST_F(ExposureTime, CanBeAborted)
   EXPECT_TRUE(std::is_sorted(watch.progress.begin(), watch.progress.end()));
   watch.progress.pop_back(); // VTK's, of the end
   EXPECT_LT(watch.progress.back(), 0.8);
-  watch.stopAt = 2;
+
+  // As the window does, which lets it go on.
+  this->filter->SetTimeLimit(1);
   this->filter->Modified();
+  this->filter->UpdateTimeStep(1);
+  EXPECT_TRUE(isEmpty(this->filter));
+  EXPECT_TRUE(this->filter->GetStopped());
+  EXPECT_STREQ(this->filter->GetStatus(), "No image: the exposure was stopped");
+  watch.stopAt = 2;
+  this->filter->UpdateTimeStep(1);
+  EXPECT_TRUE(isEmpty(this->filter));
+  this->filter->Refine();
   this->filter->UpdateTimeStep(1);
   EXPECT_FALSE(isEmpty(this->filter));
 }
