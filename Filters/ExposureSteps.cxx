@@ -110,10 +110,10 @@ ExposureSteps::~ExposureSteps()
 }
 
 //------------------------------------------------------------------------------
-FilterRanks::Meeting& ExposureSteps::Meet(std::vector<std::string> arrays)
+void ExposureSteps::Meet(std::vector<std::string> arrays)
 {
   this->Arrays = std::move(arrays);
-  return this->Meeting.emplace(this->Ranks,
+  this->Meeting.emplace(this->Ranks,
     FilterRanks::Inputs{ vtkDataObject::GetData(this->Inputs[0]),
       vtkDataObject::GetData(this->Inputs[1]), this->Arrays });
 }

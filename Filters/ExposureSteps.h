@@ -39,7 +39,7 @@ public:
   ExposureSteps& operator=(const ExposureSteps&) = delete;
 
   /// The ranks meet for the first step. `arrays`: that are needed of the data.
-  FilterRanks::Meeting& Meet(std::vector<std::string> arrays);
+  void Meet(std::vector<std::string> arrays);
   FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
 
   /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.

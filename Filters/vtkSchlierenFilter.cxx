@@ -1157,16 +1157,16 @@ int vtkSchlierenFilter::RequestData(
   {
     return 1;
   }
-  FilterRanks::Meeting& meeting = steps.Meet(refractivity::arraysOf(this->Medium));
+  steps.Meet(refractivity::arraysOf(this->Medium));
   if (!isRank0())
   {
     do
     {
-      meeting.Serve(threadsFrom(this));
+      steps.GetMeeting().Serve(threadsFrom(this));
     } while (steps.GoOn());
     return 1;
   }
-  const Internals::WithWorkers withWorkers(inside, meeting);
+  const Internals::WithWorkers withWorkers(inside, steps.GetMeeting());
 
   const auto showLast = [&]()
   {
@@ -1199,7 +1199,7 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    const FilterRanks::Inputs inputs = meeting.Gather();
+    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather();
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
     if (isAbortedUpstream(this, input))
