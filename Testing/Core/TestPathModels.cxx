@@ -267,7 +267,7 @@ TEST_P(PathModels, NoRayIsDisplacedBeyondTheBoundHoweverItIsTraced)
             SCOPED_TRACE(testing::Message()
               << n << " " << name(integrator) << " " << step << " " << skipped << " " << distance);
             View view;
-            view.width = view.height = 24;
+            view.width = view.height = 16;
             view.viewDirection = { 0.2, 0.1 * n, -0.9 };
             view.parallelScale = step == 2 ? 0 : 0.8;
             Scene scene = sceneOf(PathModel::Refracted, view);

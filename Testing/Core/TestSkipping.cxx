@@ -85,6 +85,7 @@ void Skipping::expectWithinTheBound(
       for (const PathModel model : models)
       {
         Scene here = scene();
+        here.view.width = here.view.height = 16;
         here.interpolation = interpolation;
         here.integrator = integrator;
         here.pathModel = model;

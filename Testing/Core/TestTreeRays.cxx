@@ -179,8 +179,8 @@ TEST_P(RaysInATree, ConserveTheirMomentumInAStrongMedium)
     for (const double step : { 1., 0.25 })
     {
       Scene scene = sceneOf({ 0.3, -0.5, -0.8 }, GetParam());
-      scene.view.width = 80;
-      scene.view.height = 60;
+      scene.view.width = 40;
+      scene.view.height = 30;
       scene.precision = Precision::Double;
       scene.mediumTolerance = 1e-3;
       scene.integrator = integrator;

@@ -50,21 +50,20 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
     std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
   for (const Interpolation interpolation : allInterpolations)
   {
+    TreeSettings settings;
+    settings.interpolation = interpolation;
+    Medium<float> medium = buildTree<float>(field, settings);
+    View view;
+    view.viewDirection = { 0.3, -0.5, -0.8 };
+    view.width = 37;
+    view.height = 29;
+    const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
+    refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
     for (const Integrator integrator :
       { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
     {
       SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
         std::to_string(static_cast<int>(integrator)));
-      TreeSettings settings;
-      settings.interpolation = interpolation;
-      Medium<float> medium = buildTree<float>(field, settings);
-      View view;
-      view.viewDirection = { 0.3, -0.5, -0.8 };
-      view.width = 37;
-      view.height = 29;
-      const Frame frame = frameOf(field.grid, view);
-      const Light light = collimatedLight(field.grid, frame);
-      refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
       RaySettings rays;
       rays.kernel = { PathModel::Refracted, integrator, interpolation };
       const RayTask<float> task =

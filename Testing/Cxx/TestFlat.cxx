@@ -122,7 +122,7 @@ TEST(Flat, MeshesAreOneUnitDeep)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    auto image = plane(axis, 257);
+    auto image = plane(axis, 129);
     double spacing[3];
     image->GetSpacing(spacing);
     spacing[axis] = 1;

@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
 
 K = 2.26e-4
 FAR = 50
-PIXELS = 200
+PIXELS = 100
 
 
 def density(x, y, z):
@@ -24,8 +24,8 @@ def density(x, y, z):
 def mesh(last_angle):
     """Around the x axis up to an angle; layers get thicker by 8 % each."""
     layers = (1.08**np.arange(64) - 1) / (1.08**63 - 1)
-    r, theta, phi = np.meshgrid(1 + (FAR - 1) * layers, np.linspace(0, np.pi, 61),
-                                np.linspace(0, last_angle, 61), indexing="ij")
+    r, theta, phi = np.meshgrid(1 + (FAR - 1) * layers, np.linspace(0, np.pi, 41),
+                                np.linspace(0, last_angle, 41), indexing="ij")
     x, y, z = r * np.cos(theta), r * np.sin(theta) * np.cos(phi), r * np.sin(theta) * np.sin(phi)
     grid = vtkStructuredGrid()
     grid.SetDimensions(r.shape[::-1])
@@ -65,7 +65,7 @@ def deflection(u, v):
 def check_sphere(bench, image, bent, blocked, share=1):
     pixel = image.GetSpacing()[0]
     # Of a sphere of flat quadrilaterals.
-    area = share * np.pi * np.sinc(1 / 60)**2
+    area = share * np.pi * np.sinc(1 / 40)**2
     assert abs(blocked.sum() * pixel**2 / area - 1) < 0.01, blocked.sum() * pixel**2 / area
     axis = image.GetOrigin()[0] + pixel * np.arange(PIXELS)
     u, v = np.meshgrid(axis, image.GetOrigin()[1] + pixel * np.arange(PIXELS))

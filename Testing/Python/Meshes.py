@@ -15,7 +15,7 @@ from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_HEXAGONAL_PRISM, 
                                            vtkMultiBlockDataSet, vtkStructuredGrid, vtkUnstructuredGrid)
 
 K, DENSITY, HEIGHT, WIDTH = 2.26e-4, 1.2, 0.3, 0.35
-PIXELS = 200
+PIXELS = 150
 
 
 def ball(x):
