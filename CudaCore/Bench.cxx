@@ -313,7 +313,8 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   const std::int64_t around = rays.margin();
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
-  const double noise = noiseFloor(held.medium, field, light);
+  const DeflectionErrors errors{ noiseFloor(held.medium, field, light),
+    image.medium.deflectionError };
   GrowingPicture& picture = asked.picture;
   const auto isNewPictureThere = [&]
   { return picture.isWhole() && picture.passes() > asked.shown; };
@@ -349,7 +350,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     }
     asked.momentumDrift = std::max(asked.momentumDrift, traced->worstDrift);
     const TracedRays ofTraced{ pass, traced->exits.data(), traced->gathered.data() };
-    rays.ask(*traced, ofTraced, number, scene, noise);
+    rays.ask(*traced, ofTraced, number, scene, errors);
     if (!picture.isBegun())
     {
       if (fullScaleOf(scene.cutoff) > 0)

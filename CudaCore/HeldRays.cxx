@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HeldRays.h"
 
-#include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
 
 #include <utility>
@@ -93,8 +92,8 @@ const TracedPass* HeldRays::raysOf(std::int64_t number, const Pass& pass, Device
   return &scratch_;
 }
 
-void HeldRays::ask(
-  const TracedPass& traced, TracedRays rays, std::int64_t number, const Scene& scene, double noise)
+void HeldRays::ask(const TracedPass& traced, TracedRays rays, std::int64_t number,
+  const Scene& scene, const DeflectionErrors& errors)
 {
   if (number == 0 && scene.histogramSize > 0 &&
     (!histogram_ || histogram_->size() != scene.histogramSize ||
@@ -121,7 +120,7 @@ void HeldRays::ask(
       rays.exits = fetched.data();
     }
     strong_ =
-      schlieren::strongDeflection(rays, scene.view.width, scene.view.height, noise, scene.threads);
+      schlieren::strongDeflection(rays, scene.view.width, scene.view.height, errors, scene.threads);
   }
 }
 

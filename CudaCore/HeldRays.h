@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Optics/AutomaticK.h"
 #include "Optics/DeflectionHistogram.h"
 #include "Optics/Tint.h"
 #include "Rays/TracedRays.h"
@@ -38,9 +39,9 @@ public:
   bool holds(const TracedPass& traced) const { return &traced != &scratch_; }
 
   /// Learns from the rays of a pass what has not been asked of them before: how strongly they are bent, for
-  /// automatic k, and where they meet the cutoff plane. `noise`: see noiseFloor.
+  /// automatic k, and where they meet the cutoff plane.
   void ask(const TracedPass& traced, TracedRays rays, std::int64_t number, const Scene& scene,
-    double noise);
+    const DeflectionErrors& errors);
   double strongDeflection() const { return *strong_; }
   Histogram histogram() const { return histogram_->histogram(); }
 

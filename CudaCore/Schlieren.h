@@ -228,7 +228,7 @@ struct Scene
   double knifeEdgeAngle = 0;    ///< degrees; 0 measures the deflection along u, 90 along v
   double cutoffOffset = 0;      ///< how far the edge is in, as a share of the source's image
   bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter)
-  std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale
+  std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale, about
   /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
   std::vector<double> gradedFilter{ 0, 1 };
   std::shared_ptr<const RgbPicture>
@@ -318,6 +318,7 @@ struct MediumStatistics
   /// colour: the largest sum of what the leaves along a ray lack, as far as finer voxels would mend it. Voxels of the size
   /// of cells, or as fine as the view asks, lack nothing.
   double estimatedError = 0;
+  double deflectionError = 0; ///< the same of deflections alone, not divided by the largest one
 };
 
 /// The picture and what is known about it. Arrays are row-major, bottom row first.

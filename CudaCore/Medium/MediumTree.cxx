@@ -347,6 +347,7 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
   const double deflection = work_.largest, gathered = work_.gathered;
   statistics_.largestDeflection = deflection;
+  statistics_.deflectionError = error;
   statistics_.estimatedError =
     std::max(deflection > 0 ? error / deflection : 0, gathered > 0 ? errorOfFields / gathered : 0);
 }

@@ -247,7 +247,7 @@ TEST(Spread, OfNoRaysIsNone)
     exit.fate = RayFate::Blocked;
   }
   EXPECT_EQ(spreadOf(invented.rays[0], width, height, 2, [](std::int64_t) { return 1.; }).rays, 0);
-  EXPECT_EQ(strongDeflection(invented.rays[0], width, height, 0, 2), 0);
+  EXPECT_EQ(strongDeflection(invented.rays[0], width, height, {}, 2), 0);
 }
 
 } // namespace schlieren

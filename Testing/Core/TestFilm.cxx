@@ -38,15 +38,32 @@ TEST(AutomaticK, MapsThe99thPercentileToFullScale)
     }
   }
   const TracedRays rays{ pass, exits.data(), nullptr };
-  const double strong = strongDeflection(rays, width, height, 0, 2);
+  const double strong = strongDeflection(rays, width, height, {}, 2);
   EXPECT_NEAR(strong, 989e-6, 1e-12);
   EXPECT_EQ(automaticK(strong, 0.5), 0.5 / strong);
   EXPECT_EQ(automaticK(strong, 1), 1 / strong);
-  EXPECT_EQ(strongDeflection(rays, width, height, 1, 2), 1);
+  EXPECT_EQ(strongDeflection(rays, width, height, { 1, 0 }, 2), 1);
+  EXPECT_EQ(strongDeflection(rays, width, height, { 0, 1 }, 2), strong); // the image is full
   std::for_each(
     exits.begin(), exits.end(), [](RayExit& exit) { exit.deflection[0] = exit.deflection[1] = 0; });
-  EXPECT_EQ(strongDeflection(rays, width, height, 0, 2), 0);
+  EXPECT_EQ(strongDeflection(rays, width, height, {}, 2), 0);
   EXPECT_EQ(automaticK(0, 0.5), 1);
+}
+
+TEST(AutomaticK, ShowsTheErrorOfTheMediumAsATinyPartOfFullScale)
+{
+  constexpr int width = 50, height = 40;
+  const Pass pass{ 0, 0, width, height, { 0, 0 } };
+  std::vector<RayExit> exits(width * height, RayExit{ { 1e-7, 0 }, { 0, 0 }, 0, RayFate::Left, 1 });
+  exits[77].deflection[1] = 1e-4; // one ray
+  const TracedRays rays{ pass, exits.data(), nullptr };
+  const auto strong = [&](double error) {
+    return strongDeflection(rays, width, height, { 0, error }, 2);
+  };
+  EXPECT_EQ(strong(0), 1e-7);
+  EXPECT_EQ(strong(1e-9), 1e-7);
+  EXPECT_NEAR(strong(1e-8), 5e-7, 1e-15);
+  EXPECT_NEAR(strong(1e-6), 1e-5, 1e-9); // a tenth of the largest, and no more
 }
 
 /// Splats rays one by one, each with its own row covered, as light lands that knows no order.

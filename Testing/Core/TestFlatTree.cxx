@@ -141,6 +141,79 @@ private:
   double depth_, wall_;
 };
 
+/// Potential flow around a cylinder of radius 1 at Mach 0.38, in a far field.
+class CylinderSource : public AnalyticSource
+{
+public:
+  CylinderSource()
+    : AnalyticSource(50)
+  {
+  }
+
+  static constexpr double far = 2.7e-4, mach = 0.38;
+
+  bool isFlat() const override { return true; }
+  Box bounds() const override { return { { -half_, -half_, -0.5 }, { half_, half_, 0.5 } }; }
+  double ambient() const override { return far; }
+  double refractivity(double x, double y, double) const override
+  {
+    return far * std::pow(baseAt(x, y), 2.5);
+  }
+  /// From places in the box: nearly exact, as that of cells is.
+  Range rangeOver(const Box& box) const override
+  {
+    constexpr int steps = 12;
+    Range range{ HUGE_VAL, -HUGE_VAL };
+    for (int n = 0; n < (steps + 1) * (steps + 1); ++n)
+    {
+      const double x = box.low[0] + (box.high[0] - box.low[0]) * (n % (steps + 1)) / steps;
+      const double y = box.low[1] + (box.high[1] - box.low[1]) * (n / (steps + 1)) / steps;
+      const double here = refractivity(x, y, 0);
+      range = { std::min(range.first, here), std::max(range.second, here) };
+    }
+    return range;
+  }
+  double cellSizeOver(const Box& box) const override
+  {
+    return 0.02 * std::max(1., distancesTo({}, flat(box)).first);
+  }
+  Place placeAt(double x, double y, double) const override
+  {
+    return std::hypot(x, y) < 1 ? Place::Wall : Place::Gas;
+  }
+  double distanceAt(double x, double y, double) const override { return std::hypot(x, y) - 1; }
+  void findPlaces(const Box& box, Content& content) const override
+  {
+    const Range r = distancesTo({}, flat(box));
+    content.hasWall = r.first < 1;
+    content.hasGas = r.second > 1;
+  }
+
+  /// Of a straight ray along z.
+  static std::array<double, 2> deflectionAt(double x, double y)
+  {
+    const double r4 = std::pow(x * x + y * y, 2), r6 = std::pow(x * x + y * y, 3);
+    const double byBase = -0.2 * mach * mach * 2.5 * far * std::pow(baseAt(x, y), 1.5) / (1 + far);
+    const double squares = x * x - y * y;
+    return { byBase * (-4 * x / r6 - 4 * x / r4 + 8 * x * squares / r6),
+      byBase * (-4 * y / r6 + 4 * y / r4 + 8 * y * squares / r6) };
+  }
+
+private:
+  static Box flat(Box box)
+  {
+    box.low[2] = box.high[2] = 0;
+    return box;
+  }
+  /// The density, of that far away, to the power of 0.4: isentropic.
+  static double baseAt(double x, double y)
+  {
+    const double r2 = std::max(x * x + y * y, 1.);
+    const double speed2 = 1 + 1 / (r2 * r2) - 2 * (x * x - y * y) / (r2 * r2);
+    return 1 + 0.2 * mach * mach * (1 - speed2);
+  }
+};
+
 Scene sceneOf(const Vector& direction, Device device = Device::Cpu)
 {
   Scene scene;
@@ -311,6 +384,55 @@ TEST_P(RaysInAFlatTree, EndAtWalls)
     const auto [area, worst] = shadowOfDisc(image, 1);
     EXPECT_NEAR(area, std::acos(-1.), 5e-3 * area);
     EXPECT_LT(worst, 0.1); // pixels
+  }
+}
+
+// Where an image shows nearly nothing but undisturbed gas, leaves that lack less than the tolerance must not be seen.
+TEST(AutomaticK, DoesNotShowTheErrorOfTheMedium)
+{
+  const Field field = fieldOf(std::make_shared<CylinderSource>());
+  for (const double scale : { 50., 15., 3. })
+  {
+    Scene scene = sceneOf({ 0, 0, -1 });
+    scene.view.width = scene.view.height = 400;
+    scene.view.parallelScale = scale;
+    scene.cutoff = Cutoff::KnifeEdge;
+    scene.mediumTolerance = 0.02;
+    const Image image = Bench().render(field, scene);
+    constexpr double fullScale = 0.5;
+    std::vector<double> bent;
+    double worst = 0;
+    for (int row = 0; row < image.height; ++row)
+    {
+      for (int column = 0; column < image.width; ++column)
+      {
+        const PixelCentre at = centreOf(image, column, row);
+        const std::size_t pixel = pixelOf(image, column, row);
+        const Vec3<double> x = at.u * vec(image.frame.u) + at.v * vec(image.frame.v);
+        if (std::hypot(x.x, x.y) < 1 + 2 * image.frame.pixelSize)
+        {
+          continue;
+        }
+        const auto [ofX, ofY] = CylinderSource::deflectionAt(x.x, x.y);
+        const Vec3<double> truth{ ofX, ofY, 0 };
+        const double u = dot(truth, vec(image.frame.u)), v = dot(truth, vec(image.frame.v));
+        bent.push_back(std::hypot(u, v));
+        if (std::hypot(x.x, x.y) > 4 && image.kScale * bent.back() < fullScale)
+        {
+          worst = std::max(worst,
+            std::hypot(static_cast<double>(image.deflection[2 * pixel]) - u,
+              static_cast<double>(image.deflection[2 * pixel + 1]) - v));
+        }
+      }
+    }
+    if (scale < 50)
+    {
+      // The image is full of flow: k is that of the 99th percentile, but for the pixels that are left out here.
+      std::sort(bent.begin(), bent.end());
+      const double percentile = bent[bent.size() * 99 / 100];
+      EXPECT_NEAR(image.kScale * percentile / fullScale, 1, 0.15);
+    }
+    EXPECT_LT(image.kScale * worst, 0.06 * fullScale) << scale;
   }
 }
 
