@@ -635,6 +635,8 @@ bool CellSampler::sample(
   Brick brick(this->Tree, lattice, values);
   for (std::size_t i = 0; i < cells.cells.size(); ++i)
   {
+    this->Tree.fetchAhead(
+      i, cells.cells.size(), [&](std::size_t n) { return std::size_t{ cells.cells[n] }; });
     brick.add(cells.cells[i], cells.points.data() + cells.starts[i],
       cells.points.data() + cells.starts[i + 1]);
   }

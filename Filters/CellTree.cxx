@@ -404,6 +404,7 @@ void CellTree::setValues(const WorkProgress& progress)
         made = { infinity, -infinity };
         for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
         {
+          this->fetchAhead(i, count, [](std::size_t place) { return place; });
           const Cell one = this->cell(mesh.numbers[i]);
           const auto [low, high] = this->rangeOf(one);
           const double more = overshootOf(orderOf(one, curved)) * (high - low);

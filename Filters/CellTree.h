@@ -64,6 +64,24 @@ public:
   /// In the tree's order cells have other numbers: their places.
   Number number(std::size_t place) const { return this->Sorted->numbers[place]; }
 
+  /// Cells that follow each other in the tree's order are anywhere in a dataset, and the processor waits for memory. To be
+  /// called before the i-th of `count` cells is read, whose places are placeOf(i): fetches what is read of later ones.
+  template <class PlaceOf>
+  void fetchAhead(std::size_t i, std::size_t count, const PlaceOf& placeOf) const
+  {
+    constexpr std::size_t ahead = 12;
+    if (i + 2 * ahead < count)
+    {
+      const Cell later = this->cell(this->number(placeOf(i + 2 * ahead)));
+      later.block->fetchCell(later.id);
+    }
+    if (i + ahead < count)
+    {
+      const Cell soon = this->cell(this->number(placeOf(i + ahead)));
+      soon.block->fetchPoints(soon.id);
+    }
+  }
+
   std::size_t size() const { return this->Sorted->numbers.size(); } // cells that are there
   std::size_t bytes() const; // of memory, without the datasets'
 

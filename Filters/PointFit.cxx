@@ -41,7 +41,9 @@ void PointFit::clear(std::size_t most, Values ofWhat)
   this->values = ofWhat;
   this->neighbours = most;
   this->perNeighbour = ofWhat == Values::Means ? 10 : 4;
-  this->numbers.assign(this->perNeighbour * points * most, 0);
+  const std::size_t count = this->perNeighbour * points * most;
+  this->numbers.resize(std::max(this->numbers.size(), count));
+  std::fill_n(this->numbers.begin(), count, 0.);
   std::fill(std::begin(this->counts), std::end(this->counts), 0);
 }
 
