@@ -293,29 +293,7 @@ void BrickMaker<Real>::Samples::continueGas()
   }
   if (hasHoles)
   {
-    PaddedVolume<double> volume({ n, n, layers });
-    PointMask empty({ n, n, layers });
-    for (int k = 0; k < layers; ++k)
-    {
-      for (int j = 0; j < n; ++j)
-      {
-        std::uint64_t gas = 0; // n is below 64: one word a row
-        for (int i = 0; i < n; ++i)
-        {
-          gas |= std::uint64_t{ isGas[index(i, j, k)] } << i;
-          volume.at(i, j, k) = nu[index(i, j, k)];
-        }
-        *empty.row(j, k) = ~gas;
-      }
-    }
-    fillEmpty(volume, empty, 1, Continuation::Linear);
-    for (int k = 0; k < layers; ++k)
-    {
-      for (int j = 0; j < n; ++j)
-      {
-        std::copy_n(&volume.at(0, j, k), n, &nu[index(0, j, k)]);
-      }
-    }
+    continueValues(nu, n, layers, isGas);
   }
   // Axis by axis; the later axes carry what the earlier ones have made along.
   std::array<int, 3> from = begin;

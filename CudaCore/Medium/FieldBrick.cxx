@@ -57,6 +57,26 @@ struct OneField
 
   double range() const { return std::max(0., highest - lowest); }
 
+  /// The slope at a point, twice, by those on one side: that of a parabola through two, where they are there and known,
+  /// but no more than half as steep again as to the first; 0 where that is not known.
+  double twiceOnOneSide(std::size_t at, std::size_t stride, bool isAbove, std::size_t n) const
+  {
+    const auto beside = [&](std::size_t i) { return isAbove ? at + i * stride : at - i * stride; };
+    if (isKnown[beside(1)] == 0)
+    {
+      return 0;
+    }
+    const double first = values[beside(1)] - values[at];
+    const std::size_t place = at / stride % n;
+    double bend = 0;
+    if ((isAbove ? place + 2 < n : place >= 2) && isKnown[beside(2)] != 0)
+    {
+      bend = first - (values[beside(2)] - values[beside(1)]);
+    }
+    const double twice = 2 * first + std::clamp(bend, -std::abs(first), std::abs(first));
+    return isAbove ? twice : -twice;
+  }
+
   /// By 1 / perAxis[...] on each axis; 0 where the field is not known.
   double gradientAt(std::size_t at, std::size_t axes, const std::array<std::size_t, 3>& strides,
     const std::array<double, 3>& perAxis) const
@@ -68,68 +88,18 @@ struct OneField
     double square = 0;
     for (std::size_t axis = 0; axis < axes; ++axis)
     {
-      std::size_t below = at - strides[axis], above = at + strides[axis];
-      double run = 2;
-      if (!isKnown.empty())
+      const std::size_t stride = strides[axis];
+      double twice = values[at + stride] - values[at - stride];
+      if (!isKnown.empty() && (isKnown[at - stride] == 0 || isKnown[at + stride] == 0))
       {
-        run = isKnown[below] + isKnown[above];
-        below = isKnown[below] != 0 ? below : at;
-        above = isKnown[above] != 0 ? above : at;
+        twice = twiceOnOneSide(at, stride, isKnown[at + stride] != 0, strides[1]);
       }
-      const double slope = run > 0 ? (values[above] - values[below]) / run * perAxis[axis] : 0;
+      const double slope = 0.5 * twice * perAxis[axis];
       square += slope * slope;
     }
     return std::sqrt(square);
   }
 };
-
-/// Points without gas get the mean of those around them, layer after layer.
-void continueGradients(std::vector<double>& gradients, int stored, const FieldSamples& samples,
-  int skipped, const std::vector<unsigned char>& isGas)
-{
-  const bool isLayer = samples.shape == BrickShape::Layer;
-  const int layers = isLayer ? 1 : stored;
-  const int firstLayer = isLayer ? 0 : skipped;
-  PaddedVolume<double> volume({ stored, stored, layers });
-  PointMask empty({ stored, stored, layers });
-  const auto n = static_cast<std::size_t>(samples.n);
-  bool hasHoles = false;
-  std::size_t at = 0;
-  for (int k = 0; k < layers; ++k)
-  {
-    for (int j = 0; j < stored; ++j)
-    {
-      std::uint64_t gas = 0; // `stored` is below 64: one word a row
-      for (int i = 0; i < stored; ++i, ++at)
-      {
-        const std::size_t of =
-          (static_cast<std::size_t>(k + firstLayer) * n + static_cast<std::size_t>(j + skipped)) *
-            n +
-          static_cast<std::size_t>(i + skipped);
-        gas |= std::uint64_t{ isGas[of] } << i;
-        volume.at(i, j, k) = gradients[at];
-        hasHoles = hasHoles || isGas[of] == 0;
-      }
-      *empty.row(j, k) = ~gas;
-    }
-  }
-  if (!hasHoles)
-  {
-    return;
-  }
-  fillEmpty(volume, empty, 1);
-  at = 0;
-  for (int k = 0; k < layers; ++k)
-  {
-    for (int j = 0; j < stored; ++j)
-    {
-      for (int i = 0; i < stored; ++i, ++at)
-      {
-        gradients[at] = volume.at(i, j, k);
-      }
-    }
-  }
-}
 
 } // namespace
 
@@ -196,6 +166,7 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
   const auto storedPoints = static_cast<std::size_t>(stored * stored * layers);
   brick.gradients.resize(fields.size() * storedPoints);
   std::vector<double> gradients(storedPoints);
+  std::vector<unsigned char> hasGas(isGas.empty() ? 0 : storedPoints);
   for (std::size_t number = 0; number < fields.size(); ++number)
   {
     std::size_t to = 0;
@@ -205,19 +176,24 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
       {
         std::size_t at = (static_cast<std::size_t>(k) * n + static_cast<std::size_t>(j)) * n +
           static_cast<std::size_t>(skipped);
-        for (int i = 0; i < stored; ++i)
+        for (int i = 0; i < stored; ++i, ++at, ++to)
         {
-          gradients[to++] = fields[number].gradientAt(at++, axes, strides, perAxis);
+          gradients[to] = fields[number].gradientAt(at, axes, strides, perAxis);
+          if (!isGas.empty())
+          {
+            hasGas[to] = isGas[at];
+          }
         }
       }
     }
     if (!isGas.empty())
     {
-      continueGradients(gradients, stored, samples, skipped, isGas);
+      continueValues(gradients, stored, layers, hasGas);
     }
     for (std::size_t i = 0; i < storedPoints; ++i)
     {
-      brick.gradients[i * fields.size() + number] = static_cast<float>(gradients[i]);
+      // What goes on straight may become less than nothing.
+      brick.gradients[i * fields.size() + number] = std::max(0.f, static_cast<float>(gradients[i]));
     }
   }
   return brick;

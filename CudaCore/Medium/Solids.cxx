@@ -131,6 +131,37 @@ void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads, Continu
   }
 }
 
+void continueValues(
+  std::vector<double>& values, int n, int layers, const std::vector<unsigned char>& isKnown)
+{
+  PaddedVolume<double> volume({ n, n, layers });
+  PointMask empty({ n, n, layers });
+  const unsigned char* known = isKnown.data();
+  double* row = values.data();
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j < n; ++j, row += n, known += n)
+    {
+      std::uint64_t bits = 0; // one word a row
+      for (int i = 0; i < n; ++i)
+      {
+        bits |= std::uint64_t{ known[i] } << i;
+      }
+      *empty.row(j, k) = ~bits;
+      std::copy_n(row, n, &volume.at(0, j, k));
+    }
+  }
+  fillEmpty(volume, std::move(empty), 1, Continuation::Linear);
+  row = values.data();
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j < n; ++j, row += n)
+    {
+      std::copy_n(&volume.at(0, j, k), n, row);
+    }
+  }
+}
+
 template <class Real>
 std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<Real>& volume, const PointMask& mask)
 {

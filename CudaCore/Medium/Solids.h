@@ -70,6 +70,11 @@ template <class Real>
 void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads,
   Continuation continuation = Continuation::Constant);
 
+/// Gives values to the points of a brick, n by n by `layers` of them, of which no value is known: they go on linearly.
+/// n is below 64.
+void continueValues(
+  std::vector<double>& values, int n, int layers, const std::vector<unsigned char>& isKnown);
+
 /// The mask laid out as in MediumView, one bit per sample of `volume`.
 template <class Real>
 std::vector<std::uint32_t> bitsPerSample(const PaddedVolume<Real>& volume, const PointMask& mask);

@@ -611,7 +611,11 @@ class ObliqueWallSource : public AnalyticSource
 public:
   static constexpr double slope = 1e-4, border = 0.21;
 
-  static double depth(double a, double b, double c) { return 0.8 * a + 0.36 * b + 0.48 * c; }
+  static Vec3<double> normal() { return { 0.8, 0.36, 0.48 }; }
+  static double depth(double a, double b, double c)
+  {
+    return dot(normal(), Vec3<double>{ a, b, c });
+  }
   double refractivity(double a, double b, double c) const override
   {
     return slope * depth(a, b, c);
@@ -634,12 +638,10 @@ public:
   }
 };
 
-// Which values there are in a wall must not be seen in the gas beside it.
-TEST(MediumTree, GradientsReachWalls)
+/// Calls look(place) for places in the gas that are within a voxel of the oblique wall.
+template <class Look>
+void besideTheObliqueWall(const Tree& tree, const Look& look)
 {
-  const auto source = std::make_shared<ObliqueWallSource>();
-  Tree tree(source, 0, settingsOf(1e-2));
-  tree.refine(everything(x, y, 0.01));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-0.8, 0.8), part(0, 1);
   int looked = 0;
@@ -654,14 +656,66 @@ TEST(MediumTree, GradientsReachWalls)
     }
     const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, wall))];
     const double voxel = tree.grid().spacing[0] / leaf.perIndex;
-    const Vec3<double> normal{ 0.8, 0.36, 0.48 };
-    const Vec3<double> at = wall - (part(random) * voxel) * normal;
-    const Sample<double> found = sampleAt(tree, Interpolation::Quadratic, at);
-    const Vec3<double> error = found.gradient - ObliqueWallSource::slope * normal;
-    ASSERT_LT(length(error), 0.02 * ObliqueWallSource::slope) << at.x << " " << at.y << " " << at.z;
+    look(wall - (part(random) * voxel) * ObliqueWallSource::normal());
     ++looked;
   }
   EXPECT_GT(looked, 1000);
+}
+
+// Which values there are in a wall must not be seen in the gas beside it.
+TEST(MediumTree, GradientsReachWalls)
+{
+  const auto source = std::make_shared<ObliqueWallSource>();
+  Tree tree(source, 0, settingsOf(1e-2));
+  tree.refine(everything(x, y, 0.01));
+  double worst = 0;
+  besideTheObliqueWall(tree,
+    [&](const Vec3<double>& at)
+    {
+      const Sample<double> found = sampleAt(tree, Interpolation::Quadratic, at);
+      worst = std::max(
+        worst, length(found.gradient - ObliqueWallSource::slope * ObliqueWallSource::normal()));
+    });
+  EXPECT_LT(worst, 0.02 * ObliqueWallSource::slope);
+}
+
+// The same of what rays gather of fields, a linear one and one that is bent.
+TEST(MediumTree, GradientsOfFieldsReachWalls)
+{
+  const Vec3<double> centre{ -0.2, 0.1, 0.1 };
+  constexpr double width = 0.5;
+  const auto source = std::make_shared<SourceWithFields>(std::make_shared<ObliqueWallSource>(),
+    std::vector<FieldFormula>{
+      linearField({ 0.3, -0.4, 1.2 }), ballField({ centre.x, centre.y, centre.z }, width) });
+  Tree tree(source, 0, settingsOf(1e-2));
+  tree.refine(everything(x, y, 0.01));
+  double worst[2] = {};
+  besideTheObliqueWall(tree,
+    [&](const Vec3<double>& at)
+    {
+      const std::int32_t number = leafAt(tree, at);
+      const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(number)];
+      const Grid& grid = tree.grid();
+      Vec3<float> local;
+      local.x = static_cast<float>(
+        ((at.x - grid.origin[0]) / grid.spacing[0] - leaf.first[0]) * leaf.perIndex);
+      local.y = static_cast<float>(
+        ((at.y - grid.origin[1]) / grid.spacing[1] - leaf.first[1]) * leaf.perIndex);
+      local.z = static_cast<float>(
+        ((at.z - grid.origin[2]) / grid.spacing[2] - leaf.first[2]) * leaf.perIndex);
+      float found[2] = {};
+      gatherGradients(
+        tree.gradients(), number, local, static_cast<float>(1 / grid.spacing[0]), found);
+      const double r = length(at - centre);
+      const double expected[2] = { 1.3,
+        2 * r / (width * width) * std::exp(-r * r / (width * width)) };
+      for (int n = 0; n < 2; ++n)
+      {
+        worst[n] = std::max(worst[n], std::abs(static_cast<double>(found[n]) - expected[n]));
+      }
+    });
+  EXPECT_LT(worst[0], 1e-5);
+  EXPECT_LT(worst[1], 0.05); // of up to 1.7
 }
 
 TEST(MediumTree, ContinuedValuesDoNotDependOnTheBrick)
