@@ -80,6 +80,18 @@ struct Reconstruction
   }
 };
 
+/// The lines of cells along one axis of a box. Cells of a line are `stride` apart, and as many lines lie side by side.
+struct LinesAlong
+{
+  LinesAlong(const Counts& cells, std::size_t axis)
+    : stride(axis == 0 ? 1 : static_cast<std::ptrdiff_t>(cells[0]) * (axis == 2 ? cells[1] : 1))
+    , count(static_cast<std::ptrdiff_t>(volume(cells)) / cells[axis])
+  {
+  }
+
+  std::ptrdiff_t stride, count;
+};
+
 /// Values along one axis of a box of cells, from those at cells to the means over intervals of `width` cells around
 /// `middles`, which are counted from the first cell's centre. A mean whose middle lies in a cell that is NaN, or outside,
 /// is NaN; no other one takes anything from there. `forRows(count, work)` calls work(begin, end) for parts of 0 ... count.
@@ -89,11 +101,10 @@ void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
 {
   const int n = cells[axis];
   const auto count = static_cast<std::ptrdiff_t>(middles.size());
-  const std::ptrdiff_t stride =
-    axis == 0 ? 1 : static_cast<std::ptrdiff_t>(cells[0]) * (axis == 2 ? cells[1] : 1);
-  const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(volume(cells)) / n;
-  std::vector<double> result(static_cast<std::size_t>(lines * count));
-  forRows(lines / stride * count,
+  const LinesAlong lines(cells, axis);
+  const std::ptrdiff_t stride = lines.stride;
+  std::vector<double> result(static_cast<std::size_t>(lines.count * count));
+  forRows(lines.count / stride * count,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -210,15 +221,13 @@ private:
 inline void splineAxis(
   std::vector<double>& values, Counts& cells, std::size_t axis, const std::vector<double>& places)
 {
-  const int n = cells[axis];
+  const LinesAlong lines(cells, axis);
   const std::size_t count = places.size();
-  const std::size_t stride = axis == 0
-    ? 1
-    : static_cast<std::size_t>(cells[0]) * (axis == 2 ? static_cast<std::size_t>(cells[1]) : 1);
-  const std::size_t lines = volume(cells) / static_cast<std::size_t>(n);
-  std::vector<double> result(lines * count), line(static_cast<std::size_t>(n));
+  std::vector<double> result(static_cast<std::size_t>(lines.count) * count);
+  std::vector<double> line(static_cast<std::size_t>(cells[axis]));
   SplineOfMeans spline;
-  for (std::size_t row = 0; row < lines; ++row)
+  const auto stride = static_cast<std::size_t>(lines.stride);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(lines.count); ++row)
   {
     const std::size_t plane = row / stride, within = row % stride;
     for (std::size_t i = 0; i < line.size(); ++i)

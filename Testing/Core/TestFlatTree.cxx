@@ -26,6 +26,12 @@ struct Column2d
   double x, y, width, height; ///< N = height exp(-(r / width)^2)
 };
 
+Box flat(Box box)
+{
+  box.low[2] = box.high[2] = 0;
+  return box;
+}
+
 /// Columns with Gaussian profiles in a far field, around a wall of radius 1 or none.
 class ColumnsSource : public AnalyticSource
 {
@@ -33,6 +39,7 @@ public:
   ColumnsSource(std::vector<Column2d> columns, double half, double depth, double wall = 0)
     : AnalyticSource(half)
     , columns_(std::move(columns))
+    , sections_(ballsOf(columns_))
     , depth_(depth)
     , wall_(wall)
   {
@@ -46,26 +53,9 @@ public:
   double refractivity(double x, double y, double z) const override
   {
     EXPECT_EQ(z, 0);
-    double sum = 0;
-    for (const Column2d& column : columns_)
-    {
-      sum += column.height * std::exp(-squareOf(column, x, y));
-    }
-    return sum;
+    return sections_.refractivity(x, y, 0);
   }
-  Range rangeOver(const Box& box) const override
-  {
-    Range sum{ 0, 0 };
-    for (const Column2d& column : columns_)
-    {
-      const Range r = distancesTo({ column.x, column.y, 0 }, flat(box));
-      const auto profile = [&](double x)
-      { return column.height * std::exp(-x * x / (column.width * column.width)); };
-      sum.first += std::min(profile(r.first), profile(r.second));
-      sum.second += std::max(profile(r.first), profile(r.second));
-    }
-    return sum;
-  }
+  Range rangeOver(const Box& box) const override { return sections_.rangeOver(flat(box)); }
   double cellSizeOver(const Box& box) const override
   {
     double size = 0.05 * half_;
@@ -126,10 +116,15 @@ public:
   }
 
 private:
-  static Box flat(Box box)
+  /// Cut by the plane z = 0 they are the columns.
+  static std::vector<Ball> ballsOf(const std::vector<Column2d>& columns)
   {
-    box.low[2] = box.high[2] = 0;
-    return box;
+    std::vector<Ball> balls;
+    for (const Column2d& column : columns)
+    {
+      balls.push_back({ { column.x, column.y, 0 }, column.width, column.height });
+    }
+    return balls;
   }
   static double squareOf(const Column2d& column, double x, double y)
   {
@@ -138,6 +133,7 @@ private:
   }
 
   std::vector<Column2d> columns_;
+  BallsSource sections_;
   double depth_, wall_;
 };
 
@@ -200,11 +196,6 @@ public:
   }
 
 private:
-  static Box flat(Box box)
-  {
-    box.low[2] = box.high[2] = 0;
-    return box;
-  }
   /// The density, of that far away, to the power of 0.4: isentropic.
   static double baseAt(double x, double y)
   {
