@@ -19,10 +19,15 @@ namespace
 
 std::vector<Simd> levels()
 {
-  std::vector<Simd> all = { Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
-  all.erase(
-    std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
-  return all;
+  std::vector<Simd> there;
+  for (const Simd simd : { Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows })
+  {
+    if (hasSimd(simd))
+    {
+      there.push_back(simd);
+    }
+  }
+  return there;
 }
 
 /// A blob on a grid with three different spacings and numbers of points, none of which packs divide.
