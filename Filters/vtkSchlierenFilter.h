@@ -401,7 +401,8 @@ public:
 
   ///@{
   /**
-   * Whether k is chosen so that the 99th percentile of the deflections is full scale. Default: on.
+   * Whether k is chosen so that the 99th percentile of the deflections is full scale, but no larger than the error of
+   * the medium's voxels allows where little flow is in view. Default: on.
    */
   vtkSetMacro(AutoKScale, bool);
   vtkGetMacro(AutoKScale, bool);
