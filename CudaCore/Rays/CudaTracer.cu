@@ -151,7 +151,7 @@ struct CudaTracer<Real>::DeviceMemory
   std::array<Stream, 2> streams; ///< one launch ends while the next is under way
 
   /// The task with what it points to on the device. Sends what is new.
-  RayTask<Real> bring(const RayTask<Real>& task, const Versions& versions)
+  RayTask<Real> bring(const RayTask<Real>& task, const TaskVersions& versions)
   {
     RayTask<Real> onDevice = task;
     onDevice.medium = view;
@@ -192,8 +192,8 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions,
-  Exits exits, TracedPass& traced, const Monitor& monitor)
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
+  const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
   const RayTask<Real> onDevice = memory_->bring(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);

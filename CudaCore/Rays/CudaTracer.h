@@ -21,13 +21,6 @@ public:
   explicit CudaTracer(const Medium<Real>& medium);
   ~CudaTracer();
 
-  /// What of a task is sent to the device again only when this changes.
-  struct Versions
-  {
-    std::uint64_t gradients;     ///< of FieldGradients
-    double homogeneityTolerance; ///< that the map was made for
-  };
-
   /// Where rays are wanted.
   enum class Exits
   {
@@ -36,7 +29,7 @@ public:
   };
 
   /// Traces a pass, as traceOnCpu does. Returns false if aborted.
-  bool trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions, Exits exits,
+  bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Exits exits,
     TracedPass& traced, const Monitor& monitor);
 
 private:

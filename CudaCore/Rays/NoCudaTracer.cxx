@@ -54,7 +54,7 @@ CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
 bool CudaTracer<Real>::trace(
-  const RayTask<Real>&, const Pass&, const Versions&, Exits, TracedPass&, const Monitor&)
+  const RayTask<Real>&, const Pass&, const TaskVersions&, Exits, TracedPass&, const Monitor&)
 {
   return false;
 }

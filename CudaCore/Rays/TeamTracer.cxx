@@ -30,7 +30,7 @@ struct TeamTracer<Real>::State
     std::uint64_t version = 0;
   };
   std::array<ArrayOfTask, arraysOfTask> arrays;
-  Versions versions{ 0, -1 };
+  TaskVersions versions{ 0, -1 };
   bool hasFieldsOfTree = false;
 
   /// What is known of a worker.
@@ -81,7 +81,7 @@ struct TeamTracer<Real>::State
   }
 
   /// Finds the arrays of a task that are not the medium's.
-  void update(const RayTask<Real>& task, const Versions& now)
+  void update(const RayTask<Real>& task, const TaskVersions& now)
   {
     if (task.map.levels != nullptr && versions.homogeneityTolerance != now.homogeneityTolerance)
     {
@@ -167,8 +167,9 @@ template <class Real>
 TeamTracer<Real>::~TeamTracer() = default;
 
 template <class Real>
-bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions,
-  const std::vector<Channel*>& workers, TracedPass& traced, int threads, const Monitor& monitor)
+bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
+  const TaskVersions& versions, const std::vector<Channel*>& workers, TracedPass& traced,
+  int threads, const Monitor& monitor)
 {
   constexpr double secondsOfTiles =
     0.02; // that a worker is given at once, so that a pause waits for no longer

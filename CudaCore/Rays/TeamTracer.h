@@ -25,15 +25,8 @@ public:
   explicit TeamTracer(const Medium<Real>& medium);
   ~TeamTracer();
 
-  /// What of a task is sent to workers again only when this changes.
-  struct Versions
-  {
-    std::uint64_t gradients;     ///< of FieldGradients
-    double homogeneityTolerance; ///< that the map was made for
-  };
-
   /// As traceOnCpu. What workers do not trace, this process does: it needs none of them.
-  bool trace(const RayTask<Real>& task, const Pass& pass, const Versions& versions,
+  bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
     const std::vector<Channel*>& workers, TracedPass& traced, int threads, const Monitor& monitor);
 
 private:

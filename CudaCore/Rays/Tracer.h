@@ -191,6 +191,13 @@ template <class Real>
 RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
   const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
 
+/// What of a task is sent elsewhere again only when this changes; the medium apart.
+struct TaskVersions
+{
+  std::uint64_t gradients;     ///< of FieldGradients
+  double homogeneityTolerance; ///< that the map was made for
+};
+
 /// Squares of pixels that a thread takes at once: their rays share what they read of the medium. Row by row.
 constexpr std::int64_t tileEdge = 16;
 inline std::int64_t tilesAlong(const Pass& pass)

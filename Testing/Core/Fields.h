@@ -146,4 +146,34 @@ inline std::string deviceName(const testing::TestParamInfo<Device>& info)
   return name(info.param);
 }
 
+/// A blob with a hole that blocks light, and the gradients of two fields that tint.
+struct BlobWithHole : SampledField<float>
+{
+  BlobWithHole()
+    : SampledField<float>(cube(24, 1),
+        [](double x, double y, double z)
+        {
+          return x * x + y * y + z * z < 0.03
+            ? std::numeric_limits<double>::quiet_NaN()
+            : 3e-4 * std::exp(-(x * x + 2 * y * y + z * z + x * y) / 0.1);
+        })
+    , gradients(2 * samples.size())
+  {
+    for (std::size_t i = 0; i < gradients.size(); ++i)
+    {
+      gradients[i] = static_cast<float>(i % 7);
+    }
+    field.ambient = 1e-5;
+  }
+
+  Field tinted() const
+  {
+    Field with = field;
+    with.gradients = { 2, gradients.data(), field.version };
+    return with;
+  }
+
+  std::vector<float> gradients;
+};
+
 } // namespace schlieren

@@ -13,35 +13,7 @@ namespace schlieren
 namespace
 {
 
-/// A blob with a hole that blocks light, and the gradients of two fields that tint.
-struct Flow : SampledField<float>
-{
-  Flow()
-    : SampledField<float>(cube(24, 1),
-        [](double x, double y, double z)
-        {
-          return x * x + y * y + z * z < 0.03
-            ? std::numeric_limits<double>::quiet_NaN()
-            : 3e-4 * std::exp(-(x * x + 2 * y * y + z * z + x * y) / 0.1);
-        })
-    , gradients(2 * samples.size())
-  {
-    for (std::size_t i = 0; i < gradients.size(); ++i)
-    {
-      gradients[i] = static_cast<float>(i % 7);
-    }
-    field.ambient = 1e-5;
-  }
-
-  Field tinted() const
-  {
-    Field with = field;
-    with.gradients = { 2, gradients.data(), field.version };
-    return with;
-  }
-
-  std::vector<float> gradients;
-};
+using Flow = BlobWithHole;
 
 Scene smallScene()
 {

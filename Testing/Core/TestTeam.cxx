@@ -141,30 +141,7 @@ private:
   std::thread thread_;
 };
 
-/// A blob with a hole that blocks light, and the gradients of two fields that tint.
-struct Flow : SampledField<float>
-{
-  Flow()
-    : SampledField<float>(cube(24, 1),
-        [](double x, double y, double z)
-        {
-          return x * x + y * y + z * z < 0.03
-            ? std::numeric_limits<double>::quiet_NaN()
-            : 3e-4 * std::exp(-(x * x + 2 * y * y + z * z + x * y) / 0.1);
-        })
-    , gradients(2 * samples.size())
-  {
-    for (std::size_t i = 0; i < gradients.size(); ++i)
-    {
-      gradients[i] = static_cast<float>(i % 7);
-    }
-    field.ambient = 1e-5;
-    field.gradients = { 2, gradients.data(), field.version };
-  }
-  std::vector<float> gradients;
-};
-
-/// Balls around a sphere that blocks light, with two fields.
+/// Balls, with two fields.
 Field fieldOfTree()
 {
   const auto balls = std::make_shared<BallsSource>(threeBalls(3e-4));
@@ -229,12 +206,12 @@ void expectSameOf(const Field& field, const Scene& scene)
 
 TEST(Team, ChangesNoBitOfAnImage)
 {
-  const Flow flow;
+  const BlobWithHole flow;
   Scene scene = oblique();
-  expectSameOf(flow.field, scene);
+  expectSameOf(flow.tinted(), scene);
   scene.homogeneityTolerance = 1e-3;
   scene.precision = Precision::Double;
-  expectSameOf(flow.field, scene);
+  expectSameOf(flow.tinted(), scene);
 }
 
 TEST(Team, ChangesNoBitOfATree)
@@ -260,34 +237,34 @@ TEST(Team, ChangesNoBitBesideWalls)
 
 TEST(Team, SendsTheMediumOnce)
 {
-  const Flow flow;
+  const BlobWithHole flow;
   Worker worker;
   Bench bench;
   bench.setWorkers({ worker.channel() });
   Scene scene = oblique();
-  bench.render(flow.field, scene);
+  bench.render(flow.tinted(), scene);
   const int arrays = worker.arrays(), tiles = worker.tiles();
   EXPECT_EQ(arrays, 3); // samples, solids, gradients of fields
   scene.view.viewDirection = { 0.3, 0.1, -1 };
-  bench.render(flow.field, scene);
+  bench.render(flow.tinted(), scene);
   EXPECT_EQ(worker.arrays(), arrays);
   EXPECT_GT(worker.tiles(), tiles);
   scene.interpolation = Interpolation::Cubic; // another medium
-  bench.render(flow.field, scene);
+  bench.render(flow.tinted(), scene);
   EXPECT_GT(worker.arrays(), arrays);
   bench.setWorkers({});
   const int tilesOfWorker = worker.tiles();
   scene.view.viewDirection = { 0, 0.1, -1 };
-  bench.render(flow.field, scene);
+  bench.render(flow.tinted(), scene);
   EXPECT_EQ(worker.tiles(), tilesOfWorker);
 }
 
 // Not seen in the image, whatever becomes of a worker.
 TEST(Team, NeedsNoWorker)
 {
-  const Flow flow;
+  const BlobWithHole flow;
   const Scene scene = oblique();
-  const Image alone = Bench().render(flow.field, scene);
+  const Image alone = Bench().render(flow.tinted(), scene);
   for (const Worker::Fault fault :
     { Worker::Fault::Forgets, Worker::Fault::Leaves, Worker::Fault::LosesEverything })
   {
@@ -297,10 +274,10 @@ TEST(Team, NeedsNoWorker)
       Worker good, faulty(fault, after);
       Bench bench;
       bench.setWorkers({ faulty.channel(), good.channel() });
-      expectSameImage(bench.render(flow.field, scene), alone);
+      expectSameImage(bench.render(flow.tinted(), scene), alone);
       Scene next = scene;
       next.view.viewDirection = { 0.3, 0.1, -1 };
-      expectSameImage(bench.render(flow.field, next), Bench().render(flow.field, next));
+      expectSameImage(bench.render(flow.tinted(), next), Bench().render(flow.tinted(), next));
       EXPECT_GT(faulty.tiles(), 0);
     }
   }
@@ -308,14 +285,14 @@ TEST(Team, NeedsNoWorker)
 
 TEST(Team, AbortsAtOnce)
 {
-  const Flow flow;
+  const BlobWithHole flow;
   Worker worker;
   Bench bench;
   bench.setWorkers({ worker.channel() });
   int questions = 0;
   const Monitor aborting{ {}, [&] { return ++questions > 3; }, {} };
-  EXPECT_TRUE(bench.render(flow.field, oblique(), aborting).aborted);
-  expectSameImage(bench.render(flow.field, oblique()), Bench().render(flow.field, oblique()));
+  EXPECT_TRUE(bench.render(flow.tinted(), oblique(), aborting).aborted);
+  expectSameImage(bench.render(flow.tinted(), oblique()), Bench().render(flow.tinted(), oblique()));
 }
 
 TEST(Team, IgnoresMessagesThatMakeNoSense)
