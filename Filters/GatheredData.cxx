@@ -200,8 +200,11 @@ public:
       throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "
                                "ranks of the same version of this plugin?");
     }
-    std::memcpy(values, this->Bytes.data() + this->At, size);
-    this->At += size;
+    if (size > 0)
+    {
+      std::memcpy(values, this->Bytes.data() + this->At, size);
+      this->At += size;
+    }
   }
 
 private:

@@ -127,7 +127,10 @@ template <class Head>
 Head read(const std::vector<char>& message)
 {
   Head head;
-  std::memcpy(&head, message.data(), std::min(sizeof(Head), message.size()));
+  if (!message.empty())
+  {
+    std::memcpy(&head, message.data(), std::min(sizeof(Head), message.size()));
+  }
   return head;
 }
 
