@@ -559,6 +559,7 @@ vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts)
   merge->SetAbsoluteTolerance(0);
   merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
   merge->Update();
+  merge->SetMergingArray(nullptr); // its destructor forgets it
   return merge->GetOutput();
 }
 
