@@ -19,37 +19,40 @@ namespace schlieren
 
 struct RayWorker::Arrays
 {
-  struct Held
+  struct Cached
   {
     std::uint64_t version = 0; ///< 0: there is none
     std::vector<char> message; ///< that it came in
   };
-  std::array<Held, arraysOfTask> held;
+  std::array<Cached, arraysOfTask> cached;
 
   void keep(std::vector<char>&& message)
   {
     ArrayMessage head;
     if (read(message, head) && head.array < arraysOfTask)
     {
-      held[head.array] = { head.version, std::move(message) };
+      cached[head.array] = { head.version, std::move(message) };
     }
   }
 
   /// Makes the task's pointers point to the arrays. False where one is not there.
   template <class Real>
-  bool bind(TilesMessage<Real>& asked) const
+  bool bind(TilesMessage<Real>& request) const
   {
     bool isComplete = true;
-    forArrays(asked.task,
+    forArrays(request.task,
       [&](std::size_t n, auto*& pointer)
       {
         using Value = std::remove_reference_t<decltype(*pointer)>;
         pointer = nullptr;
-        if (asked.offsets[n] != nowhere)
+        if (request.offsets[n] != nowhere)
         {
-          isComplete = isComplete && held[n].version == asked.versions[n];
-          const void* first = held[n].message.data() + sizeof(ArrayMessage);
-          pointer = isComplete ? static_cast<Value*>(first) + asked.offsets[n] : nullptr;
+          isComplete = isComplete && cached[n].version == request.versions[n];
+        }
+        if (request.offsets[n] != nowhere && isComplete)
+        {
+          const void* first = cached[n].message.data() + sizeof(ArrayMessage);
+          pointer = static_cast<Value*>(first) + request.offsets[n];
         }
       });
     return isComplete;
@@ -58,20 +61,20 @@ struct RayWorker::Arrays
   template <class Real>
   bool trace(const std::vector<char>& message, Channel& channel, int threads) const
   {
-    TilesMessage<Real> asked;
-    if (!read(message, asked) || !hasSimd(asked.simd) || !bind(asked))
+    TilesMessage<Real> request;
+    if (!read(message, request) || !hasSimd(request.simd) || !bind(request))
     {
       return false;
     }
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const auto fields = static_cast<std::size_t>(asked.task.gradients.count);
+    const auto fields = static_cast<std::size_t>(request.task.gradients.count);
     RaysMessage head;
     head.fields = static_cast<std::uint32_t>(fields);
-    const TileQueue::Tiles& tiles = asked.head.tiles;
-    head.number = asked.head.number;
+    const TileQueue::Tiles& tiles = request.head.tiles;
+    head.number = request.head.number;
     head.tiles = tiles;
-    const std::size_t rays = raysOf(asked.pass, tiles);
+    const std::size_t rays = raysOf(request.pass, tiles);
     std::vector<char> answer = messageOf(head, rays * (sizeof(RayExit) + fields * sizeof(float)));
     char* const exits = answer.data() + sizeof(RaysMessage);
     char* const gathered = exits + rays * sizeof(RayExit);
@@ -80,16 +83,16 @@ struct RayWorker::Arrays
     for (std::int64_t tile = tiles.first; tile < tiles.end; ++tile)
     {
       firstRays.push_back(first);
-      first += raysOf(passOfTile(asked.pass, tile));
+      first += raysOf(passOfTile(request.pass, tile));
     }
     std::mutex lock; // of the head
     parallelFor(tiles.count(), 1, threads,
       [&](std::int64_t number, std::int64_t)
       {
-        const Pass pass = passOfTile(asked.pass, tiles.first + number);
+        const Pass pass = passOfTile(request.pass, tiles.first + number);
         TracedPass traced;
         traced.resize(pass, static_cast<int>(fields));
-        traceOnCpu(asked.task, pass, traced, 1, {}, asked.simd);
+        traceOnCpu(request.task, pass, traced, 1, {}, request.simd);
         const std::size_t ray = firstRays[static_cast<std::size_t>(number)];
         std::memcpy(exits + ray * sizeof(RayExit), traced.exits.data(),
           traced.exits.size() * sizeof(RayExit));
@@ -130,19 +133,19 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
     arrays_->keep(std::move(message));
     return;
   }
-  TilesHead asked;
-  if (!read(message, asked) || asked.kind != Tiles)
+  TilesHead request;
+  if (!read(message, request) || request.kind != Tiles)
   {
     return;
   }
   RaysMessage lacking;
   lacking.kind = Lacking;
-  lacking.number = asked.number;
-  lacking.tiles = asked.tiles;
+  lacking.number = request.number;
+  lacking.tiles = request.tiles;
   bool isTraced = false;
   try
   {
-    isTraced = asked.bytesOfReal == sizeof(float)
+    isTraced = request.bytesOfReal == sizeof(float)
       ? arrays_->trace<float>(message, channel, threads)
       : arrays_->trace<double>(message, channel, threads);
   }

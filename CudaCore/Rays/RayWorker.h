@@ -18,7 +18,7 @@ public:
   RayWorker();
   ~RayWorker();
 
-  /// The first bytes of each message. Those who share a channel with rays use other numbers.
+  /// The first bytes of each message. Other messages on the same channel have other numbers.
   enum Kind : std::uint32_t
   {
     Array = 100, ///< to a worker: an array of the medium

@@ -52,7 +52,8 @@ struct TeamTracer<Real>::State
   template <class Value>
   void set(std::size_t number, const Value* first, std::size_t count)
   {
-    arrays[number] = { first, count * sizeof(Value), newVersion() };
+    ArrayOfTask& array = arrays[number];
+    array = { first, count * sizeof(Value), array.version > 0 ? array.version : newVersion() };
   }
   template <class Values>
   void set(std::size_t number, const Values& values)
@@ -60,7 +61,8 @@ struct TeamTracer<Real>::State
     set(number, values.data(), values.size());
   }
 
-  explicit State(const Medium<Real>& medium)
+  /// Finds the arrays of the medium, which has not changed, but where they are may have.
+  void locate(const Medium<Real>& medium)
   {
     if (!medium.tree)
     {
@@ -86,6 +88,7 @@ struct TeamTracer<Real>::State
     if (task.map.levels != nullptr && versions.homogeneityTolerance != now.homogeneityTolerance)
     {
       const std::int64_t* bricks = task.map.bricks;
+      arrays[6].version = 0;
       set(6, task.map.levels, static_cast<std::size_t>(bricks[0] * bricks[1] * bricks[2]));
       versions.homogeneityTolerance = now.homogeneityTolerance;
     }
@@ -93,6 +96,7 @@ struct TeamTracer<Real>::State
     if (!hasFieldsOfTree && fields.count > 0 &&
       (arrays[7].first == nullptr || versions.gradients != now.gradients))
     {
+      arrays[7].version = 0;
       set(7, fields.values,
         static_cast<std::size_t>(fields.count * fields.planeStride * (fields.lastCell[2] + 2)));
       versions.gradients = now.gradients;
@@ -159,7 +163,8 @@ struct TeamTracer<Real>::State
 
 template <class Real>
 TeamTracer<Real>::TeamTracer(const Medium<Real>& medium)
-  : state_(std::make_unique<State>(medium))
+  : medium_(medium)
+  , state_(std::make_unique<State>())
 {
 }
 
@@ -177,6 +182,7 @@ bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   constexpr int mostFailures = 2;
 
   State& state = *state_;
+  state.locate(medium_);
   state.update(task, versions);
   TilesMessage<Real> message;
   message.head.number = State::newVersion();

@@ -22,6 +22,7 @@ template <class Real>
 class TeamTracer
 {
 public:
+  /// The medium must outlive it, and not change.
   explicit TeamTracer(const Medium<Real>& medium);
   ~TeamTracer();
 
@@ -31,6 +32,7 @@ public:
 
 private:
   struct State;
+  const Medium<Real>& medium_;
   std::unique_ptr<State> state_;
 };
 

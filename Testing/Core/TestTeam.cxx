@@ -223,7 +223,7 @@ TEST(Team, ChangesNoBitOfATree)
 
 TEST(Team, ChangesNoBitBesideWalls)
 {
-  const auto source = std::make_shared<SphereSource>(4);
+  const auto source = std::make_shared<SphereSource>(2);
   Field field;
   field.source = source;
   field.grid = coarsestGrid(*source);
