@@ -3,6 +3,7 @@
 #include "BetweenTimeSteps.h"
 
 #include "CellTypes.h"
+#include "ImagePlace.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"
@@ -14,7 +15,6 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
-#include "vtkMatrix3x3.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -176,15 +176,6 @@ void blendPoints(vtkPointSet* earlier, vtkPointSet* later, double ratio, vtkPoin
   to->SetPoints(points);
 }
 
-bool lieAlike(vtkImageData* a, vtkImageData* b)
-{
-  const double* ofA = a->GetDirectionMatrix()->GetData();
-  return std::equal(a->GetExtent(), a->GetExtent() + 6, b->GetExtent()) &&
-    std::equal(a->GetOrigin(), a->GetOrigin() + 3, b->GetOrigin()) &&
-    std::equal(a->GetSpacing(), a->GetSpacing() + 3, b->GetSpacing()) &&
-    std::equal(ofA, ofA + 9, b->GetDirectionMatrix()->GetData());
-}
-
 bool haveSameCells(vtkDataSet* a, vtkDataSet* b)
 {
   if (auto* structured = vtkStructuredGrid::SafeDownCast(a))
@@ -227,7 +218,9 @@ vtkSmartPointer<vtkDataObject> blendLeaves(
   result->ShallowCopy(earlier);
   if (auto* image = vtkImageData::SafeDownCast(earlier))
   {
-    if (!lieAlike(image, vtkImageData::SafeDownCast(later)))
+    auto* other = vtkImageData::SafeDownCast(later);
+    if (!std::equal(image->GetExtent(), image->GetExtent() + 6, other->GetExtent()) ||
+      !haveSamePlace(image, other))
     {
       fail("their grids lie at different places");
     }

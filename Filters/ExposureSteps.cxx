@@ -9,7 +9,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <sstream>
@@ -26,12 +25,6 @@ std::string textOf(double time)
   std::ostringstream text;
   text << time;
   return text.str();
-}
-
-bool hasOtherRanks()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
 }
 
 } // namespace

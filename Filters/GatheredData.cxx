@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GatheredData.h"
 
+#include "ImagePlace.h"
 #include "RefractivitySource.h"
 
 #include "vtkAppendFilter.h"
@@ -44,7 +45,7 @@
 namespace
 {
 
-/// Where a dataset stands in the data, the same on all ranks: parts of one dataset stand at the same place.
+/// The position of a dataset in the tree of blocks. Parts of one dataset have the same one on all ranks.
 using Slot = std::vector<int>;
 
 struct Part
@@ -451,14 +452,6 @@ vtkSmartPointer<vtkPoints> joinedPoints(
   return joined;
 }
 
-bool haveSamePlace(vtkImageData* a, vtkImageData* b)
-{
-  const double* direction = a->GetDirectionMatrix()->GetData();
-  return std::equal(a->GetOrigin(), a->GetOrigin() + 3, b->GetOrigin()) &&
-    std::equal(a->GetSpacing(), a->GetSpacing() + 3, b->GetSpacing()) &&
-    std::equal(direction, direction + 9, b->GetDirectionMatrix()->GetData());
-}
-
 /// Whether all points of an extent are in one of the parts.
 bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
 {
@@ -569,7 +562,7 @@ bool isGrid(vtkDataSet* data)
     vtkStructuredGrid::SafeDownCast(data);
 }
 
-/// What stands at one place, as few datasets as can be.
+/// The parts of one slot, as few datasets as can be.
 std::vector<vtkSmartPointer<vtkDataSet>> joined(
   const std::vector<vtkSmartPointer<vtkDataSet>>& parts)
 {

@@ -110,8 +110,8 @@ struct HelloMessage
 struct ShortMessage
 {
   std::uint32_t kind = 0;
-  std::int32_t number =
-    0; // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; End: the outcome
+  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; End: the outcome
+  std::int32_t number = 0;
 };
 
 template <class Head>
@@ -219,9 +219,8 @@ public:
       this->Receive(message.data(), message.size());
       switch (schlieren::RayWorker::kindOf(message))
       {
-        case Hello:
-          this->Greeting =
-            read<HelloMessage>(message); // to the next meeting, where this one has not ended
+        case Hello: // to the next meeting, where this one has not ended
+          this->Greeting = read<HelloMessage>(message);
           break;
         case Leave:
           this->Greeting.reset();
@@ -351,9 +350,12 @@ bool isRank0()
 }
 
 //------------------------------------------------------------------------------
+bool hasOtherRanks() { return controllerOfRanks() != nullptr; }
+
+//------------------------------------------------------------------------------
 void setComplete(vtkInformationVector* outputs)
 {
-  for (int port = 0; controllerOfRanks() && port < outputs->GetNumberOfInformationObjects(); ++port)
+  for (int port = 0; hasOtherRanks() && port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* outInfo = outputs->GetInformationObject(port);
     vtkInformation* dataInfo = vtkDataObject::GetData(outInfo)->GetInformation();

@@ -21,6 +21,9 @@ class vtkInformationVector;
 /// others leave it empty.
 bool isRank0();
 
+/// Whether there are other ranks.
+bool hasOtherRanks();
+
 /// In RequestData, where there are several ranks: says that the outputs are all that will be made of their whole
 /// extents. Otherwise, a rank that made nothing would run again, alone, at each update, and with it what is
 /// upstream: filters that wait for the other ranks would wait forever.
