@@ -1,0 +1,401 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSchlierenActor.h"
+
+#include "vtkSchlierenFilter.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTexture.h"
+#include "vtkTimerLog.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+/// Seconds for the image while the camera moves. With what else a rendering takes, nothing blocks for 70 ms.
+constexpr double previewSeconds = 0.04;
+constexpr int coarsest = 16;
+
+/// The coarsest that the bench makes: one pixel tells whether there is an image.
+constexpr int reductionAtFirst = 64;
+
+/// How far before the far plane the image lies, as a fraction of the depth of the view.
+constexpr double beforeFarPlane = 1e-4;
+
+/// Bytes of an image without colours, of which 1 is full scale, or 2 where undisturbed light is 1.
+vtkSmartPointer<vtkUnsignedCharArray> greyOf(vtkDataArray* intensity, double fullScale)
+{
+  vtkNew<vtkUnsignedCharArray> grey;
+  const vtkIdType count = intensity->GetNumberOfTuples();
+  grey->SetNumberOfComponents(3);
+  grey->SetNumberOfTuples(count);
+  unsigned char* to = grey->GetPointer(0);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double value = 255 * intensity->GetComponent(i, 0) / fullScale;
+    to = std::fill_n(to, 3, static_cast<unsigned char>(std::clamp(value, 0., 255.) + 0.5));
+  }
+  return grey;
+}
+
+/// While this is there, nobody hears of the bench's progress: ParaView's window would draw its progress bar, and with it
+/// the view, in the midst of drawing the view.
+class Silent
+{
+public:
+  explicit Silent(vtkCallbackCommand* command)
+    : Command(command)
+  {
+    this->Command->SetAbortFlagOnExecute(1);
+  }
+  ~Silent() { this->Command->SetAbortFlagOnExecute(0); }
+  Silent(const Silent&) = delete;
+  Silent& operator=(const Silent&) = delete;
+
+private:
+  vtkCallbackCommand* Command;
+};
+
+} // namespace
+
+vtkStandardNewMacro(vtkSchlierenActor);
+
+//------------------------------------------------------------------------------
+vtkSchlierenActor::vtkSchlierenActor()
+{
+  vtkMath::UninitializeBounds(this->ViewBounds);
+  this->UseBoundsOff();
+  this->PickableOff();
+  this->DragableOff();
+  this->Silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  this->RestoreFXAA->SetClientData(this->RestoreFXAA);
+  this->RestoreFXAA->SetCallback(
+    [](vtkObject* renderer, unsigned long, void* command, void*)
+    {
+      static_cast<vtkRenderer*>(renderer)->UseFXAAOn();
+      renderer->RemoveObserver(static_cast<vtkCommand*>(command));
+    });
+
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(4);
+  vtkNew<vtkCellArray> quads;
+  const vtkIdType corners[] = { 0, 1, 2, 3 };
+  quads->InsertNextCell(4, corners);
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(2);
+  for (const float place : { 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f, 1.f })
+  {
+    places->InsertNextValue(place);
+  }
+  this->Quad->SetPoints(points);
+  this->Quad->SetPolys(quads);
+  this->Quad->GetPointData()->SetTCoords(places);
+  this->QuadMapper->SetInputData(this->Quad);
+  this->QuadMapper->ScalarVisibilityOff();
+  this->SetMapper(this->QuadMapper);
+  this->GetProperty()->LightingOff();
+  this->GetProperty()->SetColor(1, 1, 1);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(this->Pixels);
+  texture->SetColorModeToDirectScalars();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  this->SetTexture(texture);
+}
+
+//------------------------------------------------------------------------------
+vtkSchlierenActor::~vtkSchlierenActor() { this->SetBench(nullptr); }
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Bench: " << this->Bench << "\n";
+  os << indent << "TimeSlice: " << this->TimeSlice << "\n";
+  os << indent << "Finished: " << this->GetFinished() << "\n";
+  os << indent << "Reduction: " << this->Reduction << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
+{
+  if (this->Bench == bench)
+  {
+    return;
+  }
+  if (this->Bench)
+  {
+    this->Bench->RemoveObserver(this->Silence);
+  }
+  this->Bench = bench;
+  this->HasImage = this->HasSeen = false;
+  if (bench)
+  {
+    constexpr float beforeAllOthers = 100;
+    for (const unsigned long event :
+      { vtkCommand::StartEvent, vtkCommand::ProgressEvent, vtkCommand::EndEvent })
+    {
+      bench->AddObserver(event, this->Silence, beforeAllOthers);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenActor::View::operator==(const View& other) const
+{
+  return this->Direction == other.Direction && this->Up == other.Up &&
+    this->FocalPoint == other.FocalPoint && this->ParallelScale == other.ParallelScale &&
+    this->Size == other.Size;
+}
+
+//------------------------------------------------------------------------------
+vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
+{
+  View view;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->GetDirectionOfProjection(view.Direction.data());
+  camera->GetViewUp(view.Up.data());
+  camera->GetFocalPoint(view.FocalPoint.data());
+  // vtkWindowToImageFilter draws an image that is larger than the window in tiles, each with a camera of its own; what is
+  // traced is the whole.
+  const double tiles = renderer->GetRenderWindow()->GetTileScale()[1];
+  const double half = std::asin(
+    std::min(1., tiles * std::sin(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))));
+  view.ParallelScale = camera->GetParallelProjection() ? tiles * camera->GetParallelScale()
+                                                       : camera->GetDistance() * std::tan(half);
+  // The window's size is that of all tiles. The renderer's own is still the old one while a layout of views is captured.
+  const int* size = renderer->GetRenderWindow()->GetSize();
+  const double* port = renderer->GetViewport();
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    view.Size[axis] =
+      std::max(1, static_cast<int>(std::lround((port[axis + 2] - port[axis]) * size[axis])));
+  }
+  return view;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenActor::LookThrough(vtkRenderer* renderer)
+{
+  const View view = ViewOf(renderer);
+  const bool isMoved = !this->HasSeen || !(view == this->Seen);
+  this->Seen = view;
+  this->HasSeen = true;
+  this->Bench->SetViewDirection(view.Direction.data());
+  this->Bench->SetViewUp(view.Up.data());
+  this->Bench->SetFocalPoint(view.FocalPoint.data());
+  this->Bench->SetParallelScale(view.ParallelScale);
+  this->Bench->SetImageSize(view.Size.data());
+  return isMoved;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double radius = 2 * (camera->GetClippingRange()[1] + camera->GetParallelScale());
+  for (int i = 0; i < 6; ++i)
+  {
+    this->ViewBounds[i] = camera->GetPosition()[i / 2] + (i % 2 == 0 ? -radius : radius);
+  }
+  this->UseBoundsOn();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
+{
+  if (!this->HasSeen)
+  {
+    this->Reduction = reductionAtFirst;
+    this->Bench->SetPreviewReduction(reductionAtFirst);
+    this->Bench->SetTimeLimit(0);
+    this->Bench->Update();
+    this->Finished = false;
+  }
+  else
+  {
+    this->LookThrough(renderer);
+    this->TraceUpTo(this->TimeSlice);
+  }
+  this->HasImage = this->Bench->GetOutput()->GetNumberOfPoints() > 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::TraceUpTo(double seconds)
+{
+  this->Reduction = 1;
+  this->Bench->SetPreviewReduction(1);
+  this->Bench->SetTimeLimit(seconds);
+  if (!(seconds > 0))
+  {
+    this->Bench->Refine(); // what has been begun with a limit
+  }
+  this->Bench->Update();
+  this->Finished = this->Bench->GetFinished();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::TracePreview()
+{
+  const double pixels = static_cast<double>(this->Seen.Size[0]) * this->Seen.Size[1];
+  const double wanted = std::sqrt(pixels * this->SecondsPerPixel / previewSeconds);
+  this->Reduction = std::clamp(static_cast<int>(std::ceil(wanted)), 1, coarsest);
+  this->Bench->SetPreviewReduction(this->Reduction);
+  this->Bench->SetTimeLimit(0);
+  const vtkTypeInt64 before = this->Bench->GetPictureCount();
+  const double begin = vtkTimerLog::GetUniversalTime();
+  this->Bench->Update();
+  if (this->Bench->GetPictureCount() != before)
+  {
+    const double seconds = vtkTimerLog::GetUniversalTime() - begin;
+    const double measured = seconds * this->Reduction * this->Reduction / pixels;
+    // One delay by something else is not taken at its word.
+    this->SecondsPerPixel =
+      std::min(0.5 * (this->SecondsPerPixel + measured), 20 * this->SecondsPerPixel);
+  }
+  this->Finished = false;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::Trace(bool isInteractive, bool isMoved)
+{
+  if (isInteractive || (isMoved && this->TimeSlice > 0 && !this->IsForScreenshot))
+  {
+    this->TracePreview();
+  }
+  else if (this->IsForScreenshot || !(this->TimeSlice > 0))
+  {
+    this->TraceUpTo(0);
+  }
+  else
+  {
+    this->Bench->Update(); // shows what Refine() has made
+    this->Finished = this->Reduction == 1 && this->Bench->GetFinished();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenActor::Refine()
+{
+  if (this->GetFinished() || !this->HasSeen || !(this->TimeSlice > 0))
+  {
+    return false;
+  }
+  const Silent silent(this->Silence);
+  this->Reduction = 1;
+  this->Bench->SetPreviewReduction(1);
+  this->Bench->SetTimeLimit(this->TimeSlice);
+  const vtkTypeInt64 before = this->Bench->GetPictureCount();
+  this->Bench->Refine();
+  return this->Bench->GetPictureCount() != before || this->Bench->GetFinished();
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  auto* renderer = vtkRenderer::SafeDownCast(viewport);
+  if (!renderer || !this->Bench || !this->HasImage)
+  {
+    return 0;
+  }
+  const Silent silent(this->Silence);
+  const bool isMoved = this->LookThrough(renderer);
+  // ParaView's views ask for 5 images per second while they are turned, else for 0.002.
+  this->Trace(
+    !this->IsForScreenshot && renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1, isMoved);
+  if (this->Bench->GetOutput()->GetNumberOfPoints() == 0)
+  {
+    return 0;
+  }
+  if (renderer->GetUseFXAA())
+  {
+    // It looks for edges in all that is opaque, and would blur what the image resolves. It begins after this.
+    renderer->UseFXAAOff();
+    renderer->AddObserver(vtkCommand::EndEvent, this->RestoreFXAA);
+  }
+  this->UpdatePixels();
+  this->PlaceQuad(renderer);
+  return this->Superclass::RenderOpaqueGeometry(viewport);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::UpdatePixels()
+{
+  vtkImageData* image = this->Bench->GetOutput();
+  if (this->PixelsTime != image->GetMTime())
+  {
+    this->PixelsTime = image->GetMTime();
+    this->Pixels->Initialize();
+    this->Pixels->SetDimensions(image->GetDimensions());
+    vtkPointData* arrays = image->GetPointData();
+    if (vtkDataArray* color = arrays->GetArray("Color"))
+    {
+      this->Pixels->GetPointData()->SetScalars(color);
+    }
+    else
+    {
+      const bool isShadow = this->Bench->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH;
+      this->Pixels->GetPointData()->SetScalars(
+        greyOf(arrays->GetArray("Intensity"), isShadow ? 2 : 1));
+    }
+    this->Pixels->Modified();
+  }
+  const int* size = image->GetDimensions();
+  this->GetTexture()->SetInterpolate(
+    size[0] != this->Seen.Size[0] || size[1] != this->Seen.Size[1]);
+}
+
+//------------------------------------------------------------------------------
+// The image's coordinates are those of the view: x to the right, y upwards.
+void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
+{
+  vtkImageData* image = this->Bench->GetOutput();
+  const double* pixel = image->GetSpacing();
+  double centers[6];
+  image->GetBounds(centers);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double* direction = this->Seen.Direction.data();
+  const double* focalPoint = this->Seen.FocalPoint.data();
+  double right[3], up[3];
+  vtkMath::Cross(direction, this->Seen.Up.data(), right);
+  vtkMath::Normalize(right);
+  vtkMath::Cross(right, direction, up);
+  const double* range = camera->GetClippingRange();
+  const double depth = range[1] - beforeFarPlane * (range[1] - range[0]);
+  // It has its size where the focal point is.
+  const double scale = camera->GetParallelProjection() ? 1 : depth / camera->GetDistance();
+  const double middle[2] = { vtkMath::Dot(focalPoint, right), vtkMath::Dot(focalPoint, up) };
+  const double* eye = camera->GetPosition();
+  const double low[2] = { centers[0] - 0.5 * pixel[0], centers[2] - 0.5 * pixel[1] };
+  const double high[2] = { centers[1] + 0.5 * pixel[0], centers[3] + 0.5 * pixel[1] };
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const double x = scale * ((corner == 1 || corner == 2 ? high[0] : low[0]) - middle[0]);
+    const double y = scale * ((corner >= 2 ? high[1] : low[1]) - middle[1]);
+    double point[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      point[i] = eye[i] + depth * direction[i] + x * right[i] + y * up[i];
+    }
+    this->Quad->GetPoints()->SetPoint(corner, point);
+  }
+  this->Quad->GetPoints()->Modified();
+  this->Quad->Modified();
+}

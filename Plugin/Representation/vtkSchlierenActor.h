@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSchlierenActor
+ * @brief   an image of vtkSchlierenFilter that fills a view, behind everything else
+ *
+ * The image is traced while it is drawn, because only then are the camera and the size those of the rendering, on
+ * servers and in screenshots of another size, too. It lies just before the far plane of the camera, so all surfaces
+ * hide it. With a perspective camera its pixels agree with surfaces in the plane of the focal point.
+ */
+#ifndef vtkSchlierenActor_h
+#define vtkSchlierenActor_h
+
+#include "vtkNew.h"
+#include "vtkOpenGLActor.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+
+class vtkCallbackCommand;
+class vtkImageData;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkSchlierenFilter;
+
+class vtkSchlierenActor : public vtkOpenGLActor
+{
+public:
+  static vtkSchlierenActor* New();
+  vtkTypeMacro(vtkSchlierenActor, vtkOpenGLActor);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  void SetBench(vtkSchlierenFilter* bench);
+  vtkSchlierenFilter* GetBench() const { return this->Bench; }
+
+  /**
+   * Seconds that a rendering and a call of Refine() may trace for; 0 (the default): each image is complete.
+   */
+  void SetTimeSlice(double seconds) { this->TimeSlice = seconds; }
+
+  /**
+   * Whether the next rendering is for a screenshot: these are complete, whatever TimeSlice is.
+   */
+  void SetIsForScreenshot(bool isForScreenshot) { this->IsForScreenshot = isForScreenshot; }
+
+  /**
+   * Brings the image up to date after a change of the data or of the bench's properties, besides drawing: progress
+   * can be reported and computations aborted here. Before the first rendering the image is a coarse one, for which the
+   * refractivity is found. Where this fails, nothing is drawn until the next call.
+   */
+  void UpdateImage(vtkRenderer* renderer);
+
+  /**
+   * Traces for TimeSlice. Whether there is more to see now.
+   */
+  bool Refine();
+
+  /**
+   * Whether the image is complete.
+   */
+  bool GetFinished() const { return this->Finished || !this->HasImage; }
+
+  /**
+   * How many pixels along each axis one of the image stands for.
+   */
+  int GetReduction() const { return this->Reduction; }
+
+  /**
+   * Gives the actor bounds that hold all of the view, or none. With several ranks IceT leaves out what is outside of the
+   * bounds; but cameras are placed by the bounds of what is visible.
+   */
+  void SetFillsView(vtkRenderer* renderer);
+  void ClearBounds() { this->UseBoundsOff(); }
+  double* GetBounds() override { return this->UseBounds ? this->ViewBounds : nullptr; }
+
+  int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  int RenderTranslucentPolygonalGeometry(vtkViewport*) override { return 0; }
+  vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }
+
+protected:
+  vtkSchlierenActor();
+  ~vtkSchlierenActor() override;
+
+private:
+  vtkSchlierenActor(const vtkSchlierenActor&) = delete;
+  void operator=(const vtkSchlierenActor&) = delete;
+
+  /// What an image depends on besides the data and the bench's own properties.
+  struct View
+  {
+    std::array<double, 3> Direction{}, Up{}, FocalPoint{};
+    double ParallelScale = 0;
+    std::array<int, 2> Size{};
+    bool operator==(const View& other) const;
+  };
+  static View ViewOf(vtkRenderer* renderer);
+  /// Makes the bench look as the renderer does. Whether that is another view than before.
+  bool LookThrough(vtkRenderer* renderer);
+  void Trace(bool isInteractive, bool isMoved);
+  void TracePreview();
+  void TraceUpTo(double seconds);
+  void UpdatePixels();
+  void PlaceQuad(vtkRenderer* renderer);
+
+  vtkSmartPointer<vtkSchlierenFilter> Bench;
+  vtkNew<vtkCallbackCommand> Silence; // of the bench's progress while drawing
+  vtkNew<vtkCallbackCommand> RestoreFXAA;
+  vtkNew<vtkPolyData> Quad;
+  vtkNew<vtkPolyDataMapper> QuadMapper;
+  vtkNew<vtkImageData> Pixels;
+  vtkMTimeType PixelsTime = 0;
+  View Seen;
+  bool HasSeen = false; // a rendering
+  bool HasImage = false;
+  bool Finished = true;
+  bool IsForScreenshot = false;
+  double TimeSlice = 0;
+  double SecondsPerPixel = 2e-7; // as previews have taken; to begin with, a guess
+  int Reduction = 1;
+  double ViewBounds[6];
+};
+
+#endif

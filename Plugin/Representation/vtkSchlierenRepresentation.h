@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSchlierenRepresentation
+ * @brief   draws flow data in a render view as the image that vtkSchlierenFilter makes of them
+ *
+ * The image has the camera and the size of the view. It lies behind all surfaces of the view; see vtkSchlierenActor.
+ *
+ * An update, which can be aborted and reports progress, finds the refractivity. Rays are traced when the view is
+ * rendered: coarsely while it is turned, and whenever TimeSlice is positive, progressively afterwards, in calls of
+ * vtkPVRenderView::StreamingUpdate().
+ */
+#ifndef vtkSchlierenRepresentation_h
+#define vtkSchlierenRepresentation_h
+
+#include "vtkNew.h"
+#include "vtkPVDataRepresentation.h"
+#include "vtkSchlierenRepresentationModule.h" // for export macro
+
+class vtkPolyData;
+class vtkSchlierenActor;
+
+class VTKSCHLIERENREPRESENTATION_EXPORT vtkSchlierenRepresentation : public vtkPVDataRepresentation
+{
+public:
+  static vtkSchlierenRepresentation* New();
+  vtkTypeMacro(vtkSchlierenRepresentation, vtkPVDataRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The vtkSchlierenFilter that makes the image; its input, view and size are set by this representation. Null on
+   * clients that do not process data.
+   */
+  void SetBench(vtkObject* bench);
+
+  /**
+   * Seconds that a rendering, and a streaming update, may trace for, so that whoever asks for streaming updates sees
+   * the image improve; 0 (the default): each image is complete. Not negative.
+   */
+  void SetTimeSlice(double seconds);
+
+  /**
+   * Whether the image that was drawn last is complete, and how many pixels along each axis one of it stands for.
+   */
+  bool GetFinished();
+  int GetReduction();
+
+  void SetVisibility(bool isVisible) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
+protected:
+  vtkSchlierenRepresentation();
+  ~vtkSchlierenRepresentation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+private:
+  vtkSchlierenRepresentation(const vtkSchlierenRepresentation&) = delete;
+  void operator=(const vtkSchlierenRepresentation&) = delete;
+
+  void PassTimeToBench();
+
+  vtkNew<vtkSchlierenActor> Actor;
+  vtkNew<vtkPolyData>
+    Nothing; // to be delivered: only the image leaves this process, as part of the view
+  double Bounds[6];
+};
+
+#endif
