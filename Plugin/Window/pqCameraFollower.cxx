@@ -10,6 +10,7 @@
 #include "pqPictureCameras.h"
 #include "pqPictureRefiner.h"
 #include "pqPictureStatus.h"
+#include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -68,6 +69,7 @@ void pqCameraFollower::startup()
   }
   new pqPictureCameras(this);
   new pqPictureStatus(this);
+  new pqRepresentationRefiner(this);
   new pqImageProgress(this);
   // ParaView's window may come after its plugins.
   auto* hooks = new pqApplyHooks(this);

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqRepresentationRefiner.h"
+
+#include "pqApplicationCore.h"
+#include "pqRenderView.h"
+#include "pqRepresentation.h"
+#include "pqServer.h"
+#include "pqServerManagerModel.h"
+
+#include "vtkRenderWindow.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
+
+#include <QTimer>
+#include <QVariant>
+
+#include <algorithm>
+#include <cstring>
+
+namespace
+{
+
+/// Seconds that are traced at a time: the window answers in between.
+constexpr double timeSlice = 0.04;
+constexpr int pauseMilliseconds = 1;
+
+bool isSchlieren(pqRepresentation* representation)
+{
+  vtkSMProxy* proxy = representation->getProxy();
+  return representation->isVisible() && proxy->GetProperty("SchlierenFinished") &&
+    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Schlieren") == 0;
+}
+
+bool isUnfinished(pqRepresentation* representation)
+{
+  if (!isSchlieren(representation))
+  {
+    return false;
+  }
+  vtkSMProxy* proxy = representation->getProxy();
+  proxy->UpdatePropertyInformation(proxy->GetProperty("SchlierenFinished"));
+  return vtkSMPropertyHelper(proxy, "SchlierenFinished").GetAsInt() == 0;
+}
+
+bool isBeingTurned(pqView* view)
+{
+  auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
+  return proxy->GetRenderWindow()->GetDesiredUpdateRate() > 1;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
+  : QObject(parentObject)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqRepresentationRefiner::watch);
+  QObject::connect(
+    model, &pqServerManagerModel::representationAdded, this, &pqRepresentationRefiner::limit);
+  for (pqView* view : model->findItems<pqView*>())
+  {
+    this->watch(view);
+  }
+  for (pqRepresentation* representation : model->findItems<pqRepresentation*>())
+  {
+    this->limit(representation);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::limit(pqRepresentation* representation)
+{
+  vtkSMProxy* proxy = representation->getProxy();
+  if (proxy->GetProperty("SchlierenTimeSlice"))
+  {
+    vtkSMPropertyHelper(proxy, "SchlierenTimeSlice").Set(timeSlice);
+    proxy->UpdateVTKObjects();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::watch(pqView* view)
+{
+  if (qobject_cast<pqRenderView*>(view))
+  {
+    QObject::connect(view, &pqView::endRender, this, [this, view]() { this->refineLater(view); });
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::refineLater(pqView* view)
+{
+  const QList<pqRepresentation*> shown = view->getRepresentations();
+  // One timer for each view, whatever asks: streaming updates render, too.
+  if (isBeingTurned(view) || view->property("SchlierenIsRefined").toBool() ||
+    std::none_of(shown.begin(), shown.end(), isSchlieren))
+  {
+    return;
+  }
+  view->setProperty("SchlierenIsRefined", true);
+  QTimer::singleShot(pauseMilliseconds, view, [this, view]() { this->refine(view); });
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::refine(pqView* view)
+{
+  if (!isBeingTurned(view) && !view->getServer()->isProcessingPending())
+  {
+    vtkSMRenderViewProxy::SafeDownCast(view->getProxy())->StreamingUpdate(true);
+  }
+  view->setProperty("SchlierenIsRefined", false);
+  const QList<pqRepresentation*> shown = view->getRepresentations();
+  if (std::any_of(shown.begin(), shown.end(), isUnfinished))
+  {
+    this->refineLater(view);
+  }
+}

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QObject>
+
+class pqRepresentation;
+class pqView;
+
+/// Lets images of data that are drawn as Schlieren appear coarse and improve while the window waits for the user: it
+/// limits what one rendering traces, and asks their views for streaming updates until all images are complete.
+/// ParaView's own asking (pqViewStreamingBehavior) serves the active view alone, and only with a global switch.
+class pqRepresentationRefiner : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit pqRepresentationRefiner(QObject* parent);
+
+private Q_SLOTS:
+  void watch(pqView* view);
+
+private:
+  void limit(pqRepresentation* representation);
+  void refineLater(pqView* view);
+  void refine(pqView* view);
+};

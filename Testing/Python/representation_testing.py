@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data drawn as Schlieren in a render view, and the same by the filter."""
+
+import numpy as np
+from paraview import simple
+from plugin_testing import Schlieren, picture
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+# Images are bytes, rounded.
+GREY_LEVEL = 0.5 + 1e-4
+
+# Of the filter alone: the representation has them of its view.
+OF_THE_VIEW = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "FollowedView"}
+
+
+def show(flow, view, **settings):
+    display = simple.Show(flow, view)
+    display.SetRepresentationType("Schlieren")
+    simple.SetProperties(display.SchlierenBench, **settings)
+    return display
+
+
+def pixels_of(view, size):
+    """Grey levels of a screenshot of this size: rows x columns, lowest row first."""
+    simple.SaveScreenshot("screenshot.png", view, ImageResolution=list(size))
+    reader = vtkPNGReader()
+    reader.SetFileName("screenshot.png")
+    reader.Update()
+    image = reader.GetOutput()
+    columns, rows, _ = image.GetDimensions()
+    colors = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, -1).astype(float)
+    return colors[..., 0]
+
+
+def filter_like(display, view, size):
+    """The grey levels that the filter's image has, with the settings of the representation and the view's camera."""
+    camera = view.GetActiveCamera()
+    bench = Schlieren(Input=display.Input)
+    own = display.SchlierenBench
+    for name in own.ListProperties():
+        if name not in OF_THE_VIEW and name != "Input" and not own.GetProperty(name).SMProperty.GetInformationOnly():
+            bench.SMProxy.GetProperty(name).Copy(own.SMProxy.GetProperty(name))
+    bench.SMProxy.UpdateVTKObjects()
+    simple.SetProperties(
+        bench, ViewDirection=list(camera.GetDirectionOfProjection()), ViewUp=list(camera.GetViewUp()),
+        FocalPoint=list(camera.GetFocalPoint()), ParallelScale=camera.GetParallelScale(), ImageSize=list(size))
+    intensity = picture(bench, "Intensity")
+    simple.Delete(bench)
+    full = 2 if own.Cutoff == "Shadowgraph" else 1
+    return np.clip(255 / full * intensity, 0, 255)
