@@ -145,7 +145,8 @@ void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
     this->Bench->RemoveObserver(this->Silence);
   }
   this->Bench = bench;
-  this->HasImage = this->HasSeen = false;
+  this->HasData = this->HasSeen = false;
+  this->FailedTime = 0;
   if (bench)
   {
     constexpr float beforeAllOthers = 100;
@@ -234,7 +235,27 @@ void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
     this->LookThrough(renderer);
     this->TraceUpTo(this->TimeSlice);
   }
-  this->HasImage = this->Bench->GetOutput()->GetNumberOfPoints() > 0;
+  this->HasData = true;
+  this->NoteTimes();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::NoteTimes()
+{
+  this->KnownTime = this->Bench->GetMTime();
+  this->FailedTime = this->Bench->GetOutput()->GetNumberOfPoints() > 0 ? 0 : this->KnownTime;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenActor::IsChanged() const
+{
+  return this->Bench && this->Bench->GetMTime() != this->KnownTime;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenActor::HasFailed() const
+{
+  return this->FailedTime != 0 && this->FailedTime == this->Bench->GetMTime();
 }
 
 //------------------------------------------------------------------------------
@@ -304,6 +325,7 @@ bool vtkSchlierenActor::Refine()
   this->Bench->SetTimeLimit(this->TimeSlice);
   const vtkTypeInt64 before = this->Bench->GetPictureCount();
   this->Bench->Refine();
+  this->KnownTime = this->Bench->GetMTime();
   return this->Bench->GetPictureCount() != before || this->Bench->GetFinished();
 }
 
@@ -311,7 +333,7 @@ bool vtkSchlierenActor::Refine()
 int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
-  if (!renderer || !this->Bench || !this->HasImage)
+  if (!renderer || !this->Bench || !this->HasData || this->HasFailed())
   {
     return 0;
   }
@@ -320,7 +342,8 @@ int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
   // ParaView's views ask for 5 images per second while they are turned, else for 0.002.
   this->Trace(
     !this->IsForScreenshot && renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1, isMoved);
-  if (this->Bench->GetOutput()->GetNumberOfPoints() == 0)
+  this->NoteTimes();
+  if (this->HasFailed())
   {
     return 0;
   }

@@ -46,9 +46,15 @@ public:
   /**
    * Brings the image up to date after a change of the data or of the bench's properties, besides drawing: progress
    * can be reported and computations aborted here. Before the first rendering the image is a coarse one, for which the
-   * refractivity is found. Where this fails, nothing is drawn until the next call.
+   * refractivity is found. Where this fails, nothing is drawn until the next call or another change of the bench's
+   * properties.
    */
   void UpdateImage(vtkRenderer* renderer);
+
+  /**
+   * Whether the bench's properties have changed since the image was made.
+   */
+  bool IsChanged() const;
 
   /**
    * Traces for TimeSlice. Whether there is more to see now.
@@ -58,7 +64,7 @@ public:
   /**
    * Whether the image is complete.
    */
-  bool GetFinished() const { return this->Finished || !this->HasImage; }
+  bool GetFinished() const { return this->Finished || !this->HasData || this->HasFailed(); }
 
   /**
    * How many pixels along each axis one of the image stands for.
@@ -99,6 +105,9 @@ private:
   void Trace(bool isInteractive, bool isMoved);
   void TracePreview();
   void TraceUpTo(double seconds);
+  void NoteTimes();
+  /// An image that could not be made for one view cannot for another: one error message is enough.
+  bool HasFailed() const;
   void UpdatePixels();
   void PlaceQuad(vtkRenderer* renderer);
 
@@ -109,9 +118,11 @@ private:
   vtkNew<vtkPolyDataMapper> QuadMapper;
   vtkNew<vtkImageData> Pixels;
   vtkMTimeType PixelsTime = 0;
+  vtkMTimeType KnownTime = 0;  // of the bench, when this has last used it
+  vtkMTimeType FailedTime = 0; // of the bench, where there was no image; 0: there was one
   View Seen;
   bool HasSeen = false; // a rendering
-  bool HasImage = false;
+  bool HasData = false;
   bool Finished = true;
   bool IsForScreenshot = false;
   double TimeSlice = 0;

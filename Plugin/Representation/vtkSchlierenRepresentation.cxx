@@ -188,6 +188,11 @@ bool vtkSchlierenRepresentation::RemoveFromView(vtkView* view)
 int vtkSchlierenRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
+  // For ParaView, what is not an input cannot change what is drawn of the data.
+  if (request == vtkPVView::REQUEST_UPDATE() && this->Actor->IsChanged())
+  {
+    this->MarkModified();
+  }
   if (!this->Superclass::ProcessViewRequest(request, input, output))
   {
     return 0;

@@ -5,11 +5,14 @@ changed in the panel."""
 
 import json
 import os
+import sys
 
 import numpy as np
-from plugin_testing import simple
-from representation_testing import filter_like
-from window_testing import FOLDER, PANEL, Session
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from window_testing import FOLDER, PANEL, Session  # noqa: E402
 
 DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
 SAVE = """
@@ -37,10 +40,9 @@ user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "se
 user.python(SAVE.format("chosen"))
 user.drag_view(0, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))
 user.python(SAVE.format("turned"))
-user.event(DISPLAY + "/SchlierenBench/Frame/ProxyPanel/Cutoff/ComboBox", "set_string", "Circular Complement")
-user.python(SAVE.format("changed") + """
-widget().grab().save(os.path.join(FOLDER, "window.png"))
-""")
+user.event(DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget/Cutoff/ComboBox", "set_string",
+           "Circular Complement")
+user.python(SAVE.format("changed"))
 user.play("""
 import inside_window
 from inside_window import information
@@ -58,3 +60,27 @@ def note(*_):
     inside_window.LOG.append(information(display, "SchlierenReduction"))
 view.SMProxy.AddObserver("EndEvent", note)
 """)
+
+wavelet = simple.Wavelet(WholeExtent=3 * [-30, 30])
+wavelet.UpdatePipeline()
+
+
+def drawn(name):
+    """What was drawn in this step, as the reductions of the images, after a check of the last one."""
+    kept = np.load(os.path.join(FOLDER, name + ".npz"))
+    bench = Schlieren(
+        Input=wavelet, Density=["POINTS", "RTData"], Cutoff=kept["cutoff"].item(), ImageSize=kept["size"].tolist(), ViewUp=kept["up"].tolist(),
+        ViewDirection=(kept["focus"] - kept["position"]).tolist(), FocalPoint=kept["focus"].tolist(),
+        ParallelScale=float(kept["scale"]))
+    difference = np.abs(picture(bench, "Intensity").ravel() - kept["intensity"])
+    assert difference.max() < 1e-5, (name, difference.max(), difference.mean())
+    with open(os.path.join(FOLDER, name + ".json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+assert drawn("chosen")[-1] == 1
+turned = drawn("turned")
+assert len(turned) >= 4 and turned[-1] == 1 and max(turned) > 1, turned
+# Another cutoff needs no rays.
+assert set(drawn("changed")) == {1}
+assert np.load(os.path.join(FOLDER, "changed.npz"))["cutoff"].item() == "Circular Complement"

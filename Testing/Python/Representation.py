@@ -3,11 +3,9 @@
 """Data drawn as Schlieren in a render view: the image of the filter, whatever the data, the camera and the size."""
 
 import os
-import sys
 
 import numpy as np
 from paraview import simple
-from plugin_testing import Schlieren, picture
 from representation_testing import GREY_LEVEL, filter_like, pixels_of, show
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
@@ -21,7 +19,7 @@ def check(name, display, view, sizes=((120, 90),)):
         shown = pixels_of(view, size)
         expected = filter_like(display, view, size)
         assert shown.shape == expected.shape, (name, shown.shape)
-        assert np.ptp(expected) > 50, (name, "an image without contrast", np.ptp(expected))
+        assert np.ptp(expected) > 50, (name, size)
         error = np.abs(shown - expected).max()
         assert error <= GREY_LEVEL, (name, size, error)
 
@@ -49,12 +47,12 @@ def rectilinear(path):
 
 
 def flows():
-    """Data, and what makes a refractivity of them if not the defaults do."""
+    """Kinds of data, and the settings that are not the defaults. Voxels are kept from one view to the next, and so can
+    be finer than another view alone would ask for, unless they are as fine as the mesh anyway."""
     yield "image", simple.XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.vti")]), {}
     yield "rectilinear", rectilinear(os.path.abspath("ball.vtr")), {}
-    yield "structured", simple.XMLStructuredGridReader(FileName=[os.path.join(DATA, "deltawing.vts")]), {}
-    yield "unstructured", simple.XMLUnstructuredGridReader(
-        FileName=[os.path.join(DATA, "blob_lagrange_hex.vtu")]), {"Density": ["POINTS", "rho"]}
+    yield "structured", simple.XMLStructuredGridReader(FileName=[os.path.join(DATA, "deltawing.vts")]), {"MediumTolerance": 0}
+    yield "unstructured", simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=3 * [-8, 8])), {}
     yield "AMR", simple.AMRGaussianPulseSource(), {"Density": ["CELLS", "Gaussian-Pulse"]}
     wavelet = simple.Wavelet(WholeExtent=3 * [-8, 8])
     yield "multi-block", simple.GroupDatasets(Input=[wavelet, simple.Transform(Input=wavelet)]), {}

@@ -22,16 +22,19 @@ def show(flow, view, **settings):
     return display
 
 
-def pixels_of(view, size):
-    """Grey levels of a screenshot of this size: rows x columns, lowest row first."""
-    simple.SaveScreenshot("screenshot.png", view, ImageResolution=list(size))
+def pixels_of(view, size=None, channels=0):
+    """Of a file, or of a screenshot of this size: rows x columns, lowest row first."""
+    path = view
+    if size:
+        path = "screenshot.png"
+        simple.SaveScreenshot(path, view, ImageResolution=list(size))
     reader = vtkPNGReader()
-    reader.SetFileName("screenshot.png")
+    reader.SetFileName(path)
     reader.Update()
     image = reader.GetOutput()
     columns, rows, _ = image.GetDimensions()
     colors = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, -1).astype(float)
-    return colors[..., 0]
+    return colors[..., channels]
 
 
 def filter_like(display, view, size):
