@@ -84,12 +84,26 @@ vtkSchlierenActor::vtkSchlierenActor()
   this->PickableOff();
   this->DragableOff();
   this->Silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  this->RestoreFXAA->SetClientData(this->RestoreFXAA);
-  this->RestoreFXAA->SetCallback(
-    [](vtkObject* renderer, unsigned long, void* command, void*)
+  this->SuspendFXAA->SetClientData(this);
+  this->SuspendFXAA->SetCallback(
+    [](vtkObject* renderer, unsigned long, void* data, void*)
     {
-      static_cast<vtkRenderer*>(renderer)->UseFXAAOn();
-      renderer->RemoveObserver(static_cast<vtkCommand*>(command));
+      auto* self = static_cast<vtkSchlierenActor*>(data);
+      self->IsWithoutFXAA =
+        self->GetVisibility() && static_cast<vtkRenderer*>(renderer)->GetUseFXAA();
+      if (self->IsWithoutFXAA)
+      {
+        static_cast<vtkRenderer*>(renderer)->UseFXAAOff();
+      }
+    });
+  this->RestoreFXAA->SetClientData(this);
+  this->RestoreFXAA->SetCallback(
+    [](vtkObject* renderer, unsigned long, void* data, void*)
+    {
+      if (static_cast<vtkSchlierenActor*>(data)->IsWithoutFXAA)
+      {
+        static_cast<vtkRenderer*>(renderer)->UseFXAAOn();
+      }
     });
 
   vtkNew<vtkPoints> points;
@@ -220,6 +234,24 @@ void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
+{
+  renderer->AddActor(this);
+  // What composites the images of several processes looks for it at the beginning, and puts it back at the end.
+  constexpr float beforeAllOthers = 100, afterAllOthers = -100;
+  renderer->AddObserver(vtkCommand::StartEvent, this->SuspendFXAA, beforeAllOthers);
+  renderer->AddObserver(vtkCommand::EndEvent, this->RestoreFXAA, afterAllOthers);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::RemoveFrom(vtkRenderer* renderer)
+{
+  renderer->RemoveActor(this);
+  renderer->RemoveObserver(this->SuspendFXAA);
+  renderer->RemoveObserver(this->RestoreFXAA);
+}
+
+//------------------------------------------------------------------------------
 void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
 {
   if (!this->HasSeen)
@@ -346,12 +378,6 @@ int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
   if (this->HasFailed())
   {
     return 0;
-  }
-  if (renderer->GetUseFXAA())
-  {
-    // It looks for edges in all that is opaque, and would blur what the image resolves. It begins after this.
-    renderer->UseFXAAOff();
-    renderer->AddObserver(vtkCommand::EndEvent, this->RestoreFXAA);
   }
   this->UpdatePixels();
   this->PlaceQuad(renderer);

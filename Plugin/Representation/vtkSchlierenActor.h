@@ -34,6 +34,13 @@ public:
   vtkSchlierenFilter* GetBench() const { return this->Bench; }
 
   /**
+   * While it is in a renderer and visible, the smoothing of edges (FXAA) is left out, which would blur what the image
+   * resolves.
+   */
+  void AddTo(vtkRenderer* renderer);
+  void RemoveFrom(vtkRenderer* renderer);
+
+  /**
    * Seconds that a rendering and a call of Refine() may trace for; 0 (the default): each image is complete.
    */
   void SetTimeSlice(double seconds) { this->TimeSlice = seconds; }
@@ -113,7 +120,9 @@ private:
 
   vtkSmartPointer<vtkSchlierenFilter> Bench;
   vtkNew<vtkCallbackCommand> Silence; // of the bench's progress while drawing
+  vtkNew<vtkCallbackCommand> SuspendFXAA;
   vtkNew<vtkCallbackCommand> RestoreFXAA;
+  bool IsWithoutFXAA = false;
   vtkNew<vtkPolyData> Quad;
   vtkNew<vtkPolyDataMapper> QuadMapper;
   vtkNew<vtkImageData> Pixels;

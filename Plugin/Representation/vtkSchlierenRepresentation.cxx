@@ -168,7 +168,7 @@ bool vtkSchlierenRepresentation::AddToView(vtkView* view)
   vtkRenderer* renderer = rendererOf(view);
   if (renderer)
   {
-    renderer->AddActor(this->Actor);
+    this->Actor->AddTo(renderer);
   }
   return renderer && this->Superclass::AddToView(view);
 }
@@ -179,7 +179,7 @@ bool vtkSchlierenRepresentation::RemoveFromView(vtkView* view)
   vtkRenderer* renderer = rendererOf(view);
   if (renderer)
   {
-    renderer->RemoveActor(this->Actor);
+    this->Actor->RemoveFrom(renderer);
   }
   return renderer && this->Superclass::RemoveFromView(view);
 }
