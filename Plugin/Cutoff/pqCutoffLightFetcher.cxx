@@ -9,6 +9,7 @@
 #include "vtkEventQtSlotConnect.h"
 #include "vtkImageData.h"
 #include "vtkPVDataInformation.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 
@@ -29,9 +30,13 @@ int informationOf(vtkSMProxy* filter, const char* name)
 }
 
 /// Whether the picture that there is has all pixels and rays. Another would be finished by being fetched, however
-/// long that takes.
+/// long that takes. Of a filter inside of a representation, changes are announced when they are complete.
 bool isWhole(vtkSMProxy* filter)
 {
+  if (filter->GetProperty("ImageSize")->GetIsInternal())
+  {
+    return informationOf(filter, "Finished") != 0;
+  }
   auto* source = vtkSMSourceProxy::SafeDownCast(filter);
   int extent[6];
   source->GetDataInformation(picturePort)->GetExtent(extent);

@@ -3,7 +3,6 @@
 #include "pqFetchedImage.h"
 
 #include "pqApplicationCore.h"
-#include "pqPipelineSource.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 #include "pqTimeKeeper.h"
@@ -59,15 +58,15 @@ private:
 vtkSmartPointer<vtkImageData> fetchedImage(
   vtkSMProxy* filter, unsigned int port, const std::vector<std::string>& arrays)
 {
-  auto* source =
-    pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(filter);
-  if (!source)
+  pqServer* server =
+    pqApplicationCore::instance()->getServerManagerModel()->findServer(filter->GetSession());
+  if (!server)
   {
     return nullptr;
   }
   SCOPED_UNDO_EXCLUDE();
   const ShortUpdates shortUpdates(filter);
-  const double time = source->getServer()->getTimeKeeper()->getTime();
+  const double time = server->getTimeKeeper()->getTime();
   const auto only = newFilter("PassArrays", filter, port);
   const auto mover = only ? newFilter("ClientServerMoveData", only, 0) : nullptr;
   if (!mover)

@@ -16,6 +16,12 @@ void vtkSMSchlierenBenchProxy::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkSMSchlierenBenchProxy::CreateVTKObjects()
 {
+  if (this->ObjectsCreated)
+  {
+    return;
+  }
   this->Superclass::CreateVTKObjects();
   this->Location &= vtkPVSession::SERVERS;
+  // Widgets read them as soon as there is a panel, and sources get theirs by their first update.
+  this->UpdatePropertyInformation();
 }

@@ -3,6 +3,7 @@
 #include "pqNoteWidget.h"
 
 #include "pqApplicationCore.h"
+#include "pqPictureRefiner.h"
 #include "pqPipelineSource.h"
 #include "pqServerManagerModel.h"
 
@@ -37,6 +38,17 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
     // ParaView itself asks when the output's extent is asked for, before the filter has run.
     QObject::connect(this->Source.data(),
       QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this, &pqNoteWidget::ask);
+  }
+  else // a filter inside of a representation
+  {
+    QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::pictureChanged, this,
+      [this](vtkSMProxy* changed)
+      {
+        if (changed == this->proxy())
+        {
+          this->ask();
+        }
+      });
   }
   this->showText();
 }

@@ -3,6 +3,7 @@
 #include "pqPictureRefiner.h"
 
 #include "PicturesInViews.h"
+#include "pqRepresentationRefiner.h"
 #include "pqInteraction.h"
 
 #include "pqAnimationScene.h"
@@ -356,6 +357,7 @@ void pqPictureRefiner::refine(vtkSMProxy* proxy, Pace pace)
   auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
   if (!picturesInViews::isSchlieren(sourceOf(filter)))
   {
+    pqRepresentationRefiner::renderViewsOf(proxy);
     return;
   }
   this->setStopped(filter, false);

@@ -3,6 +3,7 @@
 #include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
+#include "pqPictureRefiner.h"
 #include "pqRenderView.h"
 #include "pqRepresentation.h"
 #include "pqServer.h"
@@ -44,6 +45,12 @@ bool isUnfinished(pqRepresentation* representation)
   return vtkSMPropertyHelper(proxy, "SchlierenFinished").GetAsInt() == 0;
 }
 
+vtkSMProxy* benchOf(pqRepresentation* representation)
+{
+  vtkSMProperty* bench = representation->getProxy()->GetProperty("SchlierenBench");
+  return bench ? vtkSMPropertyHelper(bench).GetAsProxy() : nullptr;
+}
+
 bool isBeingTurned(pqView* view)
 {
   auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
@@ -67,6 +74,19 @@ pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
   for (pqRepresentation* representation : model->findItems<pqRepresentation*>())
   {
     this->limit(representation);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::renderViewsOf(vtkSMProxy* bench)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqRepresentation* representation : model->findItems<pqRepresentation*>())
+  {
+    if (isSchlieren(representation) && benchOf(representation) == bench)
+    {
+      representation->renderViewEventually();
+    }
   }
 }
 
@@ -116,5 +136,13 @@ void pqRepresentationRefiner::refine(pqView* view)
   if (std::any_of(shown.begin(), shown.end(), isUnfinished))
   {
     this->refineLater(view);
+    return;
+  }
+  for (pqRepresentation* representation : shown)
+  {
+    if (isSchlieren(representation))
+    {
+      Q_EMIT pqPictureRefiner::instance()->pictureChanged(benchOf(representation));
+    }
   }
 }

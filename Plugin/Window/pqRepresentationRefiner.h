@@ -6,6 +6,7 @@
 
 class pqRepresentation;
 class pqView;
+class vtkSMProxy;
 
 /// Lets images of data that are drawn as Schlieren appear coarse and improve while the window waits for the user: it
 /// limits what one rendering traces, and asks their views for streaming updates until all images are complete.
@@ -16,6 +17,9 @@ class pqRepresentationRefiner : public QObject
 
 public:
   explicit pqRepresentationRefiner(QObject* parent);
+
+  /// Shows what has changed of the proxy of the filter inside of a representation; of no effect for others.
+  static void renderViewsOf(vtkSMProxy* bench);
 
 private Q_SLOTS:
   void watch(pqView* view);
