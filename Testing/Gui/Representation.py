@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Data drawn as Schlieren in the window: chosen in the Representation box, turned by mouse, released, complete, and
-changed in the panel."""
+changed in the panel and in the cutoff editor."""
 
 import json
 import os
@@ -14,7 +14,10 @@ sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "
 from plugin_testing import Schlieren, picture, simple  # noqa: E402
 from window_testing import FOLDER, PANEL, Session  # noqa: E402
 
+SETTINGS = ("Cutoff", "AutoKScale", "KScale", "CutoffOffset", "KnifeEdgeAngle")
 DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
+BENCH = DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget"
+PLANE = BENCH + "/SchlierenCutoff/Plane"
 SAVE = """
 import inside_window
 LOG = inside_window.LOG
@@ -29,7 +32,7 @@ assert image.GetDimensions()[:2] == tuple(size), (image.GetDimensions(), size)
 camera = view.GetActiveCamera()
 np.savez(os.path.join(FOLDER, "{0}.npz"), intensity=vtk_to_numpy(image.GetPointData().GetArray("Intensity")),
          size=size, position=camera.GetPosition(), focus=camera.GetFocalPoint(), up=camera.GetViewUp(),
-         scale=camera.GetParallelScale(), cutoff=bench.Cutoff)
+         scale=camera.GetParallelScale(), **{{name: bench.GetProperty(name).GetData() for name in {1}}})
 with open(os.path.join(FOLDER, "{0}.json"), "w") as file:
     file.write(str(LOG))
 LOG.clear()
@@ -37,12 +40,27 @@ LOG.clear()
 
 user = Session()
 user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "set_string", "Schlieren")
-user.python(SAVE.format("chosen"))
+user.python(SAVE.format("chosen", SETTINGS))
 user.drag_view(0, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))
-user.python(SAVE.format("turned"))
-user.event(DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget/Cutoff/ComboBox", "set_string",
-           "Circular Complement")
-user.python(SAVE.format("changed"))
+user.python(SAVE.format("turned", SETTINGS))
+user.event(BENCH + "/Cutoff/ComboBox", "set_string", "Circular Complement")
+user.python(SAVE.format("changed", SETTINGS))
+
+# The editor shows the light at the cutoff, and the edge that is dragged in it.
+user.event(BENCH + "/Cutoff/ComboBox", "set_string", "Knife Edge")
+user.python("""
+plane = widget("propertiesPanel", "SchlierenBench", "SchlierenCutoff", "Plane")
+until(lambda: plane.isEnabled() and plane.property("range") > 0)
+side = plane.property("side")
+middle = QPointF(20 + side / 2, 2 + side / 2 - 30)
+for event, shift, button, buttons in ((QEvent.MouseButtonPress, 0, Qt.LeftButton, Qt.LeftButton),
+                                      (QEvent.MouseMove, 20, Qt.NoButton, Qt.LeftButton),
+                                      (QEvent.MouseMove, 30, Qt.NoButton, Qt.LeftButton),
+                                      (QEvent.MouseButtonRelease, 30, Qt.LeftButton, Qt.NoButton)):
+    place = middle + QPointF(shift, 0)
+    QApplication.sendEvent(plane, QMouseEvent(event, place, button, buttons, Qt.NoModifier))
+    pause(0.1)
+""" + SAVE.format("dragged", SETTINGS))
 user.play("""
 import inside_window
 from inside_window import information
@@ -69,7 +87,7 @@ def drawn(name):
     """What was drawn in this step, as the reductions of the images, after a check of the last one."""
     kept = np.load(os.path.join(FOLDER, name + ".npz"))
     bench = Schlieren(
-        Input=wavelet, Density=["POINTS", "RTData"], Cutoff=kept["cutoff"].item(), ImageSize=kept["size"].tolist(), ViewUp=kept["up"].tolist(),
+        Input=wavelet, Density=["POINTS", "RTData"], **{name: kept[name].item() for name in SETTINGS}, ImageSize=kept["size"].tolist(), ViewUp=kept["up"].tolist(),
         ViewDirection=(kept["focus"] - kept["position"]).tolist(), FocalPoint=kept["focus"].tolist(),
         ParallelScale=float(kept["scale"]))
     difference = np.abs(picture(bench, "Intensity").ravel() - kept["intensity"])
@@ -83,4 +101,7 @@ turned = drawn("turned")
 assert len(turned) >= 4 and turned[-1] == 1 and max(turned) > 1, turned
 # Another cutoff needs no rays.
 assert set(drawn("changed")) == {1}
-assert np.load(os.path.join(FOLDER, "changed.npz"))["cutoff"].item() == "Circular Complement"
+assert np.load(os.path.join(FOLDER, "changed.npz"))["Cutoff"].item() == "Circular Complement"
+assert set(drawn("dragged")) == {1}
+dragged = np.load(os.path.join(FOLDER, "dragged.npz"))
+assert dragged["Cutoff"].item() == "Knife Edge" and dragged["CutoffOffset"].item() > 0.01, dict(dragged)
