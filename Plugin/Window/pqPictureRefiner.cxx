@@ -3,8 +3,8 @@
 #include "pqPictureRefiner.h"
 
 #include "PicturesInViews.h"
-#include "pqRepresentationRefiner.h"
 #include "pqInteraction.h"
+#include "pqRepresentationRefiner.h"
 
 #include "pqAnimationScene.h"
 #include "pqApplicationCore.h"
