@@ -43,7 +43,12 @@ public:
   /**
    * Seconds that a rendering and a call of Refine() may trace for; 0 (the default): each image is complete.
    */
-  void SetTimeSlice(double seconds) { this->TimeSlice = seconds; }
+  void SetTimeSlice(double seconds) { this->TimeSlice = this->HasOtherRanks ? 0 : seconds; }
+
+  /**
+   * Whether several ranks trace one image: then TimeSlice is of no effect.
+   */
+  void SetHasOtherRanks(bool hasOtherRanks) { this->HasOtherRanks = hasOtherRanks; }
 
   /**
    * Whether the next rendering is for a screenshot: these are complete, whatever TimeSlice is.
@@ -134,6 +139,7 @@ private:
   bool HasData = false;
   bool Finished = true;
   bool IsForScreenshot = false;
+  bool HasOtherRanks = false;
   double TimeSlice = 0;
   double SecondsPerPixel = 2e-7; // as previews have taken; to begin with, a guess
   int Reduction = 1;

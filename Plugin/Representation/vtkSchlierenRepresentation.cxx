@@ -54,6 +54,7 @@ std::pair<int, int> ranks()
 vtkSchlierenRepresentation::vtkSchlierenRepresentation()
 {
   vtkMath::UninitializeBounds(this->Bounds);
+  this->Actor->SetHasOtherRanks(ranks().second > 1);
 }
 
 //------------------------------------------------------------------------------

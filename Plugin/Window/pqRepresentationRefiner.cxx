@@ -9,6 +9,7 @@
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 
+#include "vtkPVRenderView.h"
 #include "vtkRenderWindow.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
@@ -34,21 +35,31 @@ bool isSchlieren(pqRepresentation* representation)
     std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Schlieren") == 0;
 }
 
-bool isUnfinished(pqRepresentation* representation)
-{
-  if (!isSchlieren(representation))
-  {
-    return false;
-  }
-  vtkSMProxy* proxy = representation->getProxy();
-  proxy->UpdatePropertyInformation(proxy->GetProperty("SchlierenFinished"));
-  return vtkSMPropertyHelper(proxy, "SchlierenFinished").GetAsInt() == 0;
-}
-
 vtkSMProxy* benchOf(pqRepresentation* representation)
 {
   vtkSMProperty* bench = representation->getProxy()->GetProperty("SchlierenBench");
   return bench ? vtkSMPropertyHelper(bench).GetAsProxy() : nullptr;
+}
+
+bool isUnfinished(pqRepresentation* representation)
+{
+  vtkSMProxy* bench = isSchlieren(representation) ? benchOf(representation) : nullptr;
+  if (!bench)
+  {
+    return false;
+  }
+  // The representation itself is on the client, too, where it knows nothing.
+  bench->UpdatePropertyInformation(bench->GetProperty("Finished"));
+  bench->UpdatePropertyInformation(bench->GetProperty("Status"));
+  return vtkSMPropertyHelper(bench, "Finished").GetAsInt() == 0 ||
+    std::strncmp(vtkSMPropertyHelper(bench, "Status").GetAsString(), "Preview", 7) == 0;
+}
+
+/// Whether the server draws it, or this program.
+bool isDrawn(pqView* view)
+{
+  auto* client = vtkPVRenderView::SafeDownCast(view->getProxy()->GetClientSideObject());
+  return !view->getServer()->isRemote() || (client && client->GetRemoteRenderingAvailable());
 }
 
 bool isBeingTurned(pqView* view)
@@ -115,7 +126,7 @@ void pqRepresentationRefiner::refineLater(pqView* view)
 {
   const QList<pqRepresentation*> shown = view->getRepresentations();
   // One timer for each view, whatever asks: streaming updates render, too.
-  if (isBeingTurned(view) || view->property("SchlierenIsRefined").toBool() ||
+  if (isBeingTurned(view) || !isDrawn(view) || view->property("SchlierenIsRefined").toBool() ||
     std::none_of(shown.begin(), shown.end(), isSchlieren))
   {
     return;
