@@ -34,7 +34,7 @@ public:
   void SetBench(vtkObject* bench);
 
   /**
-   * Seconds that a rendering, and a streaming update, may trace for, so that whoever asks for streaming updates sees
+   * Seconds that a rendering, and a streaming update, may trace for, so that whoever requests streaming updates sees
    * the image improve; 0 (the default): each image is complete. Not negative.
    */
   void SetTimeSlice(double seconds);

@@ -125,7 +125,7 @@ void pqRepresentationRefiner::watch(pqView* view)
 void pqRepresentationRefiner::refineLater(pqView* view)
 {
   const QList<pqRepresentation*> shown = view->getRepresentations();
-  // One timer for each view, whatever asks: streaming updates render, too.
+  // One timer for each view: streaming updates render, too.
   if (isBeingTurned(view) || !isDrawn(view) || view->property("SchlierenIsRefined").toBool() ||
     std::none_of(shown.begin(), shown.end(), isSchlieren))
   {

@@ -9,8 +9,8 @@ class pqView;
 class vtkSMProxy;
 
 /// Lets images of data that are drawn as Schlieren appear coarse and improve while the window waits for the user: it
-/// limits what one rendering traces, and asks their views for streaming updates until all images are complete.
-/// ParaView's own asking (pqViewStreamingBehavior) serves the active view alone, and only with a global switch.
+/// limits what one rendering traces, and requests streaming updates of their views until all images are complete.
+/// ParaView's own pqViewStreamingBehavior serves the active view alone, and only with a global switch.
 class pqRepresentationRefiner : public QObject
 {
   Q_OBJECT
