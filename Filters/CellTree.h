@@ -45,7 +45,7 @@ public:
   /// too many cells or points.
   explicit CellTree(const std::vector<vtkDataSet*>& blocks,
     Reconstruction reconstruction = Reconstruction::Linear,
-    const WorkProgress& progress = WorkProgress());
+    const WorkProgress& progress = WorkProgress(), Copies copies = Copies::Used);
 
   /// Of other values on the mesh of another tree, which that tree need not outlive.
   CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
@@ -129,6 +129,7 @@ public:
     Bounds whole;
     Vector origin, step, voxelShape;
     std::vector<Number> numbers;            // sorted
+    std::vector<Number> copies;             // that are neighbours only
     std::vector<Steps> boxes;               // of them
     std::vector<std::vector<Group>> levels; // of eight cells, of eight times as many, ... one group
     std::vector<PointNeighbours> neighbours; // of each block; none: linear
@@ -203,7 +204,7 @@ private:
   void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
-  void findCells(Mesh& mesh, const WorkProgress& progress);
+  void findCells(Mesh& mesh, Copies copies, const WorkProgress& progress);
   void findNeighbours(Mesh& mesh, const WorkProgress& progress);
   void sortCells(Mesh& mesh, const WorkProgress& progress);
   void makeGroups(Mesh& mesh, const WorkProgress& progress);

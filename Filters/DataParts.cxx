@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DataParts.h"
+
+#include "RefractivitySource.h"
+
+#include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataArray.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkExtractCells.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace refractivity
+{
+
+namespace
+{
+
+void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
+{
+  const auto below = [&slot](int child)
+  {
+    Slot of = slot;
+    of.push_back(child);
+    return of;
+  };
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    const bool areParts = vtkPartitionedDataSet::SafeDownCast(data) != nullptr;
+    auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+    iterator->VisitOnlyLeavesOff();
+    iterator->TraverseSubTreeOff();
+    iterator->SkipEmptyNodesOff();
+    int child = 0;
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addParts(iterator->GetCurrentDataObject(), areParts ? slot : below(child), parts);
+      ++child;
+    }
+  }
+  else if (auto* amr = vtkUniformGridAMR::SafeDownCast(data))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(amr->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addParts(iterator->GetCurrentDataObject(),
+        below(static_cast<int>(iterator->GetCurrentFlatIndex())), parts);
+    }
+  }
+  else if (auto* leaf = vtkDataSet::SafeDownCast(data))
+  {
+    if (leaf->GetNumberOfPoints() > 0)
+    {
+      parts.push_back({ slot, leaf });
+    }
+  }
+}
+
+/// Those arrays that are needed, in the order of their names: the same on all ranks.
+void keepArrays(
+  vtkDataSetAttributes* from, const std::vector<std::string>& names, vtkDataSetAttributes* to)
+{
+  std::map<std::string, vtkDataArray*> kept;
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = from->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    const bool isKnown = name == vtkDataSetAttributes::GhostArrayName() ||
+      name == arrayName || name == maskName || name == transparentName;
+    if (array && (isKnown || std::find(names.begin(), names.end(), name) != names.end()))
+    {
+      kept[name] = array;
+    }
+  }
+  to->Initialize();
+  for (const auto& array : kept)
+  {
+    to->AddArray(array.second);
+  }
+  if (vtkDataArray* scalars = from->GetScalars())
+  {
+    to->SetScalars(scalars); // what selections without a name mean
+  }
+}
+
+/// Without the cells that are copies of other ranks'; vtkUnstructuredGrid::RemoveGhostCells would remove hidden ones, too.
+vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
+{
+  vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();
+  vtkNew<vtkIdList> own;
+  for (vtkIdType cell = 0; ghosts && cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (!(ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL))
+    {
+      own->InsertNextId(cell);
+    }
+  }
+  if (!ghosts || own->GetNumberOfIds() == mesh->GetNumberOfCells())
+  {
+    return mesh;
+  }
+  vtkNew<vtkExtractCells> extract;
+  extract->SetInputData(mesh);
+  extract->SetCellList(own);
+  extract->Update();
+  vtkUnstructuredGrid* without = extract->GetOutput();
+  without->GetCellData()->RemoveArray("vtkOriginalCellIds");
+  return without;
+}
+
+/// A copy with the arrays that are needed and without copies of other ranks' cells.
+vtkSmartPointer<vtkDataSet> sparseCopy(vtkDataSet* data, const std::vector<std::string>& names)
+{
+  vtkSmartPointer<vtkDataSet> copy;
+  if (vtkImageData::SafeDownCast(data))
+  {
+    copy = vtkSmartPointer<vtkImageData>::New(); // vtkUniformGrid is one that cannot be sent
+  }
+  else
+  {
+    copy.TakeReference(data->NewInstance());
+  }
+  copy->ShallowCopy(data);
+  copy->GetFieldData()->Initialize();
+  keepArrays(data->GetPointData(), names, copy->GetPointData());
+  keepArrays(data->GetCellData(), names, copy->GetCellData());
+  if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(copy))
+  {
+    return withoutCopies(mesh);
+  }
+  if (auto* surface = vtkPolyData::SafeDownCast(copy))
+  {
+    surface->RemoveGhostCells();
+  }
+  return copy;
+}
+
+/// Of an image: VTK's format leaves the direction out and rounds the others.
+struct Place
+{
+  std::array<double, 9> direction{};
+  std::array<double, 3> origin{}, spacing{};
+};
+
+} // namespace
+
+std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays)
+{
+  std::vector<Part> parts;
+  addParts(data, {}, parts);
+  for (Part& part : parts)
+  {
+    part.data = sparseCopy(part.data, arrays);
+  }
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                [](const Part& part) { return part.data->GetNumberOfPoints() == 0; }),
+    parts.end());
+  return parts;
+}
+
+void pack(const Part& part, std::vector<char>& bytes)
+{
+  vtkNew<vtkCharArray> buffer;
+  if (!vtkCommunicator::MarshalDataObject(part.data, buffer))
+  {
+    throw std::runtime_error(std::string("Data of the type ") + part.data->GetClassName() +
+      " are spread over several ranks and cannot be sent from rank to rank. Use one process, or "
+      "take the data from before the filter that has spread them.");
+  }
+  const auto length = static_cast<std::int64_t>(part.slot.size());
+  put(&length, 1, bytes);
+  put(part.slot.data(), part.slot.size(), bytes);
+  Place place;
+  if (auto* image = vtkImageData::SafeDownCast(part.data))
+  {
+    std::copy_n(image->GetDirectionMatrix()->GetData(), 9, place.direction.begin());
+    image->GetOrigin(place.origin.data());
+    image->GetSpacing(place.spacing.data());
+  }
+  put(&place, 1, bytes);
+  const std::int64_t size = buffer->GetNumberOfValues();
+  put(&size, 1, bytes);
+  put(buffer->GetPointer(0), static_cast<std::size_t>(size), bytes);
+}
+
+Part unpack(Reader& reader)
+{
+  Part part;
+  std::int64_t length = 0;
+  reader.Get(&length, 1);
+  part.slot.resize(static_cast<std::size_t>(length));
+  reader.Get(part.slot.data(), part.slot.size());
+  Place place;
+  reader.Get(&place, 1);
+  std::int64_t size = 0;
+  reader.Get(&size, 1);
+  vtkNew<vtkCharArray> buffer;
+  buffer->SetNumberOfValues(size);
+  reader.Get(buffer->GetPointer(0), static_cast<std::size_t>(size));
+  part.data = vtkDataSet::SafeDownCast(
+    vtkCommunicator::UnMarshalDataObject(buffer.GetPointer()).GetPointer());
+  if (!part.data)
+  {
+    throw std::runtime_error("VTK cannot read what another rank has sent of its data.");
+  }
+  if (vtkImageData::SafeDownCast(part.data))
+  {
+    vtkNew<vtkImageData> image; // it comes as vtkStructuredPoints
+    image->ShallowCopy(part.data);
+    image->SetDirectionMatrix(place.direction.data());
+    image->SetOrigin(place.origin.data());
+    image->SetSpacing(place.spacing.data());
+    part.data = image;
+  }
+  return part;
+}
+
+} // namespace refractivity
