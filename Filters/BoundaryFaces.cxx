@@ -421,17 +421,23 @@ BoundaryFaces boundaryOf(
 
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)
 {
+  return valuesAt(faces.starts, faces.shares, leaves);
+}
+
+std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
+  const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves)
+{
   std::vector<vtkDataArray*> scalars;
   for (vtkDataSet* leaf : leaves)
   {
     scalars.push_back(leaf->GetPointData()->GetScalars());
   }
-  std::vector<double> values(faces.surface.points.size());
+  std::vector<double> values(starts.size() - 1);
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    for (std::size_t k = faces.starts[i]; k < faces.starts[i + 1]; ++k)
+    for (std::size_t k = starts[i]; k < starts[i + 1]; ++k)
     {
-      const Share& share = faces.shares[k];
+      const Share& share = shares[k];
       values[i] +=
         scalars[share.leaf] ? share.weight * scalars[share.leaf]->GetComponent(share.point, 0) : 0;
     }

@@ -63,6 +63,9 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells,
 
 /// The scalars at the points of the surface, of these leaves or of others on the same mesh.
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);
+/// What shares of the scalars sum up to: those of value i are starts[i] to starts[i + 1].
+std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
+  const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves);
 
 /// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
 std::vector<std::int32_t> coincidentPoints(

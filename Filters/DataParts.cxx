@@ -4,6 +4,8 @@
 
 #include "RefractivitySource.h"
 
+#include "vtkAppendFilter.h"
+#include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
 #include "vtkCharArray.h"
 #include "vtkCommunicator.h"
@@ -21,6 +23,7 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkStaticCleanUnstructuredGrid.h"
 #include "vtkUniformGridAMR.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -163,6 +166,29 @@ struct Place
   std::array<double, 3> origin{}, spacing{};
 };
 
+std::string namesOf(vtkDataSetAttributes* attributes)
+{
+  std::string names;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    const char* name = attributes->GetAbstractArray(i)->GetName();
+    names += std::string(names.empty() ? "'" : ", '") + (name ? name : "") + "'";
+  }
+  return names.empty() ? "none" : names;
+}
+
+bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
+{
+  bool areSame = a->GetNumberOfArrays() == b->GetNumberOfArrays() && namesOf(a) == namesOf(b);
+  for (int i = 0; areSame && i < a->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray *one = a->GetAbstractArray(i), *other = b->GetAbstractArray(i);
+    areSame = one->GetDataType() == other->GetDataType() &&
+      one->GetNumberOfComponents() == other->GetNumberOfComponents();
+  }
+  return areSame;
+}
+
 } // namespace
 
 std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays)
@@ -234,6 +260,50 @@ Part unpack(Reader& reader)
     part.data = image;
   }
   return part;
+}
+
+void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
+{
+  vtkDataSetAttributes* first = parts[0]->GetAttributes(kind);
+  for (vtkDataSet* part : parts)
+  {
+    vtkDataSetAttributes* other = part->GetAttributes(kind);
+    if (!haveSameArrays(first, other))
+    {
+      const std::string what = kind == vtkDataObject::CELL ? "cells" : "points";
+      throw std::runtime_error(
+        "The parts of the input on several ranks have not the same arrays of " + what + ": " +
+        namesOf(first) + " on one of them, " + namesOf(other) +
+        " on another, or their types differ. Check the reader or filter that has made them.");
+    }
+  }
+}
+
+vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts)
+{
+  if (vtkPolyData::SafeDownCast(parts[0]))
+  {
+    vtkNew<vtkAppendPolyData> append;
+    for (vtkDataSet* part : parts)
+    {
+      append->AddInputData(vtkPolyData::SafeDownCast(part));
+    }
+    append->Update();
+    return append->GetOutput();
+  }
+  vtkNew<vtkAppendFilter> append;
+  vtkNew<vtkStaticCleanUnstructuredGrid> merge;
+  for (vtkDataSet* part : parts)
+  {
+    append->AddInputData(part);
+  }
+  merge->SetInputConnection(append->GetOutputPort());
+  merge->ToleranceIsAbsoluteOn();
+  merge->SetAbsoluteTolerance(0);
+  merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
+  merge->Update();
+  merge->SetMergingArray(nullptr); // its destructor forgets it
+  return merge->GetOutput();
 }
 
 } // namespace refractivity

@@ -7,9 +7,11 @@
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 class vtkDataObject;
@@ -35,8 +37,25 @@ std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& a
 template <class Value>
 void put(const Value* values, std::size_t count, std::vector<char>& bytes)
 {
-  const auto* first = reinterpret_cast<const char*>(values);
-  bytes.insert(bytes.end(), first, first + count * sizeof(Value));
+  static_assert(std::is_trivially_copyable_v<Value>);
+  const std::size_t at = bytes.size();
+  bytes.resize(at + count * sizeof(Value));
+  if (count > 0)
+  {
+    std::memcpy(bytes.data() + at, values, count * sizeof(Value));
+  }
+}
+template <class Value>
+void put(const Value& value, std::vector<char>& bytes)
+{
+  put(&value, 1, bytes);
+}
+/// A vector or a string, and how long it is.
+template <class Values>
+void putAll(const Values& values, std::vector<char>& bytes)
+{
+  put(static_cast<std::uint64_t>(values.size()), bytes);
+  put(values.data(), values.size(), bytes);
 }
 
 /// Reads what put() has written. Throws std::runtime_error where there is less.
@@ -55,8 +74,7 @@ public:
   {
     if (count > (this->Bytes.size() - this->At) / sizeof(Value))
     {
-      throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "
-                               "ranks of the same version of this plugin?");
+      Fail();
     }
     if (count > 0)
     {
@@ -65,7 +83,35 @@ public:
     }
   }
 
+  template <class Value>
+  Value Get()
+  {
+    Value value;
+    this->Get(&value, 1);
+    return value;
+  }
+  /// What putAll() has written.
+  template <class Values>
+  Values GetAll()
+  {
+    using Value = typename Values::value_type;
+    const auto count = this->Get<std::uint64_t>();
+    if (count > (this->Bytes.size() - this->At) / sizeof(Value))
+    {
+      this->Fail();
+    }
+    Values values(static_cast<std::size_t>(count), Value());
+    this->Get(values.data(), values.size());
+    return values;
+  }
+
 private:
+  [[noreturn]] static void Fail()
+  {
+    throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "
+                             "ranks of the same version of this plugin?");
+  }
+
   const std::vector<char>& Bytes;
   std::size_t At = 0;
 };
@@ -73,5 +119,13 @@ private:
 /// A part as it is sent, and as it arrives. Throw std::runtime_error where VTK cannot send a type of data.
 void pack(const Part& part, std::vector<char>& bytes);
 Part unpack(Reader& reader);
+
+/// Throws std::runtime_error where parts have not the same arrays of points or cells (vtkDataObject::POINT, CELL), of which
+/// some would be lost.
+void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind);
+
+/// Parts of one mesh as one, cells in their order. Points of cells of volume that are the same to the last bit become
+/// one.
+vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts);
 
 } // namespace refractivity

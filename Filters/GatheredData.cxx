@@ -5,8 +5,6 @@
 #include "DataParts.h"
 #include "ImagePlace.h"
 
-#include "vtkAppendFilter.h"
-#include "vtkAppendPolyData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -18,7 +16,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
-#include "vtkStaticCleanUnstructuredGrid.h"
 #include "vtkStructuredData.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
@@ -100,47 +97,6 @@ void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
     if (isNeeded)
     {
       attributes->AddArray(others);
-    }
-  }
-}
-
-std::string namesOf(vtkDataSetAttributes* attributes)
-{
-  std::string names;
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-  {
-    const char* name = attributes->GetAbstractArray(i)->GetName();
-    names += std::string(names.empty() ? "'" : ", '") + (name ? name : "") + "'";
-  }
-  return names.empty() ? "none" : names;
-}
-
-bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
-{
-  bool areSame = a->GetNumberOfArrays() == b->GetNumberOfArrays() && namesOf(a) == namesOf(b);
-  for (int i = 0; areSame && i < a->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray *one = a->GetAbstractArray(i), *other = b->GetAbstractArray(i);
-    areSame = one->GetDataType() == other->GetDataType() &&
-      one->GetNumberOfComponents() == other->GetNumberOfComponents();
-  }
-  return areSame;
-}
-
-/// Otherwise some would be lost.
-void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
-{
-  vtkDataSetAttributes* first = parts[0]->GetAttributes(kind);
-  for (vtkDataSet* part : parts)
-  {
-    vtkDataSetAttributes* other = part->GetAttributes(kind);
-    if (!haveSameArrays(first, other))
-    {
-      const std::string what = kind == vtkDataObject::CELL ? "cells" : "points";
-      throw std::runtime_error(
-        "The parts of the input on several ranks have not the same arrays of " + what + ": " +
-        namesOf(first) + " on one of them, " + namesOf(other) +
-        " on another, or their types differ. Check the reader or filter that has made them.");
     }
   }
 }
@@ -283,34 +239,6 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
   copyAttributes(parts, false, whole);
   copyAttributes(parts, true, whole);
   return whole;
-}
-
-/// Parts of one mesh as one.
-vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts)
-{
-  if (vtkPolyData::SafeDownCast(parts[0]))
-  {
-    vtkNew<vtkAppendPolyData> append;
-    for (vtkDataSet* part : parts)
-    {
-      append->AddInputData(vtkPolyData::SafeDownCast(part));
-    }
-    append->Update();
-    return append->GetOutput();
-  }
-  vtkNew<vtkAppendFilter> append;
-  vtkNew<vtkStaticCleanUnstructuredGrid> merge;
-  for (vtkDataSet* part : parts)
-  {
-    append->AddInputData(part);
-  }
-  merge->SetInputConnection(append->GetOutputPort());
-  merge->ToleranceIsAbsoluteOn();
-  merge->SetAbsoluteTolerance(0);
-  merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
-  merge->Update();
-  merge->SetMergingArray(nullptr); // its destructor forgets it
-  return merge->GetOutput();
 }
 
 bool isGrid(vtkDataSet* data)
