@@ -188,7 +188,7 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   }
   this->sortCells(*mesh, progress.part(0.4, 0.6));
   this->makeGroups(*mesh, progress.part(0.6, 0.7));
-  mesh->voxelShape = this->findVoxelShape();
+  mesh->voxelShape = voxelShapeOf(this->measuredSizes());
   this->setValues(progress.part(0.7, 1));
 }
 
@@ -739,9 +739,9 @@ CellTree::Content CellTree::content(const Bounds& box) const
 }
 
 /// See voxelShape().
-Vector CellTree::findVoxelShape() const
+CellTree::Sizes CellTree::measuredSizes() const
 {
-  std::array<std::vector<double>, 3> sizes;
+  Sizes sizes;
   const std::size_t count = this->Sorted->numbers.size();
   for (std::size_t i = 0; i < count; i += 1 + count / mostCellsMeasured)
   {
@@ -754,6 +754,11 @@ Vector CellTree::findVoxelShape() const
       }
     }
   }
+  return sizes;
+}
+
+Vector CellTree::voxelShapeOf(Sizes sizes)
+{
   Vector shape = { 1, 1, 1 };
   if (sizes[0].empty())
   {

@@ -106,6 +106,11 @@ public:
   /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
   const Vector& voxelShape() const { return this->Sorted->voxelShape; }
 
+  /// Of some cells, evenly spread, and what follows from them.
+  using Sizes = std::array<std::vector<double>, 3>;
+  Sizes measuredSizes() const;
+  static Vector voxelShapeOf(Sizes sizes);
+
   /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
   /// coordinates by more than 1. Infinite where it has no volume.
   Vector sizeOf(const Cell& cell) const;
@@ -209,7 +214,6 @@ private:
   void findNeighbours(Mesh& mesh, const WorkProgress& progress);
   void sortCells(Mesh& mesh, const WorkProgress& progress);
   void makeGroups(Mesh& mesh, const WorkProgress& progress);
-  Vector findVoxelShape() const;
   void setValues(const WorkProgress& progress);
   std::array<double, 2> rangeOf(const Cell& cell) const;
 

@@ -279,7 +279,8 @@ void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
   }
 }
 
-vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts)
+vtkSmartPointer<vtkDataSet> joinedMesh(
+  const std::vector<vtkDataSet*>& parts, const char* alsoTheSame)
 {
   if (vtkPolyData::SafeDownCast(parts[0]))
   {
@@ -301,6 +302,7 @@ vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& parts)
   merge->ToleranceIsAbsoluteOn();
   merge->SetAbsoluteTolerance(0);
   merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
+  merge->SetMergingArray(alsoTheSame);
   merge->Update();
   merge->SetMergingArray(nullptr); // its destructor forgets it
   return merge->GetOutput();

@@ -4,9 +4,11 @@
 
 #include "InputDescription.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
 #include "vtkExtractCells.h"
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
@@ -20,7 +22,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
+#include <string>
+#include <unordered_map>
+#include <utility>
 
 namespace refractivity
 {
@@ -28,20 +34,74 @@ namespace refractivity
 namespace
 {
 
-constexpr int layersOfCells = 2; // what the trend at a point may depend on
+/// Of cells, that what is known of a point may depend on: its trend depends on the values at the points of the cells
+/// around it, and where these are few on those of the next ones; values that are found from cells do so, too.
+constexpr int layersForPoints = 2;
+constexpr int layersForCells = 4;
 
 bool isMesh(vtkDataSet* data)
 {
   return vtkUnstructuredGrid::SafeDownCast(data) || vtkStructuredGrid::SafeDownCast(data);
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkDataSet* data)
+constexpr const char* numbersName = "NumbersOfPoints"; // see PointName
+
+vtkSmartPointer<vtkDoubleArray> newNumbers(vtkIdType count)
 {
+  auto numbers = vtkSmartPointer<vtkDoubleArray>::New();
+  numbers->SetName(numbersName);
+  numbers->SetNumberOfComponents(3);
+  numbers->SetNumberOfTuples(count);
+  numbers->Fill(0);
+  return numbers;
+}
+
+/// With each point's indices.
+vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkStructuredGrid* grid)
+{
+  int extent[6];
+  grid->GetExtent(extent);
+  const auto numbers = newNumbers(grid->GetNumberOfPoints());
+  vtkIdType point = 0;
+  for (int k = extent[4]; k <= extent[5]; ++k)
+  {
+    for (int j = extent[2]; j <= extent[3]; ++j)
+    {
+      for (int i = extent[0]; i <= extent[1]; ++i)
+      {
+        numbers->SetTuple3(point++, i, j, k);
+      }
+    }
+  }
+  vtkNew<vtkStructuredGrid> numbered;
+  numbered->ShallowCopy(grid);
+  numbered->GetPointData()->AddArray(numbers);
   vtkNew<vtkAppendFilter> convert;
   convert->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
-  convert->AddInputData(data);
+  convert->AddInputData(numbered);
   convert->Update();
   return convert->GetOutput();
+}
+
+/// In the order of their names, whatever way they have come.
+void sortArrays(vtkDataSetAttributes* attributes)
+{
+  std::map<std::string, vtkSmartPointer<vtkAbstractArray>> arrays;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = attributes->GetAbstractArray(i);
+    arrays[array->GetName() ? array->GetName() : ""] = array;
+  }
+  const vtkSmartPointer<vtkDataArray> scalars = attributes->GetScalars();
+  attributes->Initialize();
+  for (const auto& array : arrays)
+  {
+    attributes->AddArray(array.second);
+  }
+  if (scalars)
+  {
+    attributes->SetScalars(scalars);
+  }
 }
 
 /// With an array that says what hides its cells, and which are copies.
@@ -62,6 +122,8 @@ vtkSmartPointer<vtkUnstructuredGrid> withFlags(vtkDataSet* mesh, unsigned char a
   }
   copy->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   copy->GetCellData()->AddArray(flags);
+  sortArrays(copy->GetPointData());
+  sortArrays(copy->GetCellData());
   return copy;
 }
 
@@ -83,9 +145,9 @@ std::vector<Part> meshesOf(vtkDataObject* data, const std::vector<std::string>& 
   std::vector<Part> parts = partsOf(data, arrays);
   for (Part& part : parts)
   {
-    if (!vtkUnstructuredGrid::SafeDownCast(part.data))
+    if (auto* grid = vtkStructuredGrid::SafeDownCast(part.data))
     {
-      part.data = unstructured(part.data);
+      part.data = unstructured(grid);
     }
   }
   return parts;
@@ -94,14 +156,13 @@ std::vector<Part> meshesOf(vtkDataObject* data, const std::vector<std::string>& 
 OuterPoints outerPointsOf(vtkUnstructuredGrid* mesh)
 {
   constexpr const char* name = "PointOfMesh";
-  vtkNew<vtkIdTypeArray> numbers;
-  numbers->SetName(name);
-  numbers->SetNumberOfValues(mesh->GetNumberOfPoints());
-  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + numbers->GetNumberOfValues(),
-    vtkIdType{ 0 });
+  vtkNew<vtkIdTypeArray> all;
+  all->SetName(name);
+  all->SetNumberOfValues(mesh->GetNumberOfPoints());
+  std::iota(all->GetPointer(0), all->GetPointer(0) + all->GetNumberOfValues(), vtkIdType{ 0 });
   vtkNew<vtkUnstructuredGrid> cells; // all of them, hidden ones too
   cells->CopyStructure(mesh);
-  cells->GetPointData()->AddArray(numbers);
+  cells->GetPointData()->AddArray(all);
   vtkNew<vtkGeometryFilter> surface;
   surface->SetInputData(cells);
   surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
@@ -120,8 +181,24 @@ OuterPoints outerPointsOf(vtkUnstructuredGrid* mesh)
     if (place == ofMesh)
     {
       outer.ids.push_back(id);
-      outer.places.push_back(place);
+      outer.names.push_back({ place, { 0, 0, 0 } });
     }
+  }
+  auto* numbers = vtkDoubleArray::SafeDownCast(mesh->GetPointData()->GetArray(numbersName));
+  if (!numbers)
+  {
+    const auto counted = newNumbers(mesh->GetNumberOfPoints());
+    std::unordered_map<Point, int, HashOfPlace> counts;
+    for (std::size_t i = 0; i < outer.ids.size(); ++i)
+    {
+      counted->SetComponent(outer.ids[i], 0, counts[outer.names[i].place]++);
+    }
+    mesh->GetPointData()->AddArray(counted);
+    numbers = counted;
+  }
+  for (std::size_t i = 0; i < outer.ids.size(); ++i)
+  {
+    numbers->GetTypedTuple(outer.ids[i], outer.names[i].number.data());
   }
   return outer;
 }
@@ -141,7 +218,10 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsAround(
     isPointKnown[static_cast<std::size_t>(point)] = 1;
   }
   vtkNew<vtkIdList> cells, ids;
-  for (int layer = 0; layer < layersOfCells; ++layer)
+  vtkCellData* ofCells = mesh->GetCellData();
+  const bool hasValues = ofCells->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
+  const int layers = hasValues ? layersForCells : layersForPoints;
+  for (int layer = 0; layer < layers; ++layer)
   {
     std::vector<vtkIdType> next;
     for (const vtkIdType point : at)
@@ -202,7 +282,7 @@ vtkSmartPointer<vtkUnstructuredGrid> withCopies(
   const std::vector<vtkDataSet*> parts(flagged.begin(), flagged.end());
   requireSameArrays(parts, vtkDataObject::POINT);
   requireSameArrays(parts, vtkDataObject::CELL);
-  return vtkUnstructuredGrid::SafeDownCast(joinedMesh(parts));
+  return vtkUnstructuredGrid::SafeDownCast(joinedMesh(parts, numbersName));
 }
 
 } // namespace refractivity

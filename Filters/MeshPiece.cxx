@@ -49,7 +49,7 @@ MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
 MeshPiece::Summary MeshPiece::summary() const
 {
   return { static_cast<std::int64_t>(this->Cells.size()),
-    boundsOf(this->Cells, this->Leaves), this->Cells.voxelShape(),
+    boundsOf(this->Cells, this->Leaves),
     this->Cells.content(this->Cells.bounds()) };
 }
 

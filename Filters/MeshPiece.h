@@ -33,10 +33,10 @@ public:
   {
     std::int64_t cells;
     schlieren::Box bounds;
-    std::array<double, 3> voxelShape;
     CellTree::Content content;
   };
   Summary summary() const;
+  CellTree::Sizes sizes() const { return this->Cells.measuredSizes(); }
   std::string warning() const;
 
   /// The faces of its own cells, and N at their points.

@@ -135,7 +135,7 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
   }
 }
 
-/// Of each mesh its slot and the places of its outer points.
+/// Of each mesh its slot and the names of its outer points.
 void PieceWorker::GiveOutline(std::vector<char>& answer)
 {
   this->Piece.reset();
@@ -146,7 +146,7 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
   {
     this->Outer.push_back(outerPointsOf(vtkUnstructuredGrid::SafeDownCast(part.data)));
     putAll(part.slot, answer);
-    putAll(this->Outer.back().places, answer);
+    putAll(this->Outer.back().names, answer);
   }
 }
 
@@ -212,6 +212,10 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
     leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear);
   const Faces faces = this->Piece->faces();
   put(this->Piece->summary(), answer);
+  for (const std::vector<double>& along : this->Piece->sizes())
+  {
+    putAll(along, answer);
+  }
   put(tally, answer);
   putAll(label, answer);
   putAll(this->Piece->warning(), answer);

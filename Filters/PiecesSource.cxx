@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <unordered_map>
@@ -106,18 +107,31 @@ void append(const Faces& more, Faces& faces)
     faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
 }
 
-struct HashOfPoint
+/// Of each rank some cells' sizes, and how many cells it has: of all ranks the same part.
+CellTree::Sizes joined(const std::vector<CellTree::Sizes>& ofRanks, const std::vector<double>& cells)
 {
-  std::size_t operator()(const Point& point) const
+  double cellsOfSize = 1;
+  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
   {
-    std::size_t sum = 0;
-    for (const double x : point)
-    {
-      sum = 1000003 * sum + std::hash<double>()(x);
-    }
-    return sum;
+    const auto measured = static_cast<double>(ofRanks[rank][0].size());
+    cellsOfSize = measured > 0 ? std::max(cellsOfSize, cells[rank] / measured) : cellsOfSize;
   }
-};
+  CellTree::Sizes sizes;
+  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double>& all = ofRanks[rank][axis];
+      const double kept = std::min(static_cast<double>(all.size()), cells[rank] / cellsOfSize);
+      for (double i = 0; i < std::floor(kept); ++i)
+      {
+        sizes[axis].push_back(
+          all[static_cast<std::size_t>(i * static_cast<double>(all.size()) / kept)]);
+      }
+    }
+  }
+  return sizes;
+}
 
 } // namespace
 
@@ -154,7 +168,7 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
   {
     std::uint32_t rank, part, point;
   };
-  std::map<Slot, std::unordered_map<Point, std::vector<Known>, HashOfPoint>> slots;
+  std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> slots;
   const auto outlines =
     this->ask(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
@@ -163,11 +177,11 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
     const auto parts = reader.Get<std::uint64_t>();
     for (std::uint32_t part = 0; part < parts; ++part)
     {
-      auto& places = slots[reader.GetAll<Slot>()];
-      const auto points = reader.GetAll<std::vector<Point>>();
+      auto& known = slots[reader.GetAll<Slot>()];
+      const auto points = reader.GetAll<std::vector<PointName>>();
       for (std::uint32_t point = 0; point < points.size(); ++point)
       {
-        places[points[point]].push_back({ rank, part, point });
+        known[points[point]].push_back({ rank, part, point });
       }
     }
   }
@@ -175,11 +189,11 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
   std::map<std::array<std::uint32_t, 3>, std::vector<std::uint32_t>> wanted;
   for (const auto& slot : slots)
   {
-    for (const auto& place : slot.second)
+    for (const auto& name : slot.second)
     {
-      for (const Known& one : place.second)
+      for (const Known& one : name.second)
       {
-        for (const Known& other : place.second)
+        for (const Known& other : name.second)
         {
           if (one.rank != other.rank)
           {
@@ -232,7 +246,8 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
 
   Faces faces;
   std::vector<double> values;
-  std::int64_t mostCells = 0;
+  std::vector<CellTree::Sizes> sizes;
+  std::vector<double> cells;
   this->All = nothing;
   this->Bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   std::string lacking;
@@ -244,6 +259,11 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
     {
       Reader reader = readerOf(answer);
       const auto summary = reader.Get<MeshPiece::Summary>();
+      cells.push_back(static_cast<double>(summary.cells));
+      for (std::vector<double>& along : sizes.emplace_back())
+      {
+        along = reader.GetAll<std::vector<double>>();
+      }
       this->Valid += reader.Get<Tally>();
       const auto label = reader.GetAll<std::string>();
       this->Label = this->Label.empty() ? label : this->Label;
@@ -266,11 +286,6 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
         extend(this->All, summary.content);
         this->Cells += summary.cells;
       }
-      if (summary.cells > mostCells)
-      {
-        mostCells = summary.cells;
-        this->VoxelShape = summary.voxelShape;
-      }
     }
     catch (const ArraysMissing& problem)
     {
@@ -281,6 +296,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   {
     throw ArraysMissing(lacking);
   }
+  this->VoxelShape = CellTree::voxelShapeOf(joined(sizes, cells));
   progress.reach(0.7);
   BoundaryFaces boundary = boundaryOf(
     std::move(faces), [this](const std::vector<Point>& places) { return this->hold(places); });

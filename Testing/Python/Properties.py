@@ -30,7 +30,8 @@ BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity"
          "NoiseFilterRadius": 2.0, "HistogramSize": 256, "MemoryBudget": 1024, "MediumMemory": 1024,
          "ColorByField": 0, "FieldColors": [],
          "Quality": "Interactive", "Seed": 1,
-         "Device": "Auto", "NumberOfThreads": 0}
+         "Device": "Auto", "NumberOfThreads": 0,
+         "GatherLimit": 10000000}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
