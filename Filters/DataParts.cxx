@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataParts.h"
 
+#include "ImagePlace.h"
 #include "RefractivitySource.h"
 
 #include "vtkAppendFilter.h"
@@ -24,6 +25,10 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStaticCleanUnstructuredGrid.h"
+#include "vtkPoints.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredData.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUniformGridAMR.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -189,6 +194,126 @@ bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
   return areSame;
 }
 
+/// Of points or cells.
+std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    image->GetExtent(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    rectilinear->GetExtent(extent.data());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    structured->GetExtent(extent.data());
+  }
+  for (std::size_t axis = 0; ofCells && axis < 3; ++axis)
+  {
+    // Along an axis with one point there is one cell.
+    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
+  }
+  return extent;
+}
+
+vtkIdType sizeOf(const std::array<int, 6>& extent)
+{
+  vtkIdType size = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    size *= extent[2 * axis + 1] - extent[2 * axis] + 1;
+  }
+  return size;
+}
+
+/// The arrays of the parts in one grid.
+void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkDataSet* whole)
+{
+  const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
+  const std::array<int, 6> extent = extentOf(whole, ofCells);
+  vtkDataSetAttributes* to = whole->GetAttributes(kind);
+  to->CopyAllOn();
+  to->CopyAllocate(parts[0]->GetAttributes(kind), sizeOf(extent));
+  for (vtkDataSet* part : parts)
+  {
+    to->CopyStructuredData(
+      part->GetAttributes(kind), extentOf(part, ofCells).data(), extent.data());
+  }
+}
+
+/// Along one axis of rectilinear grids.
+vtkSmartPointer<vtkDataArray> joinedCoordinates(
+  const std::vector<vtkDataSet*>& parts, std::size_t axis, const std::array<int, 6>& extent)
+{
+  vtkSmartPointer<vtkDataArray> joined;
+  for (vtkDataSet* part : parts)
+  {
+    auto* grid = vtkRectilinearGrid::SafeDownCast(part);
+    vtkDataArray* of = axis == 0 ? grid->GetXCoordinates()
+      : axis == 1                ? grid->GetYCoordinates()
+                                 : grid->GetZCoordinates();
+    if (!joined)
+    {
+      joined.TakeReference(of->NewInstance());
+      joined->SetNumberOfTuples(extent[2 * axis + 1] - extent[2 * axis] + 1);
+    }
+    joined->InsertTuples(
+      extentOf(part, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
+  }
+  return joined;
+}
+
+/// Points of curvilinear grids.
+vtkSmartPointer<vtkPoints> joinedPoints(
+  const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+{
+  auto joined = vtkSmartPointer<vtkPoints>::New();
+  joined->SetDataType(vtkStructuredGrid::SafeDownCast(parts[0])->GetPoints()->GetDataType());
+  joined->SetNumberOfPoints(sizeOf(extent));
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(part)->GetPoints()->GetData();
+    vtkIdType next = 0;
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const vtkIdType length = of[1] - of[0] + 1;
+        joined->GetData()->InsertTuples(
+          vtkStructuredData::ComputePointIdForExtent(extent.data(), row), length, next, from);
+        next += length;
+      }
+    }
+  }
+  return joined;
+}
+
+/// Whether all points of an extent are in one of the parts.
+bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+{
+  std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const auto first = isThere.begin() +
+          static_cast<std::ptrdiff_t>(
+            vtkStructuredData::ComputePointIdForExtent(extent.data(), row));
+        std::fill(first, first + (of[1] - of[0] + 1), true);
+      }
+    }
+  }
+  return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
+}
+
 } // namespace
 
 std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays)
@@ -306,6 +431,59 @@ vtkSmartPointer<vtkDataSet> joinedMesh(
   merge->Update();
   merge->SetMergingArray(nullptr); // its destructor forgets it
   return merge->GetOutput();
+}
+
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
+{
+  std::array<int, 6> extent = extentOf(parts[0], false);
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extent[2 * axis] = std::min(extent[2 * axis], of[2 * axis]);
+      extent[2 * axis + 1] = std::max(extent[2 * axis + 1], of[2 * axis + 1]);
+    }
+    auto* image = vtkImageData::SafeDownCast(part);
+    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(parts[0])))
+    {
+      return nullptr;
+    }
+  }
+  vtkIdType points = 0;
+  for (vtkDataSet* part : parts)
+  {
+    points += part->GetNumberOfPoints();
+  }
+  if (sizeOf(extent) > points || !isCovered(parts, extent))
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDataSet> whole;
+  whole.TakeReference(parts[0]->NewInstance());
+  if (auto* image = vtkImageData::SafeDownCast(whole))
+  {
+    auto* first = vtkImageData::SafeDownCast(parts[0]);
+    image->SetOrigin(first->GetOrigin());
+    image->SetSpacing(first->GetSpacing());
+    image->SetDirectionMatrix(first->GetDirectionMatrix());
+    image->SetExtent(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(whole))
+  {
+    rectilinear->SetExtent(extent.data());
+    rectilinear->SetXCoordinates(joinedCoordinates(parts, 0, extent));
+    rectilinear->SetYCoordinates(joinedCoordinates(parts, 1, extent));
+    rectilinear->SetZCoordinates(joinedCoordinates(parts, 2, extent));
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(whole))
+  {
+    structured->SetExtent(extent.data());
+    structured->SetPoints(joinedPoints(parts, extent));
+  }
+  copyAttributes(parts, false, whole);
+  copyAttributes(parts, true, whole);
+  return whole;
 }
 
 } // namespace refractivity

@@ -124,6 +124,9 @@ Part unpack(Reader& reader);
 /// some would be lost.
 void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind);
 
+/// Parts of one image or grid as one; null where they are none.
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts);
+
 /// Parts of one mesh as one, cells in their order. Points that are the same to the last bit become one, if they also have
 /// the same values of an array, where its name is given.
 vtkSmartPointer<vtkDataSet> joinedMesh(

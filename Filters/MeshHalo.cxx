@@ -5,8 +5,8 @@
 #include "InputDescription.h"
 
 #include "vtkAbstractArray.h"
-#include "vtkAppendFilter.h"
 #include "vtkCellData.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkExtractCells.h"
@@ -46,43 +46,6 @@ bool isMesh(vtkDataSet* data)
 
 constexpr const char* numbersName = "NumbersOfPoints"; // see PointName
 
-vtkSmartPointer<vtkDoubleArray> newNumbers(vtkIdType count)
-{
-  auto numbers = vtkSmartPointer<vtkDoubleArray>::New();
-  numbers->SetName(numbersName);
-  numbers->SetNumberOfComponents(3);
-  numbers->SetNumberOfTuples(count);
-  numbers->Fill(0);
-  return numbers;
-}
-
-/// With each point's indices.
-vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkStructuredGrid* grid)
-{
-  int extent[6];
-  grid->GetExtent(extent);
-  const auto numbers = newNumbers(grid->GetNumberOfPoints());
-  vtkIdType point = 0;
-  for (int k = extent[4]; k <= extent[5]; ++k)
-  {
-    for (int j = extent[2]; j <= extent[3]; ++j)
-    {
-      for (int i = extent[0]; i <= extent[1]; ++i)
-      {
-        numbers->SetTuple3(point++, i, j, k);
-      }
-    }
-  }
-  vtkNew<vtkStructuredGrid> numbered;
-  numbered->ShallowCopy(grid);
-  numbered->GetPointData()->AddArray(numbers);
-  vtkNew<vtkAppendFilter> convert;
-  convert->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
-  convert->AddInputData(numbered);
-  convert->Update();
-  return convert->GetOutput();
-}
-
 /// In the order of their names, whatever way they have come.
 void sortArrays(vtkDataSetAttributes* attributes)
 {
@@ -104,27 +67,38 @@ void sortArrays(vtkDataSetAttributes* attributes)
   }
 }
 
-/// With an array that says what hides its cells, and which are copies.
-vtkSmartPointer<vtkUnstructuredGrid> withFlags(vtkDataSet* mesh, unsigned char added)
+/// With arrays of cells and points that say what hides them, and which cells are copies.
+vtkSmartPointer<vtkDataSet> withFlags(vtkDataSet* mesh, unsigned char added)
 {
-  auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  auto copy = vtkSmartPointer<vtkDataSet>::Take(mesh->NewInstance());
   copy->ShallowCopy(mesh);
-  vtkUnsignedCharArray* ghosts = copy->GetCellGhostArray();
-  vtkNew<vtkUnsignedCharArray> flags;
-  flags->SetName(vtkDataSetAttributes::GhostArrayName());
-  flags->SetNumberOfValues(copy->GetNumberOfCells());
-  for (vtkIdType cell = 0; cell < copy->GetNumberOfCells(); ++cell)
+  for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
-    const int own = ghosts
-      ? ghosts->GetValue(cell) & ~static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
-      : 0;
-    flags->SetValue(cell, static_cast<unsigned char>(own | added));
+    const bool ofCells = kind == vtkDataObject::CELL;
+    const int copied = ofCells ? static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
+                               : static_cast<int>(vtkDataSetAttributes::DUPLICATEPOINT);
+    vtkUnsignedCharArray* ghosts = copy->GetGhostArray(kind);
+    vtkNew<vtkUnsignedCharArray> flags;
+    flags->SetName(vtkDataSetAttributes::GhostArrayName());
+    flags->SetNumberOfValues(copy->GetNumberOfElements(kind));
+    for (vtkIdType i = 0; i < flags->GetNumberOfValues(); ++i)
+    {
+      const int own = ghosts ? ghosts->GetValue(i) & ~copied : 0;
+      flags->SetValue(i, static_cast<unsigned char>(own | (ofCells ? added : 0)));
+    }
+    vtkDataSetAttributes* attributes = copy->GetAttributes(kind);
+    attributes->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+    attributes->AddArray(flags);
+    sortArrays(attributes);
   }
-  copy->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  copy->GetCellData()->AddArray(flags);
-  sortArrays(copy->GetPointData());
-  sortArrays(copy->GetCellData());
   return copy;
+}
+
+Outline::Extent extentOf(vtkStructuredGrid* grid)
+{
+  Outline::Extent extent{};
+  grid->GetExtent(extent.data());
+  return extent;
 }
 
 } // namespace
@@ -140,21 +114,21 @@ bool areMeshes(vtkDataObject* data)
     });
 }
 
-std::vector<Part> meshesOf(vtkDataObject* data, const std::vector<std::string>& arrays)
+bool hasCellValues(vtkDataSet* mesh)
 {
-  std::vector<Part> parts = partsOf(data, arrays);
-  for (Part& part : parts)
-  {
-    if (auto* grid = vtkStructuredGrid::SafeDownCast(part.data))
-    {
-      part.data = unstructured(grid);
-    }
-  }
-  return parts;
+  return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
 }
 
-OuterPoints outerPointsOf(vtkUnstructuredGrid* mesh)
+Outline outlineOf(vtkDataSet* data)
 {
+  Outline outer;
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
+  {
+    outer.isGrid = true;
+    outer.extent = extentOf(grid);
+    return outer;
+  }
+  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
   constexpr const char* name = "PointOfMesh";
   vtkNew<vtkIdTypeArray> all;
   all->SetName(name);
@@ -169,7 +143,6 @@ OuterPoints outerPointsOf(vtkUnstructuredGrid* mesh)
   surface->Update();
   vtkPolyData* polygons = surface->GetOutput();
   vtkDataArray* kept = polygons->GetPointData()->GetArray(name);
-  OuterPoints outer;
   for (vtkIdType i = 0; kept && i < polygons->GetNumberOfPoints(); ++i)
   {
     // Points on curved faces have a mean of the numbers.
@@ -181,29 +154,41 @@ OuterPoints outerPointsOf(vtkUnstructuredGrid* mesh)
     if (place == ofMesh)
     {
       outer.ids.push_back(id);
-      outer.names.push_back({ place, { 0, 0, 0 } });
+      outer.names.push_back({ place, 0 });
     }
   }
-  auto* numbers = vtkDoubleArray::SafeDownCast(mesh->GetPointData()->GetArray(numbersName));
-  if (!numbers)
-  {
-    const auto counted = newNumbers(mesh->GetNumberOfPoints());
-    std::unordered_map<Point, int, HashOfPlace> counts;
-    for (std::size_t i = 0; i < outer.ids.size(); ++i)
-    {
-      counted->SetComponent(outer.ids[i], 0, counts[outer.names[i].place]++);
-    }
-    mesh->GetPointData()->AddArray(counted);
-    numbers = counted;
-  }
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName(numbersName);
+  numbers->SetNumberOfValues(mesh->GetNumberOfPoints());
+  numbers->Fill(0);
+  std::unordered_map<Point, int, HashOfPlace> counts;
   for (std::size_t i = 0; i < outer.ids.size(); ++i)
   {
-    numbers->GetTypedTuple(outer.ids[i], outer.names[i].number.data());
+    outer.names[i].number = counts[outer.names[i].place]++;
+    numbers->SetValue(outer.ids[i], outer.names[i].number);
   }
+  mesh->GetPointData()->AddArray(numbers);
   return outer;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> cellsAround(
+Outline::Extent neededOf(
+  const Outline::Extent& grid, const Outline::Extent& other, bool hasValuesOfCells)
+{
+  const int layers = hasValuesOfCells ? layersForCells : layersForPoints;
+  Outline::Extent needed{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    needed[2 * axis] = std::max(grid[2 * axis], other[2 * axis] - layers);
+    needed[2 * axis + 1] = std::min(grid[2 * axis + 1], other[2 * axis + 1] + layers);
+    if (needed[2 * axis] >= needed[2 * axis + 1]) // no cells
+    {
+      return { 0, -1, 0, -1, 0, -1 };
+    }
+  }
+  return needed;
+}
+
+vtkSmartPointer<vtkDataSet> cellsAround(
   vtkUnstructuredGrid* mesh, const std::vector<vtkIdType>& points)
 {
   if (!mesh->GetLinks())
@@ -218,9 +203,7 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsAround(
     isPointKnown[static_cast<std::size_t>(point)] = 1;
   }
   vtkNew<vtkIdList> cells, ids;
-  vtkCellData* ofCells = mesh->GetCellData();
-  const bool hasValues = ofCells->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
-  const int layers = hasValues ? layersForCells : layersForPoints;
+  const int layers = hasCellValues(mesh) ? layersForCells : layersForPoints;
   for (int layer = 0; layer < layers; ++layer)
   {
     std::vector<vtkIdType> next;
@@ -267,22 +250,41 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsAround(
   return around;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> withCopies(
-  vtkUnstructuredGrid* mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& others)
+vtkSmartPointer<vtkDataSet> cellsWithin(vtkStructuredGrid* grid, const Outline::Extent& extent)
 {
-  std::vector<vtkSmartPointer<vtkUnstructuredGrid>> flagged{ withFlags(mesh, 0) };
+  auto within = vtkSmartPointer<vtkStructuredGrid>::New();
+  within->ShallowCopy(grid);
+  within->Crop(extent.data());
+  return within;
+}
+
+vtkSmartPointer<vtkDataSet> withCopies(
+  vtkDataSet* mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& others)
+{
+  const vtkSmartPointer<vtkDataSet> own = withFlags(mesh, 0);
+  if (others.empty())
+  {
+    return own;
+  }
+  std::vector<vtkSmartPointer<vtkDataSet>> flagged{ own };
   for (vtkDataSet* other : others)
   {
     flagged.push_back(withFlags(other, vtkDataSetAttributes::DUPLICATECELL));
   }
-  if (others.empty())
+  auto* grid = vtkStructuredGrid::SafeDownCast(mesh);
+  if (grid)
   {
-    return flagged[0];
+    std::swap(flagged.front(), flagged.back()); // where they overlap, what is written last counts
   }
   const std::vector<vtkDataSet*> parts(flagged.begin(), flagged.end());
   requireSameArrays(parts, vtkDataObject::POINT);
   requireSameArrays(parts, vtkDataObject::CELL);
-  return vtkUnstructuredGrid::SafeDownCast(joinedMesh(parts, numbersName));
+  if (!grid)
+  {
+    return joinedMesh(parts, numbersName);
+  }
+  const vtkSmartPointer<vtkDataSet> joined = joinedGrid(parts);
+  return joined ? joined : own;
 }
 
 } // namespace refractivity

@@ -10,37 +10,50 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
+class vtkDataSet;
+class vtkStructuredGrid;
 class vtkUnstructuredGrid;
 
 namespace refractivity
 {
 
-/// The meshes and curvilinear grids of an input as unstructured meshes; see partsOf(). False where there is other data.
+/// Whether all datasets of an input are unstructured meshes or curvilinear grids.
 bool areMeshes(vtkDataObject* data);
-std::vector<Part> meshesOf(vtkDataObject* data, const std::vector<std::string>& arrays);
 
-/// Points on several ranks are one if both are the same: their places, and their indices in a curvilinear grid or, in
-/// other meshes, how many points before them are at that place.
+/// Points on several ranks are one if both are the same: their places, and how many points of the mesh before them are at
+/// that place.
 struct PointName
 {
-  Point place, number;
+  Point place;
+  double number;
 };
 inline bool operator==(const PointName& a, const PointName& b)
 {
   return a.place == b.place && a.number == b.number;
 }
 
-/// The points of a mesh of meshesOf() that are on its surface: where another part may go on.
-struct OuterPoints
+/// Where another part may go on: of a mesh the points that are on its surface; of a curvilinear grid its extent.
+struct Outline
 {
+  using Extent = std::array<int, 6>;
+
+  bool isGrid = false;
+  Extent extent{};
   std::vector<vtkIdType> ids;
   std::vector<PointName> names;
 };
-OuterPoints outerPointsOf(vtkUnstructuredGrid* mesh);
+/// Adds an array to meshes that says the points' numbers.
+Outline outlineOf(vtkDataSet* mesh);
+
+/// The part of a grid that another one, of that extent, needs copies of; low > high: none.
+Outline::Extent neededOf(const Outline::Extent& grid, const Outline::Extent& other, bool hasCellValues);
+/// Whether there are values of cells.
+bool hasCellValues(vtkDataSet* mesh);
 
 struct HashOfPlace
 {
@@ -57,12 +70,14 @@ struct HashOfPlace
 };
 
 /// The cells at some points, those at the points of these, and as many more layers as other points' values depend on.
-vtkSmartPointer<vtkUnstructuredGrid> cellsAround(
+vtkSmartPointer<vtkDataSet> cellsAround(
   vtkUnstructuredGrid* mesh, const std::vector<vtkIdType>& points);
+/// The cells of a grid within an extent.
+vtkSmartPointer<vtkDataSet> cellsWithin(vtkStructuredGrid* grid, const Outline::Extent& extent);
 
-/// A mesh and cells of others beside it, which become copies (DUPLICATECELL). Points with the same name become one.
-/// Throws std::runtime_error where the arrays are not the same.
-vtkSmartPointer<vtkUnstructuredGrid> withCopies(
-  vtkUnstructuredGrid* mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& others);
+/// A mesh or grid and cells of others beside it, which become copies (DUPLICATECELL). Points with the same name become
+/// one. Grids that are no box together stay without. Throws std::runtime_error where the arrays are not the same.
+vtkSmartPointer<vtkDataSet> withCopies(
+  vtkDataSet* mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& others);
 
 } // namespace refractivity

@@ -4,6 +4,7 @@
 
 #include "FlatData.h"
 #include "GasBoundary.h"
+#include "InputDescription.h"
 #include "RefractivityByResampling.h"
 #include "RefractivitySource.h"
 
@@ -11,6 +12,7 @@
 #include "vtkNew.h"
 #include "vtkRefractiveIndex.h"
 #include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -21,6 +23,22 @@
 namespace refractivity
 {
 
+namespace
+{
+
+bool hasPoints(vtkDataObject* data)
+{
+  const std::vector<vtkDataObject*> leaves = leavesOf(data);
+  return std::any_of(leaves.begin(), leaves.end(),
+    [](vtkDataObject* leaf)
+    {
+      auto* set = vtkDataSet::SafeDownCast(leaf);
+      return set && set->GetNumberOfPoints() > 0;
+    });
+}
+
+} // namespace
+
 std::vector<char> pieceRequest(PieceWorker::Kind kind)
 {
   std::vector<char> request;
@@ -30,9 +48,9 @@ std::vector<char> pieceRequest(PieceWorker::Kind kind)
 
 void PieceWorker::Release()
 {
-  this->Data = nullptr;
+  this->Lacks.clear();
   this->Parts.clear();
-  this->Outer.clear();
+  this->Outlines.clear();
   this->Piece.reset();
 }
 
@@ -135,36 +153,54 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
   }
 }
 
-/// Of each mesh its slot and the names of its outer points.
+/// Of each mesh its slot and where others may go on.
 void PieceWorker::GiveOutline(std::vector<char>& answer)
 {
-  this->Piece.reset();
-  this->Parts = meshesOf(this->Data, arraysOf(this->Self));
-  this->Outer.clear();
+  this->Release();
+  if (hasPoints(this->Data))
+  {
+    try
+    {
+      chooseSource(this->Self, this->Data); // says what is wrong with the data while all arrays are there
+      this->Parts = partsOf(this->Data, arraysOf(this->Self));
+    }
+    catch (const ArraysMissing& problem)
+    {
+      this->Lacks = problem.what();
+    }
+  }
   put(static_cast<std::uint64_t>(this->Parts.size()), answer);
   for (const Part& part : this->Parts)
   {
-    this->Outer.push_back(outerPointsOf(vtkUnstructuredGrid::SafeDownCast(part.data)));
+    const refractivity::Outline& outline =
+      this->Outlines.emplace_back(outlineOf(part.data));
     putAll(part.slot, answer);
-    putAll(this->Outer.back().names, answer);
+    put(outline.isGrid, answer);
+    put(hasCellValues(part.data), answer);
+    put(outline.extent, answer);
+    putAll(outline.names, answer);
   }
 }
 
-/// For each rank and mesh of a request, with numbers of outer points: the cells around these.
+/// For each entry of a request, a mesh and its outer points, by their numbers, or an extent: the cells there.
 void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
 {
   while (!request.IsAtEnd())
   {
-    const auto part = request.Get<std::uint64_t>();
-    const auto points = request.GetAll<std::vector<std::uint32_t>>();
-    std::vector<vtkIdType> ids;
-    for (const std::uint32_t point : points)
+    const auto number = request.Get<std::uint64_t>();
+    const auto extent = request.Get<refractivity::Outline::Extent>();
+    const Part& part = this->Parts.at(number);
+    const refractivity::Outline& outline = this->Outlines.at(number);
+    std::vector<vtkIdType> points;
+    for (const std::uint32_t point : request.GetAll<std::vector<std::uint32_t>>())
     {
-      ids.push_back(this->Outer.at(part).ids.at(point));
+      points.push_back(outline.ids.at(point));
     }
-    auto* mesh = vtkUnstructuredGrid::SafeDownCast(this->Parts.at(part).data);
     std::vector<char> packed;
-    pack({ this->Parts[part].slot, cellsAround(mesh, ids) }, packed);
+    pack({ part.slot, outline.isGrid
+               ? cellsWithin(vtkStructuredGrid::SafeDownCast(part.data), extent)
+               : cellsAround(vtkUnstructuredGrid::SafeDownCast(part.data), points) },
+      packed);
     putAll(packed, answer);
   }
 }
@@ -185,12 +221,18 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   for (const Part& part : this->Parts)
   {
     data->SetBlock(data->GetNumberOfBlocks(),
-      withCopies(vtkUnstructuredGrid::SafeDownCast(part.data), copies[part.slot]));
+      withCopies(part.data, copies[part.slot]));
   }
   this->Parts.clear();
-  this->Outer.clear();
+  this->Outlines.clear();
   copies.clear();
 
+  if (!this->Lacks.empty())
+  {
+    this->Piece = std::make_unique<MeshPiece>(std::vector<vtkSmartPointer<vtkDataSet>>(),
+      CellTree::Reconstruction::Linear);
+    throw ArraysMissing(this->Lacks);
+  }
   Tally tally;
   std::string label;
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;

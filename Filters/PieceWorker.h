@@ -47,8 +47,7 @@ public:
 
   /// What the rank has of the input until the piece is made.
   void SetData(vtkDataObject* data) { this->Data = data; }
-  /// Frees the piece.
-  void Release();
+  void Release(); // the piece
 
   static bool IsFor(std::uint32_t kind) { return kind >= Outline && kind < Answer; }
 
@@ -72,7 +71,8 @@ private:
   vtkRefractiveIndex* Self;
   vtkDataObject* Data = nullptr;
   std::vector<Part> Parts;
-  std::vector<OuterPoints> Outer; // of them
+  std::vector<refractivity::Outline> Outlines; // of them
+  std::string Lacks;              // what to say where the data have not the arrays
   std::unique_ptr<MeshPiece> Piece;
   std::uint64_t Number = 0; // of the piece
 };

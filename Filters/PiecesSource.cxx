@@ -160,7 +160,8 @@ std::vector<std::vector<char>> PiecesSource::ask(std::vector<std::vector<char>> 
   return this->Ranks->Ask(std::move(requests));
 }
 
-/// Finds the points that several ranks have, and gives each rank the others' cells around them: adds them to messages.
+/// Finds where the parts of one mesh on several ranks meet, and gives each rank the others' cells there: adds them to
+/// messages.
 void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
 {
   const std::size_t ranks = this->Ranks->Count();
@@ -168,7 +169,14 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
   {
     std::uint32_t rank, part, point;
   };
-  std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> slots;
+  struct Grid
+  {
+    std::uint32_t rank, part;
+    bool hasCellValues;
+    Outline::Extent extent;
+  };
+  std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> points;
+  std::map<Slot, std::vector<Grid>> grids;
   const auto outlines =
     this->ask(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
@@ -177,43 +185,73 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
     const auto parts = reader.Get<std::uint64_t>();
     for (std::uint32_t part = 0; part < parts; ++part)
     {
-      auto& known = slots[reader.GetAll<Slot>()];
-      const auto points = reader.GetAll<std::vector<PointName>>();
-      for (std::uint32_t point = 0; point < points.size(); ++point)
+      const auto slot = reader.GetAll<Slot>();
+      const bool isGrid = reader.Get<bool>(), hasValuesOfCells = reader.Get<bool>();
+      const auto extent = reader.Get<Outline::Extent>();
+      const auto names = reader.GetAll<std::vector<PointName>>();
+      if (isGrid)
       {
-        known[points[point]].push_back({ rank, part, point });
+        grids[slot].push_back({ rank, part, hasValuesOfCells, extent });
+      }
+      for (std::uint32_t point = 0; point < names.size(); ++point)
+      {
+        points[slot][names[point]].push_back({ rank, part, point });
       }
     }
   }
   // By the rank that has cells, its part of the data, and the rank that needs them.
-  std::map<std::array<std::uint32_t, 3>, std::vector<std::uint32_t>> wanted;
-  for (const auto& slot : slots)
+  struct Wanted
   {
-    for (const auto& name : slot.second)
+    Outline::Extent extent{};
+    std::vector<std::uint32_t> points;
+  };
+  std::map<std::array<std::uint32_t, 3>, Wanted> wanted;
+  const auto forPairs = [](const auto& all, const auto& visit)
+  {
+    for (const auto& one : all)
     {
-      for (const Known& one : name.second)
+      for (const auto& other : all)
       {
-        for (const Known& other : name.second)
+        if (one.rank != other.rank)
         {
-          if (one.rank != other.rank)
-          {
-            wanted[{ one.rank, one.part, other.rank }].push_back(one.point);
-          }
+          visit(one, other);
         }
       }
     }
+  };
+  for (const auto& slot : points)
+  {
+    for (const auto& name : slot.second)
+    {
+      forPairs(name.second,
+        [&](const Known& one, const Known& other)
+        { wanted[{ one.rank, one.part, other.rank }].points.push_back(one.point); });
+    }
+  }
+  for (const auto& slot : grids)
+  {
+    forPairs(slot.second,
+      [&](const Grid& one, const Grid& other)
+      {
+        const auto extent = neededOf(one.extent, other.extent, one.hasCellValues);
+        if (extent[0] <= extent[1])
+        {
+          wanted[{ one.rank, one.part, other.rank }].extent = extent;
+        }
+      });
   }
   std::vector<std::vector<char>> requests(ranks);
-  for (auto& [between, points] : wanted)
+  for (auto& [between, cells] : wanted)
   {
     std::vector<char>& request = requests[between[0]];
     if (request.empty())
     {
       request = pieceRequest(PieceWorker::Copies);
     }
-    std::sort(points.begin(), points.end()); // whatever the order of the hashes
+    std::sort(cells.points.begin(), cells.points.end()); // whatever the order of the hashes
     put(std::uint64_t{ between[1] }, request);
-    putAll(points, request);
+    put(cells.extent, request);
+    putAll(cells.points, request);
   }
   const auto answers = this->ask(std::move(requests));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
@@ -223,7 +261,7 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
       continue;
     }
     Reader reader = readerOf(answers[rank]);
-    for (const auto& [between, points] : wanted)
+    for (const auto& [between, cells] : wanted)
     {
       if (between[0] == rank)
       {

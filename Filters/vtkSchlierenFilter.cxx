@@ -30,6 +30,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTimeStamp.h"
 
+#include "Medium/MediumSource.h"
 #include "Schlieren.h"
 
 #include <algorithm>
@@ -178,7 +179,9 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
 std::vector<double> describeInputs(vtkSchlierenFilter* self, const FilterRanks& ranks,
   vtkDataObject* input, vtkDataObject* bodies)
 {
-  std::vector<double> description = describeInput(input, upstreamTime(self, 0));
+  // A source that makes less than was requested, as those that spread their data do, runs at each update.
+  std::vector<double> description =
+    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(self, 0));
   description.push_back(ranks.GetGatherings()); // of what other ranks have
   if (bodies)
   {
@@ -1066,6 +1069,7 @@ bool vtkSchlierenFilter::Show(
   {
     inside.Grid = mediumInWords(image.medium);
     inside.Grid += inside.Source->fields() > 0 ? " or of the full colour" : "";
+    inside.Grid += inside.Source->isRemote() ? ", of data that stay on their ranks" : "";
     addMedium(output, image.medium);
   }
   addGrid(output, this->GetGrid(), inside.Refractivity);

@@ -366,4 +366,121 @@ TEST(Pieces, LayersAroundABodyAreOneGrid)
   expectSame(*whole, *ranks.make());
 }
 
+TEST(Pieces, HiddenCellsAndBodiesAreWalls)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.25);
+  sphere->SetCenter(0.5, 0.1, 0);
+  sphere->SetThetaResolution(24);
+  sphere->SetPhiResolution(24);
+  sphere->Update();
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  vtkNew<vtkUnsignedCharArray> hidden; // on both sides of the cut
+  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    double bounds[6];
+    mesh->GetCellBounds(cell, bounds);
+    const bool isHidden = std::abs(bounds[0]) < 0.3 && bounds[2] < -0.3 && std::abs(bounds[4]) < 0.4;
+    hidden->InsertNextValue(isHidden ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  mesh->GetCellData()->AddArray(hidden);
+  const auto whole = inOnePiece(mesh, false, sphere->GetOutput());
+  const auto rankOf = [](const Vec& x) { return x[0] - 0.3 * x[1] < 0 ? 0 : 1; };
+  Ranks ranks({ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) });
+  expectSame(*whole, *ranks.make(sphere->GetOutput()));
+}
+
+TEST(Pieces, RanksMayHaveNothingOrOtherBlocks)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  const auto rankOf = [](const Vec& x) { return x[2] < 0.1 ? 0 : 1; };
+  const auto blockOf = [&](int rank)
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, partOf(mesh, rank, rankOf));
+    vtkNew<vtkUnstructuredGrid> other; // without the array, which is of no use
+    other->CopyStructure(mesh);
+    blocks->SetBlock(static_cast<unsigned>(1 + rank), other);
+    return Data(blocks);
+  };
+  const auto whole = inOnePiece(mesh);
+  Ranks ranks({ nullptr, blockOf(0), vtkSmartPointer<vtkUnstructuredGrid>::New(), blockOf(1) });
+  expectSame(*whole, *ranks.make());
+}
+
+/// What is said of a mistake, or "".
+std::string problemOf(Ranks& ranks)
+{
+  try
+  {
+    ranks.make();
+  }
+  catch (const std::runtime_error& problem)
+  {
+    return problem.what();
+  }
+  return "";
+}
+
+TEST(Pieces, ArraysThatOneRankLacksAreTakenFromTheOthers)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
+  const auto part = partOf(mesh, 0, rankOf), without = partOf(mesh, 1, rankOf);
+  for (vtkIdType i = 0; i < without->GetNumberOfPoints(); ++i)
+  {
+    without->GetPoints()->SetPoint(i, without->GetPoint(i)[0] + 0.5, 0, 0); // nowhere near
+  }
+  without->GetPointData()->RemoveArray("N");
+  addPointArray(without, "M", ball);
+  Ranks some({ part, without });
+  const auto source = some.make();
+  EXPECT_LT(source->bounds().high[0], 0.2);
+  Ranks none({ without, without });
+  EXPECT_NE(problemOf(none).find("The input has no array 'N'. Set IndexArray to one of: point arrays M"), std::string::npos) << problemOf(none);
+}
+
+TEST(Pieces, AllValuesInvalidIsAMistake)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  mesh->GetPointData()->GetArray("N")->Fill(std::nan(""));
+  const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
+  Ranks ranks({ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) });
+  EXPECT_NE(problemOf(ranks).find("There is no valid value"), std::string::npos) << problemOf(ranks);
+}
+
+TEST(Pieces, ARankThatLeavesIsAMistakeWheneverItDoes)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
+  const std::vector<Data> parts{ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) };
+  int answers = 0;
+  for (; answers < 10; ++answers)
+  {
+    Ranks ranks(parts);
+    ranks.Channels[0]->AnswersLeft = answers;
+    const std::string problem = problemOf(ranks);
+    if (problem.empty())
+    {
+      break;
+    }
+    EXPECT_NE(problem.find("Rank 1 does not answer"), std::string::npos) << problem;
+  }
+  EXPECT_GT(answers, 3);
+  EXPECT_LT(answers, 10);
+}
+
+TEST(Pieces, APieceThatWasReplacedIsNotMistakenForAnother)
+{
+  const auto parts = cuts()[0];
+  Ranks ranks(parts);
+  const auto first = ranks.make();
+  const auto second = ranks.make();
+  const Box box{ { -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 } };
+  EXPECT_THROW(first->prepareContents({ box }), std::runtime_error);
+  second->prepareContents({ box });
+  EXPECT_TRUE(second->contentOf(box).hasGas);
+}
+
 } // namespace
