@@ -82,7 +82,7 @@ public:
     }
   }
 
-  std::size_t size() const { return this->Sorted->numbers.size(); } // cells that are there
+  std::size_t size() const { return this->Sorted->numbers.size(); }  // cells that are there
   std::size_t copies() const { return this->Sorted->copies.size(); } // that are neighbours only
   std::size_t bytes() const; // of memory, without the datasets'
 

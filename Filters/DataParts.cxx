@@ -23,10 +23,10 @@
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
-#include "vtkStaticCleanUnstructuredGrid.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkStaticCleanUnstructuredGrid.h"
 #include "vtkStructuredData.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUniformGridAMR.h"
@@ -94,8 +94,8 @@ void keepArrays(
   {
     vtkDataArray* array = from->GetArray(i);
     const std::string name = array && array->GetName() ? array->GetName() : "";
-    const bool isKnown = name == vtkDataSetAttributes::GhostArrayName() ||
-      name == arrayName || name == maskName || name == transparentName;
+    const bool isKnown = name == vtkDataSetAttributes::GhostArrayName() || name == arrayName ||
+      name == maskName || name == transparentName;
     if (array && (isKnown || std::find(names.begin(), names.end(), name) != names.end()))
     {
       kept[name] = array;

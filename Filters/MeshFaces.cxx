@@ -299,8 +299,7 @@ void addUnstructured(
 
 } // namespace
 
-Faces facesOf(
-  const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress, Copies copies)
+Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress, Copies copies)
 {
   Faces faces;
   for (std::uint32_t number = 0; number < leaves.size(); ++number)

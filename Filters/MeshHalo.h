@@ -51,7 +51,8 @@ struct Outline
 Outline outlineOf(vtkDataSet* mesh);
 
 /// The part of a grid that another one, of that extent, needs copies of; low > high: none.
-Outline::Extent neededOf(const Outline::Extent& grid, const Outline::Extent& other, bool hasCellValues);
+Outline::Extent neededOf(
+  const Outline::Extent& grid, const Outline::Extent& other, bool hasCellValues);
 /// Whether there are values of cells.
 bool hasCellValues(vtkDataSet* mesh);
 

@@ -48,8 +48,7 @@ MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
 
 MeshPiece::Summary MeshPiece::summary() const
 {
-  return { static_cast<std::int64_t>(this->Cells.size()),
-    boundsOf(this->Cells, this->Leaves),
+  return { static_cast<std::int64_t>(this->Cells.size()), boundsOf(this->Cells, this->Leaves),
     this->Cells.content(this->Cells.bounds()) };
 }
 
@@ -80,7 +79,9 @@ std::vector<CellTree::Content> MeshPiece::contents(const std::vector<schlieren::
 {
   std::vector<CellTree::Content> contents(boxes.size());
   forEach(boxes.size(),
-    [&](std::size_t i) { contents[i] = this->Cells.content({ boxes[i].low, boxes[i].high }); });
+    [&](std::size_t i) {
+      contents[i] = this->Cells.content({ boxes[i].low, boxes[i].high });
+    });
   return contents;
 }
 

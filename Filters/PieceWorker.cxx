@@ -76,8 +76,9 @@ std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
   catch (const std::bad_alloc&)
   {
     this->Release();
-    fail(Failed, "There is not enough memory for a rank's piece of the input. Use more nodes or a "
-                 "coarser input.");
+    fail(Failed,
+      "There is not enough memory for a rank's piece of the input. Use more nodes or a "
+      "coarser input.");
   }
   catch (const std::exception& problem)
   {
@@ -147,6 +148,9 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       }
       break;
     }
+    case Forget:
+      this->Release();
+      break;
     default:
       throw std::runtime_error("Rank 0 asks for what this version of the plugin does not know. "
                                "Use the same version on all ranks.");
@@ -161,7 +165,8 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
   {
     try
     {
-      chooseSource(this->Self, this->Data); // says what is wrong with the data while all arrays are there
+      chooseSource(
+        this->Self, this->Data); // says what is wrong with the data while all arrays are there
       this->Parts = partsOf(this->Data, arraysOf(this->Self));
     }
     catch (const ArraysMissing& problem)
@@ -172,8 +177,7 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
   put(static_cast<std::uint64_t>(this->Parts.size()), answer);
   for (const Part& part : this->Parts)
   {
-    const refractivity::Outline& outline =
-      this->Outlines.emplace_back(outlineOf(part.data));
+    const refractivity::Outline& outline = this->Outlines.emplace_back(outlineOf(part.data));
     putAll(part.slot, answer);
     put(outline.isGrid, answer);
     put(hasCellValues(part.data), answer);
@@ -197,9 +201,9 @@ void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
       points.push_back(outline.ids.at(point));
     }
     std::vector<char> packed;
-    pack({ part.slot, outline.isGrid
-               ? cellsWithin(vtkStructuredGrid::SafeDownCast(part.data), extent)
-               : cellsAround(vtkUnstructuredGrid::SafeDownCast(part.data), points) },
+    pack({ part.slot,
+           outline.isGrid ? cellsWithin(vtkStructuredGrid::SafeDownCast(part.data), extent)
+                          : cellsAround(vtkUnstructuredGrid::SafeDownCast(part.data), points) },
       packed);
     putAll(packed, answer);
   }
@@ -220,8 +224,7 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   vtkNew<vtkMultiBlockDataSet> data;
   for (const Part& part : this->Parts)
   {
-    data->SetBlock(data->GetNumberOfBlocks(),
-      withCopies(part.data, copies[part.slot]));
+    data->SetBlock(data->GetNumberOfBlocks(), withCopies(part.data, copies[part.slot]));
   }
   this->Parts.clear();
   this->Outlines.clear();
@@ -229,8 +232,8 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
 
   if (!this->Lacks.empty())
   {
-    this->Piece = std::make_unique<MeshPiece>(std::vector<vtkSmartPointer<vtkDataSet>>(),
-      CellTree::Reconstruction::Linear);
+    this->Piece = std::make_unique<MeshPiece>(
+      std::vector<vtkSmartPointer<vtkDataSet>>(), CellTree::Reconstruction::Linear);
     throw ArraysMissing(this->Lacks);
   }
   Tally tally;
@@ -246,8 +249,7 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
       source.leaves.end());
     if (!source.leaves.empty())
     {
-      leaves =
-        preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
+      leaves = preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
     }
   }
   this->Piece = std::make_unique<MeshPiece>(

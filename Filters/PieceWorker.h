@@ -30,6 +30,7 @@ public:
     Contents,      // of boxes
     Hold,          // whether its cells do, of places
     Sample,        // lattices
+    Forget,        // the piece
     Answer
   };
   enum State : std::int32_t
@@ -72,7 +73,7 @@ private:
   vtkDataObject* Data = nullptr;
   std::vector<Part> Parts;
   std::vector<refractivity::Outline> Outlines; // of them
-  std::string Lacks;              // what to say where the data have not the arrays
+  std::string Lacks;                           // what to say where the data have not the arrays
   std::unique_ptr<MeshPiece> Piece;
   std::uint64_t Number = 0; // of the piece
 };

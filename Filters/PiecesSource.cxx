@@ -108,7 +108,8 @@ void append(const Faces& more, Faces& faces)
 }
 
 /// Of each rank some cells' sizes, and how many cells it has: of all ranks the same part.
-CellTree::Sizes joined(const std::vector<CellTree::Sizes>& ofRanks, const std::vector<double>& cells)
+CellTree::Sizes joined(
+  const std::vector<CellTree::Sizes>& ofRanks, const std::vector<double>& cells)
 {
   double cellsOfSize = 1;
   for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
@@ -224,8 +225,9 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
     for (const auto& name : slot.second)
     {
       forPairs(name.second,
-        [&](const Known& one, const Known& other)
-        { wanted[{ one.rank, one.part, other.rank }].points.push_back(one.point); });
+        [&](const Known& one, const Known& other) {
+          wanted[{ one.rank, one.part, other.rank }].points.push_back(one.point);
+        });
     }
   }
   for (const auto& slot : grids)
@@ -277,8 +279,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
 {
   static std::atomic<std::uint64_t> sources{ 0 };
   this->Number = ++sources;
-  std::vector<std::vector<char>> requests(
-    this->Ranks->Count(), this->request(PieceWorker::Make));
+  std::vector<std::vector<char>> requests(this->Ranks->Count(), this->request(PieceWorker::Make));
   this->giveCopies(requests);
   progress.reach(0.2);
 
@@ -343,8 +344,8 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   {
     onSurface.push_back(values[static_cast<std::size_t>(share.point)]);
   }
-  this->Boundary = std::make_unique<GasBoundary>(
-    std::move(boundary), bodies, outside, progress.part(0.8, 1));
+  this->Boundary =
+    std::make_unique<GasBoundary>(std::move(boundary), bodies, outside, progress.part(0.8, 1));
   this->Ambient = this->Boundary->ambient(onSurface);
   if (std::isnan(this->Ambient))
   {

@@ -131,8 +131,8 @@ private:
   Part RequestedPart = Part::All;
   std::chrono::steady_clock::time_point RequestedAt{};
   Version Compared;
-  double MostCells = 0;                       // of Compared
-  bool InPieces = false;                      // likewise
+  double MostCells = 0;  // of Compared
+  bool InPieces = false; // likewise
   int Gatherings = 0;
   std::string Problem;                        // of Compared
   vtkSmartPointer<vtkDataObject> Gathered[2]; // likewise; null: rank 0 has all of it

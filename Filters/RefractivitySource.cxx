@@ -241,7 +241,7 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   if (missing == selections.end())
   {
     throw ArraysMissing("No block of the input has all the arrays that IndexModel needs, so "
-                             "there is nothing to find N from. Check which block has which.");
+                        "there is nothing to find N from. Check which block has which.");
   }
   const Selection& selection = *missing;
   const std::string& property = selection.property;
@@ -249,13 +249,12 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   if (names == "none")
   {
     throw ArraysMissing("The input has no arrays with one component, so there is nothing to "
-                             "take " +
+                        "take " +
       property + " from. Choose an input that has the field.");
   }
   if (selection.name.empty() && selection.attribute < 0)
   {
-    throw ArraysMissing("No array is chosen for " + property + ". Choose one of: " + names +
-      "." +
+    throw ArraysMissing("No array is chosen for " + property + ". Choose one of: " + names + "." +
       (property == "Density"
           ? " A temperature tells no density without a pressure; with both, compute one or use "
             "IndexModel Ciddor (Documentation/density.md)."

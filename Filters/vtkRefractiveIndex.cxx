@@ -43,6 +43,7 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 using namespace refractivity;
 
@@ -553,10 +554,24 @@ void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> chann
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceData(vtkDataObject* data)
+void vtkRefractiveIndex::ReleasePieces()
 {
-  this->Pieces->GetOwn().SetData(data);
+  if (std::exchange(this->HasPieces, false))
+  {
+    try
+    {
+      this->Pieces->Ask(
+        std::vector<std::vector<char>>(this->Pieces->Count(), pieceRequest(PieceWorker::Forget)));
+    }
+    catch (const std::
+        runtime_error&) // a rank has not come; it forgets its piece when the next one is made
+    {
+    }
+  }
 }
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetPieceData(vtkDataObject* data) { this->Pieces->GetOwn().SetData(data); }
 
 //------------------------------------------------------------------------------
 std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)
@@ -578,6 +593,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   this->Mesh->release();
   this->Pieces->SetThreads(threadsOfLoops(this));
   this->SetPieceData(input);
+  this->HasPieces = true;
   std::shared_ptr<PiecesSource> made;
   try
   {

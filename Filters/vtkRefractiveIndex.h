@@ -60,7 +60,7 @@ namespace schlieren
 {
 class Channel;
 class MediumSource;
-}
+} // namespace schlieren
 
 namespace refractivity
 {
@@ -512,6 +512,8 @@ public:
   VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+  /// Frees them on all ranks, where there are any.
+  VTK_WRAPEXCLUDE void ReleasePieces();
   VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data);
   VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
   ///@}
@@ -576,6 +578,7 @@ private:
 
   std::shared_ptr<FilterRanks> Ranks;
   std::shared_ptr<refractivity::ChannelRanks> Pieces;
+  bool HasPieces = false;
 
   int IndexModel = GLADSTONE_DALE;
   std::string Gas = "Custom";

@@ -176,8 +176,8 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
 }
 
 /// Everything of the inputs that the refractivity depends on.
-std::vector<double> describeInputs(vtkSchlierenFilter* self, const FilterRanks& ranks,
-  vtkDataObject* input, vtkDataObject* bodies)
+std::vector<double> describeInputs(
+  vtkSchlierenFilter* self, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies)
 {
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
   std::vector<double> description =
@@ -636,8 +636,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     inside.FailedAt != now && inside.Shown[PICTURE_PORT].IsThere() &&
     (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
-      describeInputs(this, inside.Ranks,
-        inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
+      describeInputs(this, inside.Ranks, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
         inside.Ranks.GetInput(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField);
@@ -756,7 +755,11 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
     inside.Source = this->Medium->MakeSourceOfPieces(input, bodies, warning);
     inside.SourceTime.Modified();
   }
-  else if (this->Medium->CanMakeSource(input))
+  else
+  {
+    this->Medium->ReleasePieces();
+  }
+  if (!inside.Ranks.AreInPieces() && this->Medium->CanMakeSource(input))
   {
     inside.Source = this->Medium->MakeSource(input, bodies, warning,
       this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS
@@ -1162,8 +1165,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  const auto part =
-    this->GatherLimit == 0 && this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
+  const auto part = this->GatherLimit == 0 && this->CanUsePieces() ? FilterRanks::Part::Piece
+                                                                   : FilterRanks::Part::All;
   if (this->Inside->Ranks.Request(this, inputVector, part))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps

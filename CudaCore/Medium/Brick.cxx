@@ -746,8 +746,9 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   if (hasFields)
   {
     const auto& spacing = grid_.spacing;
-    brick.fields = fieldBrickOf(source_, outline.box, samples.fields, samples.isGas, content.cellSize,
-      apron_, *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
+    brick.fields =
+      fieldBrickOf(source_, outline.box, samples.fields, samples.isGas, content.cellSize, apron_,
+        *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
   }
   findErrors(place, content, samples, facts);
   facts.difference = samples.highest - samples.lowest;

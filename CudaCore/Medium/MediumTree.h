@@ -135,7 +135,7 @@ private:
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
     std::vector<typename BrickMaker<Real>::Request> requests; ///< of the tasks that are begun
-    std::vector<Brick<Real>> bricks;                           ///< likewise
+    std::vector<Brick<Real>> bricks;                          ///< likewise
     std::int64_t bricksDone = 0;
   };
   class View;

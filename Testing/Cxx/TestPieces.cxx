@@ -61,7 +61,8 @@ vtkSmartPointer<vtkStructuredGrid> gridOf(const std::array<int, 6>& extent)
       {
         const double x = 2. * i / edge - 1, y = 2. * j / edge - 1, z = 2. * k / edge - 1;
         const double bump = 0.1 * (1 - x * x) * (1 - y * y) * (1 - z * z);
-        points->InsertNextPoint(x + bump * std::sin(5 * y), y + bump * std::sin(4 * z), z + bump * x);
+        points->InsertNextPoint(
+          x + bump * std::sin(5 * y), y + bump * std::sin(4 * z), z + bump * x);
       }
     }
   }
@@ -355,7 +356,8 @@ vtkSmartPointer<vtkStructuredGrid> layersOf(int first, int last)
     }
   }
   grid->SetPoints(points);
-  addPointArray(grid, "N", [](const Vec& x) { return 1e-4 * (1 + 0.2 * x[0] + std::exp(-dot(x, x))); });
+  addPointArray(
+    grid, "N", [](const Vec& x) { return 1e-4 * (1 + 0.2 * x[0] + std::exp(-dot(x, x))); });
   return grid;
 }
 
@@ -381,7 +383,8 @@ TEST(Pieces, HiddenCellsAndBodiesAreWalls)
   {
     double bounds[6];
     mesh->GetCellBounds(cell, bounds);
-    const bool isHidden = std::abs(bounds[0]) < 0.3 && bounds[2] < -0.3 && std::abs(bounds[4]) < 0.4;
+    const bool isHidden =
+      std::abs(bounds[0]) < 0.3 && bounds[2] < -0.3 && std::abs(bounds[4]) < 0.4;
     hidden->InsertNextValue(isHidden ? vtkDataSetAttributes::HIDDENCELL : 0);
   }
   mesh->GetCellData()->AddArray(hidden);
@@ -438,7 +441,10 @@ TEST(Pieces, ArraysThatOneRankLacksAreTakenFromTheOthers)
   const auto source = some.make();
   EXPECT_LT(source->bounds().high[0], 0.2);
   Ranks none({ without, without });
-  EXPECT_NE(problemOf(none).find("The input has no array 'N'. Set IndexArray to one of: point arrays M"), std::string::npos) << problemOf(none);
+  EXPECT_NE(
+    problemOf(none).find("The input has no array 'N'. Set IndexArray to one of: point arrays M"),
+    std::string::npos)
+    << problemOf(none);
 }
 
 TEST(Pieces, AllValuesInvalidIsAMistake)
@@ -447,7 +453,8 @@ TEST(Pieces, AllValuesInvalidIsAMistake)
   mesh->GetPointData()->GetArray("N")->Fill(std::nan(""));
   const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
   Ranks ranks({ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) });
-  EXPECT_NE(problemOf(ranks).find("There is no valid value"), std::string::npos) << problemOf(ranks);
+  EXPECT_NE(problemOf(ranks).find("There is no valid value"), std::string::npos)
+    << problemOf(ranks);
 }
 
 TEST(Pieces, ARankThatLeavesIsAMistakeWheneverItDoes)
@@ -481,6 +488,8 @@ TEST(Pieces, APieceThatWasReplacedIsNotMistakenForAnother)
   EXPECT_THROW(first->prepareContents({ box }), std::runtime_error);
   second->prepareContents({ box });
   EXPECT_TRUE(second->contentOf(box).hasGas);
+  ranks.Filters[0]->ReleasePieces();
+  EXPECT_THROW(second->prepareContents({ box }), std::runtime_error);
 }
 
 } // namespace

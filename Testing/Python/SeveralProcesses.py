@@ -215,6 +215,16 @@ def in_pieces():
         found[f"{kind}: Shadowgraph"] = picture(seen, "Intensity")
         seen.ViewDirection = [0, 0, -1]
         found[f"{kind}: along a cut"] = picture(seen, "Deflection")
+    # Time-sliced: the same number of steps on all ranks, whoever knows that the image is finished.
+    seen.TimeLimit = 0.05
+    seen.ViewDirection = [1, 0, 0.3]
+    seen.UpdatePipeline()
+    for _ in range(40):
+        seen.InvokeCommand("Refine")
+        seen.UpdatePipeline()
+    seen.UpdatePropertyInformation()
+    assert not is_rank0() or seen.GetProperty("Finished").GetData() == 1
+    found["cell data: time-sliced"] = picture(seen, "Deflection")
     return found
 
 
@@ -475,7 +485,7 @@ else:
     isSanitized = "libasan" in os.environ.get("LD_PRELOAD", "")
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
-    assert isSanitized or len(one) == 72 + 18 + 24 + 20 + 8, len(one)
+    assert isSanitized or len(one) == 72 + 18 + 24 + 21 + 8, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
