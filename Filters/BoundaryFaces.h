@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "MeshFaces.h"
 #include "Triangles.h"
 #include "WorkProgress.h"
 
@@ -19,15 +20,8 @@ namespace refractivity
 
 /// Whether a visible cell of any leaf holds a place. Called from several threads.
 using CellTest = std::function<bool(const Point& place)>;
-
-/// What a value is made of: those at points of a leaf, with weights. One with the weight 1, but for points that are
-/// not the leaf's own, on the faces of curved cells.
-struct Share
-{
-  std::uint32_t leaf;
-  vtkIdType point;
-  double weight;
-};
+/// The same of many places.
+using CellsTest = std::function<std::vector<unsigned char>(const std::vector<Point>& places)>;
 
 /// What cells are: all that there is, or a layer of what does not depend on z. Nothing ends at the sides of a layer
 /// across z.
@@ -63,8 +57,15 @@ struct BoundaryFaces
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
 
+/// The same of the faces of leaves that were found elsewhere.
+BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells,
+  const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
+
 /// The scalars at the points of the surface, of these leaves or of others on the same mesh.
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);
+/// What shares of the scalars sum up to: those of value i are starts[i] to starts[i + 1].
+std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
+  const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves);
 
 /// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
 std::vector<std::int32_t> coincidentPoints(

@@ -162,7 +162,7 @@ std::array<double, 2> rangeOfCorners(const CellTree::Cell& one)
 } // namespace
 
 CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction reconstruction,
-  const WorkProgress& progress)
+  const WorkProgress& progress, Copies copies)
 {
   const auto mesh = std::make_shared<Mesh>();
   this->Sorted = mesh;
@@ -181,14 +181,14 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   }
   mesh->firstNumbers.push_back(static_cast<Number>(cells));
   this->addBlocks(blocks);
-  this->findCells(*mesh, progress.part(0, 0.1));
+  this->findCells(*mesh, copies, progress.part(0, 0.1));
   if (reconstruction == Reconstruction::Smooth)
   {
     this->findNeighbours(*mesh, progress.part(0.1, 0.4));
   }
   this->sortCells(*mesh, progress.part(0.4, 0.6));
   this->makeGroups(*mesh, progress.part(0.6, 0.7));
-  mesh->voxelShape = this->findVoxelShape();
+  mesh->voxelShape = voxelShapeOf(this->measuredSizes());
   this->setValues(progress.part(0.7, 1));
 }
 
@@ -284,7 +284,7 @@ CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
 }
 
 /// The cells that are there, and the box of all.
-void CellTree::findCells(Mesh& mesh, const WorkProgress& progress)
+void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress)
 {
   std::array<bool, 256> isVolume{};
   for (const MeshArrays& block : this->Blocks)
@@ -296,7 +296,7 @@ void CellTree::findCells(Mesh& mesh, const WorkProgress& progress)
   }
   const Number end = mesh.firstNumbers.back();
   const std::size_t count = (std::size_t{ end } + partSize - 1) / partSize;
-  std::vector<std::vector<Number>> found(count);
+  std::vector<std::vector<Number>> found(count), foundCopies(count);
   std::vector<Bounds> boxes(
     count, Bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
   forParts(end, progress,
@@ -319,6 +319,11 @@ void CellTree::findCells(Mesh& mesh, const WorkProgress& progress)
         }
         if (sum != 0) // NaN: somewhere it is not finite, or there are no points
         {
+          continue;
+        }
+        if (copies == Copies::Neighbours && one.block->isCopy(one.id))
+        {
+          foundCopies[i].push_back(number);
           continue;
         }
         found[i].push_back(number);
@@ -345,6 +350,10 @@ void CellTree::findCells(Mesh& mesh, const WorkProgress& progress)
   {
     mesh.numbers.insert(mesh.numbers.end(), some.begin(), some.end());
   }
+  for (const std::vector<Number>& some : foundCopies)
+  {
+    mesh.copies.insert(mesh.copies.end(), some.begin(), some.end());
+  }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double length = mesh.whole.high[axis] - mesh.whole.low[axis];
@@ -359,10 +368,13 @@ void CellTree::findNeighbours(Mesh& mesh, const WorkProgress& progress)
   {
     const Number first = mesh.firstNumbers[block];
     std::vector<unsigned char> isThere(static_cast<std::size_t>(this->Blocks[block].cells()));
-    for (auto i = std::lower_bound(mesh.numbers.begin(), mesh.numbers.end(), first);
-         i != mesh.numbers.end() && *i < mesh.firstNumbers[block + 1]; ++i)
+    for (const std::vector<Number>* some : { &mesh.numbers, &mesh.copies })
     {
-      isThere[*i - first] = 1;
+      for (auto i = std::lower_bound(some->begin(), some->end(), first);
+           i != some->end() && *i < mesh.firstNumbers[block + 1]; ++i)
+      {
+        isThere[*i - first] = 1;
+      }
     }
     const auto parts = static_cast<double>(this->Blocks.size());
     mesh.neighbours.emplace_back(this->Blocks[block], std::move(isThere),
@@ -727,9 +739,9 @@ CellTree::Content CellTree::content(const Bounds& box) const
 }
 
 /// See voxelShape().
-Vector CellTree::findVoxelShape() const
+CellTree::Sizes CellTree::measuredSizes() const
 {
-  std::array<std::vector<double>, 3> sizes;
+  Sizes sizes;
   const std::size_t count = this->Sorted->numbers.size();
   for (std::size_t i = 0; i < count; i += 1 + count / mostCellsMeasured)
   {
@@ -742,6 +754,11 @@ Vector CellTree::findVoxelShape() const
       }
     }
   }
+  return sizes;
+}
+
+Vector CellTree::voxelShapeOf(Sizes sizes)
+{
   Vector shape = { 1, 1, 1 };
   if (sizes[0].empty())
   {

@@ -45,7 +45,7 @@ public:
   /// too many cells or points.
   explicit CellTree(const std::vector<vtkDataSet*>& blocks,
     Reconstruction reconstruction = Reconstruction::Linear,
-    const WorkProgress& progress = WorkProgress());
+    const WorkProgress& progress = WorkProgress(), Copies copies = Copies::Used);
 
   /// Of other values on the mesh of another tree, which that tree need not outlive.
   CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
@@ -82,7 +82,8 @@ public:
     }
   }
 
-  std::size_t size() const { return this->Sorted->numbers.size(); } // cells that are there
+  std::size_t size() const { return this->Sorted->numbers.size(); }  // cells that are there
+  std::size_t copies() const { return this->Sorted->copies.size(); } // that are neighbours only
   std::size_t bytes() const; // of memory, without the datasets'
 
   struct Bounds // low > high: none
@@ -104,6 +105,11 @@ public:
 
   /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
   const Vector& voxelShape() const { return this->Sorted->voxelShape; }
+
+  /// Of some cells, evenly spread, and what follows from them.
+  using Sizes = std::array<std::vector<double>, 3>;
+  Sizes measuredSizes() const;
+  static Vector voxelShapeOf(Sizes sizes);
 
   /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
   /// coordinates by more than 1. Infinite where it has no volume.
@@ -129,6 +135,7 @@ public:
     Bounds whole;
     Vector origin, step, voxelShape;
     std::vector<Number> numbers;            // sorted
+    std::vector<Number> copies;             // that are neighbours only
     std::vector<Steps> boxes;               // of them
     std::vector<std::vector<Group>> levels; // of eight cells, of eight times as many, ... one group
     std::vector<PointNeighbours> neighbours; // of each block; none: linear
@@ -203,11 +210,10 @@ private:
   void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
-  void findCells(Mesh& mesh, const WorkProgress& progress);
+  void findCells(Mesh& mesh, Copies copies, const WorkProgress& progress);
   void findNeighbours(Mesh& mesh, const WorkProgress& progress);
   void sortCells(Mesh& mesh, const WorkProgress& progress);
   void makeGroups(Mesh& mesh, const WorkProgress& progress);
-  Vector findVoxelShape() const;
   void setValues(const WorkProgress& progress);
   std::array<double, 2> rangeOf(const Cell& cell) const;
 

@@ -38,17 +38,6 @@ namespace
 /// Thickness of a plane, in parts of its length: what rounding in single precision makes.
 constexpr double planeTolerance = 1e-6;
 
-/// The largest dimension of the cells.
-int dimensionOf(vtkDataSet* data)
-{
-  int dimension = 0;
-  for (vtkIdType i = 0; i < data->GetNumberOfCells() && dimension < 3; ++i)
-  {
-    dimension = std::max(dimension, dimensionOfCell(data, i));
-  }
-  return dimension;
-}
-
 /// The axis along which there is nothing. -1 for none; throws for several.
 int onlyFlatAxis(const bool isFlat[3], const Source& source)
 {
@@ -346,6 +335,16 @@ int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
     known[type] = 1 + vtkCellTypeUtilities::GetDimension(type);
   }
   return known[type] - 1;
+}
+
+int dimensionOf(vtkDataSet* data)
+{
+  int dimension = 0;
+  for (vtkIdType i = 0; i < data->GetNumberOfCells() && dimension < 3; ++i)
+  {
+    dimension = std::max(dimension, dimensionOfCell(data, i));
+  }
+  return dimension;
 }
 
 int flatAxisOf(const Source& source)

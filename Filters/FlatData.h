@@ -16,6 +16,9 @@ namespace refractivity
 /// than to resample it.
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell);
 
+/// The largest of its cells' dimensions.
+int dimensionOf(vtkDataSet* data);
+
 /// The coordinate axis (of an image: its own) across the plane in which all cells lie, -1 where there are
 /// 3-D cells. Throws where there are neither: lines, points, tilted or curved surfaces.
 int flatAxisOf(const Source& source);

@@ -64,7 +64,11 @@ bool GasBoundary::isBeyondAll(const Point& place) const
 
 double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
 {
-  const std::vector<double> values = valuesAt(this->Faces, leaves);
+  return this->ambient(valuesAt(this->Faces, leaves));
+}
+
+double GasBoundary::ambient(const std::vector<double>& values) const
+{
   const Triangles& surface = this->Faces.surface;
   std::vector<std::pair<double, double>> parts; // N, area
   for (const bool ofAll : { false, true })
@@ -123,27 +127,31 @@ void GasBoundary::findPlaces(const schlieren::Box& box, const CellTest& isInCell
     return;
   }
   // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.
-  Point place{};
-  const auto look = [&]
+  for (const Point& place : testedPlaces(box))
   {
     const Place found = this->kindAt(place, isInCell(place));
     content.hasGas = found == Place::Gas;
     content.hasWall = content.hasWall || found == Place::Wall;
     content.hasWindow = content.hasWindow || found == Place::Window;
-  };
+    if (content.hasGas)
+    {
+      break;
+    }
+  }
+}
+
+std::array<Point, 9> GasBoundary::testedPlaces(const schlieren::Box& box)
+{
+  std::array<Point, 9> places{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    place[axis] = 0.5 * (box.low[axis] + box.high[axis]);
-  }
-  look();
-  for (unsigned corner = 0; corner < 8 && !content.hasGas; ++corner)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    places[0][axis] = 0.5 * (box.low[axis] + box.high[axis]);
+    for (unsigned corner = 0; corner < 8; ++corner)
     {
-      place[axis] = ((corner >> axis) & 1u) != 0 ? box.high[axis] : box.low[axis];
+      places[corner + 1][axis] = ((corner >> axis) & 1u) != 0 ? box.high[axis] : box.low[axis];
     }
-    look();
   }
+  return places;
 }
 
 bool GasBoundary::hasBodiesIn(const schlieren::Box& box) const

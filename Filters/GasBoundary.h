@@ -7,6 +7,7 @@
 #include "Medium/MediumSource.h"
 #include "Triangles.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -47,6 +48,8 @@ public:
   /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where
   /// there is none. NaN: there is no boundary. `leaves`: these or others on the same mesh.
   double ambient(const std::vector<vtkDataSet*>& leaves) const;
+  /// Of N at the points of surface().
+  double ambient(const std::vector<double>& values) const;
 
   /// Which faces there are in a box.
   struct Kinds
@@ -57,6 +60,8 @@ public:
   /// Sets which places a box has (`hasWall`, `hasGas`, `hasWindow`), given where visible cells are.
   void findPlaces(const schlieren::Box& box, const CellTest& isInCell,
     schlieren::MediumSource::Content& content) const;
+  /// All that findPlaces() may test: the middle and the corners of a box.
+  static std::array<Point, 9> testedPlaces(const schlieren::Box& box);
   /// Whether any of the Bodies reach into a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
 

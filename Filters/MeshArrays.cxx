@@ -68,6 +68,11 @@ bool MeshArrays::isVisible(vtkIdType cell) const
   return !this->Ghosts || (this->Ghosts[cell] & hiddenCellBits) == 0;
 }
 
+bool MeshArrays::isCopy(vtkIdType cell) const
+{
+  return this->Ghosts && (this->Ghosts[cell] & vtkDataSetAttributes::DUPLICATECELL) != 0;
+}
+
 std::size_t MeshArrays::bytes() const
 {
   return this->OwnPoints.size() * sizeof(double) + this->OwnTypes.size() +

@@ -15,6 +15,13 @@ class vtkUnsignedCharArray;
 namespace refractivity
 {
 
+/// What is done with cells that are copies of another rank's (DUPLICATECELL).
+enum class Copies
+{
+  Used,      ///< the same as with all others
+  Neighbours ///< only what is known of points depends on them
+};
+
 /// How values go on around a point, and between which limits, counted from its own value.
 struct PointTrend
 {
@@ -68,6 +75,7 @@ public:
 
   /// Whether no bit of hiddenCellBits hides it.
   bool isVisible(vtkIdType cell) const;
+  bool isCopy(vtkIdType cell) const;
 
   /// Whether cells are numbered by three indices, so that those around a point are known.
   bool isStructured() const { return this->Layer > 0; }

@@ -23,7 +23,17 @@ std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet
   return { leaves.begin(), leaves.end() };
 }
 
-/// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
+/// Whether a cell holds a place.
+bool holds(const CellSampler& cells, const Point& place)
+{
+  double value = 0;
+  unsigned char isFound = 0;
+  cells.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isFound);
+  return isFound != 0;
+}
+
+} // namespace
+
 schlieren::Box boundsOf(
   const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
 {
@@ -33,7 +43,7 @@ schlieren::Box boundsOf(
   {
     all += leaf->GetNumberOfCells();
   }
-  if (cells.size() == 0 || cells.size() == static_cast<std::size_t>(all))
+  if (cells.size() == 0 || cells.size() + cells.copies() == static_cast<std::size_t>(all))
   {
     return box;
   }
@@ -51,17 +61,6 @@ schlieren::Box boundsOf(
   }
   return box;
 }
-
-/// Whether a cell holds a place.
-bool holds(const CellSampler& cells, const Point& place)
-{
-  double value = 0;
-  unsigned char isFound = 0;
-  cells.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isFound);
-  return isFound != 0;
-}
-
-} // namespace
 
 MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction,

@@ -33,6 +33,10 @@ struct SourceMesh
   std::string warning;
 };
 
+/// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
+schlieren::Box boundsOf(
+  const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
+
 /// The refractivity of meshes, box by box, for the tracer.
 class MeshSource : public schlieren::MediumSource
 {

@@ -4,16 +4,24 @@
 
 #include "GatheredData.h"
 #include "InputDescription.h"
+#include "MeshHalo.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkExtentTranslator.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 #include "vtkMPICommunicator.h"
@@ -106,6 +114,7 @@ struct HelloMessage
   double changes = 0;       // the version of the inputs
   double timeStep = 0;
   Holdings inputs[2] = {};
+  std::int32_t areMeshes = 1; // the first of them
 };
 struct ShortMessage
 {
@@ -340,6 +349,42 @@ std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
   return more;
 }
 
+/// Whether ranks may have pieces of such data, as far as is known before there are any.
+bool isDivisible(vtkInformation* inInfo)
+{
+  vtkDataObject* data = vtkDataObject::GetData(inInfo);
+  return vtkUnstructuredGrid::SafeDownCast(data) || vtkStructuredGrid::SafeDownCast(data) ||
+    vtkMultiBlockDataSet::SafeDownCast(data) ||
+    vtkPartitionedDataSetCollection::SafeDownCast(data) ||
+    vtkPartitionedDataSet::SafeDownCast(data);
+}
+
+void requestPiece(vtkInformation* inInfo, int piece, int pieces)
+{
+  // Others may have the key, too, from images upstream, which VTK divides by the piece.
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT()) &&
+    vtkStructuredGrid::SafeDownCast(vtkDataObject::GetData(inInfo)))
+  {
+    vtkNew<vtkExtentTranslator> divide;
+    int whole[6], extent[6];
+    inInfo->Get(Pipeline::WHOLE_EXTENT(), whole);
+    if (divide->PieceToExtentThreadSafe(
+          piece, pieces, 0, whole, extent, vtkExtentTranslator::BLOCK_MODE, 0) == 0)
+    {
+      const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
+      std::copy_n(nothing, 6, extent);
+    }
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  }
+  else
+  {
+    inInfo->Remove(Pipeline::UPDATE_EXTENT());
+  }
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -380,6 +425,8 @@ struct FilterRanks::Others
     }
   }
 
+  std::vector<Holdings> HoldingsOf(int input, vtkDataObject* own) const;
+
   std::vector<std::unique_ptr<RankChannel>> Channels; // on rank 0: to all others; there: to it
   schlieren::RayWorker Worker;                        // not on rank 0
   int Meetings = 0;                                   // likewise
@@ -405,7 +452,7 @@ void FilterRanks::CountChanges(vtkAlgorithm* filter)
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Request(vtkAlgorithm* filter, vtkInformationVector** inputs)
+bool FilterRanks::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part)
 {
   vtkMultiProcessController* controller = controllerOfRanks();
   if (!this->Inside && controller)
@@ -427,6 +474,11 @@ bool FilterRanks::Request(vtkAlgorithm* filter, vtkInformationVector** inputs)
     {
       this->Now.timeStep = inInfo->Get(Pipeline::UPDATE_TIME_STEP());
     }
+    if (part == Part::Piece && controller && port == 0 && isDivisible(inInfo))
+    {
+      requestPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
+      continue;
+    }
     if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
     {
       const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
@@ -445,6 +497,11 @@ bool FilterRanks::Request(vtkAlgorithm* filter, vtkInformationVector** inputs)
     inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), isWanted ? 0 : manyPieces);
     inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), isWanted ? 1 : manyPieces);
     inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  if (part != this->RequestedPart)
+  {
+    ++this->Now.changes; // all ranks have the same properties
+    this->RequestedPart = part;
   }
   const bool isAnother = !(this->Requested == this->Now);
   this->Requested = this->Now;
@@ -521,6 +578,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   {
     hello.inputs[0] = holdingsOf(this->Own->data);
     hello.inputs[1] = holdingsOf(this->Own->bodies);
+    hello.areMeshes = refractivity::areMeshes(this->Own->data) ? 1 : 0;
   }
   channel.send(messageOf(hello));
   while (!this->HasMet)
@@ -562,7 +620,7 @@ FilterRanks::Meeting::~Meeting()
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::Serve(int threads)
+bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
 {
   while (this->HasMet)
   {
@@ -576,6 +634,12 @@ bool FilterRanks::Meeting::Serve(int threads)
     }
     if (head.kind != GiveData)
     {
+      std::vector<char> response = respond ? respond(message) : std::vector<char>();
+      if (!response.empty())
+      {
+        channel.send(std::move(response));
+        continue;
+      }
       this->Of.Inside->Worker.answer(std::move(message), channel, threads);
       continue;
     }
@@ -614,18 +678,35 @@ std::vector<schlieren::Channel*> FilterRanks::Meeting::GetWorkers() const
 }
 
 //------------------------------------------------------------------------------
-FilterRanks::Inputs FilterRanks::Meeting::Gather()
+std::vector<schlieren::Channel*> FilterRanks::Meeting::GetChannels() const
+{
+  std::vector<schlieren::Channel*> channels;
+  if (this->Of.Inside)
+  {
+    for (const auto& channel : this->Of.Inside->Channels)
+    {
+      channels.push_back(channel->isOpen() ? channel.get() : nullptr);
+    }
+  }
+  return channels;
+}
+
+//------------------------------------------------------------------------------
+FilterRanks::Inputs FilterRanks::Meeting::Gather(double mostCells)
 {
   FilterRanks& of = this->Of;
   Inputs all = *this->Own;
-  if (of.Inside && !(of.Compared == of.Now))
+  if (of.Inside && !(of.Compared == of.Now && of.MostCells == mostCells))
   {
     of.Compared = of.Now;
+    of.MostCells = mostCells;
+    ++of.Gatherings;
     of.Gathered[0] = of.Gathered[1] = nullptr;
     of.Problem = this->FindAbsent();
+    of.InPieces = of.Problem.empty() && this->CanStayInPieces();
     try
     {
-      for (int input = 0; input < 2 && of.Problem.empty(); ++input)
+      for (int input = of.InPieces ? 1 : 0; input < 2 && of.Problem.empty(); ++input)
       {
         of.Gathered[input] = this->Collect(input);
       }
@@ -667,17 +748,42 @@ std::string FilterRanks::Meeting::FindAbsent() const
 }
 
 //------------------------------------------------------------------------------
+std::vector<Holdings> FilterRanks::Others::HoldingsOf(int input, vtkDataObject* own) const
+{
+  std::vector<Holdings> holdings{ holdingsOf(own) };
+  for (const auto& channel : this->Channels)
+  {
+    holdings.push_back(channel->Guest ? channel->Guest->inputs[input] : Holdings{});
+  }
+  return holdings;
+}
+
+//------------------------------------------------------------------------------
+bool FilterRanks::Meeting::CanStayInPieces() const
+{
+  bool areAll = refractivity::areMeshes(this->Own->data);
+  for (const auto& channel : this->Of.Inside->Channels)
+  {
+    areAll = areAll && channel->Guest->areMeshes != 0;
+  }
+  const std::vector<Holdings> holdings = this->Of.Inside->HoldingsOf(0, this->Own->data);
+  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
+  double cells = 0;
+  for (const std::size_t rank : ranks)
+  {
+    cells += holdings[rank][1];
+  }
+  return areAll && ranks.size() > 1 && cells > this->Of.MostCells;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
 {
   vtkDataObject* own = input == 0 ? this->Own->data : this->Own->bodies;
   const std::vector<std::string> arrays =
     input == 0 ? this->Own->arrays : std::vector<std::string>();
   const auto& channels = this->Of.Inside->Channels;
-  std::vector<Holdings> holdings{ holdingsOf(own) };
-  for (const auto& channel : channels)
-  {
-    holdings.push_back(channel->Guest ? channel->Guest->inputs[input] : Holdings{});
-  }
+  const std::vector<Holdings> holdings = this->Of.Inside->HoldingsOf(input, own);
   const std::vector<std::size_t> ranks = ranksWithMore(holdings);
   if (ranks.empty() || (ranks.size() == 1 && ranks[0] == 0))
   {

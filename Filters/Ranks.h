@@ -8,6 +8,8 @@
 #include "Rays/Channel.h"
 
 #include <chrono>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,9 +45,14 @@ public:
   /// the changes of properties upstream, the same on all ranks.
   void CountChanges(vtkAlgorithm* filter);
 
-  /// In RequestUpdateExtent: requests all of the inputs, those there are, on rank 0 and nothing on others. Whether
-  /// they have changed since the last request, or their time step has.
-  bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs);
+  /// Which part of the inputs a rank requests.
+  enum class Part
+  {
+    All,  // on rank 0, and nothing on others
+    Piece // of meshes: each rank one of as many as there are; of bodies and other data, as All
+  };
+  /// In RequestUpdateExtent. Whether the inputs have changed since the last request, or their time step has.
+  bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part = Part::All);
 
   /// What the filter works with.
   struct Inputs
@@ -66,23 +73,28 @@ public:
     Meeting& operator=(const Meeting&) = delete;
 
     /// On rank 0: all of the inputs, some of which other ranks may have sent. Throws std::runtime_error where rank 0
-    /// cannot get them.
-    Inputs Gather();
+    /// cannot get them. Meshes of more cells than `mostCells` that several ranks have stay where they are: `data` is what
+    /// rank 0 has of them, see AreInPieces().
+    Inputs Gather(double mostCells = std::numeric_limits<double>::infinity());
 
-    /// On rank 0: the connections to those that trace rays.
+    /// On rank 0: the connections to those that trace rays, and those to all other ranks, null where one has not come.
     std::vector<schlieren::Channel*> GetWorkers() const;
+    std::vector<schlieren::Channel*> GetChannels() const;
 
     /// On rank 0: what Serve() returns on the others.
     void SetOutcome(bool outcome) { this->Outcome = outcome; }
 
+    /// Answers a message; empty: it is for somebody else.
+    using Responder = std::function<std::vector<char>(const std::vector<char>& message)>;
     /// On other ranks: does what rank 0 asks for, until its meeting is over. False where rank 0 does not come.
-    bool Serve(int threads);
+    bool Serve(int threads, const Responder& respond = nullptr);
 
   private:
     using Time = std::chrono::steady_clock::time_point;
     void WaitForOthers(Time end);
     void WaitForRank0(Time end);
     std::string FindAbsent() const;
+    bool CanStayInPieces() const;
     vtkSmartPointer<vtkDataObject> Collect(int input);
 
     FilterRanks& Of;
@@ -93,6 +105,10 @@ public:
 
   /// On rank 0, after it has been gathered: all of an input of which this is what rank 0 has itself.
   vtkDataObject* GetInput(int input, vtkDataObject* own) const;
+
+  /// On rank 0: whether the data have stayed on several ranks, and how often other data were gathered.
+  bool AreInPieces() const { return this->InPieces; }
+  int GetGatherings() const { return this->Gatherings; }
 
 private:
   struct Others;
@@ -112,8 +128,12 @@ private:
   Version Now;
   vtkTimeStamp CountedAt;
   Version Requested;
+  Part RequestedPart = Part::All;
   std::chrono::steady_clock::time_point RequestedAt{};
   Version Compared;
+  double MostCells = 0;  // of Compared
+  bool InPieces = false; // likewise
+  int Gatherings = 0;
   std::string Problem;                        // of Compared
   vtkSmartPointer<vtkDataObject> Gathered[2]; // likewise; null: rank 0 has all of it
 };

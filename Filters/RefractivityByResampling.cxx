@@ -260,8 +260,18 @@ vtkSmartPointer<vtkDataSet> prepare(
   vtkNew<vtkUnsignedCharArray> hidden;
   hidden->SetName(vtkDataSetAttributes::GhostArrayName());
   hidden->SetNumberOfValues(cells);
-  vtkSMPTools::Transform(valid->GetPointer(0), valid->GetPointer(0) + cells, hidden->GetPointer(0),
-    [](unsigned char isValid) { return isValid ? 0 : vtkDataSetAttributes::HIDDENCELL; });
+  vtkSMPTools::For(0, cells,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const int copy =
+          ghosts ? ghosts->GetValue(i) & static_cast<int>(vtkDataSetAttributes::DUPLICATECELL) : 0;
+        const int hides =
+          valid->GetValue(i) ? 0 : static_cast<int>(vtkDataSetAttributes::HIDDENCELL);
+        hidden->SetValue(i, static_cast<unsigned char>(copy | hides));
+      }
+    });
   prepared->GetCellData()->AddArray(hidden);
   return withoutPolyhedra(prepared);
 }

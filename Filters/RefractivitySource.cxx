@@ -240,28 +240,27 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
     [&](const Selection& selection) { return leavesWith({ selection }, dataSets).empty(); });
   if (missing == selections.end())
   {
-    throw std::runtime_error("No block of the input has all the arrays that IndexModel needs, so "
-                             "there is nothing to find N from. Check which block has which.");
+    throw ArraysMissing("No block of the input has all the arrays that IndexModel needs, so "
+                        "there is nothing to find N from. Check which block has which.");
   }
   const Selection& selection = *missing;
   const std::string& property = selection.property;
   const std::string names = namesOfArrays(dataSets);
   if (names == "none")
   {
-    throw std::runtime_error("The input has no arrays with one component, so there is nothing to "
-                             "take " +
+    throw ArraysMissing("The input has no arrays with one component, so there is nothing to "
+                        "take " +
       property + " from. Choose an input that has the field.");
   }
   if (selection.name.empty() && selection.attribute < 0)
   {
-    throw std::runtime_error("No array is chosen for " + property + ". Choose one of: " + names +
-      "." +
+    throw ArraysMissing("No array is chosen for " + property + ". Choose one of: " + names + "." +
       (property == "Density"
           ? " A temperature tells no density without a pressure; with both, compute one or use "
             "IndexModel Ciddor (Documentation/density.md)."
           : ""));
   }
-  throw std::runtime_error("The input has no array '" + selection.name + "'. Set " + property +
+  throw ArraysMissing("The input has no array '" + selection.name + "'. Set " + property +
     " to one of: " + names + ".");
 }
 

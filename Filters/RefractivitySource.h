@@ -6,6 +6,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,13 @@ struct Source
   Model model;
   std::string noteOnGases; // what the user should know once, mostly empty
   std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
+};
+
+/// Thrown where no dataset has the arrays that are needed; others, on other ranks, may have them.
+class ArraysMissing : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
 };
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);

@@ -3,6 +3,7 @@
 #include "vtkRefractiveIndex.h"
 
 #include "AmrSource.h"
+#include "ChannelRanks.h"
 #include "FieldTints.h"
 #include "FlatData.h"
 #include "GasChoices.h"
@@ -33,6 +34,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 
+#include "Rays/RayWorker.h"
 #include "Schlieren.h"
 
 #include <algorithm>
@@ -41,6 +43,7 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 using namespace refractivity;
 
@@ -77,6 +80,8 @@ std::string noGas(const Source& source)
     " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
     "to cross. Choose another array or check the data.";
 }
+
+bool isZero(int count) { return count == 0; }
 
 void addText(std::string& text, const std::string& more)
 {
@@ -129,6 +134,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Mesh(std::make_shared<KeptMesh>())
   , Search(std::make_shared<MeshSearch>())
   , Ranks(std::make_shared<FilterRanks>())
+  , Pieces(std::make_shared<ChannelRanks>(this))
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -406,7 +412,7 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
   if (source.image || SamplingBox(this->SamplingBounds).isGiven() ||
-    std::any_of(given, given + 3, [](int count) { return count != 0; }))
+    !std::all_of(given, given + 3, isZero))
   {
     return false;
   }
@@ -531,6 +537,101 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     addText(warning, warningOfExtrusion(flat));
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::CanUsePieces()
+{
+  const int* given = this->SamplingDimensions;
+  return this->IndexModel != TRANSFER_FUNCTIONS && std::all_of(given, given + 3, isZero) &&
+    !SamplingBox(this->SamplingBounds).isGiven();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> channels)
+{
+  this->Pieces->SetChannels(std::move(channels));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ReleasePieces()
+{
+  if (std::exchange(this->HasPieces, false))
+  {
+    try
+    {
+      this->Pieces->Ask(
+        std::vector<std::vector<char>>(this->Pieces->Count(), pieceRequest(PieceWorker::Forget)));
+    }
+    catch (const std::
+        runtime_error&) // a rank has not come; it forgets its piece when the next one is made
+    {
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetPieceData(vtkDataObject* data) { this->Pieces->GetOwn().SetData(data); }
+
+//------------------------------------------------------------------------------
+std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)
+{
+  if (!PieceWorker::IsFor(schlieren::RayWorker::kindOf(message)))
+  {
+    return {};
+  }
+  this->Pieces->SetThreads(threadsOfLoops(this));
+  return this->Pieces->Respond(message);
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfPieces(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning)
+{
+  this->Grid.clear();
+  this->Search->release();
+  this->Mesh->release();
+  this->Pieces->SetThreads(threadsOfLoops(this));
+  this->SetPieceData(input);
+  this->HasPieces = true;
+  std::shared_ptr<PiecesSource> made;
+  try
+  {
+    vtkSMPTools::LocalScope(threadsOfLoops(this),
+      [&]
+      {
+        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
+          static_cast<refractivity::Outside>(this->Outside),
+          WorkProgress(
+            [this](double done)
+            {
+              this->UpdateProgress(done);
+              return !this->GetAbortExecute();
+            }));
+      });
+  }
+  catch (const Stopped&)
+  {
+    this->SetPieceData(nullptr);
+    return nullptr;
+  }
+  this->SetPieceData(nullptr);
+  Source source;
+  source.model = modelFrom(this);
+  source.noteOnGases = noteOnGases(this);
+  source.label = made->label();
+  if (!made->hasGas())
+  {
+    throw std::runtime_error(noGas(source));
+  }
+  warning = warningFrom(source.model, made->tally());
+  addText(warning, made->warning());
+  if (bodies && !made->meetsBodies())
+  {
+    addText(warning, bodiesAreOutside);
+  }
+  addText(warning, this->NewNoteOnGases(source));
+  return made;
 }
 
 //------------------------------------------------------------------------------

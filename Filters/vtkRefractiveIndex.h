@@ -58,14 +58,16 @@ class vtkPiecewiseFunction;
 
 namespace schlieren
 {
+class Channel;
 class MediumSource;
-}
+} // namespace schlieren
 
 namespace refractivity
 {
 struct GridPlan;
 struct KeptMesh;
 struct MeshSearch;
+class ChannelRanks;
 struct Source;
 } // namespace refractivity
 
@@ -501,6 +503,23 @@ public:
 
   ///@{
   /**
+   * The same of meshes that stay on several ranks, on rank 0, while the channels to all other ranks (null: one that
+   * has not come) are set, as they have to be whenever the source is asked for anything. `input`: what rank 0 has.
+   * CanUsePieces(): whether the properties are for that. On the other ranks SetPieceData() says what they have, and
+   * RespondForPiece() answers messages; empty: a message is for somebody else.
+   */
+  VTK_WRAPEXCLUDE bool CanUsePieces();
+  VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
+  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+  /// Frees them on all ranks, where there are any.
+  VTK_WRAPEXCLUDE void ReleasePieces();
+  VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data);
+  VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
+  ///@}
+
+  ///@{
+  /**
    * Where a grid's points lie in a mesh is kept for the next conversion, 16 bytes for each point (17 where
    * Outside is OUTSIDE_PASSES), if the mesh (points, cells, which of them are hidden, and the grid) is the
    * same as in the conversion before; not for more than 2^26 points. A conversion with another mesh frees it.
@@ -558,6 +577,8 @@ private:
   std::string NewNoteOnGases(const refractivity::Source& source);
 
   std::shared_ptr<FilterRanks> Ranks;
+  std::shared_ptr<refractivity::ChannelRanks> Pieces;
+  bool HasPieces = false;
 
   int IndexModel = GLADSTONE_DALE;
   std::string Gas = "Custom";

@@ -30,6 +30,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTimeStamp.h"
 
+#include "Medium/MediumSource.h"
 #include "Schlieren.h"
 
 #include <algorithm>
@@ -45,21 +46,29 @@ vtkStandardNewMacro(vtkSchlierenFilter);
 
 struct vtkSchlierenFilter::Internals
 {
-  /// The other ranks trace rays while this is there.
+  /// The other ranks trace rays, and answer for their pieces of the data, while this is there.
   class WithWorkers
   {
   public:
-    WithWorkers(Internals& internals, const FilterRanks::Meeting& meeting)
+    WithWorkers(
+      Internals& internals, vtkRefractiveIndex* medium, const FilterRanks::Meeting& meeting)
       : Of(internals)
+      , Medium(medium)
     {
       this->Of.Pictures.SetWorkers(meeting.GetWorkers());
+      this->Medium->SetPieceChannels(meeting.GetChannels());
     }
-    ~WithWorkers() { this->Of.Pictures.SetWorkers({}); }
+    ~WithWorkers()
+    {
+      this->Of.Pictures.SetWorkers({});
+      this->Medium->SetPieceChannels({});
+    }
     WithWorkers(const WithWorkers&) = delete;
     WithWorkers& operator=(const WithWorkers&) = delete;
 
   private:
     Internals& Of;
+    vtkRefractiveIndex* Medium;
   };
 
   FilterRanks Ranks;
@@ -168,9 +177,12 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
 
 /// Everything of the inputs that the refractivity depends on.
 std::vector<double> describeInputs(
-  vtkSchlierenFilter* self, vtkDataObject* input, vtkDataObject* bodies)
+  vtkSchlierenFilter* self, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies)
 {
-  std::vector<double> description = describeInput(input, upstreamTime(self, 0));
+  // A source that makes less than was requested, as those that spread their data do, runs at each update.
+  std::vector<double> description =
+    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(self, 0));
+  description.push_back(ranks.GetGatherings()); // of what other ranks have
   if (bodies)
   {
     const std::vector<double> ofBodies =
@@ -330,6 +342,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "GatherLimit: " << this->GatherLimit << "\n";
   os << indent << "PreviewReduction: " << this->PreviewReduction << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "Finished: " << this->GetFinished() << "\n";
@@ -505,19 +518,33 @@ void vtkSchlierenFilter::Refine()
   bool hasMore = false;
   if (isRank0())
   {
-    const Internals::WithWorkers withWorkers(inside, meeting);
+    const Internals::WithWorkers withWorkers(inside, this->Medium, meeting);
     hasMore = this->RefineOnRank0();
     meeting.SetOutcome(hasMore);
   }
   else
   {
-    hasMore = meeting.Serve(threadsFrom(this));
+    hasMore = meeting.Serve(threadsFrom(this),
+      [this](const std::vector<char>& message) { return this->Respond(message); });
   }
   if (hasMore)
   {
     inside.RefineTime.Modified();
     this->InvokeEvent(vtkCommand::ModifiedEvent);
   }
+}
+
+//------------------------------------------------------------------------------
+std::vector<char> vtkSchlierenFilter::Respond(const std::vector<char>& message)
+{
+  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
+  return this->Medium->RespondForPiece(message);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CanUsePieces()
+{
+  return this->Inside->Exposure.IsNone() && !this->ColorByField && this->Medium->CanUsePieces();
 }
 
 //------------------------------------------------------------------------------
@@ -609,7 +636,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     inside.FailedAt != now && inside.Shown[PICTURE_PORT].IsThere() &&
     (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
-      describeInputs(this, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
+      describeInputs(this, inside.Ranks, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
         inside.Ranks.GetInput(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField);
@@ -710,7 +737,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 {
   Internals& inside = *this->Inside;
   this->PassToMedium();
-  std::vector<double> description = describeInputs(this, input, bodies);
+  std::vector<double> description = describeInputs(this, inside.Ranks, input, bodies);
   if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField))
   {
     return true;
@@ -723,7 +750,16 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.Grid.clear();
   inside.Refractivity->Initialize();
   std::string warning;
-  if (this->Medium->CanMakeSource(input))
+  if (inside.Ranks.AreInPieces())
+  {
+    inside.Source = this->Medium->MakeSourceOfPieces(input, bodies, warning);
+    inside.SourceTime.Modified();
+  }
+  else
+  {
+    this->Medium->ReleasePieces();
+  }
+  if (!inside.Ranks.AreInPieces() && this->Medium->CanMakeSource(input))
   {
     inside.Source = this->Medium->MakeSource(input, bodies, warning,
       this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS
@@ -776,7 +812,7 @@ bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfPicture() &&
     inside.holdsRefractivityOf(
-      describeInputs(this, input, bodies), this->Medium, this->ColorByField);
+      describeInputs(this, inside.Ranks, input, bodies), this->Medium, this->ColorByField);
 }
 
 //------------------------------------------------------------------------------
@@ -1036,6 +1072,7 @@ bool vtkSchlierenFilter::Show(
   {
     inside.Grid = mediumInWords(image.medium);
     inside.Grid += inside.Source->fields() > 0 ? " or of the full colour" : "";
+    inside.Grid += inside.Source->isRemote() ? ", of data that stay on their ranks" : "";
     addMedium(output, image.medium);
   }
   addGrid(output, this->GetGrid(), inside.Refractivity);
@@ -1066,7 +1103,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       vtkDataObject* bodies = ranks.GetInput(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
-            describeInputs(this, input, bodies), this->Medium, this->ColorByField))
+            describeInputs(this, ranks, input, bodies), this->Medium, this->ColorByField))
       {
         grid = this->Inside->field().grid;
       }
@@ -1128,7 +1165,9 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  if (this->Inside->Ranks.Request(this, inputVector))
+  const auto part = this->GatherLimit == 0 && this->CanUsePieces() ? FilterRanks::Part::Piece
+                                                                   : FilterRanks::Part::All;
+  if (this->Inside->Ranks.Request(this, inputVector, part))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
@@ -1160,13 +1199,16 @@ int vtkSchlierenFilter::RequestData(
   steps.Meet(refractivity::arraysOf(this->Medium));
   if (!isRank0())
   {
+    this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
     do
     {
-      steps.GetMeeting().Serve(threadsFrom(this));
+      steps.GetMeeting().Serve(threadsFrom(this),
+        [this](const std::vector<char>& message) { return this->Respond(message); });
     } while (steps.GoOn());
+    this->Medium->SetPieceData(nullptr);
     return 1;
   }
-  const Internals::WithWorkers withWorkers(inside, steps.GetMeeting());
+  const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
 
   const auto showLast = [&]()
   {
@@ -1199,10 +1241,11 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather();
+    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(
+      this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity());
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
-    if (isAbortedUpstream(this, input))
+    if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
     {
       this->ForgetPicture();
       this->Status = noIndexYet;

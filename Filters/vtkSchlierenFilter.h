@@ -832,6 +832,19 @@ public:
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+
+  ///@{
+  /**
+   * Where ParaView runs as several processes, the number of cells up to which a mesh that is spread over them is sent to
+   * rank 0, which makes the medium alone; then the image is the same to the last bit, however many processes there are.
+   * Larger ones stay where they are: each rank has its cells, with copies of others' around them, and samples them for
+   * the medium. 0: that, and each rank requests its own piece of meshes whose reader can divide them. Data of other
+   * types, two-dimensional data, and all where ColorByField, ExposureTime, SamplingDimensions or the model
+   * TRANSFER_FUNCTIONS are in use are always sent. The default is 10^7.
+   */
+  vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(GatherLimit, int);
+  ///@}
   ///@}
 
   ///@{
@@ -950,6 +963,10 @@ private:
   vtkMTimeType GetTimeOfPicture();
   /// Whether an update has only to go on with the picture that is not finished.
   bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
+  /// Answers what rank 0 asks about this rank's piece of the data; empty: it is for somebody else.
+  std::vector<char> Respond(const std::vector<char>& message);
+  /// Whether data that several ranks have may stay where they are.
+  bool CanUsePieces();
   /// Takes a slice of a picture besides updates. Whether an update has something to do now.
   bool WorkOn();
   /// Refine() there. Whether the next update has more to show.
@@ -1043,6 +1060,7 @@ private:
   int Seed = 1;
   int Device = AUTO;
   int NumberOfThreads = 0;
+  int GatherLimit = 10000000;
   int PreviewReduction = 1;
   double TimeLimit = 0;
   vtkTypeInt64 PictureCount = 0;

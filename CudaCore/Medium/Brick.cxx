@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace schlieren
 {
@@ -181,27 +182,59 @@ Box BrickMaker<Real>::boxOf(const NodePlace& place) const
 }
 
 template <class Real>
-typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
-  const NodePlace& place, bool hasEdges, bool hasFields) const
+Box BrickMaker<Real>::boxWithApron(const NodePlace& place) const
 {
-  Samples samples;
+  Box box = boxOf(place);
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    box.low[axis] = std::max(box.low[axis] - apron_ * voxel[axis], bounds_.low[axis]);
+    box.high[axis] = std::min(box.high[axis] + apron_ * voxel[axis], bounds_.high[axis]);
+  }
+  return box;
+}
+
+/// Points beyond the box.
+template <class Real>
+int BrickMaker<Real>::marginOf(bool hasEdges, bool hasFields) const
+{
   const int marginOfFields = hasFields ? 1 : 0; // for central differences
-  samples.margin = apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
-  samples.n = edge + 2 * samples.margin;
-  samples.layers = layersOf(samples.n);
-  Lattice lattice{ {}, voxelOf(place.level), { samples.n, samples.n, samples.layers } };
+  return apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
+}
+
+template <class Real>
+Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
+{
+  const int n = edge + 2 * margin;
+  Lattice lattice{ {}, voxelOf(place.level), { n, n, layersOf(n) } };
   if (shape_ == BrickShape::Layer)
   {
     lattice.first[2] = 0.5 * (bounds_.low[2] + bounds_.high[2]);
     lattice.spacing[2] = std::max(lattice.spacing[0], lattice.spacing[1]);
   }
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    const std::int64_t first = std::int64_t{ edge } * place.at[axis] - margin;
+    lattice.first[axis] =
+      grid_.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
+  }
+  return lattice;
+}
+
+template <class Real>
+typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
+  const NodePlace& place, bool hasEdges, bool hasFields) const
+{
+  Samples samples;
+  samples.margin = marginOf(hasEdges, hasFields);
+  const Lattice lattice = latticeOf(place, samples.margin);
+  samples.n = lattice.points[0];
+  samples.layers = lattice.points[2];
   samples.begin[2] = 0;
   samples.end[2] = 1;
   for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     const std::int64_t first = std::int64_t{ edge } * place.at[axis] - samples.margin;
-    lattice.first[axis] =
-      grid_.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
     const std::int64_t all = (grid_.dimensions[axis] - 1) << place.level;
     samples.begin[axis] = static_cast<int>(std::max<std::int64_t>(0, -first));
     samples.end[axis] = static_cast<int>(std::min<std::int64_t>(samples.n, all - first));
@@ -610,43 +643,91 @@ void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
   }
 }
 
+/// What is known of a brick before it is sampled.
 template <class Real>
-Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& negligible) const
+struct BrickMaker<Real>::Outline
 {
-  Brick<Real> brick;
-  Box box = boxOf(place);
-  const std::array<double, 3> voxel = voxelOf(place.level);
-  for (std::size_t axis = 0; axis < axes(); ++axis)
-  {
-    box.low[axis] = std::max(box.low[axis] - apron_ * voxel[axis], bounds_.low[axis]);
-    box.high[axis] = std::min(box.high[axis] + apron_ * voxel[axis], bounds_.high[axis]);
-  }
-  const MediumSource::Content content = source_.contentOf(box);
+  Box box; ///< with its apron
+  MediumSource::Content content;
+  double lowest, highest; ///< nu of its data
+  bool hasEdges, hasFields;
+  bool isSampled;    ///< false: `brick` is all there is to it
+  Brick<Real> brick; ///< as yet
+};
+
+template <class Real>
+typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
+  const NodePlace& place, const Negligible& negligible) const
+{
+  Outline outline{ boxWithApron(place), {}, 0, 0, false, false, false, {} };
+  Brick<Real>& brick = outline.brick;
+  outline.content = source_.contentOf(outline.box);
+  const MediumSource::Content& content = outline.content;
   const bool hasData = content.hasGas && content.lowest <= content.highest;
   if (!hasData && !(content.hasWall && content.hasWindow))
   {
     brick.kind = content.hasWall ? Leaf<Real>::Solid : Leaf<Real>::Constant;
-    return brick;
+    return outline;
   }
-  const double lowest = hasData ? nuOf(content.lowest) : 0;
-  const double highest = hasData ? nuOf(content.highest) : 0;
-  const double gathered = hasData ? largestGathered(source_, box) : 0;
-  const bool hasFields = gathered > negligible.gathered;
-  brick.fields.facts.neglected = hasFields ? 0 : gathered;
-  if (!content.hasWall && !hasFields)
+  outline.lowest = hasData ? nuOf(content.lowest) : 0;
+  outline.highest = hasData ? nuOf(content.highest) : 0;
+  const double gathered = hasData ? largestGathered(source_, outline.box) : 0;
+  outline.hasFields = gathered > negligible.gathered;
+  brick.fields.facts.neglected = outline.hasFields ? 0 : gathered;
+  if (!content.hasWall && !outline.hasFields)
   {
-    const double low = content.hasWindow ? std::min(lowest, 0.) : lowest;
-    const double high = content.hasWindow ? std::max(highest, 0.) : highest;
+    const double low = content.hasWindow ? std::min(outline.lowest, 0.) : outline.lowest;
+    const double high = content.hasWindow ? std::max(outline.highest, 0.) : outline.highest;
     if (deflectionByRange * (high - low) <= negligible.deflection)
     {
       brick.facts.neglected = deflectionByRange * (high - low);
       brick.facts.difference = high - low;
       brick.facts.largestNu = std::max(std::abs(low), std::abs(high));
       brick.offset = content.hasWindow ? Real(0) : static_cast<Real>(0.5 * (low + high));
-      return brick;
+      return outline;
     }
   }
-  const bool hasEdges = content.hasWall || content.hasWindow;
+  outline.hasEdges = content.hasWall || content.hasWindow;
+  outline.isSampled = true;
+  return outline;
+}
+
+template <class Real>
+void BrickMaker<Real>::prepare(const std::vector<Request>& bricks) const
+{
+  if (!source_.isRemote())
+  {
+    return;
+  }
+  std::vector<Box> boxes;
+  for (const Request& brick : bricks)
+  {
+    boxes.push_back(boxWithApron(brick.place));
+  }
+  source_.prepareContents(boxes);
+  std::vector<Lattice> lattices;
+  for (const Request& brick : bricks)
+  {
+    const Outline outline = outlineOf(brick.place, brick.negligible);
+    if (outline.isSampled)
+    {
+      lattices.push_back(latticeOf(brick.place, marginOf(outline.hasEdges, outline.hasFields)));
+    }
+  }
+  source_.prepareSamples(lattices);
+}
+
+template <class Real>
+Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& negligible) const
+{
+  Outline outline = outlineOf(place, negligible);
+  Brick<Real> brick = std::move(outline.brick);
+  if (!outline.isSampled)
+  {
+    return brick;
+  }
+  const MediumSource::Content& content = outline.content;
+  const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
   Samples samples = sample(place, hasEdges, hasFields);
   brick.kind = Leaf<Real>::Samples;
   const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
@@ -656,7 +737,8 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
     if (hasEdge && !facts.hasWallEdge)
     {
       // The cells know of gas that no sample has met.
-      facts.besideWindow = deflectionByRange * std::max(std::abs(lowest), std::abs(highest));
+      facts.besideWindow =
+        deflectionByRange * std::max(std::abs(outline.lowest), std::abs(outline.highest));
     }
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
     return brick;
@@ -664,8 +746,9 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   if (hasFields)
   {
     const auto& spacing = grid_.spacing;
-    brick.fields = fieldBrickOf(source_, box, samples.fields, samples.isGas, content.cellSize,
-      apron_, *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
+    brick.fields =
+      fieldBrickOf(source_, outline.box, samples.fields, samples.isGas, content.cellSize, apron_,
+        *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
   }
   findErrors(place, content, samples, facts);
   facts.difference = samples.highest - samples.lowest;

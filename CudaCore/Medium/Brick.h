@@ -88,6 +88,14 @@ public:
 
   Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
 
+  /// What is about to be made. Has to be called before, by one thread, where the source is remote.
+  struct Request
+  {
+    NodePlace place;
+    Negligible negligible;
+  };
+  void prepare(const std::vector<Request>& bricks) const;
+
   int apron() const { return apron_; }
   BrickShape shape() const { return shape_; }
   /// The axes along which there is more than one sample.
@@ -98,7 +106,12 @@ public:
 
 private:
   struct Samples;
+  struct Outline;
 
+  Box boxWithApron(const NodePlace& place) const;
+  Outline outlineOf(const NodePlace& place, const Negligible& negligible) const;
+  Lattice latticeOf(const NodePlace& place, int margin) const;
+  int marginOf(bool hasEdges, bool hasFields) const;
   Samples sample(const NodePlace& place, bool hasEdges, bool hasFields) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content, Samples& samples,
     double negligible, Brick<Real>& brick) const;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace schlieren
 {
@@ -76,6 +77,14 @@ public:
   virtual void sample(
     const Lattice& lattice, double* refractivity, Place* places, float* distances) const = 0;
   static constexpr float reach = 3;
+
+  /// True: what the data are is known to other processes, and contentOf() and sample() need to be prepared for, many at
+  /// once. contentOf(bounds()) and rangeOfField() never do.
+  virtual bool isRemote() const { return false; }
+  /// Until the next call, contentOf() answers for these boxes. Called by one thread, as the next one.
+  virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
+  /// The same of sample() and lattices.
+  virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
 
   /// Further fields, whose gradients rays may gather.
   virtual int fields() const { return 0; }

@@ -134,13 +134,8 @@ private:
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
-    struct NewBrick
-    {
-      NodePlace place;
-      Negligible negligible;
-      Brick<Real> brick;
-    };
-    std::vector<NewBrick> bricks; ///< of the tasks that are begun
+    std::vector<typename BrickMaker<Real>::Request> requests; ///< of the tasks that are begun
+    std::vector<Brick<Real>> bricks;                          ///< likewise
     std::int64_t bricksDone = 0;
   };
   class View;

@@ -22,8 +22,9 @@ namespace
 /// Of the memory, for what turns out to be worse than what was divided before.
 constexpr std::size_t partsOfReserve = 16;
 
-/// Bricks that are made before they are put into the tree.
+/// Bricks that are made before they are put into the tree; fewer where all of them have to be sampled before one is.
 constexpr std::size_t bricksAtOnce = 512;
+constexpr std::size_t remoteBricksAtOnce = 96;
 
 /// Leaves whose steepest places rays are sent through.
 constexpr std::size_t steepestLeaves = 192;
@@ -263,10 +264,11 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
 template <class Real>
 void MediumTree<Real>::findBricks(const View& view)
 {
-  work_.bricks.clear();
   work_.bricksDone = 0;
   work_.tasksBegun = work_.tasksDone;
-  while (work_.tasksBegun < work_.tasks.size() && work_.bricks.size() < bricksAtOnce)
+  std::vector<typename BrickMaker<Real>::Request> requests;
+  const std::size_t atOnce = source_->isRemote() ? remoteBricksAtOnce : bricksAtOnce;
+  while (work_.tasksBegun < work_.tasks.size() && requests.size() < atOnce)
   {
     const Task& task = work_.tasks[work_.tasksBegun++];
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
@@ -277,10 +279,13 @@ void MediumTree<Real>::findBricks(const View& view)
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
       if (!task.divides || view.sees(ofOne))
       {
-        work_.bricks.push_back({ ofOne, negligible, {} });
+        requests.push_back({ ofOne, negligible });
       }
     }
   }
+  maker_.prepare(requests);
+  work_.bricks.assign(requests.size(), {});
+  work_.requests = std::move(requests);
 }
 
 /// Puts bricks that are made into the tree.
@@ -294,7 +299,7 @@ void MediumTree<Real>::keepBricks(const View& view)
     forget(task.node);
     if (!task.divides)
     {
-      keep(task.node, (next++)->brick);
+      keep(task.node, *next++);
       continue;
     }
     const auto firstChild = static_cast<std::int32_t>(nodes_.size());
@@ -306,10 +311,11 @@ void MediumTree<Real>::keepBricks(const View& view)
       addNode(childOf(place, child));
       if (view.sees(nodes_.back().place))
       {
-        keep(firstChild + child, (next++)->brick);
+        keep(firstChild + child, *next++);
       }
     }
   }
+  work_.requests.clear();
   work_.bricks.clear();
 }
 
@@ -319,11 +325,11 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
 {
   while (work_.tasksDone < work_.tasks.size())
   {
-    if (work_.bricks.empty())
+    if (work_.requests.empty())
     {
       findBricks(view);
     }
-    const auto count = static_cast<std::int64_t>(work_.bricks.size());
+    const auto count = static_cast<std::int64_t>(work_.requests.size());
     Monitor ofThese{ {}, monitor.aborted, monitor.paused };
     if (monitor.progress)
     {
@@ -342,8 +348,9 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
       {
         for (std::int64_t n = first; n < last; ++n)
         {
-          auto& next = work_.bricks[static_cast<std::size_t>(n)];
-          next.brick = maker_.make(next.place, next.negligible);
+          const auto& request = work_.requests[static_cast<std::size_t>(n)];
+          work_.bricks[static_cast<std::size_t>(n)] =
+            maker_.make(request.place, request.negligible);
         }
       },
       ofThese);

@@ -11,7 +11,9 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -957,6 +959,71 @@ TEST(MediumTree, StopsWhereTheMonitorSaysAndGoesOn)
       {}, {} });
   EXPECT_GT(progress, 0.5);
   expectIdentical(watched, whole);
+}
+
+/// A sphere that answers only what it has been prepared for.
+class RemoteSphere : public SphereSource
+{
+public:
+  bool isRemote() const override { return true; }
+  void prepareContents(const std::vector<Box>& boxes) const override
+  {
+    ++requests;
+    boxes_.clear();
+    for (const Box& box : boxes)
+    {
+      boxes_.insert({ box.low, box.high });
+    }
+  }
+  void prepareSamples(const std::vector<Lattice>& wanted) const override
+  {
+    if (failing)
+    {
+      throw std::runtime_error("lost");
+    }
+    lattices_.clear();
+    for (const Lattice& lattice : wanted)
+    {
+      lattices_.insert({ lattice.first, lattice.spacing, lattice.points });
+    }
+  }
+  Content contentOf(const Box& box) const override
+  {
+    const Box all = bounds();
+    const bool isAll = box.low == all.low && box.high == all.high;
+    EXPECT_TRUE(isAll || boxes_.count({ box.low, box.high }) > 0);
+    return SphereSource::contentOf(box);
+  }
+  void sample(
+    const Lattice& lattice, double* refractivity, Place* places, float* distances) const override
+  {
+    EXPECT_EQ(lattices_.count({ lattice.first, lattice.spacing, lattice.points }), 1U);
+    SphereSource::sample(lattice, refractivity, places, distances);
+  }
+
+  mutable int requests = 0;
+  bool failing = false;
+
+private:
+  using Place3 = std::array<double, 3>;
+  mutable std::set<std::pair<Place3, Place3>> boxes_;
+  mutable std::set<std::tuple<Place3, Place3, std::array<int, 3>>> lattices_;
+};
+
+TEST(MediumTree, RemoteSourcesArePreparedForManyBricksAtOnce)
+{
+  const Column column = around(0, 0, 1.5, 0.02);
+  Tree local(std::make_shared<SphereSource>(), 0, settingsOf(1e-2));
+  local.refine(column);
+  const auto remote = std::make_shared<RemoteSphere>();
+  Tree tree(remote, 0, settingsOf(1e-2));
+  remote->failing = true;
+  EXPECT_THROW(tree.refine(column), std::runtime_error);
+  EXPECT_TRUE(tree.isUnfinished());
+  remote->failing = false;
+  tree.refine(column);
+  expectIdentical(tree, local);
+  EXPECT_LT(remote->requests, static_cast<int>(local.leaves().size() / 20));
 }
 
 void expectError(

@@ -193,6 +193,41 @@ def gathered():
     return found
 
 
+def in_pieces():
+    """Meshes that stay where they are, cut by straight and oblique planes: images, which mind small steps of the density
+    where pieces meet, and a body."""
+    from paraview.simple import ProgrammableSource, Sphere
+    from plugin_testing import Schlieren, picture
+    found = {}
+    for kind, output in (("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
+                         ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid")):
+        source = ProgrammableSource(OutputDataSetType=output, Script=BALL.replace("KIND", repr(kind)),
+                                    ScriptRequestInformation=WHOLE_EXTENT.replace(
+                                        "IS_GRID", str(output != "vtkUnstructuredGrid")))
+        bodies = Sphere(Radius=0.2, Center=[0.5, 0.2, 0]) if kind == "hexahedra" else None
+        seen = Schlieren(Input=source, Density=["CELLS" if kind == "cell data" else "POINTS", "rho"], Bodies=bodies,
+                         ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8], GatherLimit=1, MediumTolerance=1e-3)
+        for array in ("Deflection", "OpticalPathDifference", "BlockedFraction"):
+            found[f"{kind}: {array}"] = picture(seen, array)
+        seen.UpdatePropertyInformation()
+        assert ("on their ranks" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
+        seen.Cutoff = "Shadowgraph"
+        found[f"{kind}: Shadowgraph"] = picture(seen, "Intensity")
+        seen.ViewDirection = [0, 0, -1]
+        found[f"{kind}: along a cut"] = picture(seen, "Deflection")
+    # Time-sliced: the same number of steps on all ranks, whoever knows that the image is finished.
+    seen.TimeLimit = 0.05
+    seen.ViewDirection = [1, 0, 0.3]
+    seen.UpdatePipeline()
+    for _ in range(40):
+        seen.InvokeCommand("Refine")
+        seen.UpdatePipeline()
+    seen.UpdatePropertyInformation()
+    assert not is_rank0() or seen.GetProperty("Finished").GetData() == 1
+    found["cell data: time-sliced"] = picture(seen, "Deflection")
+    return found
+
+
 def exposed():
     """Exposures over time steps of which each rank has a part, or rank 0 all."""
     from paraview.simple import ProgrammableSource
@@ -260,6 +295,12 @@ output.GetInformation().Set(output.DATA_TIME_STEP(), time)
 def is_rank0():
     from vtkmodules.vtkParallelCore import vtkMultiProcessController
     return vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 0  # not always with --sym
+
+
+def on_several():
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    controller = vtkMultiProcessController.GetGlobalController()
+    return controller is not None and controller.GetNumberOfProcesses() > 1
 
 
 def say(words):
@@ -422,7 +463,7 @@ def run_results(command, parts, file):
         return dict(arrays)
 
 
-SAVED = {"same": results, "files": read_files, "gathered": gathered, "exposed": exposed}
+SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed}
 PARTS = {"redistribute": redistribute, "spread": spread, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     np.savez(sys.argv[-1], **{f"{part}: {name}": values for part in sys.argv[1:-1]
@@ -444,15 +485,19 @@ else:
     isSanitized = "libasan" in os.environ.get("LD_PRELOAD", "")
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
-    assert isSanitized or len(one) == 72 + 18 + 24 + 8, len(one)
-    for ranks, parts in ((3, ["gathered", "exposed"] + (["same"] if not isSanitized else [])),
-                         (5, ["files", "gathered"] if not isSanitized else [])):
+    assert isSanitized or len(one) == 72 + 18 + 24 + 21 + 8, len(one)
+    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces"] if not isSanitized else [])),
+                         (5, ["files", "gathered", "pieces"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
         assert several.keys() == {name for name in one if name.split(":")[0] in parts}
         for name, values in several.items():
             assert values.size > 0, name
             if name.startswith("gathered: cell data"):  # means of points' cells are summed in another order
                 assert np.abs(one[name] - values).max() <= 1e-6 * np.abs(one[name]).max(), name
+            elif name.startswith("pieces:"):
+                # Slabs of two cells do not reach all that values of cells depend on.
+                limit = 1e-3 if name.startswith("pieces: cell data") else 1e-6
+                assert np.abs(one[name] - values).max() <= limit * np.abs(one[name]).max(), name
             else:
                 assert np.array_equal(one[name], values), name
     if not isSanitized:

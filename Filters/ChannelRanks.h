@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "PiecesSource.h"
+
+#include "Rays/Channel.h"
+
+#include "vtkSMPTools.h"
+
+#include <functional>
+#include <vector>
+
+namespace refractivity
+{
+
+/// Ranks that are asked through channels; the first one is this process.
+class ChannelRanks : public PieceRanks
+{
+public:
+  explicit ChannelRanks(vtkRefractiveIndex* self)
+    : Own(self)
+  {
+  }
+
+  /// To the others; null: one that is not there.
+  void SetChannels(std::vector<schlieren::Channel*> channels) { this->Channels = channels; }
+  PieceWorker& GetOwn() { return this->Own; }
+  void SetThreads(const vtkSMPTools::Config& threads) { this->Threads = threads; }
+  /// What this process answers.
+  std::vector<char> Respond(const std::vector<char>& request);
+
+  std::size_t Count() const override { return this->Channels.size() + 1; }
+  std::vector<std::vector<char>> Ask(std::vector<std::vector<char>> requests) override;
+
+private:
+  PieceWorker Own;
+  vtkSMPTools::Config Threads;
+  std::vector<schlieren::Channel*> Channels;
+};
+
+} // namespace refractivity

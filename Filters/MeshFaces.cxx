@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshFaces.h"
+
+#include "FlatData.h"
+#include "RefractivityValues.h"
+
+#include "vtkCell.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkExtractCells.h"
+#include "vtkGeometryFilter.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace refractivity
+{
+
+namespace
+{
+
+constexpr int subdivisions = 2; // of the faces of curved cells
+constexpr const char* ownersName = "OwnerOfFace";
+constexpr const char* originsName = "PointOfLeaf";
+
+/// What a cell with such a point is.
+std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress)
+{
+  std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfPoints()), State::Visible);
+  vtkDataArray* scalars = data->GetPointData()->GetScalars();
+  forParts(data->GetNumberOfPoints(), progress,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        Point x;
+        data->GetPoint(i, x.data());
+        if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+        {
+          states[static_cast<std::size_t>(i)] = State::None; // it is nowhere
+        }
+        else if (scalars && !std::isfinite(scalars->GetComponent(i, 0)))
+        {
+          states[static_cast<std::size_t>(i)] = State::Hidden;
+        }
+      }
+    });
+  return states;
+}
+
+/// `is3d`: whether all cells are 3-D. (VTK says that hidden ones of structured data have no dimension.)
+std::vector<State> statesOf(
+  vtkDataSet* data, bool is3d, Copies copies, const WorkProgress& progress)
+{
+  const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
+  std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  forParts(data->GetNumberOfCells(), progress.part(0.3, 1),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      vtkNew<vtkIdList> ids;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        State& state = states[static_cast<std::size_t>(i)];
+        if (!is3d && dimensionOfCell(data, i) != 3)
+        {
+          continue;
+        }
+        const int flags = ghosts ? ghosts->GetValue(i) : 0;
+        if (copies == Copies::Neighbours && (flags & vtkDataSetAttributes::DUPLICATECELL) != 0)
+        {
+          continue;
+        }
+        const bool isHidden = (flags & hiddenCellBits) != 0;
+        state = isHidden ? State::Hidden : State::Visible;
+        data->GetCellPoints(i, ids);
+        for (vtkIdType point = 0; point < ids->GetNumberOfIds(); ++point)
+        {
+          state = std::min(state, ofPoints[static_cast<std::size_t>(ids->GetId(point))]);
+        }
+      }
+    });
+  return states;
+}
+
+void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions,
+  Copies copies, const WorkProgress& progress, Faces& faces)
+{
+  const std::vector<State> states = statesOf(data, true, copies, progress);
+  const bool areAllVisible =
+    std::all_of(states.begin(), states.end(), [](State state) { return state == State::Visible; });
+  const std::array<vtkIdType, 3> points = { dimensions[0], dimensions[1], dimensions[2] };
+  const std::array<vtkIdType, 3> cells = { points[0] - 1, points[1] - 1, points[2] - 1 };
+  const std::array<vtkIdType, 3> pointStep = { 1, points[0], points[0] * points[1] };
+  const std::array<vtkIdType, 3> cellStep = { 1, cells[0], cells[0] * cells[1] };
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(data->GetNumberOfPoints()), -1);
+  const auto number = [&](vtkIdType id)
+  {
+    std::int32_t& known = numbers[static_cast<std::size_t>(id)];
+    if (known < 0)
+    {
+      Point x;
+      data->GetPoint(id, x.data());
+      faces.shares.push_back({ leaf, id, 1 });
+      known = faces.addPoint(x);
+    }
+    return known;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto add =
+      [&](vtkIdType low, vtkIdType i, vtkIdType j, bool ownsLow, State state, bool hides)
+    {
+      const vtkIdType first = low * pointStep[axis] + i * pointStep[u] + j * pointStep[v];
+      for (const vtkIdType id :
+        { first, first + pointStep[u], first + pointStep[u] + pointStep[v], first + pointStep[v] })
+      {
+        faces.corners.push_back(number(id));
+      }
+      Point owner{ 0, 0, 0 };
+      const vtkIdType corner = first - (ownsLow ? pointStep[axis] : 0);
+      for (vtkIdType part = 0; part < 8; ++part)
+      {
+        Point x;
+        data->GetPoint(corner + (part & 1) * pointStep[0] + (part >> 1 & 1) * pointStep[1] +
+            (part >> 2) * pointStep[2],
+          x.data());
+        owner = owner + 0.125 * x;
+      }
+      faces.finish(owner, state, hides);
+    };
+    const vtkIdType step = areAllVisible ? cells[axis] : 1; // nothing happens in between
+    for (vtkIdType at = 0; at <= cells[axis]; at += step)
+    {
+      for (vtkIdType j = 0; j < cells[v]; ++j)
+      {
+        for (vtkIdType i = 0; i < cells[u]; ++i)
+        {
+          const vtkIdType cell = at * cellStep[axis] + i * cellStep[u] + j * cellStep[v];
+          const State low =
+            at > 0 ? states[static_cast<std::size_t>(cell - cellStep[axis])] : State::None;
+          const State high =
+            at < cells[axis] ? states[static_cast<std::size_t>(cell)] : State::None;
+          if (low != high)
+          {
+            const bool ownsLow = low > high; // what is visible owns the face, else what is there
+            add(at, i, j, ownsLow, std::max(low, high), std::min(low, high) == State::Hidden);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Adds what the value at a place in a cell is made of.
+void addShares(vtkUnstructuredGrid* cells, vtkIdType id, std::uint32_t leaf, Point place,
+  vtkIdTypeArray* origins, Faces& faces)
+{
+  vtkCell* cell = cells->GetCell(id);
+  std::vector<double> weights(static_cast<std::size_t>(cell->GetNumberOfPoints()));
+  Point nearest, coordinates;
+  int part = 0;
+  double distance = 0;
+  cell->EvaluatePosition(
+    place.data(), nearest.data(), part, coordinates.data(), distance, weights.data());
+  const bool areFinite =
+    std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    const vtkIdType point = origins->GetValue(cell->GetPointId(static_cast<int>(i)));
+    const double mean = 1 / static_cast<double>(weights.size());
+    faces.shares.push_back({ leaf, point, areFinite ? weights[i] : mean });
+  }
+}
+
+/// The surface of the cells of one state.
+void addUnstructured(
+  vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state, Faces& faces)
+{
+  const auto count = std::count(states.begin(), states.end(), state);
+  if (count == 0)
+  {
+    return;
+  }
+  vtkNew<vtkIdTypeArray> all;
+  all->SetName(originsName);
+  all->SetNumberOfValues(data->GetNumberOfPoints());
+  std::iota(all->GetPointer(0), all->GetPointer(0) + all->GetNumberOfValues(), vtkIdType{ 0 });
+  vtkNew<vtkUnstructuredGrid> cells;
+  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
+  if (mesh && count == mesh->GetNumberOfCells())
+  {
+    cells->CopyStructure(mesh);
+    cells->GetPointData()->AddArray(all);
+  }
+  else
+  {
+    vtkNew<vtkIdList> chosen;
+    chosen->Allocate(static_cast<vtkIdType>(count));
+    for (std::size_t i = 0; i < states.size(); ++i)
+    {
+      if (states[i] == state)
+      {
+        chosen->InsertNextId(static_cast<vtkIdType>(i));
+      }
+    }
+    auto numbered = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+    numbered->CopyStructure(data);
+    numbered->GetPointData()->AddArray(all);
+    vtkNew<vtkExtractCells> extract;
+    extract->SetInputData(numbered);
+    extract->SetCellList(chosen);
+    extract->Update();
+    cells->CopyStructure(extract->GetOutput());
+    cells->GetPointData()->AddArray(
+      extract->GetOutput()->GetPointData()->GetAbstractArray(originsName));
+  }
+  // Not by PassThroughCellIds: VTK 9.2 gives wrong numbers to the faces of curved cells.
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName(ownersName);
+  numbers->SetNumberOfValues(cells->GetNumberOfCells());
+  for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
+  {
+    numbers->SetValue(i, i);
+  }
+  cells->GetCellData()->AddArray(numbers);
+  vtkNew<vtkGeometryFilter> surface;
+  surface->SetInputData(cells);
+  surface->SetNonlinearSubdivisionLevel(subdivisions);
+  surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  surface->Update();
+  vtkPolyData* polygons = surface->GetOutput();
+  auto* owners =
+    vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
+
+  const auto firstPoint = static_cast<vtkIdType>(faces.points.size());
+  vtkNew<vtkIdList> ids;
+  std::vector<vtkIdType> cellsOfPoints(static_cast<std::size_t>(polygons->GetNumberOfPoints()), 0);
+  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
+  {
+    polygons->GetCellPoints(face, ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      cellsOfPoints[static_cast<std::size_t>(ids->GetId(i))] = owners->GetValue(face);
+    }
+  }
+  auto* origins =
+    vtkIdTypeArray::SafeDownCast(cells->GetPointData()->GetAbstractArray(originsName));
+  vtkDataArray* kept = polygons->GetPointData()->GetArray(originsName);
+  for (vtkIdType i = 0; i < polygons->GetNumberOfPoints(); ++i)
+  {
+    Point x, ofLeaf;
+    polygons->GetPoint(i, x.data());
+    // Of points between others, VTK has a mean of their numbers, if any.
+    const double number = kept ? kept->GetComponent(i, 0) : 0;
+    const auto point = static_cast<vtkIdType>(
+      std::clamp(number, 0., static_cast<double>(data->GetNumberOfPoints() - 1)));
+    data->GetPoint(point, ofLeaf.data());
+    if (ofLeaf[0] == x[0] && ofLeaf[1] == x[1] && ofLeaf[2] == x[2])
+    {
+      faces.shares.push_back({ leaf, point, 1 });
+    }
+    else
+    {
+      addShares(cells, cellsOfPoints[static_cast<std::size_t>(i)], leaf, x, origins, faces);
+    }
+    faces.addPoint(x);
+  }
+  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
+  {
+    polygons->GetCellPoints(face, ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      faces.corners.push_back(static_cast<std::int32_t>(firstPoint + ids->GetId(i)));
+    }
+    Point owner{ 0, 0, 0 };
+    cells->GetCellPoints(owners->GetValue(face), ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      Point x;
+      cells->GetPoint(ids->GetId(i), x.data());
+      owner = owner + (1. / static_cast<double>(ids->GetNumberOfIds())) * x;
+    }
+    faces.finish(owner, state, false);
+  }
+}
+
+} // namespace
+
+Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress, Copies copies)
+{
+  Faces faces;
+  for (std::uint32_t number = 0; number < leaves.size(); ++number)
+  {
+    const auto count = static_cast<double>(leaves.size());
+    const WorkProgress ofLeaf = progress.part(number / count, (number + 1) / count);
+    vtkDataSet* leaf = leaves[number];
+    const std::array<int, 3> structure = structureOf(leaf);
+    if (std::min({ structure[0], structure[1], structure[2] }) > 1)
+    {
+      addStructured(leaf, number, structure, copies, ofLeaf, faces);
+    }
+    else
+    {
+      const std::vector<State> states = statesOf(leaf, false, copies, ofLeaf.part(0, 0.3));
+      addUnstructured(leaf, number, states, State::Visible, faces);
+      ofLeaf.reach(0.9);
+      addUnstructured(leaf, number, states, State::Hidden, faces);
+    }
+  }
+  return faces;
+}
+
+} // namespace refractivity

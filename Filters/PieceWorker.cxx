@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PieceWorker.h"
+
+#include "FlatData.h"
+#include "GasBoundary.h"
+#include "InputDescription.h"
+#include "RefractivityByResampling.h"
+#include "RefractivitySource.h"
+
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkRefractiveIndex.h"
+#include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+namespace refractivity
+{
+
+namespace
+{
+
+bool hasPoints(vtkDataObject* data)
+{
+  const std::vector<vtkDataObject*> leaves = leavesOf(data);
+  return std::any_of(leaves.begin(), leaves.end(),
+    [](vtkDataObject* leaf)
+    {
+      auto* set = vtkDataSet::SafeDownCast(leaf);
+      return set && set->GetNumberOfPoints() > 0;
+    });
+}
+
+} // namespace
+
+std::vector<char> pieceRequest(PieceWorker::Kind kind)
+{
+  std::vector<char> request;
+  put(kind, request);
+  return request;
+}
+
+void PieceWorker::Release()
+{
+  this->Lacks.clear();
+  this->Parts.clear();
+  this->Outlines.clear();
+  this->Piece.reset();
+}
+
+std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
+{
+  std::vector<char> answer = pieceRequest(Answer);
+  const auto fail = [&](State state, const std::string& text)
+  {
+    answer = pieceRequest(Answer);
+    put(state, answer);
+    putAll(text, answer);
+  };
+  try
+  {
+    put(Done, answer);
+    Reader reader(request);
+    this->Respond(reader, answer);
+  }
+  catch (const ArraysMissing& problem)
+  {
+    fail(Lacking, problem.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->Release();
+    fail(Failed,
+      "There is not enough memory for a rank's piece of the input. Use more nodes or a "
+      "coarser input.");
+  }
+  catch (const std::exception& problem)
+  {
+    fail(Failed, problem.what());
+  }
+  return answer;
+}
+
+void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
+{
+  switch (request.Get<std::uint32_t>())
+  {
+    case Outline:
+      this->GiveOutline(answer);
+      break;
+    case Copies:
+      this->GiveCopies(request, answer);
+      break;
+    case Make:
+      this->MakePiece(request, answer);
+      break;
+    case Contents:
+    {
+      const MeshPiece& piece = this->PieceOf(request);
+      const auto boxes = request.GetAll<std::vector<schlieren::Box>>();
+      const std::vector<CellTree::Content> found = piece.contents(boxes);
+      std::vector<Point> places;
+      for (const schlieren::Box& box : boxes)
+      {
+        const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
+        places.insert(places.end(), tested.begin(), tested.end());
+      }
+      const std::vector<unsigned char> holds = piece.hold(places);
+      std::vector<Content> contents(boxes.size());
+      for (std::size_t i = 0; i < boxes.size(); ++i)
+      {
+        contents[i].cells = found[i];
+        std::copy_n(
+          holds.begin() + static_cast<std::ptrdiff_t>(9 * i), 9, contents[i].holds.begin());
+      }
+      putAll(contents, answer);
+      break;
+    }
+    case Hold:
+    {
+      const MeshPiece& piece = this->PieceOf(request);
+      putAll(piece.hold(request.GetAll<std::vector<Point>>()), answer);
+      break;
+    }
+    case Sample:
+    {
+      const MeshPiece& piece = this->PieceOf(request);
+      const auto lattices = request.GetAll<std::vector<schlieren::Lattice>>();
+      std::vector<MeshPiece::Samples> samples(lattices.size());
+      vtkSMPTools::For(0, static_cast<vtkIdType>(lattices.size()), 1,
+        [&](vtkIdType begin, vtkIdType end)
+        {
+          for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+          {
+            samples[i] = piece.sample(lattices[i]);
+          }
+        });
+      for (const MeshPiece::Samples& ofLattice : samples)
+      {
+        putAll(ofLattice.found, answer);
+        putAll(ofLattice.values, answer);
+      }
+      break;
+    }
+    case Forget:
+      this->Release();
+      break;
+    default:
+      throw std::runtime_error("Rank 0 asks for what this version of the plugin does not know. "
+                               "Use the same version on all ranks.");
+  }
+}
+
+/// Of each mesh its slot and where others may go on.
+void PieceWorker::GiveOutline(std::vector<char>& answer)
+{
+  this->Release();
+  if (hasPoints(this->Data))
+  {
+    try
+    {
+      chooseSource(
+        this->Self, this->Data); // says what is wrong with the data while all arrays are there
+      this->Parts = partsOf(this->Data, arraysOf(this->Self));
+    }
+    catch (const ArraysMissing& problem)
+    {
+      this->Lacks = problem.what();
+    }
+  }
+  put(static_cast<std::uint64_t>(this->Parts.size()), answer);
+  for (const Part& part : this->Parts)
+  {
+    const refractivity::Outline& outline = this->Outlines.emplace_back(outlineOf(part.data));
+    putAll(part.slot, answer);
+    put(outline.isGrid, answer);
+    put(hasCellValues(part.data), answer);
+    put(outline.extent, answer);
+    putAll(outline.names, answer);
+  }
+}
+
+/// For each entry of a request, a mesh and its outer points, by their numbers, or an extent: the cells there.
+void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
+{
+  while (!request.IsAtEnd())
+  {
+    const auto number = request.Get<std::uint64_t>();
+    const auto extent = request.Get<refractivity::Outline::Extent>();
+    const Part& part = this->Parts.at(number);
+    const refractivity::Outline& outline = this->Outlines.at(number);
+    std::vector<vtkIdType> points;
+    for (const std::uint32_t point : request.GetAll<std::vector<std::uint32_t>>())
+    {
+      points.push_back(outline.ids.at(point));
+    }
+    std::vector<char> packed;
+    pack({ part.slot,
+           outline.isGrid ? cellsWithin(vtkStructuredGrid::SafeDownCast(part.data), extent)
+                          : cellsAround(vtkUnstructuredGrid::SafeDownCast(part.data), points) },
+      packed);
+    putAll(packed, answer);
+  }
+}
+
+/// The request: the piece's number, and packed cells of others. The answer: what PiecesSource::Arrival holds.
+void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
+{
+  this->Number = request.Get<std::uint64_t>();
+  std::map<Slot, std::vector<vtkSmartPointer<vtkDataSet>>> copies;
+  while (!request.IsAtEnd())
+  {
+    const auto packed = request.GetAll<std::vector<char>>();
+    Reader reader(packed);
+    Part part = unpack(reader);
+    copies[std::move(part.slot)].push_back(std::move(part.data));
+  }
+  vtkNew<vtkMultiBlockDataSet> data;
+  for (const Part& part : this->Parts)
+  {
+    data->SetBlock(data->GetNumberOfBlocks(), withCopies(part.data, copies[part.slot]));
+  }
+  this->Parts.clear();
+  this->Outlines.clear();
+  copies.clear();
+
+  if (!this->Lacks.empty())
+  {
+    this->Piece = std::make_unique<MeshPiece>(
+      std::vector<vtkSmartPointer<vtkDataSet>>(), CellTree::Reconstruction::Linear);
+    throw ArraysMissing(this->Lacks);
+  }
+  Tally tally;
+  std::string label;
+  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+  const bool isSmooth = this->Self->GetReconstruction() != vtkRefractiveIndex::LINEAR_IN_CELLS;
+  if (data->GetNumberOfBlocks() > 0)
+  {
+    Source source = chooseSource(this->Self, data);
+    label = source.label;
+    source.leaves.erase(std::remove_if(source.leaves.begin(), source.leaves.end(),
+                          [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
+      source.leaves.end());
+    if (!source.leaves.empty())
+    {
+      leaves = preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
+    }
+  }
+  this->Piece = std::make_unique<MeshPiece>(
+    leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear);
+  const Faces faces = this->Piece->faces();
+  put(this->Piece->summary(), answer);
+  for (const std::vector<double>& along : this->Piece->sizes())
+  {
+    putAll(along, answer);
+  }
+  put(tally, answer);
+  putAll(label, answer);
+  putAll(this->Piece->warning(), answer);
+  putAll(faces.points, answer);
+  putAll(faces.corners, answer);
+  putAll(faces.starts, answer);
+  putAll(faces.owners, answer);
+  putAll(faces.states, answer);
+  putAll(faces.hidesBehind, answer);
+  putAll(this->Piece->valuesAt(faces), answer);
+}
+
+const MeshPiece& PieceWorker::PieceOf(Reader& request) const
+{
+  if (request.Get<std::uint64_t>() != this->Number || !this->Piece)
+  {
+    throw std::runtime_error(
+      "A rank does not have its piece of the input any more. Update the filter again.");
+  }
+  return *this->Piece;
+}
+
+} // namespace refractivity

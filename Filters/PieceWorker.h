@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "MeshHalo.h"
+#include "MeshPiece.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkRefractiveIndex;
+
+namespace refractivity
+{
+
+/// Answers what a PiecesSource, on rank 0, asks a rank about its piece of the data.
+class PieceWorker
+{
+public:
+  /// The first bytes of each message. Other messages on the same channel have other numbers.
+  enum Kind : std::uint32_t
+  {
+    Outline = 200, // the surfaces of its meshes
+    Copies,        // cells around points that others have, too
+    Make,          // the piece, with others' copies
+    Contents,      // of boxes
+    Hold,          // whether its cells do, of places
+    Sample,        // lattices
+    Forget,        // the piece
+    Answer
+  };
+  enum State : std::int32_t
+  {
+    Done,
+    Failed, // a message for the user follows
+    Lacking // the same, where the rank has not the arrays
+  };
+
+  /// With the properties of `self`, which must outlive this.
+  explicit PieceWorker(vtkRefractiveIndex* self)
+    : Self(self)
+  {
+  }
+
+  /// What the rank has of the input until the piece is made.
+  void SetData(vtkDataObject* data) { this->Data = data; }
+  void Release(); // the piece
+
+  static bool IsFor(std::uint32_t kind) { return kind >= Outline && kind < Answer; }
+
+  /// The answer to a request. Throws nothing: errors are answers.
+  std::vector<char> Respond(const std::vector<char>& request);
+
+  /// What is sent with Contents.
+  struct Content
+  {
+    CellTree::Content cells;
+    std::array<unsigned char, 9> holds; // see GasBoundary::testedPlaces
+  };
+
+private:
+  void Respond(Reader& request, std::vector<char>& answer);
+  void GiveOutline(std::vector<char>& answer);
+  void GiveCopies(Reader& request, std::vector<char>& answer) const;
+  void MakePiece(Reader& request, std::vector<char>& answer);
+  const MeshPiece& PieceOf(Reader& request) const;
+
+  vtkRefractiveIndex* Self;
+  vtkDataObject* Data = nullptr;
+  std::vector<Part> Parts;
+  std::vector<refractivity::Outline> Outlines; // of them
+  std::string Lacks;                           // what to say where the data have not the arrays
+  std::unique_ptr<MeshPiece> Piece;
+  std::uint64_t Number = 0; // of the piece
+};
+
+/// A message that asks for something, as yet without what.
+std::vector<char> pieceRequest(PieceWorker::Kind kind);
+
+} // namespace refractivity

@@ -1,0 +1,519 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PiecesSource.h"
+
+#include "RefractivitySource.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+namespace refractivity
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Begins to read an answer.
+Reader readerOf(const std::vector<char>& answer)
+{
+  Reader reader(answer);
+  const auto kind = reader.Get<PieceWorker::Kind>();
+  const auto state = reader.Get<PieceWorker::State>();
+  if (kind == PieceWorker::Answer && state == PieceWorker::Lacking)
+  {
+    throw ArraysMissing(reader.GetAll<std::string>());
+  }
+  if (kind != PieceWorker::Answer || state != PieceWorker::Done)
+  {
+    throw std::runtime_error(reader.GetAll<std::string>());
+  }
+  return reader;
+}
+
+bool meet(const schlieren::Box& a, const schlieren::Box& b)
+{
+  bool meet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
+  }
+  return meet;
+}
+
+schlieren::Box boxOf(const schlieren::Lattice& lattice)
+{
+  schlieren::Box box{ lattice.first, lattice.first };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.high[axis] += (lattice.points[axis] - 1) * lattice.spacing[axis];
+  }
+  return box;
+}
+
+void extend(schlieren::Box& box, const schlieren::Box& by)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.low[axis] = std::min(box.low[axis], by.low[axis]);
+    box.high[axis] = std::max(box.high[axis], by.high[axis]);
+  }
+}
+
+void extend(CellTree::Content& content, const CellTree::Content& by)
+{
+  if (by.lowest <= by.highest)
+  {
+    const bool isFirst = content.lowest > content.highest;
+    content.lowest = isFirst ? by.lowest : std::min(content.lowest, by.lowest);
+    content.highest = isFirst ? by.highest : std::max(content.highest, by.highest);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
+  }
+}
+
+constexpr CellTree::Content nothing{ 1, 0, { infinity, infinity, infinity } };
+
+/// Adds another rank's faces.
+void append(const Faces& more, Faces& faces)
+{
+  const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
+  const std::size_t firstCorner = faces.corners.size();
+  for (const Point& point : more.points)
+  {
+    // The value of each point is sent with it.
+    faces.shares.push_back({ 0, static_cast<vtkIdType>(faces.points.size()), 1 });
+    faces.addPoint(point);
+  }
+  for (const std::int32_t corner : more.corners)
+  {
+    faces.corners.push_back(firstPoint + corner);
+  }
+  for (std::size_t face = 0; face < more.size(); ++face)
+  {
+    faces.starts.push_back(firstCorner + more.starts[face + 1]);
+  }
+  faces.owners.insert(faces.owners.end(), more.owners.begin(), more.owners.end());
+  faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
+  faces.hidesBehind.insert(
+    faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
+}
+
+/// Of each rank some cells' sizes, and how many cells it has: of all ranks the same part.
+CellTree::Sizes joined(
+  const std::vector<CellTree::Sizes>& ofRanks, const std::vector<double>& cells)
+{
+  double cellsOfSize = 1;
+  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
+  {
+    const auto measured = static_cast<double>(ofRanks[rank][0].size());
+    cellsOfSize = measured > 0 ? std::max(cellsOfSize, cells[rank] / measured) : cellsOfSize;
+  }
+  CellTree::Sizes sizes;
+  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double>& all = ofRanks[rank][axis];
+      const double kept = std::min(static_cast<double>(all.size()), cells[rank] / cellsOfSize);
+      for (double i = 0; i < std::floor(kept); ++i)
+      {
+        sizes[axis].push_back(
+          all[static_cast<std::size_t>(i * static_cast<double>(all.size()) / kept)]);
+      }
+    }
+  }
+  return sizes;
+}
+
+} // namespace
+
+PiecesSource::BoxKey PiecesSource::keyOf(const schlieren::Box& box)
+{
+  return { box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2] };
+}
+
+PiecesSource::LatticeKey PiecesSource::keyOf(const schlieren::Lattice& lattice)
+{
+  const auto& [first, spacing, points] = lattice;
+  return { first[0], first[1], first[2], spacing[0], spacing[1], spacing[2],
+    static_cast<double>(points[0]), static_cast<double>(points[1]),
+    static_cast<double>(points[2]) };
+}
+
+std::vector<char> PiecesSource::request(PieceWorker::Kind kind) const
+{
+  std::vector<char> request = pieceRequest(kind);
+  put(this->Number, request);
+  return request;
+}
+
+std::vector<std::vector<char>> PiecesSource::ask(std::vector<std::vector<char>> requests) const
+{
+  return this->Ranks->Ask(std::move(requests));
+}
+
+/// Finds where the parts of one mesh on several ranks meet, and gives each rank the others' cells there: adds them to
+/// messages.
+void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
+{
+  const std::size_t ranks = this->Ranks->Count();
+  struct Known
+  {
+    std::uint32_t rank, part, point;
+  };
+  struct Grid
+  {
+    std::uint32_t rank, part;
+    bool hasCellValues;
+    Outline::Extent extent;
+  };
+  std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> points;
+  std::map<Slot, std::vector<Grid>> grids;
+  const auto outlines =
+    this->ask(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
+  for (std::uint32_t rank = 0; rank < ranks; ++rank)
+  {
+    Reader reader = readerOf(outlines[rank]);
+    const auto parts = reader.Get<std::uint64_t>();
+    for (std::uint32_t part = 0; part < parts; ++part)
+    {
+      const auto slot = reader.GetAll<Slot>();
+      const bool isGrid = reader.Get<bool>(), hasValuesOfCells = reader.Get<bool>();
+      const auto extent = reader.Get<Outline::Extent>();
+      const auto names = reader.GetAll<std::vector<PointName>>();
+      if (isGrid)
+      {
+        grids[slot].push_back({ rank, part, hasValuesOfCells, extent });
+      }
+      for (std::uint32_t point = 0; point < names.size(); ++point)
+      {
+        points[slot][names[point]].push_back({ rank, part, point });
+      }
+    }
+  }
+  // By the rank that has cells, its part of the data, and the rank that needs them.
+  struct Wanted
+  {
+    Outline::Extent extent{};
+    std::vector<std::uint32_t> points;
+  };
+  std::map<std::array<std::uint32_t, 3>, Wanted> wanted;
+  const auto forPairs = [](const auto& all, const auto& visit)
+  {
+    for (const auto& one : all)
+    {
+      for (const auto& other : all)
+      {
+        if (one.rank != other.rank)
+        {
+          visit(one, other);
+        }
+      }
+    }
+  };
+  for (const auto& slot : points)
+  {
+    for (const auto& name : slot.second)
+    {
+      forPairs(name.second,
+        [&](const Known& one, const Known& other) {
+          wanted[{ one.rank, one.part, other.rank }].points.push_back(one.point);
+        });
+    }
+  }
+  for (const auto& slot : grids)
+  {
+    forPairs(slot.second,
+      [&](const Grid& one, const Grid& other)
+      {
+        const auto extent = neededOf(one.extent, other.extent, one.hasCellValues);
+        if (extent[0] <= extent[1])
+        {
+          wanted[{ one.rank, one.part, other.rank }].extent = extent;
+        }
+      });
+  }
+  std::vector<std::vector<char>> requests(ranks);
+  for (auto& [between, cells] : wanted)
+  {
+    std::vector<char>& request = requests[between[0]];
+    if (request.empty())
+    {
+      request = pieceRequest(PieceWorker::Copies);
+    }
+    std::sort(cells.points.begin(), cells.points.end()); // whatever the order of the hashes
+    put(std::uint64_t{ between[1] }, request);
+    put(cells.extent, request);
+    putAll(cells.points, request);
+  }
+  const auto answers = this->ask(std::move(requests));
+  for (std::uint32_t rank = 0; rank < ranks; ++rank)
+  {
+    if (answers[rank].empty())
+    {
+      continue;
+    }
+    Reader reader = readerOf(answers[rank]);
+    for (const auto& [between, cells] : wanted)
+    {
+      if (between[0] == rank)
+      {
+        putAll(reader.GetAll<std::vector<char>>(), ofOthers[between[2]]);
+      }
+    }
+  }
+}
+
+PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies,
+  Outside outside, const WorkProgress& progress)
+  : Ranks(std::move(ranks))
+{
+  static std::atomic<std::uint64_t> sources{ 0 };
+  this->Number = ++sources;
+  std::vector<std::vector<char>> requests(this->Ranks->Count(), this->request(PieceWorker::Make));
+  this->giveCopies(requests);
+  progress.reach(0.2);
+
+  Faces faces;
+  std::vector<double> values;
+  std::vector<CellTree::Sizes> sizes;
+  std::vector<double> cells;
+  this->All = nothing;
+  this->Bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  std::string lacking;
+  for (const std::vector<char>& answer : this->ask(std::move(requests)))
+  {
+    this->BoundsOfRanks.push_back(
+      { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
+    try
+    {
+      Reader reader = readerOf(answer);
+      const auto summary = reader.Get<MeshPiece::Summary>();
+      cells.push_back(static_cast<double>(summary.cells));
+      for (std::vector<double>& along : sizes.emplace_back())
+      {
+        along = reader.GetAll<std::vector<double>>();
+      }
+      this->Valid += reader.Get<Tally>();
+      const auto label = reader.GetAll<std::string>();
+      this->Label = this->Label.empty() ? label : this->Label;
+      const auto warning = reader.GetAll<std::string>();
+      this->Warning = this->Warning.empty() ? warning : this->Warning;
+      Faces more;
+      more.points = reader.GetAll<std::vector<Point>>();
+      more.corners = reader.GetAll<std::vector<std::int32_t>>();
+      more.starts = reader.GetAll<std::vector<std::size_t>>();
+      more.owners = reader.GetAll<std::vector<Point>>();
+      more.states = reader.GetAll<std::vector<State>>();
+      more.hidesBehind = reader.GetAll<std::vector<unsigned char>>();
+      append(more, faces);
+      const auto ofFaces = reader.GetAll<std::vector<double>>();
+      values.insert(values.end(), ofFaces.begin(), ofFaces.end());
+      if (summary.cells > 0)
+      {
+        this->BoundsOfRanks.back() = summary.bounds;
+        extend(this->Bounds, summary.bounds);
+        extend(this->All, summary.content);
+        this->Cells += summary.cells;
+      }
+    }
+    catch (const ArraysMissing& problem)
+    {
+      lacking = problem.what();
+    }
+  }
+  if (this->Label.empty() && !lacking.empty())
+  {
+    throw ArraysMissing(lacking);
+  }
+  this->VoxelShape = CellTree::voxelShapeOf(joined(sizes, cells));
+  progress.reach(0.7);
+  BoundaryFaces boundary = boundaryOf(
+    std::move(faces), [this](const std::vector<Point>& places) { return this->hold(places); });
+  std::vector<double> onSurface;
+  for (const Share& share : boundary.shares)
+  {
+    onSurface.push_back(values[static_cast<std::size_t>(share.point)]);
+  }
+  this->Boundary =
+    std::make_unique<GasBoundary>(std::move(boundary), bodies, outside, progress.part(0.8, 1));
+  this->Ambient = this->Boundary->ambient(onSurface);
+  if (std::isnan(this->Ambient))
+  {
+    this->Ambient = 0.5 * (this->All.lowest + this->All.highest);
+  }
+}
+
+std::vector<unsigned char> PiecesSource::hold(const std::vector<Point>& places) const
+{
+  std::vector<unsigned char> are(places.size(), 0);
+  if (places.empty())
+  {
+    return are;
+  }
+  std::vector<char> request = this->request(PieceWorker::Hold);
+  putAll(places, request);
+  for (const std::vector<char>& answer :
+    this->ask(std::vector<std::vector<char>>(this->Ranks->Count(), request)))
+  {
+    const auto ofRank = readerOf(answer).GetAll<std::vector<unsigned char>>();
+    for (std::size_t i = 0; i < are.size(); ++i)
+    {
+      are[i] = are[i] | ofRank.at(i);
+    }
+  }
+  return are;
+}
+
+void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) const
+{
+  this->Contents.clear();
+  const std::size_t ranks = this->Ranks->Count();
+  std::vector<std::vector<schlieren::Box>> ofRanks(ranks);
+  for (const schlieren::Box& box : boxes)
+  {
+    this->Contents[keyOf(box)] = { nothing, {} };
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      if (meet(box, this->BoundsOfRanks[rank]))
+      {
+        ofRanks[rank].push_back(box);
+      }
+    }
+  }
+  std::vector<std::vector<char>> requests(ranks);
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    if (!ofRanks[rank].empty())
+    {
+      requests[rank] = this->request(PieceWorker::Contents);
+      putAll(ofRanks[rank], requests[rank]);
+    }
+  }
+  const auto answers = this->ask(std::move(requests));
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    if (ofRanks[rank].empty())
+    {
+      continue;
+    }
+    const auto found = readerOf(answers[rank]).GetAll<std::vector<PieceWorker::Content>>();
+    for (std::size_t i = 0; i < ofRanks[rank].size(); ++i)
+    {
+      PieceWorker::Content& content = this->Contents[keyOf(ofRanks[rank][i])];
+      extend(content.cells, found.at(i).cells);
+      for (std::size_t n = 0; n < content.holds.size(); ++n)
+      {
+        content.holds[n] = content.holds[n] | found[i].holds[n];
+      }
+    }
+  }
+}
+
+void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const
+{
+  this->Samples.clear();
+  const std::size_t ranks = this->Ranks->Count();
+  std::vector<std::vector<schlieren::Lattice>> ofRanks(ranks);
+  for (const schlieren::Lattice& lattice : lattices)
+  {
+    this->Samples[keyOf(lattice)] = {};
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      if (meet(boxOf(lattice), this->BoundsOfRanks[rank]))
+      {
+        ofRanks[rank].push_back(lattice);
+      }
+    }
+  }
+  std::vector<std::vector<char>> requests(ranks);
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    if (!ofRanks[rank].empty())
+    {
+      requests[rank] = this->request(PieceWorker::Sample);
+      putAll(ofRanks[rank], requests[rank]);
+    }
+  }
+  const auto answers = this->ask(std::move(requests));
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    if (ofRanks[rank].empty())
+    {
+      continue;
+    }
+    Reader reader = readerOf(answers[rank]);
+    for (const schlieren::Lattice& lattice : ofRanks[rank])
+    {
+      MeshPiece::Samples more;
+      more.found = reader.GetAll<std::vector<unsigned char>>();
+      more.values = reader.GetAll<std::vector<double>>();
+      MeshPiece::Samples& samples = this->Samples[keyOf(lattice)];
+      if (samples.found.empty())
+      {
+        samples = std::move(more);
+        continue;
+      }
+      for (std::size_t i = 0; i < more.found.size(); ++i)
+      {
+        if (more.found[i] && !samples.found[i]) // of several ranks the first counts
+        {
+          samples.found[i] = 1;
+          samples.values[i] = more.values.at(i);
+        }
+      }
+    }
+  }
+}
+
+schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& box) const
+{
+  const bool isAll = box.low == this->Bounds.low && box.high == this->Bounds.high;
+  const PieceWorker::Content found =
+    isAll ? PieceWorker::Content{ this->All, {} } : this->Contents.at(keyOf(box));
+  Content content{ 1, 0, nothing.cellSize, false, false, false };
+  const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
+  this->Boundary->findPlaces(
+    box,
+    [&](const Point& place)
+    {
+      const auto at = std::find(tested.begin(), tested.end(), place);
+      return at != tested.end() &&
+        (isAll || found.holds[static_cast<std::size_t>(at - tested.begin())] != 0);
+    },
+    content);
+  if (content.hasGas)
+  {
+    content.lowest = found.cells.lowest;
+    content.highest = found.cells.highest;
+    content.cellSize = found.cells.cellSize;
+  }
+  return content;
+}
+
+void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances) const
+{
+  const MeshPiece::Samples& samples = this->Samples.at(keyOf(lattice));
+  const auto size = static_cast<std::size_t>(lattice.size());
+  if (samples.found.empty())
+  {
+    const std::vector<unsigned char> none(size, 0);
+    std::fill_n(refractivity, size, 0.);
+    this->Boundary->sample(lattice, none.data(), places, distances);
+    return;
+  }
+  std::copy(samples.values.begin(), samples.values.end(), refractivity);
+  this->Boundary->sample(lattice, samples.found.data(), places, distances);
+}
+
+} // namespace refractivity

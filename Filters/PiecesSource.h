@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "GasBoundary.h"
+#include "PieceWorker.h"
+#include "RefractivityModels.h"
+
+#include "Medium/MediumSource.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace refractivity
+{
+
+/// The ranks, each with a PieceWorker; rank 0 is the first.
+class PieceRanks
+{
+public:
+  PieceRanks() = default;
+  PieceRanks(const PieceRanks&) = delete;
+  PieceRanks& operator=(const PieceRanks&) = delete;
+  virtual ~PieceRanks() = default;
+
+  virtual std::size_t Count() const = 0;
+  /// One request for each rank, and its answer; both are empty for ranks that nothing is asked of. Throws
+  /// std::runtime_error where a rank does not answer.
+  virtual std::vector<std::vector<char>> Ask(std::vector<std::vector<char>> requests) = 0;
+};
+
+/**
+ * The refractivity of meshes that are spread over several ranks, for the tree on rank 0. Each rank keeps its own cells
+ * and samples them; what rank 0 has is the boundary of all: of the faces of each rank's cells those that no other rank's
+ * face meets.
+ */
+class PiecesSource : public schlieren::MediumSource
+{
+public:
+  /// Makes the pieces of the data that the ranks have. `bodies`: may be null. Throws std::runtime_error with a message
+  /// for the user.
+  PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies, Outside outside,
+    const WorkProgress& progress = WorkProgress());
+
+  bool hasGas() const { return this->Cells > 0; }
+  bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->Bounds); }
+  const Tally& tally() const { return this->Valid; }
+  const std::string& warning() const { return this->Warning; }
+  const std::string& label() const { return this->Label; } // of the arrays; see Source::label
+
+  schlieren::Box bounds() const override { return this->Bounds; }
+  double ambient() const override { return this->Ambient; }
+  std::array<double, 3> voxelShape() const override { return this->VoxelShape; }
+  Content contentOf(const schlieren::Box& box) const override;
+  void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
+    float* distances) const override;
+
+  bool isRemote() const override { return true; }
+  void prepareContents(const std::vector<schlieren::Box>& boxes) const override;
+  void prepareSamples(const std::vector<schlieren::Lattice>& lattices) const override;
+
+private:
+  using BoxKey = std::array<double, 6>;
+  using LatticeKey = std::array<double, 9>;
+  static BoxKey keyOf(const schlieren::Box& box);
+  static LatticeKey keyOf(const schlieren::Lattice& lattice);
+
+  void giveCopies(std::vector<std::vector<char>>& ofOthers) const;
+  std::vector<std::vector<char>> ask(std::vector<std::vector<char>> requests) const;
+  std::vector<char> request(PieceWorker::Kind kind) const;
+  std::vector<unsigned char> hold(const std::vector<Point>& places) const;
+
+  std::shared_ptr<PieceRanks> Ranks;
+  std::uint64_t Number;
+  std::vector<schlieren::Box> BoundsOfRanks; // low > high: it has no cells
+  std::int64_t Cells = 0;
+  schlieren::Box Bounds{};
+  std::array<double, 3> VoxelShape{ 1, 1, 1 };
+  CellTree::Content All{};
+  std::unique_ptr<GasBoundary> Boundary;
+  double Ambient = 0;
+  Tally Valid;
+  std::string Warning, Label;
+
+  // What has been prepared.
+  mutable std::map<BoxKey, PieceWorker::Content> Contents;
+  mutable std::map<LatticeKey, MeshPiece::Samples> Samples;
+};
+
+} // namespace refractivity

@@ -1,0 +1,495 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes whose pieces are on several ranks, against the same meshes in one piece. The ranks are filters of one process.
+#include "Fixtures.h"
+
+#include "Medium/MediumSource.h"
+#include "Rays/Channel.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkExtractCells.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRefractiveIndex.h"
+#include "vtkSphereSource.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using schlieren::Box;
+using schlieren::Lattice;
+using Data = vtkSmartPointer<vtkDataObject>;
+
+constexpr int edge = 20; // cells
+
+double ball(const Vec& x) { return 1e-4 * (1 + std::exp(-dot(x, x) / 0.16)); }
+
+/// A part of a curvilinear grid in [-1, 1]^3.
+vtkSmartPointer<vtkStructuredGrid> gridOf(const std::array<int, 6>& extent)
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int k = extent[4]; k <= extent[5]; ++k)
+  {
+    for (int j = extent[2]; j <= extent[3]; ++j)
+    {
+      for (int i = extent[0]; i <= extent[1]; ++i)
+      {
+        const double x = 2. * i / edge - 1, y = 2. * j / edge - 1, z = 2. * k / edge - 1;
+        const double bump = 0.1 * (1 - x * x) * (1 - y * y) * (1 - z * z);
+        points->InsertNextPoint(
+          x + bump * std::sin(5 * y), y + bump * std::sin(4 * z), z + bump * x);
+      }
+    }
+  }
+  grid->SetPoints(points);
+  addPointArray(grid, "N", ball);
+  addCellArray(grid, "N of cells", ball);
+  return grid;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> wholeMesh()
+{
+  vtkNew<vtkAppendFilter> append;
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  append->AddInputData(gridOf({ 0, edge, 0, edge, 0, edge }));
+  append->Update();
+  return append->GetOutput();
+}
+
+/// The cells for which `rankOf` says so.
+vtkSmartPointer<vtkUnstructuredGrid> partOf(
+  vtkUnstructuredGrid* mesh, int rank, const std::function<int(const Vec&)>& rankOf)
+{
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    double bounds[6];
+    mesh->GetCellBounds(cell, bounds);
+    const Vec middle{ (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2,
+      (bounds[4] + bounds[5]) / 2 };
+    if (rankOf(middle) == rank)
+    {
+      ids->InsertNextId(cell);
+    }
+  }
+  vtkNew<vtkExtractCells> extract;
+  extract->SetInputData(mesh);
+  extract->SetCellList(ids);
+  extract->Update();
+  vtkUnstructuredGrid* part = extract->GetOutput();
+  part->GetCellData()->RemoveArray("vtkOriginalCellIds");
+  part->GetPointData()->RemoveArray("vtkOriginalPointIds");
+  return part;
+}
+
+vtkSmartPointer<vtkRefractiveIndex> reader(bool ofCells)
+{
+  auto filter = vtkSmartPointer<vtkRefractiveIndex>::New();
+  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
+    ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    ofCells ? "N of cells" : "N");
+  filter->SetNumberOfThreads(2);
+  return filter;
+}
+
+/// To a rank in this process.
+class LocalChannel : public schlieren::Channel
+{
+public:
+  explicit LocalChannel(vtkRefractiveIndex* rank)
+    : Rank(rank)
+  {
+  }
+  void send(std::vector<char> message) override
+  {
+    this->Bytes += message.size();
+    this->Messages.push_back({ 'r', 'a', 'y', 's' }); // that nobody waits for any more
+    this->Messages.push_back(this->Rank->RespondForPiece(message));
+    this->Bytes += this->Messages.back().size();
+    this->IsOpen = this->AnswersLeft-- > 1;
+    if (!this->IsOpen)
+    {
+      this->Messages.clear();
+    }
+  }
+  bool hasMessage() override { return !this->Messages.empty(); }
+  std::vector<char> receive() override
+  {
+    std::vector<char> message = std::move(this->Messages.front());
+    this->Messages.pop_front();
+    return message;
+  }
+  bool isOpen() const override { return this->IsOpen; }
+
+  std::size_t Bytes = 0;
+  int AnswersLeft = 1 << 30;
+
+private:
+  vtkRefractiveIndex* Rank;
+  std::deque<std::vector<char>> Messages;
+  bool IsOpen = true;
+};
+
+/// Filters as ranks, each with its part of the data; null: none.
+struct Ranks
+{
+  explicit Ranks(const std::vector<Data>& parts, bool ofCells = false)
+    : Parts(parts)
+  {
+    std::vector<schlieren::Channel*> channels;
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    {
+      this->Filters.push_back(reader(ofCells));
+      if (rank > 0)
+      {
+        this->Filters[rank]->SetPieceData(parts[rank]);
+        this->Channels.push_back(std::make_unique<LocalChannel>(this->Filters[rank]));
+        channels.push_back(this->Channels.back().get());
+      }
+    }
+    this->Filters[0]->SetPieceChannels(channels);
+  }
+  std::shared_ptr<const schlieren::MediumSource> make(vtkDataObject* bodies = nullptr)
+  {
+    return this->Filters[0]->MakeSourceOfPieces(this->Parts[0], bodies, this->Warning);
+  }
+
+  std::vector<Data> Parts;
+  std::vector<vtkSmartPointer<vtkRefractiveIndex>> Filters;
+  std::vector<std::unique_ptr<LocalChannel>> Channels;
+  std::string Warning;
+};
+
+std::shared_ptr<const schlieren::MediumSource> inOnePiece(
+  vtkDataObject* data, bool ofCells = false, vtkDataObject* bodies = nullptr)
+{
+  std::string warning;
+  // It keeps what it needs of the filter.
+  return reader(ofCells)->MakeSource(data, bodies, warning);
+}
+
+/// `tolerance`: of N, of its range: mean error.
+void expectSame(const schlieren::MediumSource& whole, const schlieren::MediumSource& pieces,
+  double tolerance = 2e-7)
+{
+  ASSERT_TRUE(pieces.isRemote());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_DOUBLE_EQ(whole.bounds().low[axis], pieces.bounds().low[axis]);
+    EXPECT_DOUBLE_EQ(whole.bounds().high[axis], pieces.bounds().high[axis]);
+    EXPECT_NEAR(whole.voxelShape()[axis], pieces.voxelShape()[axis], 1e-12);
+  }
+  EXPECT_NEAR(whole.ambient(), pieces.ambient(), 1e-16);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-1.2, 1);
+  std::vector<Box> boxes{ { { -0.3, -0.3, -0.3 }, { 0.3, 0.3, 0.3 } } };
+  std::vector<Lattice> lattices{ { { -0.3, -0.3, -0.3 }, { 0.03, 0.03, 0.03 }, { 20, 20, 20 } } };
+  for (int i = 0; i < 40; ++i)
+  {
+    const Vec low = { place(random), place(random), place(random) };
+    const double size = 0.02 * (1 + i);
+    boxes.push_back({ low, { low[0] + size, low[1] + size, low[2] + size } });
+    lattices.push_back({ low, { size / 8, size / 8, size / 8 }, { 9, 9, 9 } });
+  }
+  double worst = 0, squares = 0;
+  int count = 0;
+  pieces.prepareContents(boxes);
+  pieces.prepareSamples(lattices);
+  for (std::size_t n = 0; n < boxes.size(); ++n)
+  {
+    const auto a = whole.contentOf(boxes[n]), b = pieces.contentOf(boxes[n]);
+    EXPECT_EQ(a.hasGas, b.hasGas);
+    EXPECT_EQ(a.hasWall, b.hasWall);
+    EXPECT_EQ(a.hasWindow, b.hasWindow);
+    const auto points = static_cast<std::size_t>(lattices[n].size());
+    std::array<std::vector<double>, 2> values;
+    std::array<std::vector<schlieren::Place>, 2> places;
+    std::array<std::vector<float>, 2> distances;
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      values[k].resize(points);
+      places[k].resize(points);
+      distances[k].resize(points);
+      (k == 0 ? whole : pieces)
+        .sample(lattices[n], values[k].data(), places[k].data(), distances[k].data());
+    }
+    EXPECT_EQ(places[0], places[1]);
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      ASSERT_NEAR(distances[0][i], distances[1][i], 1e-5);
+      if (places[0][i] == schlieren::Place::Gas)
+      {
+        const double difference = std::abs(values[0][i] - values[1][i]) / 1e-4;
+        worst = std::max(worst, difference);
+        squares += difference * difference;
+        ++count;
+        // Of groups of cells that are near more may count.
+        EXPECT_LE(b.lowest, values[1][i] + 1e-12);
+        EXPECT_GE(b.highest, values[1][i] - 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(count, 1000);
+  // Of the cells beside a point on a face another one may count, whose value differs by the error of reconstruction.
+  EXPECT_LT(worst, 1e2 * tolerance);
+  EXPECT_LT(std::sqrt(squares / count), tolerance);
+}
+
+/// Planes through the ball's middle, straight and oblique.
+std::vector<std::vector<Data>> cuts()
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  std::vector<std::vector<Data>> all;
+  const auto add = [&](int ranks, const std::function<int(const Vec&)>& rankOf)
+  {
+    std::vector<Data> parts;
+    for (int rank = 0; rank < ranks; ++rank)
+    {
+      parts.push_back(partOf(mesh, rank, rankOf));
+    }
+    all.push_back(parts);
+  };
+  add(2, [](const Vec& x) { return x[0] < 0 ? 0 : 1; });
+  add(2, [](const Vec& x) { return x[0] + 0.7 * x[1] - 0.4 * x[2] < 0 ? 1 : 0; });
+  add(4, [](const Vec& x) { return (x[0] + 0.3 * x[2] < 0 ? 0 : 1) + (x[1] < 0.02 ? 0 : 2); });
+  add(6, [](const Vec& x) { return std::min(5, static_cast<int>(3 * (x[0] + x[1] + 2) / 2)); });
+  return all;
+}
+
+TEST(Pieces, AreSampledAsOneMesh)
+{
+  for (const bool ofCells : { false, true })
+  {
+    const auto whole = inOnePiece(wholeMesh(), ofCells);
+    for (const std::vector<Data>& parts : cuts())
+    {
+      SCOPED_TRACE(std::to_string(parts.size()) + (ofCells ? ", cells" : ", points"));
+      Ranks ranks(parts, ofCells);
+      // Pieces of a few layers of cells do not reach all that values of cells depend on.
+      expectSame(*whole, *ranks.make(), ofCells ? 2e-6 : 2e-7);
+    }
+  }
+}
+
+TEST(Pieces, PartsOfAGridAreOneGrid)
+{
+  const auto whole = inOnePiece(gridOf({ 0, edge, 0, edge, 0, edge }));
+  Ranks ranks({ gridOf({ 0, edge, 0, 7, 0, edge }), gridOf({ 0, 11, 7, edge, 0, edge }),
+    gridOf({ 11, edge, 7, edge, 0, edge }) });
+  expectSame(*whole, *ranks.make());
+}
+
+TEST(Pieces, FacesBetweenThemNeedNotBeTheSame)
+{
+  const auto halfOf = [](int first, int last)
+  {
+    vtkNew<vtkImageData> image;
+    image->SetExtent(0, 9, 0, 9, first, last);
+    image->SetSpacing(0.2, 0.2, 0.2);
+    image->SetOrigin(-0.9, -0.9, -0.9);
+    addPointArray(image, "N", ball);
+    vtkNew<vtkDataSetTriangleFilter> divide;
+    divide->SetInputData(image);
+    divide->Update();
+    return vtkSmartPointer<vtkUnstructuredGrid>(divide->GetOutput());
+  };
+  Ranks ranks({ halfOf(0, 5), halfOf(5, 9) }); // whose diagonals do not meet
+  const auto pieces = ranks.make();
+  const Box box{ { -0.3, -0.3, -0.3 }, { 0.3, 0.3, 0.3 } };
+  const Lattice lattice{ { -0.3, -0.3, -0.3 }, { 0.03, 0.03, 0.03 }, { 21, 21, 21 } };
+  pieces->prepareContents({ box });
+  pieces->prepareSamples({ lattice });
+  const auto content = pieces->contentOf(box);
+  EXPECT_TRUE(content.hasGas);
+  EXPECT_FALSE(content.hasWall);
+  EXPECT_FALSE(content.hasWindow);
+  std::vector<double> values(static_cast<std::size_t>(lattice.size()));
+  std::vector<schlieren::Place> places(values.size());
+  pieces->sample(lattice, values.data(), places.data(), nullptr);
+  EXPECT_EQ(places, std::vector<schlieren::Place>(values.size(), schlieren::Place::Gas));
+}
+
+/// Layers around a sphere of radius 1, closed behind it and at its poles.
+vtkSmartPointer<vtkStructuredGrid> layersOf(int first, int last)
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetExtent(0, 24, 0, 12, first, last);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int k = first; k <= last; ++k)
+  {
+    const double r = 1 + 0.05 * k * k;
+    for (int j = 0; j <= 12; ++j)
+    {
+      for (int i = 0; i <= 24; ++i)
+      {
+        const double polar = std::acos(-1.) * j / 12, around = std::acos(-1.) * i / 12;
+        points->InsertNextPoint(r * std::cos(polar), r * std::sin(polar) * std::sin(around),
+          r * std::sin(polar) * std::cos(around));
+      }
+    }
+  }
+  grid->SetPoints(points);
+  addPointArray(
+    grid, "N", [](const Vec& x) { return 1e-4 * (1 + 0.2 * x[0] + std::exp(-dot(x, x))); });
+  return grid;
+}
+
+TEST(Pieces, LayersAroundABodyAreOneGrid)
+{
+  const auto whole = inOnePiece(layersOf(0, 8));
+  Ranks ranks({ layersOf(0, 2), layersOf(2, 5), layersOf(5, 8) });
+  expectSame(*whole, *ranks.make());
+}
+
+TEST(Pieces, HiddenCellsAndBodiesAreWalls)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.25);
+  sphere->SetCenter(0.5, 0.1, 0);
+  sphere->SetThetaResolution(24);
+  sphere->SetPhiResolution(24);
+  sphere->Update();
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  vtkNew<vtkUnsignedCharArray> hidden; // on both sides of the cut
+  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    double bounds[6];
+    mesh->GetCellBounds(cell, bounds);
+    const bool isHidden =
+      std::abs(bounds[0]) < 0.3 && bounds[2] < -0.3 && std::abs(bounds[4]) < 0.4;
+    hidden->InsertNextValue(isHidden ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  mesh->GetCellData()->AddArray(hidden);
+  const auto whole = inOnePiece(mesh, false, sphere->GetOutput());
+  const auto rankOf = [](const Vec& x) { return x[0] - 0.3 * x[1] < 0 ? 0 : 1; };
+  Ranks ranks({ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) });
+  expectSame(*whole, *ranks.make(sphere->GetOutput()));
+}
+
+TEST(Pieces, RanksMayHaveNothingOrOtherBlocks)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  const auto rankOf = [](const Vec& x) { return x[2] < 0.1 ? 0 : 1; };
+  const auto blockOf = [&](int rank)
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, partOf(mesh, rank, rankOf));
+    vtkNew<vtkUnstructuredGrid> other; // without the array, which is of no use
+    other->CopyStructure(mesh);
+    blocks->SetBlock(static_cast<unsigned>(1 + rank), other);
+    return Data(blocks);
+  };
+  const auto whole = inOnePiece(mesh);
+  Ranks ranks({ nullptr, blockOf(0), vtkSmartPointer<vtkUnstructuredGrid>::New(), blockOf(1) });
+  expectSame(*whole, *ranks.make());
+}
+
+/// What is said of a mistake, or "".
+std::string problemOf(Ranks& ranks)
+{
+  try
+  {
+    ranks.make();
+  }
+  catch (const std::runtime_error& problem)
+  {
+    return problem.what();
+  }
+  return "";
+}
+
+TEST(Pieces, ArraysThatOneRankLacksAreTakenFromTheOthers)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
+  const auto part = partOf(mesh, 0, rankOf), without = partOf(mesh, 1, rankOf);
+  for (vtkIdType i = 0; i < without->GetNumberOfPoints(); ++i)
+  {
+    without->GetPoints()->SetPoint(i, without->GetPoint(i)[0] + 0.5, 0, 0); // nowhere near
+  }
+  without->GetPointData()->RemoveArray("N");
+  addPointArray(without, "M", ball);
+  Ranks some({ part, without });
+  const auto source = some.make();
+  EXPECT_LT(source->bounds().high[0], 0.2);
+  Ranks none({ without, without });
+  EXPECT_NE(
+    problemOf(none).find("The input has no array 'N'. Set IndexArray to one of: point arrays M"),
+    std::string::npos)
+    << problemOf(none);
+}
+
+TEST(Pieces, AllValuesInvalidIsAMistake)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  mesh->GetPointData()->GetArray("N")->Fill(std::nan(""));
+  const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
+  Ranks ranks({ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) });
+  EXPECT_NE(problemOf(ranks).find("There is no valid value"), std::string::npos)
+    << problemOf(ranks);
+}
+
+TEST(Pieces, ARankThatLeavesIsAMistakeWheneverItDoes)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> mesh = wholeMesh();
+  const auto rankOf = [](const Vec& x) { return x[0] < 0 ? 0 : 1; };
+  const std::vector<Data> parts{ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) };
+  int answers = 0;
+  for (; answers < 10; ++answers)
+  {
+    Ranks ranks(parts);
+    ranks.Channels[0]->AnswersLeft = answers;
+    const std::string problem = problemOf(ranks);
+    if (problem.empty())
+    {
+      break;
+    }
+    EXPECT_NE(problem.find("Rank 1 does not answer"), std::string::npos) << problem;
+  }
+  EXPECT_GT(answers, 3);
+  EXPECT_LT(answers, 10);
+}
+
+TEST(Pieces, APieceThatWasReplacedIsNotMistakenForAnother)
+{
+  const auto parts = cuts()[0];
+  Ranks ranks(parts);
+  const auto first = ranks.make();
+  const auto second = ranks.make();
+  const Box box{ { -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 } };
+  EXPECT_THROW(first->prepareContents({ box }), std::runtime_error);
+  second->prepareContents({ box });
+  EXPECT_TRUE(second->contentOf(box).hasGas);
+  ranks.Filters[0]->ReleasePieces();
+  EXPECT_THROW(second->prepareContents({ box }), std::runtime_error);
+}
+
+} // namespace
