@@ -49,7 +49,8 @@ std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
   return exits;
 }
 
-void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator)
+void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator,
+  std::int64_t raysPerBand = std::int64_t{ 1 } << 20)
 {
   constexpr int passes = 3;
   constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
@@ -58,7 +59,7 @@ void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator)
   std::vector<TracedRays> traced;
   Films films(channelsOf(cutoff), {}, width, height, rays);
   Films filmsOfDevice = Films(channelsOf(cutoff), {}, width, height, rays);
-  CudaFilm onDevice(films);
+  CudaFilm onDevice(films, raysPerBand);
   for (int number = 0; number < passes; ++number)
   {
     const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
@@ -101,6 +102,20 @@ TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
     expectSamePictures(KnifeEdge::at(30, 300, false), estimator);
     expectSamePictures(KnifeEdge::at(90, 20, true), estimator);
     expectSamePictures(Shadowgraph{}, estimator);
+  }
+}
+
+/// Of 16 rows each, of 20, and of all but the last one.
+TEST_F(HostAndDeviceFilm, IsTheSameInBands)
+{
+  constexpr std::int64_t columns = width + 2 * margin, rows = height + 2 * margin;
+  for (const std::int64_t raysPerBand :
+    { std::int64_t{ 1 }, 20 * columns + 1, (rows - 1) * columns })
+  {
+    for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
+    {
+      expectSamePictures(KnifeEdge::at(30, 300, false), estimator, raysPerBand);
+    }
   }
 }
 
