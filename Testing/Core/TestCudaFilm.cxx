@@ -3,6 +3,7 @@
 // The same rays make the same picture on host and device.
 #include "Fields.h"
 #include "Film/CudaFilm.h"
+#include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
 
 #include <algorithm>
@@ -167,6 +168,36 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
     check();
   }
   EXPECT_EQ(kinds.size(), std::variant_size_v<Cutoffs>);
+}
+
+TEST_F(HostAndDeviceFilm, FindsTheSameStrongDeflection)
+{
+  const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
+    { 0, 0 } };
+  std::mt19937 random(11);
+  std::vector<RayExit> exits = anyExits(pass, random);
+  const auto expectTheSame = [&]
+  {
+    const double onHost = strongDeflection({ pass, exits.data(), nullptr }, width, height, {}, 2);
+    EXPECT_EQ(onHost, strongDeflection(CudaPass(exits), pass, width, height, {}));
+    return onHost;
+  };
+  const double strong = expectTheSame();
+  EXPECT_GT(strong, 0.01);
+  EXPECT_LT(strong, 0.07);
+  for (std::size_t ray = 0; ray < exits.size(); ++ray) // most light is not bent at all
+  {
+    if (ray % 200 != 0)
+    {
+      exits[ray].deflection[0] = exits[ray].deflection[1] = 0;
+    }
+  }
+  EXPECT_GT(expectTheSame(), 0.01); // the largest
+  for (RayExit& exit : exits)
+  {
+    exit.fate = RayFate::Missed;
+  }
+  EXPECT_EQ(expectTheSame(), 0);
 }
 
 TEST_F(HostAndDeviceFilm, GetsRaysAsTheyWereSent)
