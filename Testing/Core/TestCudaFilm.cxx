@@ -7,6 +7,8 @@
 #include "Optics/CutoffMaker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -50,8 +52,26 @@ std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
   return exits;
 }
 
+/// Rays through many small lenses and past a body: cells are bent and folded, within the film and across its border.
+std::vector<RayExit> lensExits(const Pass& pass, std::mt19937&)
+{
+  std::vector<RayExit> exits;
+  for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+  {
+    RayExit exit{};
+    const double x = pass.columnOf(ray), y = pass.rowOf(ray);
+    exit.fate = std::hypot(x - 40, y - 30) < 9 ? RayFate::Blocked : RayFate::Left;
+    exit.steps = 3;
+    exit.deflection[0] = 0.09 * std::sin(0.2 * x + 0.1 * y);
+    exit.deflection[1] = 0.09 * std::cos(0.25 * y - 0.05 * x);
+    exit.opticalPathDifference = 1e-6 * std::sin(0.1 * x);
+    exits.push_back(exit);
+  }
+  return exits;
+}
+
 void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator,
-  std::int64_t raysPerBand = std::int64_t{ 1 } << 20)
+  std::int64_t raysPerBand = std::int64_t{ 1 } << 20, decltype(anyExits)* exitsOf = anyExits)
 {
   constexpr int passes = 3;
   constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
@@ -65,7 +85,7 @@ void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator,
   {
     const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
       { 0.1 * number, -0.07 * number } };
-    exits.push_back(anyExits(pass, random));
+    exits.push_back(exitsOf(pass, random));
     traced.push_back({ pass, exits.back().data(), nullptr });
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin, estimator);
   }
@@ -104,6 +124,18 @@ TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
     expectSamePictures(KnifeEdge::at(90, 20, true), estimator);
     expectSamePictures(Shadowgraph{}, estimator);
   }
+}
+
+/// Most cells are added by bentKernel, and there are more of them than it has threads.
+TEST_F(HostAndDeviceFilm, IsTheSameOfBentCells)
+{
+  for (const std::int64_t raysPerBand : { std::int64_t{ 1 }, std::int64_t{ 1 } << 20 })
+  {
+    expectSamePictures(KnifeEdge::at(30, 10, false), FilmEstimator::Sheet, raysPerBand, lensExits);
+  }
+  const std::array<float, 12> pixels{ 0.1f, 0.2f, 0.3f, 0.9f, 0, 1, 0.5f, 0.6f, 0, 1, 1, 0.2f };
+  expectSamePictures(ColorPicture{ 10, 2, 2, { pixels.data(), pixels.size() } },
+    FilmEstimator::Sheet, std::int64_t{ 1 } << 20, lensExits);
 }
 
 /// Of 16 rows each, of 20, and of all but the last one.
