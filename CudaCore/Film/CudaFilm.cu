@@ -102,7 +102,7 @@ __device__ std::int64_t sumOverWarp(std::int64_t number)
   return number;
 }
 
-/// A pass with the rays of the picture and its margin, some rows of which are shaded at a time.
+/// A pass with the rays of the image and its margin, some rows of which are shaded at a time.
 struct RaysOnDevice
 {
   const RayExit* exits;
@@ -414,8 +414,9 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
           *table = memory_->copyOf(*table);
         }
         const std::int64_t shadedRows = rays.endShaded - rays.firstShaded;
-        const ShadedRays<planes> shaded{ rays, memory_->raysAtFilm<planes>(columns * shadedRows),
-          isSheet ? memory_->bentCells(columns * (end - row)) : nullptr };
+        const ShadedRays<planes> shaded{ rays,
+          memory_->raysAtFilm<planes>(columns * std::min(rows, rowsPerBand + 3)),
+          isSheet ? memory_->bentCells(columns * std::min(rows, rowsPerBand)) : nullptr };
         launchKernel(shadeKernel<decltype(kind)>, rays.blocks(shadedRows), threadsPerBlock, 0,
           nullptr, kind, projection, shaded, sums);
         deposit(shaded, estimator, sums);

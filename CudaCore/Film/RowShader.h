@@ -26,7 +26,7 @@ struct RowRange
   }
 };
 
-/// Shades a picture's rays, row by row of where they start. Whoever deposits them knows no cutoff.
+/// Shades an image's rays, row by row of where they start. Whoever deposits them knows no cutoff.
 template <int planes>
 class RowShader
 {

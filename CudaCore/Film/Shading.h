@@ -95,7 +95,7 @@ SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
   return ray;
 }
 
-/// Shades a ray that starts at (column, row) of the picture. A place on the film where it does not arrive is 0.
+/// Shades a ray that starts at (column, row) of the image. A place on the film where it does not arrive is 0.
 template <class CutoffKind>
 SCHLIEREN_HD FilmRay<CutoffKind::channels> shade(const RayExit& exit, double column, double row,
   const double (&tilt)[2], const Projection& projection, const CutoffKind& cutoff)

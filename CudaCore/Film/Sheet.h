@@ -657,14 +657,14 @@ private:
   {
     Point at[4]; ///< of a triangle, the last two are one
     double area;
-    double share; ///< of the cell's rays that it holds
+    double fraction; ///< of the cell's rays that it holds
   };
 
   /// Spreads light evenly over a polygon.
   SCHLIEREN_HD void addPolygon(
-    const Point (&at)[4], double area, double share, const Light& light, Rest& rest)
+    const Point (&at)[4], double area, double fraction, const Light& light, Rest& rest)
   {
-    const Polygon polygon{ { at[0], at[1], at[2], at[3] }, area, share };
+    const Polygon polygon{ { at[0], at[1], at[2], at[3] }, area, fraction };
     const Box box = Box::around(polygon.at);
     if (!isInside(box))
     {
@@ -737,7 +737,7 @@ private:
       light.perX[plane] * (covered.x - covered.area * (light.centre.x - origin.x)) +
       light.perY[plane] * (covered.y - covered.area * (light.centre.y - origin.y));
     const double part = sum / polygon.area;
-    return part > 0 ? film_.fixed(part * polygon.share) : 0;
+    return part > 0 ? film_.fixed(part * polygon.fraction) : 0;
   }
 
   /// What of a polygon's light falls into a box beside the film.

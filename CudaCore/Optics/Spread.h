@@ -30,7 +30,7 @@ struct Spread
 template <class NumbersIn>
 Spread spreadOf(const std::vector<std::int64_t>& counts, double largest, const NumbersIn& numbersIn)
 {
-  constexpr double share = 0.99;
+  constexpr double fraction = 0.99;
   Spread spread;
   spread.largest = largest;
   spread.rays = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
@@ -38,7 +38,7 @@ Spread spreadOf(const std::vector<std::int64_t>& counts, double largest, const N
   {
     return spread;
   }
-  auto rank = static_cast<std::int64_t>(share * static_cast<double>(spread.rays - 1));
+  auto rank = static_cast<std::int64_t>(fraction * static_cast<double>(spread.rays - 1));
   std::size_t bin = 0;
   while (rank >= counts[bin])
   {
@@ -50,8 +50,8 @@ Spread spreadOf(const std::vector<std::int64_t>& counts, double largest, const N
   return spread;
 }
 
-/// The spread of valueOf(ray), numbers of 0 or more, over the pixels of a picture. In two passes: the first counts
-/// values by their leading bits; the second looks among the few that share theirs with the percentile.
+/// The spread of valueOf(ray), numbers of 0 or more, over the pixels of an image. In two passes: the first counts
+/// values by their leading bits; the second looks among the few in the percentile's bin.
 template <class ValueOf>
 Spread spreadOf(const TracedRays& rays, std::int64_t width, std::int64_t height, int threads,
   const ValueOf& valueOf)

@@ -34,7 +34,7 @@ public:
   void countDeflections(const Pass& pass, int width, int height, const DeflectionBins& bins,
     std::vector<std::int64_t>& counts) const;
 
-  /// The rays that start in a picture and crossed the medium, by the LeadingBits of their squared deflection.
+  /// The rays that start in an image and crossed the medium, by the LeadingBits of their squared deflection.
   struct Squares
   {
     std::vector<std::int64_t> counts;
