@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""All pictures that the bench can make of one flow, on one sheet.
+"""All images that the bench can make of one flow, on one sheet.
 
     pvpython Examples/contact_sheet.py                  (writes ladenburg_jet_3d_sheet.png)
     pvpython Examples/contact_sheet.py flow.vtu --array rho --view y --output flow.png
@@ -20,7 +20,7 @@ sys.path.insert(0, os.path.join(ROOT, "Utilities", "four_pictures"))
 from arguments import DemoError, options_or_exit, parse_arguments  # noqa: E402
 
 DESCRIPTION = """\
-Writes one PNG with all pictures that the bench can make of a flow field. Without FILE: an
+Writes one PNG with all images that the bench can make of a flow field. Without FILE: an
 under-expanded air jet that comes with the sources."""
 
 
@@ -65,7 +65,7 @@ class Shot:
 
 
 class Tile:
-    """A picture (rows x columns x 3 bytes, lowest row first) and what stands above it."""
+    """An image (rows x columns x 3 bytes, lowest row first) and what stands above it."""
 
     def __init__(self, name, title, line, pixels, shot=None, inset=None):
         self.name, self.title, self.line, self.pixels = name, title, line, pixels
@@ -73,7 +73,7 @@ class Tile:
 
 
 class Photographer:
-    """Takes pictures with one bench, each from the same settings but for those it names."""
+    """Takes images with one bench, each from the same settings but for those it names."""
 
     def __init__(self, bench, messages):
         self.bench, self.messages = bench, messages
@@ -89,7 +89,7 @@ class Photographer:
             setattr(self.bench, name, value)
         self.shots += 1
         what = settings.get("Cutoff", "Knife Edge").lower()
-        return Shot(output_of(self.bench, f"picture ({what})", self.messages, port))
+        return Shot(output_of(self.bench, f"image ({what})", self.messages, port))
 
 
 def write_png(path, pixels):
@@ -105,7 +105,7 @@ def write_png(path, pixels):
 
 
 def cutoff_plane(size):
-    """The places u, v from -1 to 1 of the pixels of a square picture."""
+    """The places u, v from -1 to 1 of the pixels of a square image."""
     places = (np.arange(size) + 0.5) * 2 / size - 1
     return np.meshgrid(places, places)
 
@@ -122,7 +122,7 @@ def four_colors(size=64):
 
 
 def wheel(size=40):
-    """The colours that ColorFilter takes where it has no picture, for the legend."""
+    """The colours that ColorFilter takes where it has no image, for the legend."""
     u, v = cutoff_plane(size)
     hue = np.arctan2(v, u) / np.pi * 3
     saturation = np.minimum(1, np.hypot(u, v))[..., None]
@@ -210,7 +210,7 @@ def take_tiles(take, frame, options, scratch):
     write_png(path, four_colors())
     shot = take.shoot(Cutoff="Color Filter", AutoKScale=0, KScale=round_k,
                       ColorFilterImage=data_uri(path))
-    add("color filter", "Colour filter from a PNG", "held as text by the property", shot["Color"],
+    add("color filter", "Colour filter from a PNG", "stored as text in the property", shot["Color"],
         shot, shrunk(four_colors()))
     # The source's image is as wide as the deflection that goes from black to white.
     source = {"SourceShape": "Disc", "FocalLength": 1, "SourceWidth": 1e3 / k, "KnifeEdgeAngle": 90}
@@ -292,8 +292,8 @@ def take_tiles(take, frame, options, scratch):
     beyond = 2.5 * caustic
     group(f"Film: a shadowgraph from few rays, the screen {length(beyond)} behind the flow")
     one = {"SamplesPerPixel": 1, "FilmEstimator": "Photon", "ScreenDistance": beyond}
-    shadow_tile("photons", "Photons, 1 ray per pixel", "each ray is a drop of light", **one)
-    shadow_tile("cone", "Photons, cone filter", "the drops, spread over 2 pixels", NoiseFilter="Cone",
+    shadow_tile("photons", "Photons, 1 ray per pixel", "splatting over four pixels", **one)
+    shadow_tile("cone", "Photons, cone filter", "the same, spread over 2 pixels", NoiseFilter="Cone",
                 NoiseFilterRadius=2, **one)
     shadow_tile("sheet", "Sheet, 1 ray per pixel", "light between neighbouring rays",
                 SamplesPerPixel=1, FilmEstimator="Sheet", ScreenDistance=beyond)
@@ -320,7 +320,7 @@ def compose(groups, frame, array, options, facts):
     room = width - 56
     looking = ", ".join(f"{part + 0.0:.3g}" for part in frame.direction)
     sheet.text(28, 16, f"{os.path.basename(options.file)}: {array[1]}", 26, room=room)
-    sheet.text(28, 50, f"Looking along ({looking}). Each picture is "
+    sheet.text(28, 50, f"Looking along ({looking}). Each image is "
                f"{format_length(frame.right - frame.left, options)} wide; depth of the data: "
                f"{format_length(frame.depth, options)}.", 15, sheet.DIM, room=room)
     for j, (heading, tiles) in enumerate(groups):
@@ -355,7 +355,7 @@ def main(options):
         take = Photographer(new_bench(reader, array, frame, options), messages)
         groups = take_tiles(take, frame, options, scratch)
         compose(groups, frame, array, options, groups[0][1][0].shot.facts).write(options.output)
-    say(f"{take.shots} pictures in {time.monotonic() - begin:.0f} s")
+    say(f"{take.shots} images in {time.monotonic() - begin:.0f} s")
     say(f"The sheet: {os.path.abspath(options.output)}")
     return groups, frame
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Five fields of a reactor in one schlieren picture, tinted by the field that light crosses.
+"""Five fields of a reactor in one schlieren image, tinted by the field that light crosses.
 
     pvpython Examples/fields.py        (writes fields.png)
 """
@@ -45,7 +45,7 @@ schlieren.ParallelScale = 6
 schlieren.ImageSize = [240, 200]
 schlieren.SamplingDimensions = [41, 41, 81]
 schlieren.Quality = "Publication"
-schlieren.SamplesPerPixel = 4  # a small picture: not as many as the preset has
+schlieren.SamplesPerPixel = 4  # a small image: not as many as the preset has
 schlieren.OutsideBlocksLight = 0  # the round reactor lies in a box
 schlieren.UpdatePipeline()
 SaveData("fields.png", proxy=schlieren)  # the array Color

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schlieren of a jet with a horizontal knife edge, as a grey picture and as numbers.
+"""Schlieren of a jet with a horizontal knife edge, as a grey image and as numbers.
 
     Utilities/with-display pvpython Examples/jet.py        (writes jet.png)
 """
@@ -36,9 +36,9 @@ print("largest deflection:", arrays["Deflection"].GetRange(-1)[1], "rad")
 print("optical path difference:", arrays["OpticalPathDifference"].GetRange(), "m")
 
 view = CreateView("RenderView", ViewSize=[900, 480], OrientationAxesVisibility=0)
-picture = Show(schlieren, view)
-ColorBy(picture, ("POINTS", "Intensity"))
-picture.SetScalarBarVisibility(view, False)
+display = Show(schlieren, view)
+ColorBy(display, ("POINTS", "Intensity"))
+display.SetScalarBarVisibility(view, False)
 grey = GetColorTransferFunction("Intensity")
 grey.ApplyPreset("Grayscale", True)
 grey.RescaleTransferFunction(0, 1)

@@ -130,10 +130,8 @@ std::string warningOfInvertedCells(const CellTree& cells)
   }
   return std::to_string(inverted) + " of " + std::to_string(cells.size()) +
     " cells are inside out (negative volume, where others of their kind have a positive one, or "
-    "the other way "
-    "round): the mesh is folded there, or their points are in a wrong order. Their values are used "
-    "as they are. Look "
-    "for them with the filter Mesh Quality.";
+    "the reverse): the mesh is folded there, or their points are in a wrong order. Their values "
+    "are used as they are. Look for them with the filter Mesh Quality.";
 }
 
 } // namespace refractivity

@@ -67,7 +67,7 @@ std::vector<std::string> PictureInSlices::GetWarnings(const schlieren::Image& im
 {
   const std::string warnings[] = { image.deviceNote,
     image.raysTraced > 0 && image.raysBlocked == image.raysTraced
-      ? "All light that meets the data is blocked, so the picture is black there: every ray meets "
+      ? "All light that meets the data is blocked, so the image is black there: every ray meets "
         "a place that is solid (NaN, masked, blanked, a body) or that no cell covers. Look along "
         "another ViewDirection, or let light pass where no cell is with OutsideBlocksLight off."
       : "",

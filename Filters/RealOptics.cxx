@@ -101,7 +101,7 @@ std::string sensitivityInWords(vtkSchlierenFilter* self, double k, bool isKept)
     return self->GetWhiteLight()
       ? "white light: a fringe of each colour is its wavelength of optical path"
       : "a fringe is " + textOf(self->GetWavelength()) +
-        " nm of optical path: Wavelength, which stands under Medium";
+        " nm of optical path: Wavelength, in the group Medium";
   }
   if (!usesK(self) || !(k > 0))
   {

@@ -305,7 +305,7 @@ void requireFits(const std::array<int, 3>& dimensions)
   {
     throw std::runtime_error("SamplingDimensions asks for " + std::to_string(dimensions[0]) +
       " x " + std::to_string(dimensions[1]) + " x " + std::to_string(dimensions[2]) +
-      " points, more than can be held. Give fewer.");
+      " points, which is too many. Give fewer.");
   }
 }
 

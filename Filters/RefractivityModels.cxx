@@ -165,7 +165,7 @@ CiddorAir ciddorAir(vtkRefractiveIndex* self)
   if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
   {
     throw std::runtime_error("RelativeHumidity is " + textOf(humidity) +
-      ", but it is a share of saturation. Set it between 0 and 1.");
+      ", but it is a fraction of saturation. Set it between 0 and 1.");
   }
   if (!(self->GetCO2() >= 0 && self->GetCO2() <= 1e6))
   {
@@ -230,7 +230,7 @@ std::string CiddorAir::warning(const std::string& share) const
     " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
     "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
     "If so many surprise you, check that TemperatureScale and PressureScale give K and "
-    "Pa, and that humidity is a share of 1.";
+    "Pa, and that humidity is from 0 to 1.";
 }
 
 //------------------------------------------------------------------------------

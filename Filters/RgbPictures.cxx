@@ -91,8 +91,7 @@ std::shared_ptr<const schlieren::RgbPicture> decoded(
   {
     throw std::runtime_error(property +
       (name.empty() ? " holds a file" : " names the file '" + name + "'") +
-      " that is no whole PNG picture (" + reason +
-      "). Save the picture as PNG, and use all of it.");
+      " that is no complete PNG image (" + reason + "). Save the image as PNG, and use all of it.");
   };
   // libpng's own reader, because VTK's does not survive damaged files.
   PngImage image;

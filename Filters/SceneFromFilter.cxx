@@ -111,7 +111,7 @@ schlieren::BackgroundPattern backgroundFrom(vtkSchlierenFilter* self, RgbPicture
     if (!*self->GetBackgroundImage())
     {
       throw std::runtime_error(
-        "BackgroundImage is empty, so there is no picture behind the flow. Give "
+        "BackgroundImage is empty, so there is no image behind the flow. Give "
         "the name of one, or set BackgroundPattern to Dots or Stripes.");
     }
     pattern.picture = pictures.read("BackgroundImage", self->GetBackgroundImage());

@@ -1231,7 +1231,7 @@ int vtkSchlierenFilter::RequestData(
   catch (const std::bad_alloc&)
   {
     inside.FailedAt = now;
-    vtkErrorMacro(<< "There is not enough memory for the refractivity grid or the picture. Use a "
+    vtkErrorMacro(<< "There is not enough memory for the refractivity grid or the image. Use a "
                      "coarser input, smaller SamplingDimensions or a smaller ImageSize.");
   }
   catch (const std::exception& problem)

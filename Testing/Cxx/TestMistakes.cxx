@@ -238,7 +238,7 @@ std::vector<Mistake> mistakes()
         f->SetBackgroundPattern(Filter::PICTURE);
         f->SetBackgroundImage("data:image/png;base64,iVBORw0KGgoAAAANSUhEUg==");
       },
-      { "BackgroundImage", "no whole PNG" },
+      { "BackgroundImage", "no complete PNG" },
       [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
     { "BeamsThatDoNotMeet",
       [](Filter* f)

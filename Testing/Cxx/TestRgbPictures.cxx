@@ -136,14 +136,14 @@ TEST(RgbPictures, WhatCannotBeReadIsSaid)
   const std::string whole = text(png(bytes(3, 3, six)));
   EXPECT_NE(errorOf("/nowhere/at all.png").find("'/nowhere/at all.png'"), std::string::npos);
   EXPECT_NE(errorOf(SCHLIEREN_TEST_OUTPUT).find("cannot be read"), std::string::npos); // a folder
-  EXPECT_NE(errorOf(SCHLIEREN_TEST_DATA "/README.md").find("no whole PNG"), std::string::npos);
+  EXPECT_NE(errorOf(SCHLIEREN_TEST_DATA "/README.md").find("no complete PNG"), std::string::npos);
   for (const std::string& given : { std::string("data:"), std::string("data:image/png;base64,"),
          std::string("data:image/png,iVBORw0KGgo="), "data:image/png;base64,*" + whole.substr(23),
          whole.substr(0, whole.size() - 1), whole + "====" })
   {
     EXPECT_NE(errorOf(given).find("base64"), std::string::npos) << given;
   }
-  EXPECT_NE(errorOf("data:text/plain;base64,aGVsbG8h").find("no whole PNG"), std::string::npos);
+  EXPECT_NE(errorOf("data:text/plain;base64,aGVsbG8h").find("no complete PNG"), std::string::npos);
 }
 
 // However a file is damaged, it ends in a picture of its size or in an error.

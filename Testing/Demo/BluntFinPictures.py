@@ -16,7 +16,7 @@ code, out, err = run_demo(grid, "--density-scale", "0.72", "--length-scale", "0.
                           "--center", "1.5,2.5,2.8", "--half-height", "2.5", "--size", "800x500",
                           "--output", path)
 assert code == 0, f"Exit code {code}"
-assert out.splitlines()[-1].endswith(f"The picture: {path}"), "It does not say where the picture is"
+assert out.splitlines()[-1].endswith(f"The image: {path}"), "It does not say where the image is"
 assert "bluntfinq.bin" in out and "'Density'" in out, "It does not say what it reads"
 
 options = SimpleNamespace(view=VIEWS["z"], center=[1.5, 2.5, 2.8], size=(800, 500),

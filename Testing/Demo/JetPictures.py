@@ -13,7 +13,7 @@ from frame import Frame
 code, out, err = run_demo()
 path = os.path.abspath("ladenburg_jet_3d_schlieren.png")
 assert code == 0, f"Exit code {code}"
-assert out.splitlines()[-1].endswith(f"The picture: {path}"), "It does not say where the picture is"
+assert out.splitlines()[-1].endswith(f"The image: {path}"), "It does not say where the image is"
 
 options = SimpleNamespace(view=VIEWS["z"], center=None, size=None, half_height=None,
                           largest=(880, 640))

@@ -49,7 +49,7 @@ user.check("Wavelength", "visible", "true")
 user.apply()
 user.python("settle(FindSource('Schlieren1'))")
 user.check("Sensitivity/Note", "text",
-           "a fringe is 632.8 nm of optical path: Wavelength, which stands under Medium")
+           "a fringe is 632.8 nm of optical path: Wavelength, in the group Medium")
 
 # The centre of the image: none, three numbers, none again.
 user.python("""

@@ -2,35 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names, values and defaults that scripts rely on, and what a change of each one does again."""
 
+import os
+import sys
+
 import numpy as np
 from paraview.simple import AppendDatasets, Clip, Sphere
 from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, picture
+from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
+import property_tables
 
 source = gaussian_column(32)
 
-MEDIUM = {"IndexModel": "Gladstone-Dale", "GladstoneDaleConstant": 2.26e-4, "DensityScale": 1.0,
-          "SamplingDimensions": [0, 0, 0], "SamplingBounds": 6 * [0.0], "MixtureArrays": [], "MixtureConstants": [],
-          "Gas": "Custom", "MixtureGases": [], "BackgroundGas": "Custom",
-          "MixtureMolarMasses": [], "BackgroundConstant": 2.26e-4, "BackgroundMolarMass": 0.0289647,
-          "FractionType": "Mass", "TemperatureScale": 1.0, "PressureScale": 1.0,
-          "RelativeHumidity": 0.0, "CO2": 450.0, "Wavelength": 632.8,
-          "Fields": [], "TransferFunctions": [], "FieldRanges": [], "RefractivityScale": 3e-4,
-          "MaskedSide": "Above", "MaskThreshold": 0.5, "Outside": "Auto", "OutsideBlocksLight": -1, "Reconstruction": "Smooth", "Bodies": None}
-BENCH = {"LengthScale": 1.0, "AutoAmbientRefractivity": 1, "AmbientRefractivity": 0.0, "LockAmbient": 1, "LockedAmbient": 0.0,
-         "ViewDirection": [0.0, 0.0, -1.0], "ViewUp": [0.0, 1.0, 0.0], "FocalPoint": [],
-         "ParallelScale": 0.0, "ImageSize": [512, 512], "Cutoff": "Knife Edge",
-         "KnifeEdgeAngle": 0.0, "CutoffOffset": 0.0, "InvertCutoff": 0, "AutoKScale": 1,
-         "LockK": "Over Time", "LockedK": 0.0, "KScale": 1000.0, "KFromOptics": 0, "FocalLength": 1.0, "SourceWidth": 1.0,
-         "SourceLength": 10.0, "CutoffPosition": 0.0, "ColorFilterImage": "",
-         "FringeMode": "Infinite", "FringeSpacing": 0.0, "FringeAngle": 0.0, "BeamAngle": 0.0,
-         "WhiteLight": 0, "ScreenDistance": -1.0, "FocusOffset": 0.0, "LightSource": "Collimated",
-         "SourceDistance": 0.0, "SourceShape": "Point", "BackgroundPattern": "Dots",
-         "BackgroundDistance": -1.0, "BackgroundPeriod": 0.0, "BackgroundAngle": 0.0,
-         "BackgroundImage": "", "ExposureTime": 0.0, "ExposureSamples": 8, "FilmEstimator": "Sheet", "NoiseFilter": "None",
-         "NoiseFilterRadius": 2.0, "HistogramSize": 256, "MemoryBudget": 1024, "MediumMemory": 1024,
-         "ColorByField": 0, "FieldColors": [],
-         "Quality": "Interactive", "Seed": 1,
-         "Device": "Auto", "NumberOfThreads": 0}
 TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
@@ -49,11 +33,26 @@ TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "R
 
 refractivity = RefractiveIndex(source)
 bench = Schlieren(source)
-for proxy, defaults in ((refractivity, MEDIUM), (bench, {**MEDIUM, **BENCH})):
-    for name, value in defaults.items():
-        actual = getattr(proxy, name)
-        actual = list(actual) if isinstance(value, list) else actual
-        assert actual == value, f"{name} is {actual}, not {value}"
+
+# Proxies and classes have the XML's defaults. Lists begin empty; Quality and OutsideBlocksLight are names for values of
+# other properties.
+checked = 0
+for proxy, made, files in ((refractivity, vtkRefractiveIndex(), property_tables.FILES[:1]),
+                           (bench, vtkSchlierenFilter(), property_tables.FILES)):
+    for item in property_tables.read(files).values():
+        if item.group in ("Inputs", "Commands", "Information") or item.default is None or item.is_array:
+            continue
+        value = getattr(proxy, item.name)
+        assert (list(value) if isinstance(item.default, list) else value) == item.default, (item.name, value)
+        if item.default == [] or item.name in ("Quality", "OutsideBlocksLight"):
+            continue
+        inside = getattr(made, item.command.replace("Set", "Get", 1))()
+        inside = list(inside) if isinstance(inside, tuple) else inside
+        expected = item.entries[item.default] if item.entries else item.default
+        assert inside == expected, f"{item.name} is {inside} in C++, {expected} in the XML"
+        checked += 1
+assert checked > 80, checked
+for proxy in (refractivity, bench):
     for name in ("Density", "Temperature", "Pressure", "Humidity", "IndexArray"):
         assert len(getattr(proxy, name)) == 2, name
 for name, texts in TEXTS.items():

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the user asks for: the command line of the demo. Needs no ParaView."""
+"""What the user requests: the command line of the demo. Needs no ParaView."""
 
 import argparse
 import ast
@@ -19,7 +19,7 @@ MODELS = {
     "Refractivity": ("IndexArray", ("refractivity", "n-1")),
 }
 
-# Sight lines by name: the direction of sight and what is up in the picture.
+# Sight lines by name: the direction of sight and what is up in the image.
 VIEWS = {
     "x": ((-1, 0, 0), (0, 0, 1)), "-x": ((1, 0, 0), (0, 0, 1)),
     "y": ((0, 1, 0), (0, 0, 1)), "-y": ((0, -1, 0), (0, 0, 1)),
@@ -87,14 +87,14 @@ def setting(text):
     return name, list(value) if isinstance(value, tuple) else value
 
 
-FOUR_PICTURES = """\
-Writes one PNG with four pictures of the same view of a flow field: volume rendering, schlieren with
+FOUR_IMAGES = """\
+Writes one PNG with four images of the same view of a flow field: volume rendering, schlieren with
 a vertical and with a horizontal knife edge, and shadowgraph. Without FILE: an under-expanded air
-jet that comes with the sources. With --all as the first word: all pictures that the bench can make,
+jet that comes with the sources. With --all as the first word: all images that the bench can make,
 on a contact sheet."""
 
 
-def parse_arguments(arguments, program="demo", description=FOUR_PICTURES, largest="880x640",
+def parse_arguments(arguments, program="demo", description=FOUR_IMAGES, largest="880x640",
                     ending="_schlieren.png"):
     parser = argparse.ArgumentParser(
         prog=program, formatter_class=argparse.RawDescriptionHelpFormatter, description=description,
@@ -128,13 +128,13 @@ examples:
     add("--view", type=view_direction, default="z", metavar="x|y|z|X,Y,Z",
         help="the axis to look along: x and z point at the viewer, y away from the viewer, a minus "
              "sign turns that round (--view=-x); or the direction of sight; default: z")
-    add("--up", type=vector, metavar="X,Y,Z", help="what is up in the picture")
+    add("--up", type=vector, metavar="X,Y,Z", help="what is up in the image")
     add("--center", type=vector, metavar="X,Y,Z",
-        help="the point in the middle of the picture; default: the data's")
+        help="the point in the middle of the image; default: the data's")
     add("--half-height", type=positive, metavar="H",
-        help="half the picture's height, in the data's unit; default: all of the data is seen")
+        help="half the image's height, in the data's unit; default: all of the data is seen")
     add("--size", type=size, metavar="WxH",
-        help=f"pixels of each picture; default: at most {largest}, in the data's proportions")
+        help=f"pixels of each image; default: at most {largest}, in the data's proportions")
     add("--set", type=setting, action="append", default=[], metavar="PROPERTY=VALUE",
         dest="settings", help="any other property of the Schlieren filter; may be repeated")
     add("--output", metavar="PNG", help=f"default: FILE{ending} in the current folder")
@@ -160,7 +160,7 @@ examples:
         raise DemoError(f"Cannot write '{options.output}': '{folder}' is no folder that you may "
                         "write to.")
     if not options.output.lower().endswith(".png"):
-        raise DemoError(f"Cannot write '{options.output}': the picture is a PNG, name it *.png.")
+        raise DemoError(f"Cannot write '{options.output}': the image is a PNG, name it *.png.")
     if options.up:
         cross = [options.view[0][(i + 1) % 3] * options.up[(i + 2) % 3]
                  - options.view[0][(i + 2) % 3] * options.up[(i + 1) % 3] for i in range(3)]

@@ -24,7 +24,7 @@ def load_plugin(options, messages):
 
 
 def open_flow(options, scratch, messages):
-    """A source, and the array of it that tells the index of refraction."""
+    """A source, and its array for the index of refraction."""
     reader = read(options, scratch, messages)
     if options.formula:
         return evaluate(reader, options, messages)
@@ -82,12 +82,12 @@ def facts_of(image):
 
 
 def check_light(blocked, frame):
-    """Tells how much light is blocked, of each pixel; a mistake where all of it is."""
-    share = blocked.sum() * frame.pixel ** 2 / frame.shadow
-    if share > 0.99:
-        raise DemoError("No light comes through: on every way there is a place that is solid or "
+    """Says which fraction of the light is blocked; a mistake where all of it is."""
+    fraction = blocked.sum() * frame.pixel ** 2 / frame.shadow
+    if fraction > 0.99:
+        raise DemoError("No light comes through: every line of sight meets a place that is solid or "
                         "that no cell covers. Choose another --view, or let light pass outside of "
                         "all cells: --set OutsideBlocksLight=0")
-    if share > 0.1:
-        say(f"{share:.0%} of the light is blocked: by solids, or by places that no cell covers "
+    if fraction > 0.1:
+        say(f"{fraction:.0%} of the light is blocked: by solids, or by places that no cell covers "
             "(--set OutsideBlocksLight=0 lets it pass there)")

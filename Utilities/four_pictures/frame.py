@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The view that all four pictures share."""
+"""The view that all four images share."""
 
 import math
 
@@ -36,7 +36,7 @@ class Frame:
                                        for side in (width, height))
         self.scale = options.half_height or max(height, width * self.height / self.width) / 2
         self.pixel = 2 * self.scale / self.height
-        # How much of the picture the data's box covers (all of it, where it reaches beyond).
+        # How much of the image the data's box covers (all of it, where it reaches beyond).
         faces = extent[[1, 2, 0]] * extent[[2, 0, 1]]
         self.shadow = min(np.abs(self.direction) @ faces,
                           self.width * self.height * self.pixel ** 2)
@@ -53,4 +53,4 @@ class Frame:
 
 
 # ---------------------------------------------------------------------------------------------
-# The four pictures, each a numpy array of frame.height rows (bottom row first)
+# The four images, each a numpy array of frame.height rows (bottom row first)

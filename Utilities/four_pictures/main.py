@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One flow field, four pictures of the same view in one PNG: a volume rendering, what a schlieren
+"""One flow field, four images of the same view in one PNG: a volume rendering, what a schlieren
 bench shows with a vertical and with a horizontal knife edge, and a shadowgraph.
 
 Started by Utilities/demo, or by hand:
@@ -31,11 +31,11 @@ from messages import Messages, Progress, say  # noqa: E402
 from sheet import compose  # noqa: E402
 
 
-def bench_pictures(reader, array, frame, options, messages):
+def bench_images(reader, array, frame, options, messages):
     """Vertical knife edge, horizontal knife edge and shadowgraph, from one tracing of the rays."""
     schlieren = new_bench(reader, array, frame, options)
     progress = Progress(schlieren)
-    pictures = []
+    images = []
     for name, cutoff, angle in (("vertical knife edge", "Knife Edge", 0),
                                 ("horizontal knife edge", "Knife Edge", 90),
                                 ("shadowgraph", "Shadowgraph", 0)):
@@ -45,10 +45,10 @@ def bench_pictures(reader, array, frame, options, messages):
         image = output_of(schlieren, name, messages)
         arrays = image.GetPointData()
         intensity = vtk_to_numpy(arrays.GetArray("Intensity"))
-        pictures.append((intensity.reshape(frame.height, frame.width).copy(), facts_of(image)))
+        images.append((intensity.reshape(frame.height, frame.width).copy(), facts_of(image)))
         say(f"{name.capitalize()}: {time.monotonic() - begin:.1f} s")
     check_light(vtk_to_numpy(arrays.GetArray("BlockedFraction")), frame)
-    return pictures
+    return images
 
 
 def refractivity(reader, array, clear, options, messages):
@@ -93,7 +93,7 @@ def volume_rendering(medium, frame):
     representation.SetScalarBarVisibility(view, False)
     color = pv.GetColorTransferFunction("Refractivity")
     opacity = pv.GetOpacityTransferFunction("Refractivity")
-    # Away from the clear value, as a share of the way to the extreme: colour and opacity.
+    # Away from the clear value, as a fraction of the distance to the extreme: colour and opacity.
     below = ((1.0, (0.15, 0.40, 1.0), 0.90), (0.6, (0.40, 0.70, 1.0), 0.45),
              (0.15, (0.75, 0.90, 1.0), 0.06), (0.03, (0.9, 0.9, 0.9), 0))
     above = ((0.03, (0.9, 0.9, 0.9), 0), (0.12, (1.0, 0.85, 0.55), 0.08),
@@ -106,8 +106,8 @@ def volume_rendering(medium, frame):
         visible = span > 0.02 * reach
         span = span if visible else reach
         sign = -1 if steps is below else 1
-        return [(clear + sign * share * span, rgb, alpha if visible else 0)
-                for share, rgb, alpha in steps]
+        return [(clear + sign * fraction * span, rgb, alpha if visible else 0)
+                for fraction, rgb, alpha in steps]
 
     points = side(low, below) + side(high, above)
     color.ColorSpace = "RGB"
@@ -134,14 +134,14 @@ def main(options):
         reader, array = open_flow(options, scratch, messages)
         frame = Frame(reader.GetDataInformation().GetBounds(), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
-        pictures = bench_pictures(reader, array, frame, options, messages)
+        images = bench_images(reader, array, frame, options, messages)
         begin = time.monotonic()
-        clear = pictures[0][1]["AmbientRefractivity"]
+        clear = images[0][1]["AmbientRefractivity"]
         medium = refractivity(reader, array, clear, options, messages)
         volume = volume_rendering(medium, frame)
         say(f"Volume rendering: {time.monotonic() - begin:.1f} s")
-        compose(volume, medium, pictures, frame, array, options).write(options.output)
-    say(f"The picture: {os.path.abspath(options.output)}")
+        compose(volume, medium, images, frame, array, options).write(options.output)
+    say(f"The image: {os.path.abspath(options.output)}")
 
 
 if __name__ == "__main__":

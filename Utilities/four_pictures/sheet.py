@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sheet: four pictures with titles and axes. Row 0 is the top one here."""
+"""The sheet: four images with titles and axes. Row 0 is the top one here."""
 
 import math
 import os
@@ -17,8 +17,8 @@ from arguments import DemoError
 
 def grey(intensity, white):
     """A pixel of the result for a pixel of the film: nothing is resampled."""
-    share = np.clip(np.nan_to_num(intensity) / white, 0, 1)
-    return np.repeat(np.rint(255 * share).astype(np.uint8)[..., None], 3, axis=2)
+    level = np.clip(np.nan_to_num(intensity) / white, 0, 1)
+    return np.repeat(np.rint(255 * level).astype(np.uint8)[..., None], 3, axis=2)
 
 
 class Sheet:
@@ -88,7 +88,7 @@ def round_step(span, wanted):
 
 
 def draw_axes(sheet, left, top, frame, options):
-    """Ticks below and to the left of a picture, in round steps of a unit of length."""
+    """Ticks below and to the left of an image, in round steps of a unit of length."""
     extent = max(frame.right - frame.left, frame.top - frame.bottom) * options.length_scale
     unit, metres = length_unit(extent)
     scale = options.length_scale / metres
@@ -121,7 +121,7 @@ def format_length(data_units, options):
 
 
 def layout(frame):
-    """The sheet's width and height, the upper left corners of its pictures, a column's width."""
+    """The sheet's width and height, the upper left corners of its images, a column's width."""
     margin, head, foot, above, below = 64, 62, 30, 84, 48
     column = max(frame.width, 560) + margin
     row = above + frame.height + below
@@ -129,8 +129,8 @@ def layout(frame):
     return 2 * column + 24, head + 2 * row + foot, corners, column
 
 
-def compose(volume, medium, pictures, frame, array, options):
-    (vertical, facts), (horizontal, _), (shadow, _) = pictures
+def compose(volume, medium, images, frame, array, options):
+    (vertical, facts), (horizontal, _), (shadow, _) = images
     k = facts["KScale"]
     _, low, clear, high = medium
     distance = dict(options.settings).get("ScreenDistance", -1)

@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the tables of Documentation/properties.md from Plugin/*.xml.
+
+    Utilities/property_tables.py            # write them
+    Utilities/property_tables.py --check    # fail where the page differs from them
+
+A table stands between <!-- table: GROUP --> and <!-- end -->; GROUP is the label of a property group, or one of
+Inputs, Commands, Information and Others, the properties in no group. The rest of the page is written by hand.
+"""
+
+import collections
+import difflib
+import os
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PAGE = os.path.join(ROOT, "Documentation", "properties.md")
+FILES = [os.path.join(ROOT, "Plugin", name) for name in ("RefractiveIndex.xml", "Schlieren.xml")]
+
+Property = collections.namedtuple("Property", "element name label command is_array entries default help group")
+
+
+def words(element):
+    return " ".join((element.text or "").split())
+
+
+def entries_of(element):
+    """The values of an enumeration, by their texts."""
+    return {entry.get("text"): int(entry.get("value")) for entry in element.iter("Entry")}
+
+
+def default_of(element):
+    """The default as the XML has it: numbers, names of entries, bools; None where it is an object or an array."""
+    attributes = element.attrib
+    text = attributes.get("default_values")
+    if "element_types" in attributes:
+        return "None" if (text or "").endswith(" None") else None
+    if attributes.get("repeat_command") == "1":
+        return []
+    if not element.tag.endswith("VectorProperty") or text is None:
+        return None
+    for entry in element.iter("Entry"):
+        if entry.get("value") == text:
+            return entry.get("text")
+    if element.find("BooleanDomain") is not None:
+        return text == "1"
+    if element.tag.startswith("String"):
+        return text
+    kind = float if element.tag.startswith("Double") else int
+    values = [kind(value) for value in text.split()]
+    return values if len(values) > 1 else values[0]
+
+
+def group_of(element, groups):
+    if element.tag == "InputProperty":
+        return "Inputs"
+    if element.tag == "Property":
+        return "Commands"
+    if element.get("information_only") == "1":
+        return "Information"
+    return groups.get(element.get("name"), "Others")
+
+
+def read(files=None):
+    """All properties, by name; where both filters describe one, as Schlieren does."""
+    found = {}
+    groups = {}
+    for path in files or FILES:
+        proxy = ElementTree.parse(path).getroot().find(".//SourceProxy")
+        for group in proxy.findall("PropertyGroup"):
+            groups.update({member.get("name"): group.get("label") for member in group.findall("Property")})
+        for element in proxy:
+            name, help_element = element.get("name"), element.find("Documentation")
+            if element.tag != "Property" and not element.tag.endswith("Property"):
+                continue
+            if help_element is None:
+                sys.exit(f"{path}: {name} has no Documentation.")
+            if re.search(r"\bdefault", words(help_element), re.IGNORECASE):
+                sys.exit(f"{path}: the Documentation of {name} repeats its default, which its attribute states.")
+            found[name] = Property(element, name, element.get("label", name), element.get("command"),
+                                   "element_types" in element.attrib, entries_of(element), default_of(element),
+                                   words(help_element), group_of(element, groups))
+    return found
+
+
+def shown(item):
+    """A default as a cell of a table: numbers as they are written in the XML."""
+    value = item.default
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if value in ("", []):
+        return "none"
+    if isinstance(value, str):
+        return f"`{value}`"
+    return ", ".join(item.element.get("default_values").split()).replace("-", "−").replace("e−", "e-")
+
+
+def range_of(element):
+    names = list(entries_of(element)) or [entry.get("value") for entry in element.iter("String")]
+    if names:
+        return ", ".join(f"`{name}`" for name in names[:8]) + (", …" if len(names) > 8 else "")
+    for tag in ("DoubleRangeDomain", "IntRangeDomain"):
+        domain = element.find(tag)
+        if domain is not None:
+            low, high = (domain.get(end, "").split(" ")[0].replace("-", "−") for end in ("min", "max"))
+            return f"{low} to {high}" if high else f"≥ {low}" if low else ""
+    return "on, off" if element.find("BooleanDomain") is not None else ""
+
+
+def unit_of(element):
+    for decorator in element.iter("PropertyWidgetDecorator"):
+        if decorator.get("type") == "SchlierenUnit":
+            return decorator.get("unit")
+    return ""
+
+
+def table(group, properties):
+    """The rows of a group, in the order of the XML."""
+    members = [item for item in properties.values() if item.group == group]
+    if not members:
+        sys.exit(f"{PAGE}: there is no property in a group '{group}'.")
+    labels = {item.label: item.name for item in properties.values() if " " in item.label}
+    known = re.compile(r"\b(" + "|".join(sorted(labels, key=len, reverse=True)) + r")\b")
+
+    def meaning(item):
+        return known.sub(lambda found: f"`{labels[found.group(1)]}`", item.help).replace("|", "\\|")
+
+    if group in ("Inputs", "Commands", "Information"):
+        return ["| name | meaning |", "|---|---|"] + [f"| `{item.name}` | {meaning(item)} |" for item in members]
+    rows = ["| property | default | values | unit | meaning |", "|---|---|---|---|---|"]
+    for item in members:
+        cells = (f"`{item.name}`", shown(item), range_of(item.element), unit_of(item.element), meaning(item))
+        rows.append("| " + " | ".join(cells) + " |")
+    return rows
+
+
+def page(text, properties):
+    """The page with its tables as they should be."""
+    made = []
+
+    def replace(match):
+        made.append(match.group(1))
+        return "\n".join([f"<!-- table: {match.group(1)} -->", *table(match.group(1), properties), "<!-- end -->"])
+
+    result = re.sub(r"<!-- table: ([\w ]+) -->\n.*?<!-- end -->", replace, text, flags=re.DOTALL)
+    missing = {item.group for item in properties.values()} - set(made)
+    if missing or len(made) != len(set(made)):
+        sys.exit(f"{PAGE}: tables that are missing: {sorted(missing)}; all tables: {made}.")
+    return result
+
+
+def main():
+    with open(PAGE, encoding="utf-8") as file:
+        text = file.read()
+    wanted = page(text, read())
+    if "--check" not in sys.argv[1:]:
+        with open(PAGE, "w", encoding="utf-8") as file:
+            file.write(wanted)
+    elif text != wanted:
+        sys.stdout.writelines(difflib.unified_diff(text.splitlines(True), wanted.splitlines(True),
+                                                   "Documentation/properties.md", "what Plugin/*.xml says"))
+        sys.exit("Documentation/properties.md differs from Plugin/*.xml: run Utilities/property_tables.py.")
+
+
+if __name__ == "__main__":
+    main()
