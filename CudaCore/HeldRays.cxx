@@ -92,7 +92,7 @@ const TracedPass* HeldRays::raysOf(std::int64_t number, const Pass& pass, Device
   return &scratch_;
 }
 
-void HeldRays::ask(const TracedPass& traced, TracedRays rays, std::int64_t number,
+void HeldRays::ask(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
   const Scene& scene, const DeflectionErrors& errors)
 {
   if (number == 0 && scene.histogramSize > 0 &&
@@ -113,14 +113,10 @@ void HeldRays::ask(const TracedPass& traced, TracedRays rays, std::int64_t numbe
   }
   if (isKWanted)
   {
-    std::vector<RayExit> fetched;
-    if (traced.onDevice)
-    {
-      fetched = traced.onDevice->toHost();
-      rays.exits = fetched.data();
-    }
-    strong_ =
-      schlieren::strongDeflection(rays, scene.view.width, scene.view.height, errors, scene.threads);
+    strong_ = traced.onDevice ? schlieren::strongDeflection(*traced.onDevice, rays.pass,
+                                  scene.view.width, scene.view.height, errors)
+                              : schlieren::strongDeflection(
+                                  rays, scene.view.width, scene.view.height, errors, scene.threads);
   }
 }
 

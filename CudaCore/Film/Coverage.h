@@ -15,19 +15,24 @@ struct Moments
   double area, x, y;
 };
 
-/// Some pixels and what a polygon covers of each. Pixel (i, j) is [i, i + 1] x [j, j + 1].
-struct CoverageTile
+/// Pixels of a tile along each axis, at most. Pixel (i, j) is [i, i + 1] x [j, j + 1].
+constexpr int coverageTileSize = 8;
+
+/// Some rows of a tile, `rowsAtOnce` at most, of `size` pixels at most, and what a polygon covers of their pixels. How many rows there are at
+/// once changes no bit of it.
+template <int rowsAtOnce, int size = coverageTileSize>
+struct CoverageRows
 {
-  static constexpr int size = 8; ///< pixels along each axis, at most
+  int columns;
+  int firstRow, endRow;             ///< of the tile
+  Moments pixels[rowsAtOnce][size]; ///< from firstRow on
 
-  int columns, rows;
-  Moments pixels[size][size]; ///< row by row
-
-  SCHLIEREN_HD CoverageTile(int columnCount, int rowCount)
+  SCHLIEREN_HD CoverageRows(int columnCount, int first, int end)
     : columns(columnCount)
-    , rows(rowCount)
+    , firstRow(first)
+    , endRow(end)
   {
-    for (int j = 0; j < rows; ++j)
+    for (int j = 0; j < endRow - firstRow; ++j)
     {
       for (int i = 0; i < columns; ++i)
       {
@@ -43,27 +48,29 @@ struct CoverageTile
     const bool rises = yb > ya;
     const double x0 = rises ? xa : xb, y0 = rises ? ya : yb;
     const double x1 = rises ? xb : xa, y1 = rises ? yb : ya;
-    if (!(y1 > y0) || y1 <= 0 || y0 >= rows)
+    if (!(y1 > y0) || y1 <= firstRow || y0 >= endRow)
     {
       return;
     }
     const double perRow = (x1 - x0) / (y1 - y0);
     // What is to the right of a rising edge is outside.
     const double sign = rises ? -1 : 1;
-    double x = y0 > 0 ? x0 : x0 - y0 * perRow;
-    double y = y0 > 0 ? y0 : 0;
-    for (int row = static_cast<int>(y); row < rows && y < y1; ++row)
+    const bool startsHere = y0 > firstRow;
+    double x = startsHere ? x0 : x0 + (firstRow - y0) * perRow;
+    double y = startsHere ? y0 : firstRow;
+    for (int row = static_cast<int>(y); row < endRow && y < y1; ++row)
     {
       const bool isLast = y1 <= row + 1;
       const double nextX = isLast ? x1 : x0 + (row + 1 - y0) * perRow;
       const double nextY = isLast ? y1 : row + 1;
+      Moments* const here = pixels[row - firstRow];
       if (nextX >= x)
       {
-        addWithinRow(pixels[row], sign, x, y, nextX, nextY);
+        addWithinRow(here, sign, x, y, nextX, nextY);
       }
       else
       {
-        addWithinRow(pixels[row], -sign, nextX, nextY, x, y);
+        addWithinRow(here, -sign, nextX, nextY, x, y);
       }
       x = nextX;
       y = nextY;
@@ -72,7 +79,7 @@ struct CoverageTile
 
 private:
   /// Adds `sign` times what is to the right of a piece of an edge, from left to right.
-  SCHLIEREN_HD void addWithinRow(
+  SCHLIEREN_APART void addWithinRow(
     Moments* row, double sign, double x0, double y0, double x1, double y1) const
   {
     if (x0 < 0)

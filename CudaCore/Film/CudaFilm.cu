@@ -8,6 +8,7 @@
 #include "Device/CudaLaunch.h"
 #include "Film/Sheet.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -21,6 +22,12 @@ namespace
 // A block works for a tile of rays that start near each other.
 constexpr int tileColumns = 32, tileRows = 4;
 constexpr int threadsPerBlock = tileColumns * tileRows;
+
+/// Of a band, of which three more are shaded.
+constexpr std::int64_t fewestRows = 16;
+
+/// Of bentKernel, however many cells there are.
+constexpr unsigned mostBlocksOfBent = 1024;
 
 /// What atomicAdd takes; whole numbers wrap, so that the sum's bits are those of signed ones.
 using Counter = unsigned long long;
@@ -82,6 +89,9 @@ private:
   }
 };
 
+template <int planes>
+using DeviceSheet = Sheet<planes, DeviceDeposit<planes>, 1>;
+
 __device__ std::int64_t sumOverWarp(std::int64_t number)
 {
   constexpr unsigned all = 0xffffffff;
@@ -92,30 +102,64 @@ __device__ std::int64_t sumOverWarp(std::int64_t number)
   return number;
 }
 
-/// A pass with the rays of the picture and its margin.
+/// A pass with the rays of the image and its margin, some rows of which are shaded at a time.
 struct RaysOnDevice
 {
   const RayExit* exits;
   Pass pass;
   std::int64_t margin;
-  std::int64_t columns, rows; ///< the margin among them
+  std::int64_t columns, rows;    ///< the margin among them
+  std::int64_t firstRow, endRow; ///< that are added; cells belong to the row of their lower rays
+  std::int64_t firstShaded, endShaded; ///< rows that this takes
 
   __device__ const RayExit& exit(std::int64_t column, std::int64_t row) const
   {
     return exits[(row - margin - pass.firstRow) * pass.columns + column - margin -
       pass.firstColumn];
   }
-  unsigned blocks() const
+  /// Of those that work for rows.
+  unsigned blocks(std::int64_t rowCount) const
   {
     return static_cast<unsigned>(
-      (columns + tileColumns - 1) / tileColumns * ((rows + tileRows - 1) / tileRows));
+      (columns + tileColumns - 1) / tileColumns * ((rowCount + tileRows - 1) / tileRows));
   }
-  /// Where the ray, and the cell that it is the lower left one of, is that this thread works for; it may be outside.
-  __device__ void place(std::int64_t& column, std::int64_t& row) const
+  /// Where the ray, and the cell that it is the lower left one of, is that this thread works for, if the first block
+  /// works for row `first`; it may be outside.
+  __device__ void place(std::int64_t first, std::int64_t& column, std::int64_t& row) const
   {
     const std::int64_t along = (columns + tileColumns - 1) / tileColumns;
     column = blockIdx.x % along * tileColumns + threadIdx.x % tileColumns;
-    row = blockIdx.x / along * tileRows + threadIdx.x / tileColumns;
+    row = first + blockIdx.x / along * tileRows + threadIdx.x / tileColumns;
+  }
+};
+
+/// Shaded rays, and the cells between them that are added by bentKernel.
+template <int planes>
+struct ShadedRays
+{
+  RaysOnDevice rays;
+  FilmRay<planes>* shaded; ///< rows firstShaded ... endShaded - 1
+  unsigned* bent;          ///< first how many, then which: numbers of their lower left rays
+
+  /// That does not arrive where there is none.
+  __device__ FilmRay<planes> at(std::int64_t column, std::int64_t row) const
+  {
+    return column >= 0 && column < rays.columns && row >= rays.firstShaded && row < rays.endShaded
+      ? shaded[(row - rays.firstShaded) * rays.columns + column]
+      : FilmRay<planes>{};
+  }
+  /// Calls use(the rays of a cell, the rays around it).
+  template <class Use>
+  __device__ void useCell(std::int64_t column, std::int64_t row, const Use& use) const
+  {
+    const auto ray = [&](std::int64_t right, std::int64_t up)
+    { return at(column + right, row + up); };
+    const auto smooth = [&ray](std::int64_t right, std::int64_t up)
+    {
+      return sheetRay(ray(right, up), ray(right - 1, up), ray(right + 1, up), ray(right, up - 1),
+        ray(right, up + 1));
+    };
+    use(smooth(0, 0), smooth(1, 0), smooth(0, 1), smooth(1, 1), ray);
   }
 };
 
@@ -123,36 +167,30 @@ struct RaysOnDevice
 /// block come to its end.
 template <class CutoffKind>
 __global__ void shadeKernel(const CutoffKind cutoff, const Projection projection,
-  const RaysOnDevice rays, FilmRay<CutoffKind::channels>* shaded, const Sums sums)
+  const ShadedRays<CutoffKind::channels> to, const Sums sums)
 {
+  const RaysOnDevice& rays = to.rays;
   std::int64_t i, j;
-  rays.place(i, j);
+  rays.place(rays.firstShaded, i, j);
   RayCounts counts;
-  if (i < rays.columns && j < rays.rows)
+  if (i < rays.columns && j < rays.endShaded)
   {
     const RayExit& exit = rays.exit(i, j);
-    counts.add(exit);
     const std::int64_t column = i - rays.margin, row = j - rays.margin;
-    if (column >= 0 && column < sums.film.columns && row >= 0 && row < sums.film.rows)
+    if (j >= rays.firstRow && j < rays.endRow) // others are counted with their own
     {
-      sums.pixels[row * sums.film.columns + column].add(exit); // no other thread has this pixel
-      counts.addShaded(exit, cutoff);
+      counts.add(exit);
+      if (column >= 0 && column < sums.film.columns && row >= 0 && row < sums.film.rows)
+      {
+        sums.pixels[row * sums.film.columns + column].add(exit); // no other thread has this pixel
+        counts.addShaded(exit, cutoff);
+      }
     }
-    FilmRay<CutoffKind::channels> ray{};
-    ray.arrives = exit.reachesFilm();
-    ray.crossed = crossedOnTheWay(exit, projection);
-    if (ray.arrives)
-    {
-      // Rounded as in Exposure.cxx.
-      const double startColumn = static_cast<double>(-rays.margin) + rays.pass.offset.column;
-      const double startRow = static_cast<double>(row) + rays.pass.offset.row;
-      const RayAtFilm atFilm =
-        rayAtFilm(exit, startColumn + static_cast<double>(i), startRow, rays.pass.tilt, projection);
-      ray.x = atFilm.place[0] + 0.5;
-      ray.y = atFilm.place[1] + 0.5;
-      cutoff.shade(atFilm, ray.light);
-    }
-    shaded[j * rays.columns + i] = ray;
+    // Rounded as on the CPU.
+    const double startColumn = static_cast<double>(-rays.margin) + rays.pass.offset.column;
+    const double startRow = static_cast<double>(row) + rays.pass.offset.row;
+    to.shaded[(j - rays.firstShaded) * rays.columns + i] = shade(
+      exit, startColumn + static_cast<double>(i), startRow, rays.pass.tilt, projection, cutoff);
   }
   const int crossed = __syncthreads_count(counts.crossed != 0);
   const int blocked = __syncthreads_count(counts.blocked != 0);
@@ -174,56 +212,101 @@ __global__ void shadeKernel(const CutoffKind cutoff, const Projection projection
   }
 }
 
-/// Brings the light of shaded rays to the film. All threads of a block come to its end.
-template <FilmEstimator estimator, int planes>
-__global__ void depositKernel(
-  const RaysOnDevice rays, const FilmRay<planes>* shaded, const Sums sums)
+/// Adds the light that threads have emitted. All threads of a block come to its end.
+template <int planes>
+__device__ void addSums(const DeviceDeposit<planes>& deposit)
 {
-  std::int64_t i, j;
-  rays.place(i, j);
-  DeviceDeposit<planes> deposit{ sums };
-  if (i < rays.columns && j < rays.rows)
-  {
-    const auto ray = [&](std::int64_t right, std::int64_t up)
-    {
-      const std::int64_t column = i + right, row = j + up;
-      return column >= 0 && column < rays.columns && row >= 0 && row < rays.rows
-        ? shaded[row * rays.columns + column]
-        : FilmRay<planes>{};
-    };
-    if constexpr (estimator == FilmEstimator::Photon)
-    {
-      addPhoton(ray(0, 0), sums.film, deposit);
-    }
-    else if (i + 1 < rays.columns && j + 1 < rays.rows)
-    {
-      const auto smooth = [&ray](std::int64_t right, std::int64_t up)
-      {
-        return sheetRay(ray(right, up), ray(right - 1, up), ray(right + 1, up), ray(right, up - 1),
-          ray(right, up + 1));
-      };
-      Sheet<planes, DeviceDeposit<planes>>(sums.film, deposit)
-        .addCell(smooth(0, 0), smooth(1, 0), smooth(0, 1), smooth(1, 1), ray);
-    }
-  }
   for (int plane = 0; plane < planes; ++plane)
   {
     const std::int64_t emitted = sumOverWarp(deposit.all[plane].emitted);
     const std::int64_t outside = sumOverWarp(deposit.all[plane].outside);
     if (threadIdx.x % 32 == 0)
     {
-      add(&sums.planes[plane].emitted, emitted);
-      add(&sums.planes[plane].outside, outside);
+      add(&deposit.sums.planes[plane].emitted, emitted);
+      add(&deposit.sums.planes[plane].outside, outside);
     }
   }
+}
+
+/// Brings the light of shaded rays to the film; of a sheet, that of plain cells. All threads of a block come to its
+/// end.
+template <FilmEstimator estimator, int planes>
+__global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
+{
+  const RaysOnDevice& rays = from.rays;
+  std::int64_t i, j;
+  rays.place(rays.firstRow, i, j);
+  DeviceDeposit<planes> deposit{ sums };
+  if (i < rays.columns && j < rays.endRow)
+  {
+    if constexpr (estimator == FilmEstimator::Photon)
+    {
+      addPhoton(from.at(i, j), sums.film, deposit);
+    }
+    else if (i + 1 < rays.columns && j + 1 < rays.rows)
+    {
+      from.useCell(i, j,
+        [&](const auto& lowerLeft, const auto& lowerRight, const auto& upperLeft,
+          const auto& upperRight, const auto&)
+        {
+          if (!DeviceSheet<planes>(sums.film, deposit)
+                 .addPlain(lowerLeft, lowerRight, upperLeft, upperRight))
+          {
+            const unsigned n = atomicAdd(from.bent, 1u);
+            from.bent[1 + n] = static_cast<unsigned>((j - rays.firstRow) * rays.columns + i);
+          }
+        });
+    }
+  }
+  addSums(deposit);
+}
+
+/// The light of other cells, a thread for each part of them. All threads of a block come to its end.
+template <int planes>
+__global__ void bentKernel(const ShadedRays<planes> from, const Sums sums)
+{
+  constexpr unsigned parts = 4;
+  const RaysOnDevice& rays = from.rays;
+  DeviceDeposit<planes> deposit{ sums };
+  for (unsigned n = blockIdx.x * blockDim.x + threadIdx.x; n < parts * from.bent[0];
+       n += gridDim.x * blockDim.x)
+  {
+    const unsigned cell = from.bent[1 + n / parts];
+    from.useCell(cell % rays.columns, rays.firstRow + cell / rays.columns,
+      [&](const auto& lowerLeft, const auto& lowerRight, const auto& upperLeft,
+        const auto& upperRight, const auto& around)
+      {
+        DeviceSheet<planes>(sums.film, deposit)
+          .addOther(
+            static_cast<int>(n % parts), lowerLeft, lowerRight, upperLeft, upperRight, around);
+      });
+  }
+  addSums(deposit);
+}
+
+template <int planes>
+void deposit(const ShadedRays<planes>& shaded, FilmEstimator estimator, const Sums& sums)
+{
+  const unsigned blocks = shaded.rays.blocks(shaded.rays.endRow - shaded.rays.firstRow);
+  if (estimator == FilmEstimator::Photon)
+  {
+    launchKernel(depositKernel<FilmEstimator::Photon, planes>, blocks, threadsPerBlock, 0, nullptr,
+      shaded, sums);
+    return;
+  }
+  launchKernel(
+    depositKernel<FilmEstimator::Sheet, planes>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
+  launchKernel(bentKernel<planes>, std::min(blocks, mostBlocksOfBent), threadsPerBlock, 0, nullptr,
+    shaded, sums);
 }
 
 } // namespace
 
 struct CudaFilm::DeviceMemory
 {
-  explicit DeviceMemory(const Films& films)
-    : pixels(films.planes[0].pixels())
+  DeviceMemory(const Films& films, std::int64_t raysOfBand)
+    : raysPerBand(raysOfBand)
+    , pixels(films.planes[0].pixels())
     , light(pixels * films.planes.size())
     , sums(pixels)
     , counts(1)
@@ -238,7 +321,7 @@ struct CudaFilm::DeviceMemory
     clear(planes.data(), films.planes.size() * sizeof(LightSums));
     if (films.samples)
     {
-      samples = std::make_unique<CudaFilm>(*films.samples);
+      samples = std::make_unique<CudaFilm>(*films.samples, raysPerBand);
     }
   }
 
@@ -258,14 +341,16 @@ struct CudaFilm::DeviceMemory
   template <int planes>
   FilmRay<planes>* raysAtFilm(std::int64_t count)
   {
-    const auto bytes = static_cast<std::size_t>(count) * sizeof(FilmRay<planes>);
-    if (!shaded || shadedBytes < bytes)
-    {
-      shaded.reset();
-      shaded = std::make_unique<CudaBuffer<unsigned char, DeviceError>>(bytes);
-      shadedBytes = bytes;
-    }
-    return reinterpret_cast<FilmRay<planes>*>(shaded->data());
+    return reinterpret_cast<FilmRay<planes>*>(
+      room(shaded, shadedBytes, static_cast<std::size_t>(count) * sizeof(FilmRay<planes>)));
+  }
+  /// Likewise for cells, none of which is there yet.
+  unsigned* bentCells(std::int64_t most)
+  {
+    auto* const cells = reinterpret_cast<unsigned*>(
+      room(bent, bentBytes, (1 + static_cast<std::size_t>(most)) * sizeof(unsigned)));
+    clear(cells, sizeof(unsigned));
+    return cells;
   }
 
   static void clear(void* bytes, std::size_t size)
@@ -273,6 +358,19 @@ struct CudaFilm::DeviceMemory
     checkCuda<DeviceError>(cudaMemset(bytes, 0, size), "Clearing the film");
   }
 
+  using Bytes = CudaBuffer<unsigned char, DeviceError>;
+  static unsigned char* room(std::unique_ptr<Bytes>& bytes, std::size_t& size, std::size_t wanted)
+  {
+    if (!bytes || size < wanted)
+    {
+      bytes.reset();
+      bytes = std::make_unique<Bytes>(wanted);
+      size = wanted;
+    }
+    return bytes->data();
+  }
+
+  std::int64_t raysPerBand;
   std::size_t pixels;
   CudaBuffer<Counter, DeviceError> light;
   CudaBuffer<PixelSums, DeviceError> sums;
@@ -282,12 +380,12 @@ struct CudaFilm::DeviceMemory
   std::unique_ptr<CudaFilm> samples;
   std::unique_ptr<CudaBuffer<float, DeviceError>> copied;
   const float* onHost = nullptr; ///< what has been copied
-  std::unique_ptr<CudaBuffer<unsigned char, DeviceError>> shaded;
-  std::size_t shadedBytes = 0;
+  std::unique_ptr<Bytes> shaded, bent;
+  std::size_t shadedBytes = 0, bentBytes = 0;
 };
 
-CudaFilm::CudaFilm(const Films& films)
-  : memory_(std::make_unique<DeviceMemory>(films))
+CudaFilm::CudaFilm(const Films& films, std::int64_t raysPerBand)
+  : memory_(std::make_unique<DeviceMemory>(films, raysPerBand))
 {
 }
 
@@ -297,26 +395,35 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
   const Projection& projection, std::int64_t margin, FilmEstimator estimator)
 {
   const Sums& sums = memory_->view;
-  const RaysOnDevice rays{ traced.exits(), pass, margin, sums.film.columns + 2 * margin,
-    sums.film.rows + 2 * margin };
-  std::visit(
-    [&](auto kind)
-    {
-      using Kind = decltype(kind);
-      constexpr int planes = Kind::channels;
-      if (Table* table = tableOf(kind))
+  const std::int64_t columns = sums.film.columns + 2 * margin;
+  const std::int64_t rows = sums.film.rows + 2 * margin;
+  const bool isSheet = estimator == FilmEstimator::Sheet;
+  const std::int64_t rowsPerBand = std::max(fewestRows, memory_->raysPerBand / columns);
+  for (std::int64_t row = 0; row < rows; row += rowsPerBand)
+  {
+    const std::int64_t end = std::min(rows, row + rowsPerBand);
+    // Cells look at the rays below them and at two rows above.
+    const RaysOnDevice rays{ traced.exits(), pass, margin, columns, rows, row, end,
+      isSheet ? std::max<std::int64_t>(row - 1, 0) : row, isSheet ? std::min(rows, end + 2) : end };
+    std::visit(
+      [&](auto kind)
       {
-        *table = memory_->copyOf(*table);
-      }
-      auto* const shaded = memory_->raysAtFilm<planes>(rays.columns * rays.rows);
-      launchKernel(shadeKernel<Kind>, rays.blocks(), threadsPerBlock, 0, nullptr, kind, projection,
-        rays, shaded, sums);
-      launchKernel(estimator == FilmEstimator::Sheet ? depositKernel<FilmEstimator::Sheet, planes>
-                                                     : depositKernel<FilmEstimator::Photon, planes>,
-        rays.blocks(), threadsPerBlock, 0, nullptr, rays, shaded, sums);
-    },
-    cutoff);
-  checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
+        constexpr int planes = decltype(kind)::channels;
+        if (Table* table = tableOf(kind))
+        {
+          *table = memory_->copyOf(*table);
+        }
+        const std::int64_t shadedRows = rays.endShaded - rays.firstShaded;
+        const ShadedRays<planes> shaded{ rays,
+          memory_->raysAtFilm<planes>(columns * std::min(rows, rowsPerBand + 3)),
+          isSheet ? memory_->bentCells(columns * std::min(rows, rowsPerBand)) : nullptr };
+        launchKernel(shadeKernel<decltype(kind)>, rays.blocks(shadedRows), threadsPerBlock, 0,
+          nullptr, kind, projection, shaded, sums);
+        deposit(shaded, estimator, sums);
+      },
+      cutoff);
+    checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
+  }
   if (memory_->samples)
   {
     memory_->samples->expose(traced, pass, Shadowgraph{}, projection, margin, estimator);

@@ -10,7 +10,7 @@ struct CudaFilm::DeviceMemory
 {
 };
 
-CudaFilm::CudaFilm(const Films&) { throw DeviceError(builtWithoutCuda); }
+CudaFilm::CudaFilm(const Films&, std::int64_t) { throw DeviceError(builtWithoutCuda); }
 
 CudaFilm::~CudaFilm() = default;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Film/Shading.h"
 #include "Film/Splat.h"
 #include "Math/HostDevice.h"
 
@@ -9,17 +10,6 @@
 
 namespace schlieren
 {
-
-/// A ray where it meets the film's plane.
-template <int planes>
-struct FilmRay
-{
-  double x,
-    y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
-  double light[planes]; ///< 0 ... 1
-  bool arrives;
-  bool crossed = true; ///< the medium
-};
 
 /// What light is brought to, in fixed point. `one`: the value of a full ray.
 struct FilmSize

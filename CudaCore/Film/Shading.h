@@ -31,6 +31,17 @@ SCHLIEREN_HD bool crossedOnTheWay(const RayExit& exit, const Projection& project
   return projection.isOfCamera || exit.fate != RayFate::Missed;
 }
 
+/// What the film gets of a ray, and all that depositing knows of it.
+template <int planes>
+struct FilmRay
+{
+  double x,
+    y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
+  double light[planes]; ///< 0 ... 1
+  bool arrives;
+  bool crossed = true; ///< the medium
+};
+
 /// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
 /// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
 SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
@@ -80,6 +91,24 @@ SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
   {
     ray.position[axis] = start[axis] + moved[axis] * projection.perDataUnit;
     ray.place[axis] = projection.isOfCamera ? start[axis] : ray.position[axis];
+  }
+  return ray;
+}
+
+/// Shades a ray that starts at (column, row) of the image. A place on the film where it does not arrive is 0.
+template <class CutoffKind>
+SCHLIEREN_HD FilmRay<CutoffKind::channels> shade(const RayExit& exit, double column, double row,
+  const double (&tilt)[2], const Projection& projection, const CutoffKind& cutoff)
+{
+  FilmRay<CutoffKind::channels> ray{};
+  ray.arrives = exit.reachesFilm();
+  ray.crossed = crossedOnTheWay(exit, projection);
+  if (ray.arrives)
+  {
+    const RayAtFilm atFilm = rayAtFilm(exit, column, row, tilt, projection);
+    ray.x = atFilm.place[0] + 0.5;
+    ray.y = atFilm.place[1] + 0.5;
+    cutoff.shade(atFilm, ray.light);
   }
   return ray;
 }

@@ -12,13 +12,6 @@
 #include <cmath>
 #include <cstdint>
 
-/// Marks what few cells need: one copy of it is enough, on the device, too.
-#ifdef __CUDACC__
-#define SCHLIEREN_CALLED __noinline__ __host__ __device__
-#else
-#define SCHLIEREN_CALLED SCHLIEREN_APART
-#endif
-
 namespace schlieren
 {
 
@@ -74,8 +67,9 @@ SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRa
   return ray;
 }
 
-/// Spreads the light between rays over a film's pixels. Deposit: see addPhoton.
-template <int planes, class Deposit>
+/// Spreads the light between rays over a film's pixels. Deposit: see addPhoton. `rowsAtOnce`: of pixels that a
+/// polygon covers; the fewer, the less memory.
+template <int planes, class Deposit, int rowsAtOnce = coverageTileSize>
 class Sheet
 {
 public:
@@ -96,16 +90,57 @@ public:
   SCHLIEREN_HD void addCell(const SheetRay<planes>& lowerLeft, const SheetRay<planes>& lowerRight,
     const SheetRay<planes>& upperLeft, const SheetRay<planes>& upperRight, const Around& around)
   {
-    constexpr double straight = 0.02; ///< pixels
-    constexpr double tangled =
-      8; ///< where rays are too far from each other to tell what is between
-    const double bend =
-      larger(larger(lowerLeft.bend, lowerRight.bend), larger(upperLeft.bend, upperRight.bend));
-    if (!(bend > straight && bend < tangled) ||
-      !addRefined(lowerLeft, lowerRight, upperLeft, upperRight, around))
+    if (addPlain(lowerLeft, lowerRight, upperLeft, upperRight))
     {
-      addCell(lowerLeft, lowerRight, upperLeft, upperRight);
+      return;
     }
+    const Halves halves = halvesOf(lowerLeft, lowerRight, upperLeft, upperRight, around);
+    if (halves.areThere)
+    {
+      addQuarters(lowerLeft, lowerRight, upperLeft, upperRight, halves);
+      return;
+    }
+    addCell(lowerLeft, lowerRight, upperLeft, upperRight);
+  }
+
+  /// The same in two steps, the first of which is all that most cells need: false if the second one has to follow,
+  /// of parts 0 to 3.
+  SCHLIEREN_HD bool addPlain(const SheetRay<planes>& lowerLeft, const SheetRay<planes>& lowerRight,
+    const SheetRay<planes>& upperLeft, const SheetRay<planes>& upperRight)
+  {
+    return !isBent(lowerLeft, lowerRight, upperLeft, upperRight) &&
+      addFlat(lowerLeft, lowerRight, upperLeft, upperRight);
+  }
+  template <class Around>
+  SCHLIEREN_HD void addOther(int part, const SheetRay<planes>& lowerLeft,
+    const SheetRay<planes>& lowerRight, const SheetRay<planes>& upperLeft,
+    const SheetRay<planes>& upperRight, const Around& around)
+  {
+    const Halves halves = halvesOf(lowerLeft, lowerRight, upperLeft, upperRight, around);
+    if (part > 0 && !halves.areThere)
+    {
+      return;
+    }
+    Ray corners[4] = { lowerLeft, lowerRight, upperLeft, upperRight };
+    if (halves.areThere)
+    {
+      const bool isRight = part % 2 == 1, isUpper = part / 2 == 1;
+      const Ray left = between(lowerLeft, upperLeft, halves.left);
+      const Ray right = between(lowerRight, upperRight, halves.right);
+      const Ray below = between(lowerLeft, lowerRight, halves.below);
+      const Ray above = between(upperLeft, upperRight, halves.above);
+      const Ray middle = between(left, right, halves.middle);
+      corners[0] =
+        either(isUpper, either(isRight, middle, left), either(isRight, below, lowerLeft));
+      corners[1] =
+        either(isUpper, either(isRight, right, middle), either(isRight, lowerRight, below));
+      corners[2] =
+        either(isUpper, either(isRight, above, upperLeft), either(isRight, middle, left));
+      corners[3] =
+        either(isUpper, either(isRight, upperRight, above), either(isRight, right, middle));
+    }
+    Sheet({ film_.columns, film_.rows, (halves.areThere ? 0.25 : 1) * film_.one }, deposit_)
+      .addCell(corners[0], corners[1], corners[2], corners[3]);
   }
 
   /// The light between four neighbouring rays. Where some of them do not arrive, or do not cross the medium, the
@@ -114,19 +149,10 @@ public:
   SCHLIEREN_HD void addCell(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
-    if (areTogether(lowerLeft, lowerRight) && areTogether(lowerLeft, upperLeft) &&
-      areTogether(lowerLeft, upperRight))
+    if (!addFlat(lowerLeft, lowerRight, upperLeft, upperRight))
     {
-      if (!addRegular(lowerLeft, lowerRight, upperLeft, upperRight))
-      {
-        addBent(lowerLeft, lowerRight, upperLeft, upperRight);
-      }
-      return;
+      addBent(lowerLeft, lowerRight, upperLeft, upperRight);
     }
-    addQuarter(lowerLeft, 0, 0);
-    addQuarter(lowerRight, -0.5, 0);
-    addQuarter(upperLeft, 0, -0.5);
-    addQuarter(upperRight, -0.5, -0.5);
   }
 
 private:
@@ -145,16 +171,33 @@ private:
     {
       return 0.25 * ((light[plane][0] + light[plane][2]) + (light[plane][1] + light[plane][3]));
     }
+    /// Makes the second corner the first one.
+    SCHLIEREN_HD void turn()
+    {
+      const Point first = at[0];
+      at[0] = at[1];
+      at[1] = at[2];
+      at[2] = at[3];
+      at[3] = first;
+      for (double(&corners)[4] : light)
+      {
+        const double last = corners[0];
+        corners[0] = corners[1];
+        corners[1] = corners[2];
+        corners[2] = corners[3];
+        corners[3] = last;
+      }
+    }
   };
 
   struct Box
   {
     double left, right, low, high;
 
-    SCHLIEREN_HD static Box around(const Point* at, int count)
+    SCHLIEREN_HD static Box around(const Point (&at)[4])
     {
       Box box = { at[0].x, at[0].x, at[0].y, at[0].y };
-      for (int i = 1; i < count; ++i)
+      for (int i = 1; i < 4; ++i)
       {
         box = { smaller(box.left, at[i].x), larger(box.right, at[i].x), smaller(box.low, at[i].y),
           larger(box.high, at[i].y) };
@@ -177,8 +220,32 @@ private:
     std::int64_t column, row; ///< a pixel that got light; column < 0: none
   };
 
+  /// Places half-way between the rays of a cell, where it is added as four.
+  struct Halves
+  {
+    bool areThere;
+    Point left, right, below, above, middle;
+  };
+
   SCHLIEREN_HD static double smaller(double a, double b) { return a < b ? a : b; }
   SCHLIEREN_HD static double larger(double a, double b) { return a > b ? a : b; }
+
+  /// Calls use(a corner, the next one, that after it). No corner is chosen by a number, so that they may be in
+  /// registers.
+  template <class Use>
+  SCHLIEREN_HD static void forEachCorner(const Point (&at)[4], const Use& use)
+  {
+    Point a = at[0], b = at[1], c = at[2], d = at[3];
+    for (int i = 0; i < 4; ++i)
+    {
+      use(a, b, c);
+      const Point last = a;
+      a = b;
+      b = c;
+      c = d;
+      d = last;
+    }
+  }
 
   /// Twice the area of a triangle, negative where its corners go round clockwise.
   SCHLIEREN_HD static double cross(const Point& a, const Point& b, const Point& c)
@@ -187,10 +254,10 @@ private:
   }
 
   /// Whether shares of an area stand out from rounding.
-  SCHLIEREN_HD static bool isWide(double area, const Point* at, int count)
+  SCHLIEREN_HD static bool isWide(double area, const Point (&at)[4])
   {
     constexpr double least = 1e-9; // of the square of the extent
-    const Box box = Box::around(at, count);
+    const Box box = Box::around(at);
     const double extent = larger(box.right - box.left, box.high - box.low);
     return fabs(area) > least * extent * extent;
   }
@@ -256,14 +323,47 @@ private:
     return true;
   }
 
-  /// False if not all rays belong together.
-  template <class Around>
-  SCHLIEREN_CALLED bool addRefined(const Ray& lowerLeft, const Ray& lowerRight,
-    const Ray& upperLeft, const Ray& upperRight, const Around& around)
+  SCHLIEREN_HD static bool isBent(const SheetRay<planes>& lowerLeft,
+    const SheetRay<planes>& lowerRight, const SheetRay<planes>& upperLeft,
+    const SheetRay<planes>& upperRight)
   {
-    Point rows[4];    // half-way between rays 0 and 1 of each row
-    Point columns[4]; // and of each column
+    constexpr double straight = 0.02; ///< pixels
+    constexpr double tangled =
+      8; ///< where rays are too far from each other to tell what is between
+    const double bend =
+      larger(larger(lowerLeft.bend, lowerRight.bend), larger(upperLeft.bend, upperRight.bend));
+    return bend > straight && bend < tangled;
+  }
+
+  /// A cell that is regular, or not all of whose rays belong together. False if it is another.
+  SCHLIEREN_HD bool addFlat(
+    const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
+  {
+    if (areTogether(lowerLeft, lowerRight) && areTogether(lowerLeft, upperLeft) &&
+      areTogether(lowerLeft, upperRight))
+    {
+      return addRegular(lowerLeft, lowerRight, upperLeft, upperRight);
+    }
+    addQuarter(lowerLeft, 0, 0);
+    addQuarter(lowerRight, -0.5, 0);
+    addQuarter(upperLeft, 0, -0.5);
+    addQuarter(upperRight, -0.5, -0.5);
+    return true;
+  }
+
+  /// There are none of a cell that is not bent, or if not all rays belong together.
+  template <class Around>
+  SCHLIEREN_APART static Halves halvesOf(const SheetRay<planes>& lowerLeft,
+    const SheetRay<planes>& lowerRight, const SheetRay<planes>& upperLeft,
+    const SheetRay<planes>& upperRight, const Around& around)
+  {
+    Halves halves{};
+    if (!isBent(lowerLeft, lowerRight, upperLeft, upperRight))
+    {
+      return halves;
+    }
     Point at[4][4];
+    Point rows[4]; // half-way between rays 0 and 1 of each row
     for (int j = 0; j < 4; ++j)
     {
       for (int i = 0; i < 4; ++i)
@@ -271,21 +371,26 @@ private:
         const Ray& ray = around(i - 1, j - 1);
         if (!areTogether(lowerLeft, ray))
         {
-          return false;
+          return halves;
         }
         at[j][i] = { ray.x, ray.y };
       }
       rows[j] = halfWay(at[j][0], at[j][1], at[j][2], at[j][3]);
     }
-    for (int i = 1; i < 3; ++i)
-    {
-      columns[i] = halfWay(at[0][i], at[1][i], at[2][i], at[3][i]);
-    }
-    const Ray left = between(upperLeft, lowerLeft, columns[1]);
-    const Ray right = between(upperRight, lowerRight, columns[2]);
-    const Ray below = between(lowerLeft, lowerRight, rows[1]);
-    const Ray above = between(upperLeft, upperRight, rows[2]);
-    const Ray middle = between(left, right, halfWay(rows[0], rows[1], rows[2], rows[3]));
+    return { true, halfWay(at[0][1], at[1][1], at[2][1], at[3][1]),
+      halfWay(at[0][2], at[1][2], at[2][2], at[3][2]), rows[1], rows[2],
+      halfWay(rows[0], rows[1], rows[2], rows[3]) };
+  }
+
+  /// All that addOther does of a cell that has halves.
+  SCHLIEREN_APART void addQuarters(const Ray& lowerLeft, const Ray& lowerRight,
+    const Ray& upperLeft, const Ray& upperRight, const Halves& halves)
+  {
+    const Ray left = between(lowerLeft, upperLeft, halves.left);
+    const Ray right = between(lowerRight, upperRight, halves.right);
+    const Ray below = between(lowerLeft, lowerRight, halves.below);
+    const Ray above = between(upperLeft, upperRight, halves.above);
+    const Ray middle = between(left, right, halves.middle);
     const Ray rays[3][3] = { { lowerLeft, below, lowerRight }, { left, middle, right },
       { upperLeft, above, upperRight } };
     Sheet quarter({ film_.columns, film_.rows, 0.25 * film_.one }, deposit_);
@@ -294,7 +399,19 @@ private:
       const int i = n % 2, j = n / 2;
       quarter.addCell(rays[j][i], rays[j][i + 1], rays[j + 1][i], rays[j + 1][i + 1]);
     }
-    return true;
+  }
+
+  /// Of two rays that belong together, number by number: a choice between structures would have them in memory.
+  SCHLIEREN_HD static Ray either(bool isFirst, const Ray& first, const Ray& second)
+  {
+    Ray ray = first;
+    ray.x = isFirst ? first.x : second.x;
+    ray.y = isFirst ? first.y : second.y;
+    for (int plane = 0; plane < planes; ++plane)
+    {
+      ray.light[plane] = isFirst ? first.light[plane] : second.light[plane];
+    }
+    return ray;
   }
 
   /// In the middle of a cubic through four points (Catmull & Rom 1974).
@@ -348,7 +465,7 @@ private:
   }
 
   /// Any other cell.
-  SCHLIEREN_CALLED void addBent(
+  SCHLIEREN_APART void addBent(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
     constexpr double mostPixels = 4096; // looked at one by one, for one cell
@@ -366,7 +483,7 @@ private:
     {
       size += fabs(at.x) + fabs(at.y);
     }
-    const Box box = Box::around(cell.at, 4);
+    const Box box = Box::around(cell.at);
     if (size < 1e300 && isNear(box))
     {
       const double columns = floor(smaller(box.right, columns_)) - floor(larger(box.left, 0)) + 1;
@@ -376,13 +493,9 @@ private:
         rest.column = static_cast<std::int64_t>(box.left);
         rest.row = static_cast<std::int64_t>(box.low);
       }
-      else if (columns * rows > mostPixels || size > furthest)
+      else
       {
-        addPoints(cell, 1, rest);
-      }
-      else if (!addConvex(cell, rest))
-      {
-        addFolded(cell, rest);
+        addShape(cell, columns * rows > mostPixels || size > furthest, rest);
       }
     }
     for (int plane = 0; plane < planes; ++plane)
@@ -423,29 +536,78 @@ private:
     return box.left >= 0 && box.right < columns_ && box.low >= 0 && box.high < rows_;
   }
 
+  /// A cell as one polygon, or, where it is none, as four triangles around its middle, each with a quarter of the
+  /// rays, wherever they lie over each other; or, where it is too large or has no area, as points.
+  SCHLIEREN_HD void addShape(Cell cell, bool isTooLarge, Rest& rest)
+  {
+    Light light{};
+    double area = 0;
+    const bool isConvex = !isTooLarge && findConvex(cell, area, light);
+    const Point middle = { 0.25 * ((cell.at[0].x + cell.at[2].x) + (cell.at[1].x + cell.at[3].x)),
+      0.25 * ((cell.at[0].y + cell.at[2].y) + (cell.at[1].y + cell.at[3].y)) };
+    const bool isFolded = !isTooLarge && !isConvex && isWide(areaAround(cell, middle), cell.at);
+    for (int n = 0; n < (isFolded ? 4 : 1); ++n)
+    {
+      Cell part = cell;
+      bool isPolygon = isConvex;
+      if (isFolded)
+      {
+        part.at[2] = part.at[3] = middle;
+        findTriangle(cell, middle, area, light);
+        isPolygon = isWide(area, part.at);
+        for (int plane = 0; plane < planes; ++plane)
+        {
+          for (double& atCorner : part.light[plane])
+          {
+            atCorner = light.mean[plane];
+          }
+        }
+        cell.turn();
+      }
+      if (isPolygon)
+      {
+        addPolygon(part.at, area, isFolded ? 0.25 : 1, light, rest);
+      }
+      else
+      {
+        addPoints(part, isFolded ? 0.25 : 1, rest);
+      }
+    }
+  }
+
+  /// Twice the area of the triangles between a cell's sides and a point, each counted as positive.
+  SCHLIEREN_HD static double areaAround(const Cell& cell, const Point& middle)
+  {
+    return fabs(cross(cell.at[0], cell.at[1], middle)) +
+      fabs(cross(cell.at[1], cell.at[2], middle)) + fabs(cross(cell.at[2], cell.at[3], middle)) +
+      fabs(cross(cell.at[3], cell.at[0], middle));
+  }
+
   /// False if the cell is not convex, has hardly any area, or if light that varies linearly in it would be
   /// negative somewhere.
-  SCHLIEREN_HD bool addConvex(const Cell& cell, Rest& rest)
+  SCHLIEREN_HD static bool findConvex(const Cell& cell, double& area, Light& light)
   {
     const Point(&at)[4] = cell.at;
     const double firstX = at[2].x - at[0].x, firstY = at[2].y - at[0].y; // diagonals
     const double secondX = at[3].x - at[1].x, secondY = at[3].y - at[1].y;
-    const double area = 0.5 * (firstX * secondY - firstY * secondX);
-    if (!isWide(area, at, 4))
+    area = 0.5 * (firstX * secondY - firstY * secondX);
+    if (!isWide(area, at))
     {
       return false;
     }
-    for (int i = 0; i < 4; ++i)
-    {
-      const double turn = cross(at[i], at[(i + 1) % 4], at[(i + 2) % 4]);
-      if (area > 0 ? turn < 0 : turn > 0)
+    bool isConvex = true;
+    forEachCorner(at,
+      [&](const Point& a, const Point& b, const Point& c)
       {
-        return false;
-      }
+        const double turn = cross(a, b, c);
+        isConvex = isConvex && !(area > 0 ? turn < 0 : turn > 0);
+      });
+    if (!isConvex)
+    {
+      return false;
     }
     // That of two triangles.
     const double share = 0.5 * cross(at[0], at[1], at[2]) / area;
-    Light light;
     light.centre = { (at[0].x + at[2].x + share * at[1].x + (1 - share) * at[3].x) / 3,
       (at[0].y + at[2].y + share * at[1].y + (1 - share) * at[3].y) / 3 };
     // From the middle of a side to that of the opposite one: s to the right, t up; s x t is the area.
@@ -469,70 +631,41 @@ private:
         }
       }
     }
-    addPolygon({ at, 4, area, 1 }, light, rest);
     return true;
   }
 
-  /// Four triangles around the middle, each with a quarter of the rays, wherever they lie over each other.
-  SCHLIEREN_HD void addFolded(const Cell& cell, Rest& rest)
+  /// The triangle between a cell's first two corners and its middle.
+  SCHLIEREN_HD static void findTriangle(
+    const Cell& cell, const Point& middle, double& area, Light& light)
   {
-    const Point middle = { 0.25 * ((cell.at[0].x + cell.at[2].x) + (cell.at[1].x + cell.at[3].x)),
-      0.25 * ((cell.at[0].y + cell.at[2].y) + (cell.at[1].y + cell.at[3].y)) };
-    const double inAll = fabs(cross(cell.at[0], cell.at[1], middle)) +
-      fabs(cross(cell.at[1], cell.at[2], middle)) + fabs(cross(cell.at[2], cell.at[3], middle)) +
-      fabs(cross(cell.at[3], cell.at[0], middle));
-    if (!isWide(inAll, cell.at, 4))
+    area = 0.5 * cross(cell.at[0], cell.at[1], middle);
+    const double ax = cell.at[0].x - middle.x, ay = cell.at[0].y - middle.y;
+    const double bx = cell.at[1].x - middle.x, by = cell.at[1].y - middle.y;
+    light.centre = { middle.x + (ax + bx) / 3, middle.y + (ay + by) / 3 };
+    for (int plane = 0; plane < planes; ++plane)
     {
-      addPoints(cell, 1, rest);
-      return;
-    }
-    for (int i = 0; i < 4; ++i)
-    {
-      const int j = (i + 1) % 4;
-      const Point triangle[3] = { cell.at[i], cell.at[j], middle };
-      const double area = 0.5 * cross(cell.at[i], cell.at[j], middle);
-      const double ax = cell.at[i].x - middle.x, ay = cell.at[i].y - middle.y;
-      const double bx = cell.at[j].x - middle.x, by = cell.at[j].y - middle.y;
-      Light light;
-      light.centre = { middle.x + (ax + bx) / 3, middle.y + (ay + by) / 3 };
-      for (int plane = 0; plane < planes; ++plane)
-      {
-        const double mean = cell.mean(plane);
-        const double a = cell.light[plane][i] - mean, b = cell.light[plane][j] - mean;
-        light.mean[plane] = mean + (a + b) / 3;
-        light.perX[plane] = (a * by - b * ay) / (2 * area);
-        light.perY[plane] = (b * ax - a * bx) / (2 * area);
-      }
-      if (isWide(area, triangle, 3))
-      {
-        addPolygon({ triangle, 3, area, 0.25 }, light, rest);
-        continue;
-      }
-      Cell collapsed = { { cell.at[i], cell.at[j], middle, middle }, {} };
-      for (int plane = 0; plane < planes; ++plane)
-      {
-        for (double& atCorner : collapsed.light[plane])
-        {
-          atCorner = light.mean[plane];
-        }
-      }
-      addPoints(collapsed, 0.25, rest);
+      const double mean = cell.mean(plane);
+      const double a = cell.light[plane][0] - mean, b = cell.light[plane][1] - mean;
+      light.mean[plane] = mean + (a + b) / 3;
+      light.perX[plane] = (a * by - b * ay) / (2 * area);
+      light.perY[plane] = (b * ax - a * bx) / (2 * area);
     }
   }
 
   /// Clockwise (its area is negative then) or counterclockwise.
   struct Polygon
   {
-    const Point* at;
-    int count;
+    Point at[4]; ///< of a triangle, the last two are one
     double area;
-    double share; ///< of the cell's rays that it holds
+    double fraction; ///< of the cell's rays that it holds
   };
 
   /// Spreads light evenly over a polygon.
-  SCHLIEREN_HD void addPolygon(const Polygon& polygon, const Light& light, Rest& rest)
+  SCHLIEREN_HD void addPolygon(
+    const Point (&at)[4], double area, double fraction, const Light& light, Rest& rest)
   {
-    const Box box = Box::around(polygon.at, polygon.count);
+    const Polygon polygon{ { at[0], at[1], at[2], at[3] }, area, fraction };
+    const Box box = Box::around(polygon.at);
     if (!isInside(box))
     {
       const double low = larger(box.low, 0), high = smaller(box.high, rows_);
@@ -549,35 +682,37 @@ private:
     const auto firstRow = static_cast<std::int64_t>(larger(box.low, 0));
     const auto lastColumn = static_cast<std::int64_t>(smaller(box.right, columns_ - 1));
     const auto lastRow = static_cast<std::int64_t>(smaller(box.high, rows_ - 1));
-    constexpr int size = CoverageTile::size;
+    constexpr int size = coverageTileSize;
     for (std::int64_t row = firstRow; row <= lastRow; row += size)
     {
       for (std::int64_t column = firstColumn; column <= lastColumn; column += size)
       {
-        CoverageTile tile(
-          lastColumn - column < size ? static_cast<int>(lastColumn - column) + 1 : size,
-          lastRow - row < size ? static_cast<int>(lastRow - row) + 1 : size);
-        const Point origin = { static_cast<double>(column), static_cast<double>(row) };
-        for (int i = 0; i < polygon.count; ++i)
+        const int columns =
+          lastColumn - column < size ? static_cast<int>(lastColumn - column) + 1 : size;
+        const int rows = lastRow - row < size ? static_cast<int>(lastRow - row) + 1 : size;
+        for (int first = 0; first < rows; first += rowsAtOnce)
         {
-          const Point& a = polygon.at[i];
-          const Point& b = polygon.at[i + 1 < polygon.count ? i + 1 : 0];
-          tile.addEdge(a.x - origin.x, a.y - origin.y, b.x - origin.x, b.y - origin.y);
+          addRows(columns, first, first + rowsAtOnce < rows ? first + rowsAtOnce : rows, column,
+            row, polygon, light, rest);
         }
-        addTile(tile, column, row, polygon, light, rest);
       }
     }
   }
 
-  SCHLIEREN_HD void addTile(const CoverageTile& tile, std::int64_t column, std::int64_t row,
-    const Polygon& polygon, const Light& light, Rest& rest)
+  /// Some rows of the tile whose lower left pixel is (column, row).
+  SCHLIEREN_HD void addRows(int columns, int firstRow, int endRow, std::int64_t column,
+    std::int64_t row, const Polygon& polygon, const Light& light, Rest& rest)
   {
     const Point origin = { static_cast<double>(column), static_cast<double>(row) };
-    for (int j = 0; j < tile.rows; ++j)
+    CoverageRows<rowsAtOnce> tile(columns, firstRow, endRow);
+    forEachCorner(polygon.at,
+      [&](const Point& a, const Point& b, const Point&)
+      { tile.addEdge(a.x - origin.x, a.y - origin.y, b.x - origin.x, b.y - origin.y); });
+    for (int j = firstRow; j < endRow; ++j)
     {
-      for (int i = 0; i < tile.columns; ++i)
+      for (int i = 0; i < columns; ++i)
       {
-        const Moments& covered = tile.pixels[j][i];
+        const Moments& covered = tile.pixels[j - firstRow][i];
         if (covered.area == 0)
         {
           continue;
@@ -602,7 +737,7 @@ private:
       light.perX[plane] * (covered.x - covered.area * (light.centre.x - origin.x)) +
       light.perY[plane] * (covered.y - covered.area * (light.centre.y - origin.y));
     const double part = sum / polygon.area;
-    return part > 0 ? film_.fixed(part * polygon.share) : 0;
+    return part > 0 ? film_.fixed(part * polygon.fraction) : 0;
   }
 
   /// What of a polygon's light falls into a box beside the film.
@@ -615,14 +750,13 @@ private:
       return;
     }
     // As if the box were a pixel.
-    CoverageTile tile(1, 1);
-    for (int i = 0; i < polygon.count; ++i)
-    {
-      const Point& a = polygon.at[i];
-      const Point& b = polygon.at[i + 1 < polygon.count ? i + 1 : 0];
-      tile.addEdge((a.x - box.left) / width, (a.y - box.low) / height, (b.x - box.left) / width,
-        (b.y - box.low) / height);
-    }
+    CoverageRows<1, 1> tile(1, 0, 1);
+    forEachCorner(polygon.at,
+      [&](const Point& a, const Point& b, const Point&)
+      {
+        tile.addEdge((a.x - box.left) / width, (a.y - box.low) / height, (b.x - box.left) / width,
+          (b.y - box.low) / height);
+      });
     const double size = width * height;
     const Moments& inBox = tile.pixels[0][0];
     const Moments covered = { inBox.area * size, inBox.x * size * width, inBox.y * size * height };

@@ -212,8 +212,10 @@ auto visitScheme(Interpolation interpolation, const Visit& visit)
   {
     case Interpolation::Linear:
       return visit(LinearInterpolation{});
+#ifndef SCHLIEREN_WITHOUT_PAPER_METHODS
     case Interpolation::Central:
       return visit(CentralInterpolation{});
+#endif
     case Interpolation::Cubic:
       return visit(CubicInterpolation{});
     default:

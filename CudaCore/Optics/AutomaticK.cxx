@@ -10,16 +10,12 @@
 namespace schlieren
 {
 
-double strongDeflection(
-  const TracedRays& rays, int width, int height, const DeflectionErrors& errors, int threads)
+namespace
+{
+
+double strongDeflection(const Spread& squares, const DeflectionErrors& errors)
 {
   constexpr double errorByFullScale = 0.02, fullScaleByLargest = 0.1;
-  const Spread squares = spreadOf(rays, width, height, threads,
-    [&rays](std::int64_t ray)
-    {
-      const double* eps = rays.exits[ray].deflection;
-      return eps[0] * eps[0] + eps[1] * eps[1];
-    });
   const double largest = std::sqrt(squares.largest);
   double typical = std::sqrt(squares.percentile);
   if (!(typical > errors.rounding))
@@ -30,6 +26,27 @@ double strongDeflection(
   typical =
     std::max(typical, std::min(errors.medium / errorByFullScale, fullScaleByLargest * largest));
   return squares.rays > 0 ? std::max(typical, errors.rounding) : 0;
+}
+
+} // namespace
+
+double strongDeflection(
+  const TracedRays& rays, int width, int height, const DeflectionErrors& errors, int threads)
+{
+  return strongDeflection(
+    spreadOf(rays, width, height, threads,
+      [&rays](std::int64_t ray) { return squaredDeflection(rays.exits[ray]); }),
+    errors);
+}
+
+double strongDeflection(
+  const CudaPass& rays, const Pass& pass, int width, int height, const DeflectionErrors& errors)
+{
+  const CudaPass::Squares squares = rays.countSquares(pass, width, height);
+  return strongDeflection(spreadOf(squares.counts, squares.largest,
+                            [&](std::size_t bin, std::int64_t count)
+                            { return rays.squaresIn(bin, count, pass, width, height); }),
+    errors);
 }
 
 } // namespace schlieren

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rays/CudaPass.h"
 #include "Rays/TracedRays.h"
 
 namespace schlieren
@@ -24,6 +25,9 @@ struct DeflectionErrors
 ///   it.
 double strongDeflection(
   const TracedRays& rays, int width, int height, const DeflectionErrors& errors, int threads);
+/// The same of rays on the device, which stay there. Throws DeviceError.
+double strongDeflection(
+  const CudaPass& rays, const Pass& pass, int width, int height, const DeflectionErrors& errors);
 
 /// The k that maps a strong deflection to full scale, k |eps| = `fullScale`; 1 where there is none.
 inline double automaticK(double deflection, double fullScale)

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "Device/Parallel.h"
+#include "Rays/DeflectionBins.h"
 #include "Rays/TracedRays.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <mutex>
 #include <numeric>
@@ -25,21 +25,37 @@ struct Spread
   double largest = 0;
 };
 
-/// The spread of valueOf(ray), numbers of 0 or more, over the pixels of a picture. Exact, in two passes:
-/// the first counts values by their leading bits, which grow with them; the second looks among the few
-/// that share theirs with the percentile.
+/// Exact, of numbers of 0 or more that are counted by their LeadingBits. numbersIn(bin, their count) gives those of a
+/// bin, in any order.
+template <class NumbersIn>
+Spread spreadOf(const std::vector<std::int64_t>& counts, double largest, const NumbersIn& numbersIn)
+{
+  constexpr double fraction = 0.99;
+  Spread spread;
+  spread.largest = largest;
+  spread.rays = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  if (spread.rays == 0)
+  {
+    return spread;
+  }
+  auto rank = static_cast<std::int64_t>(fraction * static_cast<double>(spread.rays - 1));
+  std::size_t bin = 0;
+  while (rank >= counts[bin])
+  {
+    rank -= counts[bin++];
+  }
+  std::vector<double> alike = numbersIn(bin, counts[bin]);
+  std::nth_element(alike.begin(), alike.begin() + rank, alike.end());
+  spread.percentile = alike[static_cast<std::size_t>(rank)];
+  return spread;
+}
+
+/// The spread of valueOf(ray), numbers of 0 or more, over the pixels of an image. In two passes: the first counts
+/// values by their leading bits; the second looks among the few in the percentile's bin.
 template <class ValueOf>
 Spread spreadOf(const TracedRays& rays, std::int64_t width, std::int64_t height, int threads,
   const ValueOf& valueOf)
 {
-  constexpr double share = 0.99;
-  constexpr int leadingBits = 16; // sign, exponent and 4 bits of the fraction
-  const auto leading = [](double value)
-  {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof(bits));
-    return static_cast<std::size_t>(bits >> (64 - leadingBits));
-  };
   std::mutex lock;
   const auto forEachPiece = [&](const auto& work)
   {
@@ -64,56 +80,46 @@ Spread spreadOf(const TracedRays& rays, std::int64_t width, std::int64_t height,
       });
   };
 
-  Spread spread;
-  std::vector<std::int64_t> counts(std::size_t{ 1 } << leadingBits);
+  double largest = 0;
+  std::vector<std::int64_t> counts(LeadingBits::count);
   forEachPiece(
     [&](const auto& forEachValue)
     {
       std::vector<std::int64_t> countsHere(counts.size());
-      double largest = 0;
+      double largestHere = 0;
       forEachValue(
         [&](double value)
         {
-          ++countsHere[leading(value)];
-          largest = std::max(largest, value);
+          ++countsHere[LeadingBits::of(value)];
+          largestHere = std::max(largestHere, value);
         });
       const std::lock_guard<std::mutex> guard(lock);
       std::transform(
         counts.begin(), counts.end(), countsHere.begin(), counts.begin(), std::plus<>());
-      spread.largest = std::max(spread.largest, largest);
+      largest = std::max(largest, largestHere);
     });
-  spread.rays = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-  if (spread.rays == 0)
-  {
-    return spread;
-  }
-
-  auto rank = static_cast<std::int64_t>(share * static_cast<double>(spread.rays - 1));
-  std::size_t bin = 0;
-  while (rank >= counts[bin])
-  {
-    rank -= counts[bin++];
-  }
-  std::vector<double> alike;
-  alike.reserve(static_cast<std::size_t>(counts[bin]));
-  forEachPiece(
-    [&](const auto& forEachValue)
+  return spreadOf(counts, largest,
+    [&](std::size_t bin, std::int64_t count)
     {
-      std::vector<double> alikeHere;
-      forEachValue(
-        [&](double value)
+      std::vector<double> alike;
+      alike.reserve(static_cast<std::size_t>(count));
+      forEachPiece(
+        [&](const auto& forEachValue)
         {
-          if (leading(value) == bin)
-          {
-            alikeHere.push_back(value);
-          }
+          std::vector<double> alikeHere;
+          forEachValue(
+            [&](double value)
+            {
+              if (LeadingBits::of(value) == bin)
+              {
+                alikeHere.push_back(value);
+              }
+            });
+          const std::lock_guard<std::mutex> guard(lock);
+          alike.insert(alike.end(), alikeHere.begin(), alikeHere.end());
         });
-      const std::lock_guard<std::mutex> guard(lock);
-      alike.insert(alike.end(), alikeHere.begin(), alikeHere.end());
+      return alike;
     });
-  std::nth_element(alike.begin(), alike.begin() + rank, alike.end());
-  spread.percentile = alike[static_cast<std::size_t>(rank)];
-  return spread;
 }
 
 } // namespace schlieren

@@ -33,7 +33,7 @@ struct RaysOfPicture
   {
     return static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock);
   }
-  /// The ray of this thread; null if there is none that is counted.
+  /// The ray of this thread; null if there is none.
   __device__ const RayExit* ofThread() const
   {
     const std::int64_t n = blockIdx.x * static_cast<std::int64_t>(threadsPerBlock) + threadIdx.x;
@@ -41,16 +41,25 @@ struct RaysOfPicture
     {
       return nullptr;
     }
-    const RayExit* ray = first + n / width * perRow + n % width;
-    return DeflectionBins::counts(*ray) ? ray : nullptr;
+    return first + n / width * perRow + n % width;
   }
 };
 
-/// All threads of a block come to its end.
-__global__ void largestKernel(const RaysOfPicture rays, long long* largest)
+/// Null where it is not counted.
+__device__ const RayExit* countedRay(const RaysOfPicture& rays)
 {
   const RayExit* ray = rays.ofThread();
-  double here = ray == nullptr ? 0 : fmax(fabs(ray->deflection[0]), fabs(ray->deflection[1]));
+  return ray != nullptr && DeflectionBins::counts(*ray) ? ray : nullptr;
+}
+__device__ const RayExit* crossingRay(const RaysOfPicture& rays)
+{
+  const RayExit* ray = rays.ofThread();
+  return ray != nullptr && ray->fate == RayFate::Left ? ray : nullptr;
+}
+
+/// `here` of 0 or more. All threads of a warp come here.
+__device__ void addLargest(double here, long long* largest)
+{
   for (int lanes = 16; lanes > 0; lanes /= 2)
   {
     constexpr unsigned all = 0xffffffff;
@@ -63,10 +72,49 @@ __global__ void largestKernel(const RaysOfPicture rays, long long* largest)
 }
 
 /// All threads of a block come to its end.
+__global__ void largestKernel(const RaysOfPicture rays, long long* largest)
+{
+  const RayExit* ray = countedRay(rays);
+  addLargest(
+    ray == nullptr ? 0 : fmax(fabs(ray->deflection[0]), fabs(ray->deflection[1])), largest);
+}
+
+/// All threads of a block come to its end.
+__global__ void countSquaresKernel(
+  const RaysOfPicture rays, unsigned long long* counts, long long* largest)
+{
+  const RayExit* ray = crossingRay(rays);
+  const double square = ray == nullptr ? 0 : squaredDeflection(*ray);
+  addLargest(square, largest);
+  // Where the gas is undisturbed nothing is bent: one sum of each block.
+  const int straight = __syncthreads_count(ray != nullptr && square == 0 ? 1 : 0);
+  if (threadIdx.x == 0 && straight > 0)
+  {
+    atomicAdd(counts, static_cast<unsigned long long>(straight));
+  }
+  if (ray != nullptr && square != 0)
+  {
+    atomicAdd(counts + LeadingBits::of(square), 1ull);
+  }
+}
+
+/// Lists the squared deflections of a bin.
+__global__ void findSquaresKernel(
+  const RaysOfPicture rays, std::size_t bin, unsigned long long* found, double* squares)
+{
+  const RayExit* ray = crossingRay(rays);
+  const double square = ray == nullptr ? 0 : squaredDeflection(*ray);
+  if (ray != nullptr && LeadingBits::of(square) == bin)
+  {
+    squares[atomicAdd(found, 1ull)] = square;
+  }
+}
+
+/// All threads of a block come to its end.
 __global__ void countKernel(
   const RaysOfPicture rays, const DeflectionBins bins, unsigned long long* counts)
 {
-  const RayExit* ray = rays.ofThread();
+  const RayExit* ray = countedRay(rays);
   std::int64_t bin = ray == nullptr ? -1 : bins.of(*ray);
   // Most rays are hardly bent: the four bins in the middle get one sum of each block.
   for (int quarter = 0; quarter < 4; ++quarter)
@@ -84,6 +132,19 @@ __global__ void countKernel(
   {
     atomicAdd(counts + bin, 1ull);
   }
+}
+
+double numberOf(long long bits)
+{
+  double value = 0;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+template <class T>
+void clear(const CudaBuffer<T, DeviceError>& values, std::size_t count)
+{
+  checkCuda<DeviceError>(cudaMemset(values.data(), 0, count * sizeof(T)), "Counting rays");
 }
 
 template <class T>
@@ -126,22 +187,46 @@ std::vector<RayExit> CudaPass::toHost() const
 double CudaPass::largestDeflection(const Pass& pass, int width, int height) const
 {
   const CudaBuffer<long long, DeviceError> largest(1);
-  checkCuda<DeviceError>(cudaMemset(largest.data(), 0, sizeof(long long)), "Counting rays");
+  clear(largest, 1);
   const RaysOfPicture rays(exits_, pass, width, height);
   launchKernel(largestKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, largest.data());
   checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
-  double value = 0;
-  const long long bits = schlieren::toHost(largest, 1)[0];
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
+  return numberOf(schlieren::toHost(largest, 1)[0]);
+}
+
+CudaPass::Squares CudaPass::countSquares(const Pass& pass, int width, int height) const
+{
+  const CudaBuffer<unsigned long long, DeviceError> counts(LeadingBits::count);
+  const CudaBuffer<long long, DeviceError> largest(1);
+  clear(counts, LeadingBits::count);
+  clear(largest, 1);
+  const RaysOfPicture rays(exits_, pass, width, height);
+  launchKernel(countSquaresKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, counts.data(),
+    largest.data());
+  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  const std::vector<unsigned long long> fetched = schlieren::toHost(counts, LeadingBits::count);
+  return { { fetched.begin(), fetched.end() }, numberOf(schlieren::toHost(largest, 1)[0]) };
+}
+
+std::vector<double> CudaPass::squaresIn(
+  std::size_t bin, std::int64_t count, const Pass& pass, int width, int height) const
+{
+  const auto size = static_cast<std::size_t>(count);
+  const CudaBuffer<unsigned long long, DeviceError> found(1);
+  const CudaBuffer<double, DeviceError> squares(size);
+  clear(found, 1);
+  const RaysOfPicture rays(exits_, pass, width, height);
+  launchKernel(findSquaresKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bin,
+    found.data(), squares.data());
+  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  return schlieren::toHost(squares, size);
 }
 
 void CudaPass::countDeflections(const Pass& pass, int width, int height, const DeflectionBins& bins,
   std::vector<std::int64_t>& counts) const
 {
   const CudaBuffer<unsigned long long, DeviceError> here(counts.size());
-  checkCuda<DeviceError>(
-    cudaMemset(here.data(), 0, counts.size() * sizeof(unsigned long long)), "Counting rays");
+  clear(here, counts.size());
   const RaysOfPicture rays(exits_, pass, width, height);
   launchKernel(countKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bins, here.data());
   checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");

@@ -34,6 +34,17 @@ public:
   void countDeflections(const Pass& pass, int width, int height, const DeflectionBins& bins,
     std::vector<std::int64_t>& counts) const;
 
+  /// The rays that start in an image and crossed the medium, by the LeadingBits of their squared deflection.
+  struct Squares
+  {
+    std::vector<std::int64_t> counts;
+    double largest;
+  };
+  Squares countSquares(const Pass& pass, int width, int height) const;
+  /// The squared deflections of one bin, which holds `count`, in any order.
+  std::vector<double> squaresIn(
+    std::size_t bin, std::int64_t count, const Pass& pass, int width, int height) const;
+
 private:
   RayExit* exits_ = nullptr;
   std::size_t size_;

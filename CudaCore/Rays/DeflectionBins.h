@@ -6,7 +6,9 @@
 #include "Rays/RayExit.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace schlieren
 {
@@ -35,5 +37,25 @@ private:
     return static_cast<std::int64_t>(floor(ldexp(deflection * half, -exponent)) + half);
   }
 };
+
+/// Bins of numbers of 0 or more by their leading bits, which grow with them.
+struct LeadingBits
+{
+  static constexpr int bits = 16; ///< sign, exponent and 4 bits of the fraction
+  static constexpr std::size_t count = std::size_t{ 1 } << bits;
+
+  static SCHLIEREN_HD std::size_t of(double value)
+  {
+    std::uint64_t all = 0;
+    std::memcpy(&all, &value, sizeof(all));
+    return static_cast<std::size_t>(all >> (64 - bits));
+  }
+};
+
+/// By how strongly rays are bent.
+SCHLIEREN_HD double squaredDeflection(const RayExit& exit)
+{
+  return exit.deflection[0] * exit.deflection[0] + exit.deflection[1] * exit.deflection[1];
+}
 
 } // namespace schlieren

@@ -784,8 +784,10 @@ auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
       return visit(Kernel<RefractedPath, Rk4, SchemeApart>{});
     case Integrator::Adaptive:
       return visit(Kernel<RefractedPath, Adaptive, SchemeApart>{});
+#ifndef SCHLIEREN_WITHOUT_PAPER_METHODS
     case Integrator::Euler:
       return visit(Kernel<RefractedPath, Euler, SchemeApart>{});
+#endif
     default:
       return visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
   }

@@ -38,6 +38,13 @@ void CudaPass::countDeflections(
 {
 }
 
+CudaPass::Squares CudaPass::countSquares(const Pass&, int, int) const { return {}; }
+
+std::vector<double> CudaPass::squaresIn(std::size_t, std::int64_t, const Pass&, int, int) const
+{
+  return {};
+}
+
 template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {

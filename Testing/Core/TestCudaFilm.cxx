@@ -3,9 +3,12 @@
 // The same rays make the same picture on host and device.
 #include "Fields.h"
 #include "Film/CudaFilm.h"
+#include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -49,7 +52,26 @@ std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
   return exits;
 }
 
-void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator)
+/// Rays through many small lenses and past a body: cells are bent and folded, within the film and across its border.
+std::vector<RayExit> lensExits(const Pass& pass, std::mt19937&)
+{
+  std::vector<RayExit> exits;
+  for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+  {
+    RayExit exit{};
+    const double x = pass.columnOf(ray), y = pass.rowOf(ray);
+    exit.fate = std::hypot(x - 40, y - 30) < 9 ? RayFate::Blocked : RayFate::Left;
+    exit.steps = 3;
+    exit.deflection[0] = 0.09 * std::sin(0.2 * x + 0.1 * y);
+    exit.deflection[1] = 0.09 * std::cos(0.25 * y - 0.05 * x);
+    exit.opticalPathDifference = 1e-6 * std::sin(0.1 * x);
+    exits.push_back(exit);
+  }
+  return exits;
+}
+
+void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator,
+  std::int64_t raysPerBand = std::int64_t{ 1 } << 20, decltype(anyExits)* exitsOf = anyExits)
 {
   constexpr int passes = 3;
   constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
@@ -58,12 +80,12 @@ void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator)
   std::vector<TracedRays> traced;
   Films films(channelsOf(cutoff), {}, width, height, rays);
   Films filmsOfDevice = Films(channelsOf(cutoff), {}, width, height, rays);
-  CudaFilm onDevice(films);
+  CudaFilm onDevice(films, raysPerBand);
   for (int number = 0; number < passes; ++number)
   {
     const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
       { 0.1 * number, -0.07 * number } };
-    exits.push_back(anyExits(pass, random));
+    exits.push_back(exitsOf(pass, random));
     traced.push_back({ pass, exits.back().data(), nullptr });
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin, estimator);
   }
@@ -101,6 +123,32 @@ TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
     expectSamePictures(KnifeEdge::at(30, 300, false), estimator);
     expectSamePictures(KnifeEdge::at(90, 20, true), estimator);
     expectSamePictures(Shadowgraph{}, estimator);
+  }
+}
+
+/// Most cells are added by bentKernel, and there are more of them than it has threads.
+TEST_F(HostAndDeviceFilm, IsTheSameOfBentCells)
+{
+  for (const std::int64_t raysPerBand : { std::int64_t{ 1 }, std::int64_t{ 1 } << 20 })
+  {
+    expectSamePictures(KnifeEdge::at(30, 10, false), FilmEstimator::Sheet, raysPerBand, lensExits);
+  }
+  const std::array<float, 12> pixels{ 0.1f, 0.2f, 0.3f, 0.9f, 0, 1, 0.5f, 0.6f, 0, 1, 1, 0.2f };
+  expectSamePictures(ColorPicture{ 10, 2, 2, { pixels.data(), pixels.size() } },
+    FilmEstimator::Sheet, std::int64_t{ 1 } << 20, lensExits);
+}
+
+/// Of 16 rows each, of 20, and of all but the last one.
+TEST_F(HostAndDeviceFilm, IsTheSameInBands)
+{
+  constexpr std::int64_t columns = width + 2 * margin, rows = height + 2 * margin;
+  for (const std::int64_t raysPerBand :
+    { std::int64_t{ 1 }, 20 * columns + 1, (rows - 1) * columns })
+  {
+    for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
+    {
+      expectSamePictures(KnifeEdge::at(30, 300, false), estimator, raysPerBand);
+    }
   }
 }
 
@@ -152,6 +200,36 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
     check();
   }
   EXPECT_EQ(kinds.size(), std::variant_size_v<Cutoffs>);
+}
+
+TEST_F(HostAndDeviceFilm, FindsTheSameStrongDeflection)
+{
+  const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
+    { 0, 0 } };
+  std::mt19937 random(11);
+  std::vector<RayExit> exits = anyExits(pass, random);
+  const auto expectTheSame = [&]
+  {
+    const double onHost = strongDeflection({ pass, exits.data(), nullptr }, width, height, {}, 2);
+    EXPECT_EQ(onHost, strongDeflection(CudaPass(exits), pass, width, height, {}));
+    return onHost;
+  };
+  const double strong = expectTheSame();
+  EXPECT_GT(strong, 0.01);
+  EXPECT_LT(strong, 0.07);
+  for (std::size_t ray = 0; ray < exits.size(); ++ray) // most light is not bent at all
+  {
+    if (ray % 200 != 0)
+    {
+      exits[ray].deflection[0] = exits[ray].deflection[1] = 0;
+    }
+  }
+  EXPECT_GT(expectTheSame(), 0.01); // the largest
+  for (RayExit& exit : exits)
+  {
+    exit.fate = RayFate::Missed;
+  }
+  EXPECT_EQ(expectTheSame(), 0);
 }
 
 TEST_F(HostAndDeviceFilm, GetsRaysAsTheyWereSent)

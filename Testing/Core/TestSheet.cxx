@@ -558,6 +558,62 @@ TEST(SheetRay, BentCellsAreRefined)
   EXPECT_GT(worstOfPlain, 2 * worst) << worst;
 }
 
+/// A device spreads what few cells need in a second step, and looks at one row of pixels at a time.
+TEST(SheetRay, TwoStepsAreAsGoodAsOne)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-0.5, 0.5);
+  int others = 0;
+  for (const double disorder : { 0., 0.3, 2., 20. })
+  {
+    std::array<std::array<Ray, 16>, 16> rays;
+    for (std::size_t j = 0; j < rays.size(); ++j)
+    {
+      for (std::size_t i = 0; i < rays.size(); ++i)
+      {
+        rays.at(j).at(i) = { static_cast<double>(i) - 1.8 + disorder * any(random),
+          static_cast<double>(j) - 3.1 + disorder * any(random), { 0.5 + any(random), 1 },
+          any(random) < 0.47 };
+      }
+    }
+    const auto at = [&rays](int i, int j)
+    {
+      return i >= 0 && i < 16 && j >= 0 && j < 16
+        ? rays.at(static_cast<std::size_t>(j)).at(static_cast<std::size_t>(i))
+        : Ray{};
+    };
+    Recorder film, inSteps;
+    Sheet<2, Recorder> sheet(filmSize, film);
+    Sheet<2, Recorder, 1> sheetInSteps(filmSize, inSteps);
+    for (int j = 0; j < 15; ++j)
+    {
+      for (int i = 0; i < 15; ++i)
+      {
+        const auto around = [&](int right, int up) { return at(i + right, j + up); };
+        const auto ray = [&](int right, int up)
+        {
+          return sheetRay(around(right, up), around(right - 1, up), around(right + 1, up),
+            around(right, up - 1), around(right, up + 1));
+        };
+        sheet.addCell(ray(0, 0), ray(1, 0), ray(0, 1), ray(1, 1), around);
+        if (!sheetInSteps.addPlain(ray(0, 0), ray(1, 0), ray(0, 1), ray(1, 1)))
+        {
+          ++others;
+          for (int part = 0; part < 4; ++part)
+          {
+            sheetInSteps.addOther(part, ray(0, 0), ray(1, 0), ray(0, 1), ray(1, 1), around);
+          }
+        }
+      }
+    }
+    EXPECT_EQ(film.pixels, inSteps.pixels);
+    EXPECT_EQ(film.sent, inSteps.sent);
+    EXPECT_EQ(film.lost, inSteps.lost);
+  }
+  EXPECT_GT(others, 200);
+  EXPECT_LT(others, 800);
+}
+
 /// Whatever the shape, a mirrored sheet makes a mirrored picture.
 TEST(Sheet, HasNoHandedness)
 {
