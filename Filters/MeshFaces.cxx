@@ -60,8 +60,7 @@ std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress
 }
 
 /// `is3d`: whether all cells are 3-D. (VTK says that hidden ones of structured data have no dimension.)
-std::vector<State> statesOf(
-  vtkDataSet* data, bool is3d, Copies copies, const WorkProgress& progress)
+std::vector<State> statesOf(vtkDataSet* data, bool is3d, const WorkProgress& progress)
 {
   const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
@@ -77,12 +76,7 @@ std::vector<State> statesOf(
         {
           continue;
         }
-        const int flags = ghosts ? ghosts->GetValue(i) : 0;
-        if (copies == Copies::Neighbours && (flags & vtkDataSetAttributes::DUPLICATECELL) != 0)
-        {
-          continue;
-        }
-        const bool isHidden = (flags & hiddenCellBits) != 0;
+        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
         state = isHidden ? State::Hidden : State::Visible;
         data->GetCellPoints(i, ids);
         for (vtkIdType point = 0; point < ids->GetNumberOfIds(); ++point)
@@ -94,10 +88,29 @@ std::vector<State> statesOf(
   return states;
 }
 
+/// Whose faces are not wanted.
+class LeftOut
+{
+public:
+  LeftOut(vtkDataSet* data, Copies copies)
+    : Ghosts(copies == Copies::Neighbours ? data->GetCellGhostArray() : nullptr)
+  {
+  }
+  bool operator()(vtkIdType cell) const
+  {
+    return this->Ghosts &&
+      (this->Ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
+  }
+
+private:
+  vtkUnsignedCharArray* Ghosts;
+};
+
 void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions,
   Copies copies, const WorkProgress& progress, Faces& faces)
 {
-  const std::vector<State> states = statesOf(data, true, copies, progress);
+  const LeftOut isLeftOut(data, copies);
+  const std::vector<State> states = statesOf(data, true, progress);
   const bool areAllVisible =
     std::all_of(states.begin(), states.end(), [](State state) { return state == State::Visible; });
   const std::array<vtkIdType, 3> points = { dimensions[0], dimensions[1], dimensions[2] };
@@ -156,7 +169,10 @@ void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3
           if (low != high)
           {
             const bool ownsLow = low > high; // what is visible owns the face, else what is there
-            add(at, i, j, ownsLow, std::max(low, high), std::min(low, high) == State::Hidden);
+            if (!isLeftOut(ownsLow ? cell - cellStep[axis] : cell))
+            {
+              add(at, i, j, ownsLow, std::max(low, high), std::min(low, high) == State::Hidden);
+            }
           }
         }
       }
@@ -186,8 +202,8 @@ void addShares(vtkUnstructuredGrid* cells, vtkIdType id, std::uint32_t leaf, Poi
 }
 
 /// The surface of the cells of one state.
-void addUnstructured(
-  vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state, Faces& faces)
+void addUnstructured(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states,
+  State state, Copies copies, Faces& faces)
 {
   const auto count = std::count(states.begin(), states.end(), state);
   if (count == 0)
@@ -199,6 +215,7 @@ void addUnstructured(
   all->SetNumberOfValues(data->GetNumberOfPoints());
   std::iota(all->GetPointer(0), all->GetPointer(0) + all->GetNumberOfValues(), vtkIdType{ 0 });
   vtkNew<vtkUnstructuredGrid> cells;
+  std::vector<vtkIdType> chosenCells; // of the data; empty: all
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
   if (mesh && count == mesh->GetNumberOfCells())
   {
@@ -214,6 +231,7 @@ void addUnstructured(
       if (states[i] == state)
       {
         chosen->InsertNextId(static_cast<vtkIdType>(i));
+        chosenCells.push_back(static_cast<vtkIdType>(i));
       }
     }
     auto numbered = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
@@ -245,12 +263,21 @@ void addUnstructured(
   auto* owners =
     vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
 
-  const auto firstPoint = static_cast<vtkIdType>(faces.points.size());
+  const LeftOut isLeftOut(data, copies);
+  const auto isWanted = [&](vtkIdType face)
+  {
+    const vtkIdType owner = owners->GetValue(face);
+    return !isLeftOut(chosenCells.empty() ? owner : chosenCells[static_cast<std::size_t>(owner)]);
+  };
   vtkNew<vtkIdList> ids;
-  std::vector<vtkIdType> cellsOfPoints(static_cast<std::size_t>(polygons->GetNumberOfPoints()), 0);
+  std::vector<vtkIdType> cellsOfPoints(static_cast<std::size_t>(polygons->GetNumberOfPoints()), -1);
   for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
   {
     polygons->GetCellPoints(face, ids);
+    if (!isWanted(face))
+    {
+      continue;
+    }
     for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
     {
       cellsOfPoints[static_cast<std::size_t>(ids->GetId(i))] = owners->GetValue(face);
@@ -259,8 +286,14 @@ void addUnstructured(
   auto* origins =
     vtkIdTypeArray::SafeDownCast(cells->GetPointData()->GetAbstractArray(originsName));
   vtkDataArray* kept = polygons->GetPointData()->GetArray(originsName);
+  std::vector<std::int32_t> numbersOfPoints(cellsOfPoints.size(), -1);
   for (vtkIdType i = 0; i < polygons->GetNumberOfPoints(); ++i)
   {
+    const auto at = static_cast<std::size_t>(i);
+    if (cellsOfPoints[at] < 0)
+    {
+      continue;
+    }
     Point x, ofLeaf;
     polygons->GetPoint(i, x.data());
     // Of points between others, VTK has a mean of their numbers, if any.
@@ -274,16 +307,20 @@ void addUnstructured(
     }
     else
     {
-      addShares(cells, cellsOfPoints[static_cast<std::size_t>(i)], leaf, x, origins, faces);
+      addShares(cells, cellsOfPoints[at], leaf, x, origins, faces);
     }
-    faces.addPoint(x);
+    numbersOfPoints[at] = faces.addPoint(x);
   }
   for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
   {
+    if (!isWanted(face))
+    {
+      continue;
+    }
     polygons->GetCellPoints(face, ids);
     for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
     {
-      faces.corners.push_back(static_cast<std::int32_t>(firstPoint + ids->GetId(i)));
+      faces.corners.push_back(numbersOfPoints[static_cast<std::size_t>(ids->GetId(i))]);
     }
     Point owner{ 0, 0, 0 };
     cells->GetCellPoints(owners->GetValue(face), ids);
@@ -314,10 +351,10 @@ Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progre
     }
     else
     {
-      const std::vector<State> states = statesOf(leaf, false, copies, ofLeaf.part(0, 0.3));
-      addUnstructured(leaf, number, states, State::Visible, faces);
+      const std::vector<State> states = statesOf(leaf, false, ofLeaf.part(0, 0.3));
+      addUnstructured(leaf, number, states, State::Visible, copies, faces);
       ofLeaf.reach(0.9);
-      addUnstructured(leaf, number, states, State::Hidden, faces);
+      addUnstructured(leaf, number, states, State::Hidden, copies, faces);
     }
   }
   return faces;

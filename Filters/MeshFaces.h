@@ -64,8 +64,8 @@ struct Faces
   }
 };
 
-/// The surface of the visible cells of each leaf, and of the hidden ones. See boundaryOf(). With Copies::Neighbours, of
-/// cells that are no copies.
+/// The surface of the visible cells of each leaf, and of the hidden ones. See boundaryOf(). With Copies::Neighbours, that
+/// part of it which belongs to cells that are no copies.
 Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
   Copies copies = Copies::Used);
 
