@@ -8,6 +8,7 @@
 
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkExtractCells.h"
@@ -295,6 +296,37 @@ TEST(Pieces, AreSampledAsOneMesh)
       expectSame(*whole, *ranks.make(), ofCells ? 2e-6 : 2e-7);
     }
   }
+}
+
+TEST(Pieces, MayBePolyhedra)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> boxes = wholeMesh();
+  vtkNew<vtkUnstructuredGrid> mesh;
+  mesh->SetPoints(boxes->GetPoints());
+  mesh->GetPointData()->ShallowCopy(boxes->GetPointData());
+  constexpr int faces[6][4] = { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 },
+    { 0, 3, 2, 1 }, { 4, 5, 6, 7 } };
+  vtkNew<vtkIdList> ids, stream;
+  for (vtkIdType cell = 0; cell < boxes->GetNumberOfCells(); ++cell)
+  {
+    boxes->GetCellPoints(cell, ids);
+    stream->Reset();
+    stream->InsertNextId(6);
+    for (const auto& face : faces)
+    {
+      stream->InsertNextId(4);
+      for (const int corner : face)
+      {
+        stream->InsertNextId(ids->GetId(corner));
+      }
+    }
+    mesh->InsertNextCell(VTK_POLYHEDRON, stream);
+  }
+  const auto rankOf = [](const Vec& x) { return x[0] + 0.7 * x[1] - 0.4 * x[2] < 0 ? 1 : 0; };
+  const auto whole = inOnePiece(mesh);
+  Ranks ranks({ partOf(mesh, 0, rankOf), partOf(mesh, 1, rankOf) });
+  // Along which diagonals their faces are divided depends on the numbers of points.
+  expectSame(*whole, *ranks.make(), 2e-4);
 }
 
 TEST(Pieces, PartsOfAGridAreOneGrid)
