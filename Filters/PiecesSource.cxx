@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <unordered_map>
@@ -374,105 +375,90 @@ std::vector<unsigned char> PiecesSource::hold(const std::vector<Point>& places) 
   return are;
 }
 
-void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) const
+/// Asks each rank about those items whose boxes meet its cells, and calls take(answer, these items).
+template <class Item, class BoxOf, class Take>
+void PiecesSource::askAbout(PieceWorker::Kind kind, const std::vector<Item>& items,
+  const BoxOf& boxOf, const Take& take) const
 {
-  this->Contents.clear();
   const std::size_t ranks = this->Ranks->Count();
-  std::vector<std::vector<schlieren::Box>> ofRanks(ranks);
-  for (const schlieren::Box& box : boxes)
-  {
-    this->Contents[keyOf(box)] = { nothing, {} };
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-    {
-      if (meet(box, this->BoundsOfRanks[rank]))
-      {
-        ofRanks[rank].push_back(box);
-      }
-    }
-  }
+  std::vector<std::vector<Item>> ofRanks(ranks);
   std::vector<std::vector<char>> requests(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
+    std::copy_if(items.begin(), items.end(), std::back_inserter(ofRanks[rank]),
+      [&](const Item& item) { return meet(boxOf(item), this->BoundsOfRanks[rank]); });
     if (!ofRanks[rank].empty())
     {
-      requests[rank] = this->request(PieceWorker::Contents);
+      requests[rank] = this->request(kind);
       putAll(ofRanks[rank], requests[rank]);
     }
   }
   const auto answers = this->ask(std::move(requests));
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
-    if (ofRanks[rank].empty())
+    if (!ofRanks[rank].empty())
     {
-      continue;
-    }
-    const auto found = readerOf(answers[rank]).GetAll<std::vector<PieceWorker::Content>>();
-    for (std::size_t i = 0; i < ofRanks[rank].size(); ++i)
-    {
-      PieceWorker::Content& content = this->Contents[keyOf(ofRanks[rank][i])];
-      extend(content.cells, found.at(i).cells);
-      for (std::size_t n = 0; n < content.holds.size(); ++n)
-      {
-        content.holds[n] = content.holds[n] | found[i].holds[n];
-      }
+      Reader reader = readerOf(answers[rank]);
+      take(reader, ofRanks[rank]);
     }
   }
+}
+
+void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) const
+{
+  this->Contents.clear();
+  for (const schlieren::Box& box : boxes)
+  {
+    this->Contents[keyOf(box)] = { nothing, {} };
+  }
+  this->askAbout(
+    PieceWorker::Contents, boxes, [](const schlieren::Box& box) { return box; },
+    [this](Reader& answer, const std::vector<schlieren::Box>& ofRank)
+    {
+      const auto found = answer.GetAll<std::vector<PieceWorker::Content>>();
+      for (std::size_t i = 0; i < ofRank.size(); ++i)
+      {
+        PieceWorker::Content& content = this->Contents[keyOf(ofRank[i])];
+        extend(content.cells, found.at(i).cells);
+        for (std::size_t n = 0; n < content.holds.size(); ++n)
+        {
+          content.holds[n] = content.holds[n] | found[i].holds[n];
+        }
+      }
+    });
 }
 
 void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const
 {
   this->Samples.clear();
-  const std::size_t ranks = this->Ranks->Count();
-  std::vector<std::vector<schlieren::Lattice>> ofRanks(ranks);
   for (const schlieren::Lattice& lattice : lattices)
   {
     this->Samples[keyOf(lattice)] = {};
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-    {
-      if (meet(boxOf(lattice), this->BoundsOfRanks[rank]))
-      {
-        ofRanks[rank].push_back(lattice);
-      }
-    }
   }
-  std::vector<std::vector<char>> requests(ranks);
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-  {
-    if (!ofRanks[rank].empty())
+  this->askAbout(PieceWorker::Sample, lattices, boxOf,
+    [this](Reader& answer, const std::vector<schlieren::Lattice>& ofRank)
     {
-      requests[rank] = this->request(PieceWorker::Sample);
-      putAll(ofRanks[rank], requests[rank]);
-    }
-  }
-  const auto answers = this->ask(std::move(requests));
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-  {
-    if (ofRanks[rank].empty())
-    {
-      continue;
-    }
-    Reader reader = readerOf(answers[rank]);
-    for (const schlieren::Lattice& lattice : ofRanks[rank])
-    {
-      MeshPiece::Samples more;
-      more.found = reader.GetAll<std::vector<unsigned char>>();
-      more.values = reader.GetAll<std::vector<double>>();
-      MeshPiece::Samples& samples = this->Samples[keyOf(lattice)];
-      if (samples.found.empty())
+      for (const schlieren::Lattice& lattice : ofRank)
       {
-        samples = std::move(more);
-        continue;
-      }
-      for (std::size_t i = 0; i < more.found.size(); ++i)
-      {
-        if (more.found[i] && !samples.found[i]) // of several ranks the first counts
+        MeshPiece::Samples more;
+        more.found = answer.GetAll<std::vector<unsigned char>>();
+        more.values = answer.GetAll<std::vector<double>>();
+        MeshPiece::Samples& samples = this->Samples[keyOf(lattice)];
+        if (samples.found.empty())
         {
-          samples.found[i] = 1;
-          samples.values[i] = more.values.at(i);
+          samples = std::move(more);
+          continue;
+        }
+        for (std::size_t i = 0; i < more.found.size(); ++i)
+        {
+          if (more.found[i] && !samples.found[i]) // of several ranks the first counts
+          {
+            samples.found[i] = 1;
+            samples.values[i] = more.values.at(i);
+          }
         }
       }
-    }
-  }
+    });
 }
 
 schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& box) const

@@ -73,6 +73,9 @@ private:
   std::vector<std::vector<char>> ask(std::vector<std::vector<char>> requests) const;
   std::vector<char> request(PieceWorker::Kind kind) const;
   std::vector<unsigned char> hold(const std::vector<Point>& places) const;
+  template <class Item, class BoxOf, class Take>
+  void askAbout(PieceWorker::Kind kind, const std::vector<Item>& items, const BoxOf& boxOf,
+    const Take& take) const;
 
   std::shared_ptr<PieceRanks> Ranks;
   std::uint64_t Number;
