@@ -128,13 +128,7 @@ vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
   {
     return mesh;
   }
-  vtkNew<vtkExtractCells> extract;
-  extract->SetInputData(mesh);
-  extract->SetCellList(own);
-  extract->Update();
-  vtkUnstructuredGrid* without = extract->GetOutput();
-  without->GetCellData()->RemoveArray("vtkOriginalCellIds");
-  return without;
+  return extractedCells(mesh, own);
 }
 
 /// A copy with the arrays that are needed and without copies of other ranks' cells.
@@ -328,6 +322,18 @@ std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& a
                 [](const Part& part) { return part.data->GetNumberOfPoints() == 0; }),
     parts.end());
   return parts;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, vtkIdList* cells)
+{
+  vtkNew<vtkExtractCells> extract;
+  extract->SetInputData(mesh);
+  extract->SetCellList(cells);
+  extract->Update();
+  vtkUnstructuredGrid* extracted = extract->GetOutput();
+  extracted->GetCellData()->RemoveArray("vtkOriginalCellIds");
+  extracted->GetPointData()->RemoveArray("vtkOriginalPointIds");
+  return extracted;
 }
 
 void pack(const Part& part, std::vector<char>& bytes)

@@ -16,6 +16,8 @@
 
 class vtkDataObject;
 class vtkDataSet;
+class vtkIdList;
+class vtkUnstructuredGrid;
 
 namespace refractivity
 {
@@ -32,6 +34,9 @@ struct Part
 /// The datasets of an input that have points, with those arrays of points and cells that are named and without copies of
 /// other ranks' cells (but in images and grids, where they may touch).
 std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays);
+
+/// Some cells of a mesh, with all arrays.
+vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, vtkIdList* cells);
 
 /// Adds plain values to a message.
 template <class Value>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshHalo.h"
 
+#include "FlatData.h"
 #include "InputDescription.h"
 
 #include "vtkAbstractArray.h"
@@ -9,7 +10,6 @@
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
-#include "vtkExtractCells.h"
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
@@ -105,13 +105,18 @@ Outline::Extent extentOf(vtkStructuredGrid* grid)
 
 bool areMeshes(vtkDataObject* data)
 {
-  const std::vector<vtkDataObject*> leaves = leavesOf(data);
-  return std::all_of(leaves.begin(), leaves.end(),
-    [](vtkDataObject* leaf)
+  bool areAll = true;
+  int dimension = -1; // there are none
+  for (vtkDataObject* leaf : leavesOf(data))
+  {
+    auto* set = vtkDataSet::SafeDownCast(leaf);
+    if (set && set->GetNumberOfPoints() > 0)
     {
-      auto* set = vtkDataSet::SafeDownCast(leaf);
-      return !set || set->GetNumberOfPoints() == 0 || isMesh(set);
-    });
+      areAll = areAll && isMesh(set);
+      dimension = std::max(dimension, dimensionOf(set));
+    }
+  }
+  return areAll && (dimension < 0 || dimension == 3);
 }
 
 bool hasCellValues(vtkDataSet* mesh)
@@ -240,14 +245,7 @@ vtkSmartPointer<vtkDataSet> cellsAround(
       chosen->InsertNextId(static_cast<vtkIdType>(cell));
     }
   }
-  vtkNew<vtkExtractCells> extract;
-  extract->SetInputData(mesh);
-  extract->SetCellList(chosen);
-  extract->Update();
-  vtkUnstructuredGrid* around = extract->GetOutput();
-  around->GetCellData()->RemoveArray("vtkOriginalCellIds");
-  around->GetPointData()->RemoveArray("vtkOriginalPointIds");
-  return around;
+  return extractedCells(mesh, chosen);
 }
 
 vtkSmartPointer<vtkDataSet> cellsWithin(vtkStructuredGrid* grid, const Outline::Extent& extent)

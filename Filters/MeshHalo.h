@@ -22,7 +22,8 @@ class vtkUnstructuredGrid;
 namespace refractivity
 {
 
-/// Whether all datasets of an input are unstructured meshes or curvilinear grids.
+/// Whether all datasets of an input are unstructured meshes or curvilinear grids, and some of them have volume.
+/// True where there are none.
 bool areMeshes(vtkDataObject* data);
 
 /// Points on several ranks are one if both are the same: their places, and how many points of the mesh before them are at

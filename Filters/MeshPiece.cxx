@@ -4,6 +4,7 @@
 
 #include "BoundaryFaces.h"
 #include "InvertedCells.h"
+#include "LatticeDistances.h"
 #include "MeshSource.h"
 
 #include "vtkDataSet.h"
@@ -38,6 +39,16 @@ void forEach(std::size_t count, const Work& work)
 
 } // namespace
 
+bool meet(const schlieren::Box& a, const schlieren::Box& b)
+{
+  bool meet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
+  }
+  return meet;
+}
+
 MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   CellTree::Reconstruction reconstruction, const WorkProgress& progress)
   : Leaves(leaves)
@@ -67,12 +78,7 @@ std::vector<double> MeshPiece::valuesAt(const Faces& faces) const
 bool MeshPiece::meets(const schlieren::Box& box) const
 {
   const CellTree::Bounds& bounds = this->Cells.bounds();
-  bool meets = this->Cells.size() > 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    meets = meets && box.low[axis] <= bounds.high[axis] && box.high[axis] >= bounds.low[axis];
-  }
-  return meets;
+  return this->Cells.size() > 0 && meet(box, { bounds.low, bounds.high });
 }
 
 std::vector<CellTree::Content> MeshPiece::contents(const std::vector<schlieren::Box>& boxes) const
@@ -104,12 +110,7 @@ std::vector<unsigned char> MeshPiece::hold(const std::vector<Point>& places) con
 MeshPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
 {
   Samples samples;
-  schlieren::Box box{ lattice.first, lattice.first };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.high[axis] += (lattice.points[axis] - 1) * lattice.spacing[axis];
-  }
-  if (!this->meets(box))
+  if (!this->meets(boxAround(lattice, 0)))
   {
     return samples;
   }

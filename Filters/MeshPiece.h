@@ -19,6 +19,9 @@ class vtkDataSet;
 namespace refractivity
 {
 
+/// Whether two boxes have a point in common.
+bool meet(const schlieren::Box& a, const schlieren::Box& b);
+
 /// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them give
 /// the points between them the values and trends that they would have in one mesh.
 class MeshPiece

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PiecesSource.h"
 
+#include "LatticeDistances.h"
 #include "RefractivitySource.h"
 
 #include <algorithm>
@@ -36,26 +37,6 @@ Reader readerOf(const std::vector<char>& answer)
     throw std::runtime_error(reader.GetAll<std::string>());
   }
   return reader;
-}
-
-bool meet(const schlieren::Box& a, const schlieren::Box& b)
-{
-  bool meet = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
-  }
-  return meet;
-}
-
-schlieren::Box boxOf(const schlieren::Lattice& lattice)
-{
-  schlieren::Box box{ lattice.first, lattice.first };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.high[axis] += (lattice.points[axis] - 1) * lattice.spacing[axis];
-  }
-  return box;
 }
 
 void extend(schlieren::Box& box, const schlieren::Box& by)
@@ -435,7 +416,9 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
   {
     this->Samples[keyOf(lattice)] = {};
   }
-  this->askAbout(PieceWorker::Sample, lattices, boxOf,
+  this->askAbout(
+    PieceWorker::Sample, lattices,
+    [](const schlieren::Lattice& lattice) { return boxAround(lattice, 0); },
     [this](Reader& answer, const std::vector<schlieren::Lattice>& ofRank)
     {
       for (const schlieren::Lattice& lattice : ofRank)

@@ -563,9 +563,9 @@ void vtkRefractiveIndex::ReleasePieces()
       this->Pieces->Ask(
         std::vector<std::vector<char>>(this->Pieces->Count(), pieceRequest(PieceWorker::Forget)));
     }
-    catch (const std::
-        runtime_error&) // a rank has not come; it forgets its piece when the next one is made
+    catch (const std::runtime_error&)
     {
+      // A rank has not come. It forgets its piece when the next one is made.
     }
   }
 }

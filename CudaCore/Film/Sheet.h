@@ -469,7 +469,7 @@ private:
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
     constexpr double mostPixels = 4096; // looked at one by one, for one cell
-    constexpr double furthest = 1e9;
+    constexpr double maxSize = 1e9;
     const Cell cell = cellOf(lowerLeft, lowerRight, upperLeft, upperRight);
     Rest rest;
     rest.column = rest.row = -1;
@@ -495,7 +495,7 @@ private:
       }
       else
       {
-        addShape(cell, columns * rows > mostPixels || size > furthest, rest);
+        addShape(cell, columns * rows > mostPixels || size > maxSize, rest);
       }
     }
     for (int plane = 0; plane < planes; ++plane)

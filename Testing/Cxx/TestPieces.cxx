@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes whose pieces are on several ranks, against the same meshes in one piece. The ranks are filters of one process.
 #include "Fixtures.h"
+#include "MeshHalo.h"
 
 #include "Medium/MediumSource.h"
 #include "Rays/Channel.h"
@@ -296,6 +297,17 @@ TEST(Pieces, AreSampledAsOneMesh)
       expectSame(*whole, *ranks.make(), ofCells ? 2e-6 : 2e-7);
     }
   }
+}
+
+TEST(Pieces, AreOfMeshesWithVolume)
+{
+  using refractivity::areMeshes;
+  EXPECT_TRUE(areMeshes(nullptr));
+  EXPECT_TRUE(areMeshes(vtkSmartPointer<vtkUnstructuredGrid>::New()));
+  EXPECT_TRUE(areMeshes(wholeMesh()));
+  EXPECT_TRUE(areMeshes(gridOf({ 0, 2, 0, 2, 0, 2 })));
+  EXPECT_FALSE(areMeshes(gridOf({ 0, 2, 0, 2, 1, 1 }))); // flat: it is extruded as a whole
+  EXPECT_FALSE(areMeshes(cube(3)));
 }
 
 TEST(Pieces, MayBePolyhedra)
