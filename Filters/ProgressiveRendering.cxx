@@ -23,9 +23,9 @@ namespace
 
 ColorScale colorScaleFrom(vtkSchlierenFilter* self)
 {
-  const bool isShadow = self->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH;
-  return seesColor(self) ? ColorScale::Srgb
-                         : (isShadow ? ColorScale::LinearToTwice : ColorScale::Linear);
+  return self->HasOwnColor()                                 ? ColorScale::Srgb
+    : vtkSchlierenFilter::CutoffHasScreen(self->GetCutoff()) ? ColorScale::LinearToTwice
+                                                             : ColorScale::Linear;
 }
 
 bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
@@ -198,7 +198,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   }
 
   const LastPicture& shown = inside.Shown[PICTURE_PORT];
-  const bool isColored = this->ColorByField || seesColor(this);
+  const bool isColored = this->ColorByField || this->HasOwnColor();
   if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
   {
     // Something to show if time is over before the first sample of each pixel is there.
@@ -388,7 +388,7 @@ bool vtkSchlierenFilter::Show(
   {
     addColor(output, image, colorScaleFrom(this));
   }
-  if (scene.cutoff == schlieren::Cutoff::Interferogram && scene.fringes.finite)
+  if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {
     addFringeSpacing(output, scene.fringes.spacing);
   }

@@ -52,12 +52,7 @@ void requireSize(const char* property, double value)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool usesK(vtkSchlierenFilter* self)
-{
-  const int cutoff = self->GetCutoff();
-  return cutoff == Filter::KNIFE_EDGE ||
-    (cutoff >= Filter::CIRCULAR && cutoff <= Filter::COLOR_FILTER);
-}
+bool usesK(vtkSchlierenFilter* self) { return Filter::CutoffHasK(self->GetCutoff()); }
 
 //------------------------------------------------------------------------------
 bool choosesK(vtkSchlierenFilter* self)
@@ -96,7 +91,7 @@ std::string kInWords(double k, bool isKept)
 //------------------------------------------------------------------------------
 std::string sensitivityInWords(vtkSchlierenFilter* self, double k, bool isKept)
 {
-  if (self->GetCutoff() == Filter::INTERFEROGRAM)
+  if (Filter::CutoffHasFringes(self->GetCutoff()))
   {
     return self->GetWhiteLight()
       ? "white light: a fringe of each colour is its wavelength of optical path"
@@ -109,16 +104,16 @@ std::string sensitivityInWords(vtkSchlierenFilter* self, double k, bool isKept)
   }
   const double focalLength = self->GetFocalLength();
   // From the light that nothing bends to the brightest or the darkest.
-  const bool isHalf =
-    self->GetCutoff() == Filter::KNIFE_EDGE || self->GetCutoff() == Filter::GRADED_FILTER;
+  const schlieren::Technique& technique =
+    schlieren::techniqueOf(static_cast<schlieren::Cutoff>(self->GetCutoff()));
   std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
-    textOf(1e3 * (isHalf ? 0.5 : 1) / k) + " mrad";
+    textOf(1e3 * technique.fullScale / k) + " mrad";
   if (focalLength > 0)
   {
     words += "; optics: " + textOf(focalLength) + " m focal length, source " +
       textOf(focalLength / k / metresPerMillimetre) + " mm wide";
   }
-  if (self->GetKFromOptics() && isHalf)
+  if (self->GetKFromOptics() && technique.hasEdge)
   {
     words += ", the edge " + textOf(self->GetCutoffPosition()) + " mm in (offset " +
       textOf(self->GetCutoffOffsetOfOptics()) + ")";

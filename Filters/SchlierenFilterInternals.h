@@ -135,6 +135,3 @@ inline constexpr double mediumShare = 0.2;
 /// Everything of the inputs that the refractivity depends on.
 std::vector<double> describeInputs(
   vtkSchlierenFilter* self, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies);
-
-/// Whether the bench itself makes colours.
-bool seesColor(vtkSchlierenFilter* self);

@@ -10,6 +10,19 @@
 #include <algorithm>
 #include <limits>
 
+namespace
+{
+
+/// One that has nothing for numbers that are no cutoff.
+schlieren::Technique techniqueOf(int cutoff)
+{
+  return cutoff >= 0 && static_cast<std::size_t>(cutoff) < schlieren::techniques.size()
+    ? schlieren::techniqueOf(static_cast<schlieren::Cutoff>(cutoff))
+    : schlieren::Technique{};
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -167,6 +180,50 @@ double vtkSchlierenFilter::GetGladstoneDaleConstantUsed()
 {
   this->PassToMedium();
   return this->Medium->GetGladstoneDaleConstantUsed();
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasK(int cutoff) { return techniqueOf(cutoff).hasK(); }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasEdge(int cutoff) { return techniqueOf(cutoff).hasEdge; }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasFringes(int cutoff) { return techniqueOf(cutoff).hasFringes; }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasScreen(int cutoff)
+{
+  return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Screen;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasBackground(int cutoff)
+{
+  return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Background;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern)
+{
+  switch (techniqueOf(cutoff).coloring)
+  {
+    case schlieren::Coloring::Always:
+      return true;
+    case schlieren::Coloring::InWhiteLight:
+      return whiteLight;
+    case schlieren::Coloring::OfBackgroundPicture:
+      return backgroundPattern == PICTURE;
+    case schlieren::Coloring::None:
+      break;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::HasOwnColor() const
+{
+  return CutoffHasColor(this->Cutoff, this->WhiteLight, this->BackgroundPattern);
 }
 
 //------------------------------------------------------------------------------

@@ -104,22 +104,6 @@ std::vector<double> describeInputs(
 }
 
 //------------------------------------------------------------------------------
-bool seesColor(vtkSchlierenFilter* self)
-{
-  switch (self->GetCutoff())
-  {
-    case vtkSchlierenFilter::COLOR_FILTER:
-      return true;
-    case vtkSchlierenFilter::INTERFEROGRAM:
-      return self->GetWhiteLight();
-    case vtkSchlierenFilter::BACKGROUND_ORIENTED:
-      return self->GetBackgroundPattern() == vtkSchlierenFilter::PICTURE;
-    default:
-      return false;
-  }
-}
-
-//------------------------------------------------------------------------------
 vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
@@ -350,7 +334,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
   outInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
-  const bool isColored = this->ColorByField || seesColor(this);
+  const bool isColored = this->ColorByField || this->HasOwnColor();
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
     isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(

@@ -374,6 +374,21 @@ public:
 
   ///@{
   /**
+   * What one of Cutoffs has: a sensitivity k; a straight edge with an angle, an offset and another side; fringes; a
+   * screen behind the flow (full light is 2 there, else 1), or a pattern; and, with these settings, colours of its own.
+   * False for other numbers.
+   */
+  static bool CutoffHasK(int cutoff);
+  static bool CutoffHasEdge(int cutoff);
+  static bool CutoffHasFringes(int cutoff);
+  static bool CutoffHasScreen(int cutoff);
+  static bool CutoffHasBackground(int cutoff);
+  static bool CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern);
+  bool HasOwnColor() const;
+  ///@}
+
+  ///@{
+  /**
    * Which deflection the knife edge and the graded filter measure, degrees: 0 (the default) along u, 90
    * along v.
    */
