@@ -58,12 +58,23 @@ for proxy in (refractivity, bench):
 for name, texts in TEXTS.items():
     assert set(bench.GetProperty(name).Available) == texts, name
 
+# PrintSelf names them all, but the one that is another name for a value of Outside.
+printed = str(vtkSchlierenFilter())
+for item in property_tables.read().values():
+    if item.group not in ("Inputs", "Commands", "Information") and not item.is_array and item.command:
+        name = item.command.replace("Set", "", 1).replace("Add", "", 1)
+        forms = (f" {name}: ", f" {name}s:", f" {name}es:")
+        assert name == "OutsideBlocksLight" or any(form in printed for form in forms), name
+
 # The panel shows what belongs to a cutoff: the XML's lists of cutoffs are those of the table in Optics/Techniques.h.
 properties = property_tables.read()
 CUTOFFS = properties["Cutoff"].entries
 assert sorted(CUTOFFS.values()) == list(range(len(CUTOFFS)))
 for text, number in CUTOFFS.items():
     assert getattr(vtkSchlierenFilter, text.upper().replace(" ", "_")) == number, text
+made = vtkSchlierenFilter()
+made.SetCutoff(1000)
+assert made.GetCutoff() == max(CUTOFFS.values())
 assert not vtkSchlierenFilter.CutoffHasK(-1) and not vtkSchlierenFilter.CutoffHasK(len(CUTOFFS))
 
 
