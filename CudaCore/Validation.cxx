@@ -104,7 +104,7 @@ void validateCutoff(const Scene& scene)
   {
     validatePicture(*scene.colorFilter, "ColorFilterImage");
   }
-  if (scene.cutoff == Cutoff::Interferogram)
+  if (techniqueOf(scene.cutoff).hasFringes)
   {
     require(scene.wavelength > 0 && std::isfinite(1 / scene.wavelength) &&
         std::isfinite(scene.wavelength),
@@ -204,7 +204,7 @@ void validateLight(const Scene& scene, const Frame& frame)
   const double depth = frame.exit - frame.entry;
   require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
     ". Set it to a finite number of data units, 0 for the middle of the data.");
-  if (scene.cutoff == Cutoff::Background)
+  if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
     constexpr double furthest = 1e30; // displacements are floats
@@ -224,7 +224,7 @@ void validateLight(const Scene& scene, const Frame& frame)
     return; // light comes from the pattern
   }
   const LightSource& source = scene.source;
-  const double middleToFilm = scene.cutoff == Cutoff::Shadowgraph
+  const double middleToFilm = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen
     ? 0.5 * depth + scene.screenDistance.value_or(depth)
     : scene.focusOffset;
   double slope = 0;

@@ -5,7 +5,7 @@
 #include "Fixtures.h"
 #include "RealOptics.h"
 #include "RgbPictures.h"
-#include "SceneFromFilter.h"
+#include "SceneFromSettings.h"
 
 #include "vtkPiecewiseFunction.h"
 
@@ -33,7 +33,9 @@ protected:
 
   schlieren::Scene scene()
   {
-    return sceneFrom(this->filter, this->medium, this->grid, this->pictures);
+    schlieren::Scene made = sceneFrom(this->filter->GetSettings(), this->grid, this->pictures);
+    addObjects(made, this->filter->GetGradedFilter(), this->medium);
+    return made;
   }
 
   std::string error()
