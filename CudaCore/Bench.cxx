@@ -457,7 +457,7 @@ Image Bench::resume(const Monitor& monitor)
 {
   if (!isUnfinished())
   {
-    throw Error("There is no unfinished picture to go on with. Render one.");
+    throw Error("There is no unfinished image to resume. Render one.");
   }
   return stages_->render(std::move(stages_->unfinished), monitor);
 }
