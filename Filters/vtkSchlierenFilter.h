@@ -57,7 +57,7 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for GradedFilter
 
-#include <memory>   // for std::unique_ptr
+#include <memory>   // for std::unique_ptr, std::shared_ptr
 #include <optional> // for std::optional
 #include <string>   // for std::string
 #include <vector>   // for std::vector
@@ -65,6 +65,7 @@
 class ExposureSteps;
 class vtkPiecewiseFunction;
 struct ImageCircumstances;
+struct MadeRefractivity;
 
 namespace schlieren
 {
@@ -956,6 +957,9 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
+  /// Null if aborted.
+  std::shared_ptr<const MadeRefractivity> MakeRefractivity(
+    vtkDataObject* input, vtkDataObject* bodies);
   /// Finds the gradients of the fields that tint, if they do.
   void UpdateFieldGradients(vtkDataObject* input);
   /// The newest time of all properties, Refine() apart, and of those and everything upstream.
