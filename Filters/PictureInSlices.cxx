@@ -3,6 +3,7 @@
 #include "PictureInSlices.h"
 
 #include "PictureStatus.h"
+#include "SharedRefractivity.h"
 
 #include <chrono>
 #include <optional>
@@ -29,6 +30,9 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+PictureInSlices::PictureInSlices() { this->Bench.setMedia(mediaOfProcess()); }
 
 //------------------------------------------------------------------------------
 schlieren::Image PictureInSlices::Begin(const schlieren::Field& field,
