@@ -4,12 +4,12 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
-#include "Film/GrowingPicture.h"
-#include "HeldRays.h"
+#include "Film/ProgressiveImage.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
+#include "RayCache.h"
 #include "Rays/CudaTracer.h"
 #include "Rays/TeamTracer.h"
 #include "Rays/Tracer.h"
@@ -111,7 +111,7 @@ struct Bench::Unfinished
   const Scene scene;
   Device device = Device::Cpu;
   std::string deviceNote;
-  GrowingPicture picture;
+  ProgressiveImage picture;
   std::optional<DisplacementBound> bound;
   double kScale = 0;
   double momentumDrift = 0;
@@ -130,7 +130,7 @@ struct Bench::Stages
   std::optional<MediumKey> mediumKey;
   std::variant<std::monostate, MediumOnDevices<float>, MediumOnDevices<double>> medium;
 
-  HeldRays rays;
+  RayCache rays;
   CutoffMaker cutoffs;
 
   template <class Real>
@@ -315,7 +315,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
 
   const DeflectionErrors errors{ noiseFloor(held.medium, field, light),
     image.medium.deflectionError };
-  GrowingPicture& picture = asked.picture;
+  ProgressiveImage& picture = asked.picture;
   const auto isNewPictureThere = [&]
   { return picture.isWhole() && picture.passes() > asked.shown; };
   bool goesOn = !watch.mayPause() || picture.completeUndisturbed(watch.monitor());

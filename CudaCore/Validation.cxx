@@ -37,7 +37,8 @@ void validateTolerances(const Scene& scene)
     "StepSize).");
   require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
     "HomogeneityTolerance", scene.homogeneityTolerance,
-    "between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the refractivity's "
+    "between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the "
+    "refractivity's "
     "range.");
   require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance",
     scene.mediumTolerance,

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LastPicture.h"
-#include "PictureInSlices.h"
+#include "LastImage.h"
 #include "Ranks.h"
 #include "RgbPictures.h"
 #include "SensitivityLock.h"
 #include "TimeExposure.h"
+#include "TimeSlicedImage.h"
 #include "vtkSchlierenFilter.h"
 
 #include "FieldFromImage.h"
@@ -53,8 +53,8 @@ struct vtkSchlierenFilter::Internals
   };
 
   FilterRanks Ranks;
-  PictureInSlices Pictures;
-  LastPicture Shown[2]; // at each output
+  TimeSlicedImage Pictures;
+  LastImage Shown[2]; // at each output
   RgbPictureReader RgbPictures;
   vtkNew<vtkImageData> Refractivity;
   std::shared_ptr<const schlieren::MediumSource> Source; // instead of Refractivity, of meshes
