@@ -367,9 +367,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  const auto part = this->GatherLimit == 0 && this->CanUsePieces() ? FilterRanks::Part::Piece
-                                                                   : FilterRanks::Part::All;
-  if (this->Inside->Ranks.Request(this, inputVector, part))
+  const auto part = this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
+  if (this->Inside->Ranks.Request(this, inputVector, part, this->GatherLimit))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
@@ -401,14 +400,29 @@ int vtkSchlierenFilter::RequestData(
   steps.Meet(refractivity::arraysOf(this->Medium));
   if (!isRank0())
   {
-    this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
-    do
+    const auto serve = [&]()
     {
-      steps.GetMeeting().Serve(threadsFrom(*this),
+      this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
+      return steps.GetMeeting().Serve(threadsFrom(*this),
         [this](const std::vector<char>& message) { return this->Respond(message); });
-    } while (steps.GoOn());
+    };
+    if (serve())
+    {
+      steps.MeetWithAll(this->GatherLimit);
+      serve();
+    }
+    while (steps.GoOn())
+    {
+      serve();
+    }
     this->Medium->SetPieceData(nullptr);
     return 1;
+  }
+  const double mostCells =
+    this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
+  if (steps.GetMeeting().AreTooFew(mostCells))
+  {
+    steps.MeetWithAll(mostCells);
   }
   const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
 
@@ -443,8 +457,7 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(
-      this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity());
+    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(mostCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
     if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))

@@ -791,10 +791,11 @@ public:
 
   ///@{
   /**
-   * Where ParaView runs as several processes, the number of cells up to which a mesh that is spread over them is sent to
-   * rank 0, which makes the medium alone; then the image is the same to the last bit, however many processes there are.
-   * Larger ones stay where they are: each rank has its cells, with copies of others' around them, and samples them for
-   * the medium. 0: that, and each rank requests its own piece of meshes whose reader can divide them. Data of other
+   * Where ParaView runs as several processes, the number of cells up to which rank 0 has all of a mesh and makes the
+   * medium alone; then the image is the same to the last bit, however many processes there are. Each rank requests a
+   * piece of meshes; where these have no more cells in all, rank 0 requests all, and where they are spread over the ranks
+   * even so, they are sent to it. Larger ones stay where they are: each rank has its cells, with copies of others'
+   * around them, and samples them for the medium. 0: so do all meshes. Of data of other
    * types, two-dimensional data, and all where ColorByField, ExposureTime, SamplingDimensions or the model
    * TRANSFER_FUNCTIONS are in use are always sent. The default is 10^7.
    */
