@@ -4,12 +4,12 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
-#include "Film/GrowingPicture.h"
-#include "HeldRays.h"
+#include "Film/ProgressiveImage.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
+#include "RayCache.h"
 #include "Rays/CudaTracer.h"
 #include "Rays/TeamTracer.h"
 #include "Rays/Tracer.h"
@@ -210,7 +210,7 @@ struct Bench::Unfinished
   const Scene scene;
   Device device = Device::Cpu;
   std::string deviceNote;
-  std::optional<GrowingPicture> picture; ///< always there
+  std::optional<ProgressiveImage> picture; ///< always there
   std::optional<DisplacementBound> bound;
   double kScale = 0;
   double momentumDrift = 0;
@@ -238,7 +238,7 @@ struct Bench::Stages
   std::optional<MediumKey> mediumKey;
   std::variant<std::monostate, HeldMedium<float>, HeldMedium<double>> medium;
 
-  HeldRays rays;
+  RayCache rays;
   CutoffMaker cutoffs;
 
   template <class Real>
@@ -471,7 +471,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
   const DeflectionErrors errors{ noiseFloor(ofHeld, field, light), image.medium.deflectionError };
-  GrowingPicture& picture = *asked.picture;
+  ProgressiveImage& picture = *asked.picture;
   const auto isNewPictureThere = [&]
   { return picture.isWhole() && picture.passes() > asked.shown; };
   bool goesOn = !watch.mayPause() || picture.completeUndisturbed(watch.monitor());
