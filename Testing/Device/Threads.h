@@ -15,4 +15,7 @@ namespace emulated
 /// "backward", or a number, the seed of a shuffle.
 void run(const Launch& launch);
 
+/// Whether all of it is one allocation's.
+bool isAllocated(const void* memory, std::size_t bytes);
+
 } // namespace emulated

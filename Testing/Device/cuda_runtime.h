@@ -50,18 +50,23 @@ struct dim3
   }
 };
 
-cudaError_t cudaGetDeviceCount(int* count);
-cudaError_t cudaGetLastError();
-const char* cudaGetErrorString(cudaError_t error);
-cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
-cudaError_t cudaFree(void* memory);
-cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
-cudaError_t cudaMemcpyAsync(
-  void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
-cudaError_t cudaMemset(void* to, int value, std::size_t bytes);
-cudaError_t cudaStreamCreate(cudaStream_t* stream);
-cudaError_t cudaStreamSynchronize(cudaStream_t stream);
-cudaError_t cudaStreamDestroy(cudaStream_t stream);
+extern "C"
+{
+
+  cudaError_t cudaGetDeviceCount(int* count);
+  cudaError_t cudaGetLastError();
+  const char* cudaGetErrorString(cudaError_t error);
+  cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
+  cudaError_t cudaFree(void* memory);
+  cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
+  cudaError_t cudaMemcpyAsync(
+    void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
+  cudaError_t cudaMemset(void* to, int value, std::size_t bytes);
+  cudaError_t cudaStreamCreate(cudaStream_t* stream);
+  cudaError_t cudaStreamSynchronize(cudaStream_t stream);
+  cudaError_t cudaStreamDestroy(cudaStream_t stream);
+
+} // extern "C"
 
 namespace emulated
 {
