@@ -25,32 +25,12 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Steps along each axis: as many as there are in 32 bits, with room for sums.
-constexpr double steps = 1 << 30;
-
-/// Bits of each coordinate in a place on the Hilbert curve.
-constexpr int curveBits = 21;
-
 /// Groups so much smaller than a box, and at its edge, count as in it.
 constexpr std::int32_t smallPart = 16;
-
-// Voxels: the size that a share of cells is smaller than. Proportions nearer than that to cubes are
-// cubes'; those of cells are not followed any further than to 1:32.
-constexpr double shareOfSmallerCells = 0.1;
-constexpr double nearlyEqual = 1.5;
-constexpr double flattest = 1. / 32;
-constexpr std::size_t mostCellsMeasured = 100000;
 
 /// Tetrahedra can be much flatter than what they resolve: their heights count down to this part of
 /// their shortest edge.
 constexpr double flattestTetrahedron = 0.5;
-
-int dimensionOfType(int type)
-{
-  return vtkCellTypeUtilities::GetDimension(static_cast<unsigned char>(type));
-}
-
-bool isLinear(int type) { return vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); }
 
 /// What higher-order cells overshoot the values at their points by, in parts of their range: from
 /// the norm of the interpolation (Lebesgue constants of equal distances), cubed.
@@ -59,64 +39,6 @@ double overshootOf(int order)
   constexpr double norms[] = { 1, 1, 1.25, 1.64, 2.21, 3.11, 4.55, 6.93, 10.95 };
   const double norm = norms[std::min(order, 8)];
   return (norm * norm * norm - 1) / 2;
-}
-
-/// Into how many parts a curved cell's points divide its edges.
-int orderOf(const CellTree::Cell& cell, vtkGenericCell* curved)
-{
-  if (isLinear(cell.block->type(cell.id)))
-  {
-    return 1;
-  }
-  cell.block->data()->GetCell(cell.id, curved);
-  return curved->GetNumberOfEdges() > 0
-    ? std::max(1, static_cast<int>(curved->GetEdge(0)->GetNumberOfPoints()) - 1)
-    : 1;
-}
-
-/// Where a place lies on the Hilbert curve (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707,
-/// 2004, pp. 381-387).
-std::uint64_t placeOnCurve(const std::int32_t middle[3])
-{
-  std::uint32_t x[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    x[axis] = static_cast<std::uint32_t>(middle[axis]) >> (30 - curveBits);
-    x[axis] = std::min(x[axis], (1u << curveBits) - 1);
-  }
-  for (std::uint32_t bit = 1u << (curveBits - 1); bit > 1; bit >>= 1)
-  {
-    const std::uint32_t lower = bit - 1;
-    for (std::uint32_t& along : x)
-    {
-      if (along & bit)
-      {
-        x[0] ^= lower;
-      }
-      else
-      {
-        const std::uint32_t exchanged = (x[0] ^ along) & lower;
-        x[0] ^= exchanged;
-        along ^= exchanged;
-      }
-    }
-  }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t flips = 0;
-  for (std::uint32_t bit = 1u << (curveBits - 1); bit > 1; bit >>= 1)
-  {
-    flips ^= (x[2] & bit) ? bit - 1 : 0;
-  }
-  std::uint64_t place = 0;
-  for (int bit = curveBits - 1; bit >= 0; --bit)
-  {
-    for (const std::uint32_t along : x)
-    {
-      place = place << 1 | (((along ^ flips) >> bit) & 1);
-    }
-  }
-  return place;
 }
 
 /// Each corner's polynomial is linear: in the cell it lies between what it is at the other corners.
@@ -256,132 +178,6 @@ std::size_t CellTree::bytes() const
   return sum;
 }
 
-/// Not finite where a point or a value is not.
-CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
-{
-  Bounds bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  double sum = 0; // of minimum and maximum, NaN may come out as a number
-  cell.block->forPoints(cell.id,
-    [&](vtkIdType point)
-    {
-      double x[3];
-      cell.block->coordinates(point, x);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        bounds.low[axis] = std::min(bounds.low[axis], x[axis]);
-        bounds.high[axis] = std::max(bounds.high[axis], x[axis]);
-      }
-      sum += (x[0] + x[1] + x[2] + cell.block->values()[point]) * 0;
-    });
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const bool isCurved = !isLinear(cell.block->type(cell.id));
-    const double more = isCurved ? bulge * (bounds.high[axis] - bounds.low[axis]) : 0;
-    bounds.low[axis] += sum - more;
-    bounds.high[axis] += sum + more;
-  }
-  return bounds;
-}
-
-/// The cells that are there, and the box of all.
-void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress)
-{
-  std::array<bool, 256> isVolume{};
-  for (const MeshArrays& block : this->Blocks)
-  {
-    for (const int type : block.types())
-    {
-      isVolume[static_cast<std::size_t>(type)] = dimensionOfType(type) == 3;
-    }
-  }
-  const Number end = mesh.firstNumbers.back();
-  const std::size_t count = (std::size_t{ end } + partSize - 1) / partSize;
-  std::vector<std::vector<Number>> found(count), foundCopies(count);
-  std::vector<Bounds> boxes(
-    count, Bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
-  forParts(end, progress,
-    [&](vtkIdType begin, vtkIdType last)
-    {
-      const auto i = static_cast<std::size_t>(begin / partSize);
-      for (auto number = static_cast<Number>(begin); number < static_cast<Number>(last); ++number)
-      {
-        const Cell one = this->cell(number);
-        if (!one.block->isVisible(one.id) ||
-          !isVolume[static_cast<std::size_t>(one.block->type(one.id))])
-        {
-          continue;
-        }
-        const Bounds bounds = this->boundsOf(one);
-        double sum = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          sum += (bounds.high[axis] - bounds.low[axis]) * 0;
-        }
-        if (sum != 0) // NaN: somewhere it is not finite, or there are no points
-        {
-          continue;
-        }
-        if (copies == Copies::Neighbours && one.block->isCopy(one.id))
-        {
-          foundCopies[i].push_back(number);
-          continue;
-        }
-        found[i].push_back(number);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          boxes[i].low[axis] = std::min(boxes[i].low[axis], bounds.low[axis]);
-          boxes[i].high[axis] = std::max(boxes[i].high[axis], bounds.high[axis]);
-        }
-      }
-    });
-  mesh.whole = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  std::size_t sum = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    sum += found[i].size();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      mesh.whole.low[axis] = std::min(mesh.whole.low[axis], boxes[i].low[axis]);
-      mesh.whole.high[axis] = std::max(mesh.whole.high[axis], boxes[i].high[axis]);
-    }
-  }
-  mesh.numbers.reserve(sum);
-  for (const std::vector<Number>& some : found)
-  {
-    mesh.numbers.insert(mesh.numbers.end(), some.begin(), some.end());
-  }
-  for (const std::vector<Number>& some : foundCopies)
-  {
-    mesh.copies.insert(mesh.copies.end(), some.begin(), some.end());
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double length = mesh.whole.high[axis] - mesh.whole.low[axis];
-    mesh.step[axis] = length > 0 && length < infinity ? length / (steps - 4) : 1;
-    mesh.origin[axis] = mesh.whole.low[axis] - 2 * mesh.step[axis];
-  }
-}
-
-void CellTree::findNeighbours(Mesh& mesh, const WorkProgress& progress)
-{
-  for (std::size_t block = 0; block < this->Blocks.size(); ++block)
-  {
-    const Number first = mesh.firstNumbers[block];
-    std::vector<unsigned char> isThere(static_cast<std::size_t>(this->Blocks[block].cells()));
-    for (const std::vector<Number>* some : { &mesh.numbers, &mesh.copies })
-    {
-      for (auto i = std::lower_bound(some->begin(), some->end(), first);
-           i != some->end() && *i < mesh.firstNumbers[block + 1]; ++i)
-      {
-        isThere[*i - first] = 1;
-      }
-    }
-    const auto parts = static_cast<double>(this->Blocks.size());
-    mesh.neighbours.emplace_back(this->Blocks[block], std::move(isThere),
-      progress.part(static_cast<double>(block) / parts, static_cast<double>(block + 1) / parts));
-  }
-}
-
 /// What depends on the values.
 void CellTree::setValues(const WorkProgress& progress)
 {
@@ -469,73 +265,6 @@ std::array<double, 2> CellTree::rangeOf(const Cell& one) const
   }
 }
 
-CellTree::Steps CellTree::stepsOf(const Bounds& box) const
-{
-  Steps result;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const auto place = [&](double x)
-    { return std::clamp((x - this->origin()[axis]) / this->step()[axis], -2., steps + 2); };
-    result.low[axis] = static_cast<std::int32_t>(std::floor(place(box.low[axis]))) - 1;
-    result.high[axis] = static_cast<std::int32_t>(std::floor(place(box.high[axis]))) + 2;
-  }
-  return result;
-}
-
-void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
-{
-  using Entry = std::pair<std::uint64_t, Number>;
-  const std::size_t count = mesh.numbers.size();
-  std::vector<Entry> entries(count);
-  forParts(static_cast<vtkIdType>(count), progress.part(0, 0.4),
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      {
-        const Steps box = this->stepsOf(this->boundsOf(this->cell(mesh.numbers[i])));
-        std::int32_t middle[3];
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          middle[axis] = std::max(0, box.low[axis] + (box.high[axis] - box.low[axis]) / 2);
-        }
-        entries[i] = { placeOnCurve(middle), mesh.numbers[i] };
-      }
-    });
-  // Parts of fixed size, then pairs of parts, then pairs of these.
-  constexpr std::size_t part = 1 << 15;
-  const auto at = [&](std::size_t i)
-  { return entries.begin() + static_cast<std::ptrdiff_t>(std::min(i, count)); };
-  vtkSMPTools::For(0, static_cast<vtkIdType>((count + part - 1) / part), 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      {
-        std::sort(at(i * part), at((i + 1) * part));
-      }
-    });
-  progress.reach(0.6);
-  std::vector<Entry> merged(count > part ? count : 0);
-  for (std::size_t length = part; length < count; length *= 2)
-  {
-    vtkSMPTools::For(0, static_cast<vtkIdType>((count + 2 * length - 1) / (2 * length)), 1,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-        {
-          const std::size_t first = 2 * i * length;
-          std::merge(at(first), at(first + length), at(first + length), at(first + 2 * length),
-            merged.begin() + static_cast<std::ptrdiff_t>(first));
-        }
-      });
-    entries.swap(merged);
-    progress.reach(1 - 0.4 * static_cast<double>(part) / static_cast<double>(length));
-  }
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    mesh.numbers[i] = entries[i].second;
-  }
-}
-
 Vector CellTree::sizeOf(const Cell& one) const
 {
   const int type = one.block->type(one.id);
@@ -608,70 +337,6 @@ Vector CellTree::sizeOf(const Cell& one) const
   return size;
 }
 
-void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
-{
-  const std::size_t count = mesh.numbers.size();
-  if (count == 0)
-  {
-    return;
-  }
-  mesh.boxes.resize(count);
-  mesh.levels.emplace_back((count + width - 1) / width);
-  forParts(static_cast<vtkIdType>(mesh.levels[0].size()), progress,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      vtkNew<vtkGenericCell> curved;
-      for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
-           ++group)
-      {
-        Vector sizes = { infinity, infinity, infinity };
-        for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
-        {
-          const Cell one = this->cell(mesh.numbers[i]);
-          mesh.boxes[i] = this->stepsOf(this->boundsOf(one));
-          const int order = orderOf(one, curved);
-          const Vector size = this->sizeOf(one);
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            sizes[axis] = std::min(sizes[axis], size[axis] / order);
-          }
-        }
-        std::transform(sizes.begin(), sizes.end(), mesh.levels[0][group].cellSize,
-          [](double size) { return static_cast<float>(size); });
-      }
-    });
-
-  const auto addBox = [](const Steps& from, Steps& to, bool isFirst)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      to.low[axis] = isFirst ? from.low[axis] : std::min(to.low[axis], from.low[axis]);
-      to.high[axis] = isFirst ? from.high[axis] : std::max(to.high[axis], from.high[axis]);
-    }
-  };
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    addBox(mesh.boxes[i], mesh.levels[0][i / width].box, i % width == 0);
-  }
-  while (mesh.levels.back().size() > 1)
-  {
-    const std::vector<Group>& below = mesh.levels.back();
-    std::vector<Group> level((below.size() + width - 1) / width);
-    for (std::size_t i = 0; i < below.size(); ++i)
-    {
-      Group& group = level[i / width];
-      const bool isFirst = i % width == 0;
-      addBox(below[i].box, group.box, isFirst);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        group.cellSize[axis] = isFirst ? below[i].cellSize[axis]
-                                       : std::min(group.cellSize[axis], below[i].cellSize[axis]);
-      }
-    }
-    mesh.levels.push_back(std::move(level));
-  }
-}
-
 CellTree::Content CellTree::content(const Bounds& box) const
 {
   Content content{ infinity, -infinity, { infinity, infinity, infinity } };
@@ -736,48 +401,6 @@ CellTree::Content CellTree::content(const Bounds& box) const
   };
   look(look, levels.size() - 1, 0);
   return content;
-}
-
-/// See voxelShape().
-CellTree::Sizes CellTree::measuredSizes() const
-{
-  Sizes sizes;
-  const std::size_t count = this->Sorted->numbers.size();
-  for (std::size_t i = 0; i < count; i += 1 + count / mostCellsMeasured)
-  {
-    const Vector size = this->sizeOf(this->cell(this->Sorted->numbers[i]));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (size[axis] < infinity)
-      {
-        sizes[axis].push_back(size[axis]);
-      }
-    }
-  }
-  return sizes;
-}
-
-Vector CellTree::voxelShapeOf(Sizes sizes)
-{
-  Vector shape = { 1, 1, 1 };
-  if (sizes[0].empty())
-  {
-    return shape;
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const auto place = sizes[axis].begin() +
-      static_cast<std::ptrdiff_t>(shareOfSmallerCells * static_cast<double>(sizes[axis].size()));
-    std::nth_element(sizes[axis].begin(), place, sizes[axis].end());
-    shape[axis] = *place;
-  }
-  const double largest = *std::max_element(shape.begin(), shape.end());
-  for (double& along : shape)
-  {
-    along = std::max(along / largest, flattest);
-    along = along * nearlyEqual >= 1 ? 1 : along;
-  }
-  return shape;
 }
 
 } // namespace refractivity

@@ -15,6 +15,7 @@
 #include <vector>
 
 class vtkDataSet;
+class vtkGenericCell;
 
 namespace refractivity
 {
@@ -207,6 +208,9 @@ private:
     double lowest, highest;
   };
 
+  static bool isLinear(int type);
+  /// Into how many parts a curved cell's points divide its edges.
+  static int orderOf(const Cell& cell, vtkGenericCell* curved);
   void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;

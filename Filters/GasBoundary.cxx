@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GasBoundary.h"
 
+#include "CoincidentPoints.h"
 #include "LatticeSampling.h"
 #include "OuterFaces.h"
 #include "WeightedMedian.h"

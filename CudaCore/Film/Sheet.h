@@ -5,6 +5,7 @@
 // brightness is the ratio of areas, I/I0 = 1 / |det(dx'/dx)|, and folds add up.
 #pragma once
 
+#include "Film/CellLight.h"
 #include "Film/Coverage.h"
 #include "Film/Photon.h"
 #include "Math/HostDevice.h"
@@ -156,69 +157,8 @@ public:
   }
 
 private:
-  struct Point
-  {
-    double x, y;
-  };
-
-  /// Counterclockwise from the lower left.
-  struct Cell
-  {
-    Point at[4];
-    double light[planes][4];
-
-    SCHLIEREN_HD double mean(int plane) const
-    {
-      return 0.25 * ((light[plane][0] + light[plane][2]) + (light[plane][1] + light[plane][3]));
-    }
-    /// Makes the second corner the first one.
-    SCHLIEREN_HD void turn()
-    {
-      const Point first = at[0];
-      at[0] = at[1];
-      at[1] = at[2];
-      at[2] = at[3];
-      at[3] = first;
-      for (double(&corners)[4] : light)
-      {
-        const double last = corners[0];
-        corners[0] = corners[1];
-        corners[1] = corners[2];
-        corners[2] = corners[3];
-        corners[3] = last;
-      }
-    }
-  };
-
-  struct Box
-  {
-    double left, right, low, high;
-
-    SCHLIEREN_HD static Box around(const Point (&at)[4])
-    {
-      Box box = { at[0].x, at[0].x, at[0].y, at[0].y };
-      for (int i = 1; i < 4; ++i)
-      {
-        box = { smaller(box.left, at[i].x), larger(box.right, at[i].x), smaller(box.low, at[i].y),
-          larger(box.high, at[i].y) };
-      }
-      return box;
-    }
-  };
-
-  /// Light in a polygon: of each plane mean + perX (x - centre.x) + perY (y - centre.y).
-  struct Light
-  {
-    Point centre;
-    double mean[planes], perX[planes], perY[planes];
-  };
-
-  /// What is still to be given away of a cell's light, and where rounding's residue goes.
-  struct Rest
-  {
-    std::int64_t light[planes];
-    std::int64_t column, row; ///< a pixel that got light; column < 0: none
-  };
+  using Point = FilmPoint;
+  using Polygons = CellLight<planes, Deposit, rowsAtOnce>;
 
   /// Places half-way between the rays of a cell, where it is added as four.
   struct Halves
@@ -227,40 +167,7 @@ private:
     Point left, right, below, above, middle;
   };
 
-  SCHLIEREN_HD static double smaller(double a, double b) { return a < b ? a : b; }
   SCHLIEREN_HD static double larger(double a, double b) { return a > b ? a : b; }
-
-  /// Calls use(a corner, the next one, that after it). No corner is chosen by a number, so that they may be in
-  /// registers.
-  template <class Use>
-  SCHLIEREN_HD static void forEachCorner(const Point (&at)[4], const Use& use)
-  {
-    Point a = at[0], b = at[1], c = at[2], d = at[3];
-    for (int i = 0; i < 4; ++i)
-    {
-      use(a, b, c);
-      const Point last = a;
-      a = b;
-      b = c;
-      c = d;
-      d = last;
-    }
-  }
-
-  /// Twice the area of a triangle, negative where its corners go round clockwise.
-  SCHLIEREN_HD static double cross(const Point& a, const Point& b, const Point& c)
-  {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-
-  /// Whether shares of an area stand out from rounding.
-  SCHLIEREN_HD static bool isWide(double area, const Point (&at)[4])
-  {
-    constexpr double least = 1e-9; // of the square of the extent
-    const Box box = Box::around(at);
-    const double extent = larger(box.right - box.left, box.high - box.low);
-    return fabs(area) > least * extent * extent;
-  }
 
   /// A cell of which one ray lands in each of 2 x 2 pixels, as those of undisturbed light do: their common
   /// corner is inside of it and cuts it into four quadrilaterals. False if it is another.
@@ -468,54 +375,15 @@ private:
   SCHLIEREN_APART void addBent(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
-    constexpr double mostPixels = 4096; // looked at one by one, for one cell
-    constexpr double maxSize = 1e9;
-    const Cell cell = cellOf(lowerLeft, lowerRight, upperLeft, upperRight);
-    Rest rest;
-    rest.column = rest.row = -1;
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      rest.light[plane] = film_.fixed(cell.mean(plane));
-      deposit_.emitted(plane, rest.light[plane]);
-    }
-    double size = 0; // not finite where a corner is not
-    for (const Point& at : cell.at)
-    {
-      size += fabs(at.x) + fabs(at.y);
-    }
-    const Box box = Box::around(cell.at);
-    if (size < 1e300 && isNear(box))
-    {
-      const double columns = floor(smaller(box.right, columns_)) - floor(larger(box.left, 0)) + 1;
-      const double rows = floor(smaller(box.high, rows_)) - floor(larger(box.low, 0)) + 1;
-      if (columns * rows == 1 && isInside(box))
-      {
-        rest.column = static_cast<std::int64_t>(box.left);
-        rest.row = static_cast<std::int64_t>(box.low);
-      }
-      else
-      {
-        addShape(cell, columns * rows > mostPixels || size > maxSize, rest);
-      }
-    }
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      if (rest.column >= 0)
-      {
-        deposit_.pixel(plane, rest.column, rest.row, rest.light[plane]);
-      }
-      else
-      {
-        deposit_.outside(plane, rest.light[plane]);
-      }
-    }
+    Polygons(film_, deposit_).add(cellOf(lowerLeft, lowerRight, upperLeft, upperRight));
   }
 
-  SCHLIEREN_HD static Cell cellOf(
+  SCHLIEREN_HD static typename Polygons::Cell cellOf(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
-    Cell cell = { { { lowerLeft.x, lowerLeft.y }, { lowerRight.x, lowerRight.y },
-                    { upperRight.x, upperRight.y }, { upperLeft.x, upperLeft.y } },
+    typename Polygons::Cell cell = { { { lowerLeft.x, lowerLeft.y }, { lowerRight.x, lowerRight.y },
+                                       { upperRight.x, upperRight.y },
+                                       { upperLeft.x, upperLeft.y } },
       {} };
     for (int plane = 0; plane < planes; ++plane)
     {
@@ -525,286 +393,6 @@ private:
       cell.light[plane][3] = upperLeft.light[plane];
     }
     return cell;
-  }
-
-  SCHLIEREN_HD bool isNear(const Box& box) const
-  {
-    return box.right >= 0 && box.left < columns_ && box.high >= 0 && box.low < rows_;
-  }
-  SCHLIEREN_HD bool isInside(const Box& box) const
-  {
-    return box.left >= 0 && box.right < columns_ && box.low >= 0 && box.high < rows_;
-  }
-
-  /// A cell as one polygon, or, where it is none, as four triangles around its middle, each with a quarter of the
-  /// rays, wherever they lie over each other; or, where it is too large or has no area, as points.
-  SCHLIEREN_HD void addShape(Cell cell, bool isTooLarge, Rest& rest)
-  {
-    Light light{};
-    double area = 0;
-    const bool isConvex = !isTooLarge && findConvex(cell, area, light);
-    const Point middle = { 0.25 * ((cell.at[0].x + cell.at[2].x) + (cell.at[1].x + cell.at[3].x)),
-      0.25 * ((cell.at[0].y + cell.at[2].y) + (cell.at[1].y + cell.at[3].y)) };
-    const bool isFolded = !isTooLarge && !isConvex && isWide(areaAround(cell, middle), cell.at);
-    for (int n = 0; n < (isFolded ? 4 : 1); ++n)
-    {
-      Cell part = cell;
-      bool isPolygon = isConvex;
-      if (isFolded)
-      {
-        part.at[2] = part.at[3] = middle;
-        findTriangle(cell, middle, area, light);
-        isPolygon = isWide(area, part.at);
-        for (int plane = 0; plane < planes; ++plane)
-        {
-          for (double& atCorner : part.light[plane])
-          {
-            atCorner = light.mean[plane];
-          }
-        }
-        cell.turn();
-      }
-      if (isPolygon)
-      {
-        addPolygon(part.at, area, isFolded ? 0.25 : 1, light, rest);
-      }
-      else
-      {
-        addPoints(part, isFolded ? 0.25 : 1, rest);
-      }
-    }
-  }
-
-  /// Twice the area of the triangles between a cell's sides and a point, each counted as positive.
-  SCHLIEREN_HD static double areaAround(const Cell& cell, const Point& middle)
-  {
-    return fabs(cross(cell.at[0], cell.at[1], middle)) +
-      fabs(cross(cell.at[1], cell.at[2], middle)) + fabs(cross(cell.at[2], cell.at[3], middle)) +
-      fabs(cross(cell.at[3], cell.at[0], middle));
-  }
-
-  /// False if the cell is not convex, has hardly any area, or if light that varies linearly in it would be
-  /// negative somewhere.
-  SCHLIEREN_HD static bool findConvex(const Cell& cell, double& area, Light& light)
-  {
-    const Point(&at)[4] = cell.at;
-    const double firstX = at[2].x - at[0].x, firstY = at[2].y - at[0].y; // diagonals
-    const double secondX = at[3].x - at[1].x, secondY = at[3].y - at[1].y;
-    area = 0.5 * (firstX * secondY - firstY * secondX);
-    if (!isWide(area, at))
-    {
-      return false;
-    }
-    bool isConvex = true;
-    forEachCorner(at,
-      [&](const Point& a, const Point& b, const Point& c)
-      {
-        const double turn = cross(a, b, c);
-        isConvex = isConvex && !(area > 0 ? turn < 0 : turn > 0);
-      });
-    if (!isConvex)
-    {
-      return false;
-    }
-    // That of two triangles.
-    const double share = 0.5 * cross(at[0], at[1], at[2]) / area;
-    light.centre = { (at[0].x + at[2].x + share * at[1].x + (1 - share) * at[3].x) / 3,
-      (at[0].y + at[2].y + share * at[1].y + (1 - share) * at[3].y) / 3 };
-    // From the middle of a side to that of the opposite one: s to the right, t up; s x t is the area.
-    const double sx = 0.5 * (firstX - secondX), sy = 0.5 * (firstY - secondY);
-    const double tx = 0.5 * (firstX + secondX), ty = 0.5 * (firstY + secondY);
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      const double first = cell.light[plane][2] - cell.light[plane][0];
-      const double second = cell.light[plane][3] - cell.light[plane][1];
-      const double alongS = 0.5 * (first - second), alongT = 0.5 * (first + second);
-      light.mean[plane] = cell.mean(plane);
-      light.perX[plane] = (alongS * ty - alongT * sy) / area;
-      light.perY[plane] = (alongT * sx - alongS * tx) / area;
-      for (const Point& corner : at)
-      {
-        if (light.mean[plane] + light.perX[plane] * (corner.x - light.centre.x) +
-            light.perY[plane] * (corner.y - light.centre.y) <
-          0)
-        {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  /// The triangle between a cell's first two corners and its middle.
-  SCHLIEREN_HD static void findTriangle(
-    const Cell& cell, const Point& middle, double& area, Light& light)
-  {
-    area = 0.5 * cross(cell.at[0], cell.at[1], middle);
-    const double ax = cell.at[0].x - middle.x, ay = cell.at[0].y - middle.y;
-    const double bx = cell.at[1].x - middle.x, by = cell.at[1].y - middle.y;
-    light.centre = { middle.x + (ax + bx) / 3, middle.y + (ay + by) / 3 };
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      const double mean = cell.mean(plane);
-      const double a = cell.light[plane][0] - mean, b = cell.light[plane][1] - mean;
-      light.mean[plane] = mean + (a + b) / 3;
-      light.perX[plane] = (a * by - b * ay) / (2 * area);
-      light.perY[plane] = (b * ax - a * bx) / (2 * area);
-    }
-  }
-
-  /// Clockwise (its area is negative then) or counterclockwise.
-  struct Polygon
-  {
-    Point at[4]; ///< of a triangle, the last two are one
-    double area;
-    double fraction; ///< of the cell's rays that it holds
-  };
-
-  /// Spreads light evenly over a polygon.
-  SCHLIEREN_HD void addPolygon(
-    const Point (&at)[4], double area, double fraction, const Light& light, Rest& rest)
-  {
-    const Polygon polygon{ { at[0], at[1], at[2], at[3] }, area, fraction };
-    const Box box = Box::around(polygon.at);
-    if (!isInside(box))
-    {
-      const double low = larger(box.low, 0), high = smaller(box.high, rows_);
-      addOutside(polygon, light, { box.left, box.right, box.low, smaller(box.high, 0) }, rest);
-      addOutside(polygon, light, { box.left, box.right, larger(box.low, rows_), box.high }, rest);
-      addOutside(polygon, light, { box.left, smaller(box.right, 0), low, high }, rest);
-      addOutside(polygon, light, { larger(box.left, columns_), box.right, low, high }, rest);
-    }
-    if (!isNear(box))
-    {
-      return;
-    }
-    const auto firstColumn = static_cast<std::int64_t>(larger(box.left, 0));
-    const auto firstRow = static_cast<std::int64_t>(larger(box.low, 0));
-    const auto lastColumn = static_cast<std::int64_t>(smaller(box.right, columns_ - 1));
-    const auto lastRow = static_cast<std::int64_t>(smaller(box.high, rows_ - 1));
-    constexpr int size = coverageTileSize;
-    for (std::int64_t row = firstRow; row <= lastRow; row += size)
-    {
-      for (std::int64_t column = firstColumn; column <= lastColumn; column += size)
-      {
-        const int columns =
-          lastColumn - column < size ? static_cast<int>(lastColumn - column) + 1 : size;
-        const int rows = lastRow - row < size ? static_cast<int>(lastRow - row) + 1 : size;
-        for (int first = 0; first < rows; first += rowsAtOnce)
-        {
-          addRows(columns, first, first + rowsAtOnce < rows ? first + rowsAtOnce : rows, column,
-            row, polygon, light, rest);
-        }
-      }
-    }
-  }
-
-  /// Some rows of the tile whose lower left pixel is (column, row).
-  SCHLIEREN_HD void addRows(int columns, int firstRow, int endRow, std::int64_t column,
-    std::int64_t row, const Polygon& polygon, const Light& light, Rest& rest)
-  {
-    const Point origin = { static_cast<double>(column), static_cast<double>(row) };
-    CoverageRows<rowsAtOnce> tile(columns, firstRow, endRow);
-    forEachCorner(polygon.at,
-      [&](const Point& a, const Point& b, const Point&)
-      { tile.addEdge(a.x - origin.x, a.y - origin.y, b.x - origin.x, b.y - origin.y); });
-    for (int j = firstRow; j < endRow; ++j)
-    {
-      for (int i = 0; i < columns; ++i)
-      {
-        const Moments& covered = tile.pixels[j - firstRow][i];
-        if (covered.area == 0)
-        {
-          continue;
-        }
-        rest.column = column + i;
-        rest.row = row + j;
-        for (int plane = 0; plane < planes; ++plane)
-        {
-          const std::int64_t here = lightOf(covered, origin, polygon, light, plane);
-          deposit_.pixel(plane, rest.column, rest.row, here);
-          rest.light[plane] -= here;
-        }
-      }
-    }
-  }
-
-  /// The light on a part of a polygon. Where its moments are taken from: `origin`.
-  SCHLIEREN_HD std::int64_t lightOf(const Moments& covered, const Point& origin,
-    const Polygon& polygon, const Light& light, int plane) const
-  {
-    const double sum = light.mean[plane] * covered.area +
-      light.perX[plane] * (covered.x - covered.area * (light.centre.x - origin.x)) +
-      light.perY[plane] * (covered.y - covered.area * (light.centre.y - origin.y));
-    const double part = sum / polygon.area;
-    return part > 0 ? film_.fixed(part * polygon.fraction) : 0;
-  }
-
-  /// What of a polygon's light falls into a box beside the film.
-  SCHLIEREN_HD void addOutside(
-    const Polygon& polygon, const Light& light, const Box& box, Rest& rest)
-  {
-    const double width = box.right - box.left, height = box.high - box.low;
-    if (!(width > 0 && height > 0))
-    {
-      return;
-    }
-    // As if the box were a pixel.
-    CoverageRows<1, 1> tile(1, 0, 1);
-    forEachCorner(polygon.at,
-      [&](const Point& a, const Point& b, const Point&)
-      {
-        tile.addEdge((a.x - box.left) / width, (a.y - box.low) / height, (b.x - box.left) / width,
-          (b.y - box.low) / height);
-      });
-    const double size = width * height;
-    const Moments& inBox = tile.pixels[0][0];
-    const Moments covered = { inBox.area * size, inBox.x * size * width, inBox.y * size * height };
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      const std::int64_t here = lightOf(covered, { box.left, box.low }, polygon, light, plane);
-      deposit_.outside(plane, here);
-      rest.light[plane] -= here;
-    }
-  }
-
-  /// Spreads a cell that has no area, or far too much of it, over points.
-  SCHLIEREN_HD void addPoints(const Cell& cell, double share, Rest& rest)
-  {
-    constexpr int perSide = 16;
-    constexpr double each = 1. / (perSide * perSide);
-    for (int j = 0; j < perSide; ++j)
-    {
-      for (int i = 0; i < perSide; ++i)
-      {
-        const double s = (i + 0.5) / perSide, t = (j + 0.5) / perSide;
-        const auto between = [s, t](double a, double b, double c, double d)
-        { return (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * d + s * c); };
-        const double x = between(cell.at[0].x, cell.at[1].x, cell.at[2].x, cell.at[3].x);
-        const double y = between(cell.at[0].y, cell.at[1].y, cell.at[2].y, cell.at[3].y);
-        const bool isOnIt = x >= 0 && x < columns_ && y >= 0 && y < rows_;
-        if (isOnIt)
-        {
-          rest.column = static_cast<std::int64_t>(x);
-          rest.row = static_cast<std::int64_t>(y);
-        }
-        for (int plane = 0; plane < planes; ++plane)
-        {
-          const double(&light)[4] = cell.light[plane];
-          const std::int64_t here =
-            film_.fixed(between(light[0], light[1], light[2], light[3]) * each * share);
-          if (isOnIt)
-          {
-            deposit_.pixel(plane, rest.column, rest.row, here);
-          }
-          else
-          {
-            deposit_.outside(plane, here);
-          }
-          rest.light[plane] -= here;
-        }
-      }
-    }
   }
 
   const FilmSize film_;

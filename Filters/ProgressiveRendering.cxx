@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// How vtkSchlierenFilter makes an image: at once, in slices of time, between updates (Refine), or of several instants.
+#include "SchlierenFilterInternals.h"
+
+#include "ExposureSteps.h"
+#include "FieldTints.h"
+#include "HurriedPicture.h"
+#include "InputDescription.h"
+#include "MeanImage.h"
+#include "PictureOutput.h"
+#include "RealOptics.h"
+#include "SceneFromFilter.h"
+
+#include "vtkCommand.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace
+{
+
+ColorScale colorScaleFrom(vtkSchlierenFilter* self)
+{
+  const bool isShadow = self->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH;
+  return seesColor(self) ? ColorScale::Srgb
+                         : (isShadow ? ColorScale::LinearToTwice : ColorScale::Linear);
+}
+
+bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
+{
+  return frame.origin == place.origin && frame.pixelSize == place.pixelSize;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Refine()
+{
+  Internals& inside = *this->Inside;
+  FilterRanks::Meeting meeting(inside.Ranks, std::nullopt);
+  bool hasMore = false;
+  if (isRank0())
+  {
+    const Internals::WithWorkers withWorkers(inside, this->Medium, meeting);
+    hasMore = this->RefineOnRank0();
+    meeting.SetOutcome(hasMore);
+  }
+  else
+  {
+    hasMore = meeting.Serve(threadsFrom(this),
+      [this](const std::vector<char>& message) { return this->Respond(message); });
+  }
+  if (hasMore)
+  {
+    inside.RefineTime.Modified();
+    this->InvokeEvent(vtkCommand::ModifiedEvent);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::RefineOnRank0()
+{
+  Internals& inside = *this->Inside;
+  if (this->GetStopped())
+  {
+    const vtkMTimeType stopped = std::exchange(inside.StoppedOf, 0);
+    if (inside.FailedAt == stopped) // there is nothing to go on with
+    {
+      inside.FailedAt = 0;
+    }
+    else
+    {
+      inside.UnfinishedOf = stopped;
+    }
+    return true;
+  }
+  return this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Stop()
+{
+  Internals& inside = *this->Inside;
+  if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfPicture())
+  {
+    inside.StoppedOf = std::exchange(inside.UnfinishedOf, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GetStopped()
+{
+  return this->Inside->StoppedOf != 0 && this->Inside->StoppedOf == this->GetTimeOfPicture();
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenFilter::GetPercentDone()
+{
+  const int percent = static_cast<int>(100 * this->Inside->Done);
+  return this->GetFinished() && !this->GetStopped() ? 100 : std::min(percent, 99);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::WorkOn()
+{
+  Internals& inside = *this->Inside;
+  this->PassToMedium();
+  const vtkMTimeType now = this->GetTimeOfPicture();
+  const bool goesOn = inside.UnfinishedOf == now;
+  if (goesOn && inside.Ready)
+  {
+    return true;
+  }
+  if (goesOn || this->CanBegin(now))
+  {
+    try
+    {
+      schlieren::Monitor monitor;
+      monitor.progress = [&inside](double done) { inside.Done = done; };
+      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, monitor)
+                                      : this->Begin(false, this->TimeLimit, monitor);
+      inside.UnfinishedOf = now;
+      if (!image.finished && image.intensity.empty())
+      {
+        inside.Ready.reset();
+        return false;
+      }
+      inside.Ready = std::move(image);
+      return true;
+    }
+    catch (const std::exception&) // an update begins again, and says it
+    {
+      inside.Pictures.GiveUp();
+      inside.UnfinishedOf = 0;
+      return true;
+    }
+  }
+  return std::exchange(inside.UnfinishedOf, 0) != 0; // then there will be another picture
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
+{
+  Internals& inside = *this->Inside;
+  return !(this->ExposureTime > 0) && inside.ShownOf != 0 && inside.ShownOf != now &&
+    inside.FailedAt != now && inside.Shown[PICTURE_PORT].IsThere() &&
+    (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
+    inside.holdsRefractivityOf(
+      describeInputs(this, inside.Ranks, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
+        inside.Ranks.GetInput(
+          vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
+      this->Medium, this->ColorByField);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkSchlierenFilter::GetPictureCount() const
+{
+  return this->PictureCount + (this->Inside->Ready ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GetFinished() { return this->Inside->UnfinishedOf == 0; }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
+{
+  Internals& inside = *this->Inside;
+  return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfPicture() &&
+    inside.holdsRefractivityOf(
+      describeInputs(this, inside.Ranks, input, bodies), this->Medium, this->ColorByField);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, bool goesOn)
+{
+  Internals& inside = *this->Inside;
+  schlieren::Monitor monitor;
+  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
+  monitor.progress = [this](double fraction)
+  {
+    this->Inside->Done = fraction;
+    if (!(this->TimeLimit > 0)) // else it would flicker
+    {
+      this->Progress(mediumShare + (1 - mediumShare) * fraction);
+    }
+  };
+  std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
+  if (goesOn && ready && (this->TimeLimit > 0 || ready->finished))
+  {
+    return this->Show(std::move(*ready), output, histogram);
+  }
+  ready.reset();
+  if (goesOn)
+  {
+    return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
+  }
+
+  const LastPicture& shown = inside.Shown[PICTURE_PORT];
+  const bool isColored = this->ColorByField || seesColor(this);
+  if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
+  {
+    // Something to show if time is over before the first sample of each pixel is there.
+    if (!this->Show(this->Begin(true, 0, monitor), output, histogram))
+    {
+      return false;
+    }
+  }
+  return this->Show(this->Begin(false, this->TimeLimit, monitor), output, histogram);
+}
+
+//------------------------------------------------------------------------------
+ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
+  std::vector<double> medium, std::vector<double> rays)
+{
+  const Internals& inside = *this->Inside;
+  medium.push_back(static_cast<double>(inside.settingsTimeOf(this->Medium)));
+  return { inside.Time,
+    { static_cast<double>(upstreamTime(this, 0)),
+      static_cast<double>(upstreamTime(this, vtkRefractiveIndex::BODIES)) },
+    inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt, std::move(medium),
+    std::move(rays) };
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> vtkSchlierenFilter::KeptK()
+{
+  if (!choosesK(this))
+  {
+    return {}; // what is kept waits: the change may be undone
+  }
+  return this->Inside->KLock.For(this->LockK,
+    this->CircumstancesOf(
+      { static_cast<double>(this->Cutoff), static_cast<double>(this->AutoAmbientRefractivity),
+        this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity },
+      settingsOfRays(this)));
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> vtkSchlierenFilter::KeptAmbient()
+{
+  this->Inside->AmbientLock.For(
+    this->LockAmbient ? LOCK_OVER_TIME : LOCK_OFF, this->CircumstancesOf({}, {}));
+  // Given at the time that it was found, it would make another medium of the same data.
+  return this->Inside->AmbientLock.GetKept();
+}
+
+//------------------------------------------------------------------------------
+schlieren::Image vtkSchlierenFilter::Begin(
+  bool isHurried, double seconds, const schlieren::Monitor& monitor)
+{
+  Internals& inside = *this->Inside;
+  inside.Done = 0;
+  schlieren::Field field = inside.field();
+  field.ambient = !this->AutoAmbientRefractivity ? this->AmbientRefractivity
+    : inside.FirstInstant                        ? inside.FirstInstant->ambient
+                                                 : this->KeptAmbient();
+  inside.FindsAmbient = !field.ambient;
+  field.lengthScale = this->LengthScale;
+  schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid, inside.RgbPictures);
+  if (inside.FirstInstant && choosesK(this))
+  {
+    scene.kScale = inside.FirstInstant->kScale;
+  }
+  else if (const std::optional<double> k = this->KeptK())
+  {
+    scene.kScale = k;
+  }
+  if (this->ColorByField)
+  {
+    const std::size_t fields = this->Medium->GetFields().size();
+    scene.fieldColors = fieldColors(this->FieldColors, fields);
+    field.gradients = { static_cast<int>(fields),
+      inside.Source ? nullptr : inside.FieldGradients.data(), field.version };
+  }
+  if (isHurried)
+  {
+    hurry(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
+  }
+  return inside.Pictures.Begin(field, scene, seconds, monitor);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram)
+{
+  Internals& inside = *this->Inside;
+  schlieren::Monitor monitor;
+  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
+  monitor.progress = [this](double fraction)
+  { this->Progress(mediumShare + (1 - mediumShare) * fraction); };
+  MeanImage mean;
+  steps.Keep();
+  for (const TimeExposure::Instant& instant : inside.Exposure.Instants)
+  {
+    while (steps.IsBefore(instant))
+    {
+      steps.GoOn();
+      inside.Pictures.SetWorkers(steps.GetMeeting().GetWorkers());
+      steps.Keep();
+    }
+    const auto input = steps.GetData(0, instant);
+    const auto bodies = steps.GetData(vtkRefractiveIndex::BODIES, instant);
+    if (!this->UpdateRefractivity(input, bodies))
+    {
+      return false;
+    }
+    this->UpdateFieldGradients(input);
+    schlieren::Image image = this->Begin(false, 0, monitor);
+    if (image.aborted)
+    {
+      return false;
+    }
+    if (!inside.FirstInstant)
+    {
+      inside.FirstInstant.emplace();
+      inside.FirstInstant->frame = image.frame;
+      inside.FirstInstant->ambient = image.ambient;
+      inside.FirstInstant->kScale = image.kScale;
+      this->KeepFound(image);
+    }
+    else if (!liesAt(image.frame, inside.FirstInstant->frame))
+    {
+      throw std::runtime_error("The box of the data changes within ExposureTime, and with it what "
+                               "the image shows. Set FocalPoint and ParallelScale.");
+    }
+    mean.Add(std::move(image));
+    ++inside.Instant;
+  }
+  inside.MediumTime = 0; // the refractivity is that of no input
+  return this->Show(mean.Take(), output, histogram);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
+{
+  Internals& inside = *this->Inside;
+  if (!inside.Pictures.GetScene().kScale && image.kScale > 0)
+  {
+    inside.KLock.Found(image.kScale);
+  }
+  if (inside.FindsAmbient)
+  {
+    inside.AmbientLock.Found(image.ambient);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::Show(
+  schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram)
+{
+  Internals& inside = *this->Inside;
+  inside.UnfinishedOf = image.finished || image.aborted ? 0 : this->GetTimeOfPicture();
+  if (image.aborted)
+  {
+    return false;
+  }
+  inside.ShownOf = this->GetTimeOfPicture();
+  if (image.intensity.empty()) // no more samples than before
+  {
+    return true;
+  }
+  const schlieren::Scene& scene = inside.Pictures.GetScene();
+  const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
+  if (isWhole) // of a hurried one the whole picture will say it
+  {
+    for (const std::string& warning : inside.Pictures.GetWarnings(image))
+    {
+      vtkWarningMacro(<< warning);
+    }
+  }
+  if (isWhole)
+  {
+    this->KeepFound(image);
+  }
+  const bool isKept = choosesK(this) && this->GetLockedK() > 0;
+  dropIdleBounds(image);
+  this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) +
+    (inside.Exposure.IsNone() ? "" : ", " + inside.Exposure.GetWords()) +
+    (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+  this->KScaleUsed = image.kScale;
+  this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
+  ++this->PictureCount;
+  output->Initialize();
+  histogram->Initialize();
+  setOutput(output, image);
+  if (!image.color.empty())
+  {
+    addColor(output, image, colorScaleFrom(this));
+  }
+  if (scene.cutoff == schlieren::Cutoff::Interferogram && scene.fringes.finite)
+  {
+    addFringeSpacing(output, scene.fringes.spacing);
+  }
+  if (!inside.Exposure.IsNone())
+  {
+    addExposure(output, inside.Exposure.Begin, inside.Exposure.End);
+  }
+  if (inside.Source)
+  {
+    inside.Grid = mediumInWords(image.medium);
+    inside.Grid += inside.Source->fields() > 0 ? " or of the full colour" : "";
+    inside.Grid += inside.Source->isRemote() ? ", of data that stay on their ranks" : "";
+    addMedium(output, image.medium);
+  }
+  addGrid(output, this->GetGrid(), inside.Refractivity);
+  setHistogram(histogram, image.histogram);
+  inside.Shown[PICTURE_PORT].Keep(output);
+  inside.Shown[HISTOGRAM_PORT].Keep(histogram);
+  return true;
+}

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "MeshSource.h"
+#include "RefractivityByResampling.h"
+#include "RefractivityOfAmr.h"
+#include "RefractivitySource.h"
+#include "vtkRefractiveIndex.h"
+
+#include "vtkSMPTools.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+// What vtkRefractiveIndex keeps between updates, and what its files share.
+namespace refractivity
+{
+
+struct GridPlan
+{
+  std::vector<double> key; // the input, and the filter's time; empty: not chosen yet
+  std::optional<Amr> amr;
+  Resampling resampling; // where it is no Amr
+  vtkTypeInt64 count = 0;
+};
+
+/// Of the last MakeSource().
+struct KeptMesh
+{
+  std::optional<std::uint64_t> key; // unset: there is none
+  SourceMesh mesh;
+  vtkTypeInt64 builds = 0;
+
+  void release()
+  {
+    this->key.reset();
+    this->mesh = {};
+  }
+};
+
+/// Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
+vtkSMPTools::Config threadsOfLoops(vtkRefractiveIndex* self);
+
+std::string noGas(const Source& source);
+
+/// Appends a sentence.
+void addText(std::string& text, const std::string& more);
+
+} // namespace refractivity

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GasChoices.h"
+#include "vtkGasTable.h"
+#include "vtkRefractiveIndex.h"
+
+#include "vtkPiecewiseFunction.h"
+
+using namespace refractivity;
+
+namespace
+{
+
+void printList(
+  ostream& os, vtkIndent indent, const char* name, const std::vector<std::string>& texts)
+{
+  os << indent << name << ":";
+  for (const std::string& text : texts)
+  {
+    os << " '" << text << "'";
+  }
+  os << "\n";
+}
+
+void printList(ostream& os, vtkIndent indent, const char* name, const std::vector<double>& values)
+{
+  os << indent << name << ":";
+  for (const double value : values)
+  {
+    os << " " << value;
+  }
+  os << "\n";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "IndexModel: " << this->IndexModel << "\n";
+  os << indent << "Gas: " << this->Gas << "\n";
+  os << indent << "GladstoneDaleConstant: " << this->GladstoneDaleConstant << "\n";
+  os << indent << "DensityScale: " << this->DensityScale << "\n";
+  printList(os, indent, "MixtureArrays", this->MixtureArrays);
+  printList(os, indent, "MixtureGases", this->MixtureGases);
+  printList(os, indent, "MixtureConstants", this->MixtureConstants);
+  printList(os, indent, "MixtureMolarMasses", this->MixtureMolarMasses);
+  os << indent << "BackgroundGas: " << this->BackgroundGas << "\n";
+  os << indent << "BackgroundConstant: " << this->BackgroundConstant << "\n";
+  os << indent << "BackgroundMolarMass: " << this->BackgroundMolarMass << "\n";
+  os << indent << "FractionType: " << this->FractionType << "\n";
+  os << indent << "TemperatureScale: " << this->TemperatureScale << "\n";
+  os << indent << "PressureScale: " << this->PressureScale << "\n";
+  os << indent << "RelativeHumidity: " << this->RelativeHumidity << "\n";
+  os << indent << "CO2: " << this->CO2 << "\n";
+  os << indent << "Wavelength: " << this->Wavelength << "\n";
+  printList(os, indent, "Fields", this->Fields);
+  os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
+  printList(os, indent, "FieldRanges", this->FieldRanges);
+  os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
+  os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
+     << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  printList(os, indent, "SamplingBounds",
+    std::vector<double>(this->SamplingBounds, this->SamplingBounds + 6));
+  os << indent << "MaskThreshold: " << this->MaskThreshold << "\n";
+  os << indent << "MaskedSide: " << this->MaskedSide << "\n";
+  os << indent << "Outside: " << this->Outside << "\n";
+  os << indent << "Reconstruction: " << this->Reconstruction << "\n";
+  os << indent << "Grid: " << this->Grid << "\n";
+  os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureArray(const char* name)
+{
+  this->MixtureArrays.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureArrays()
+{
+  this->MixtureArrays.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureGas(const char* name)
+{
+  this->MixtureGases.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureGases()
+{
+  this->MixtureGases.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkRefractiveIndex::GetGladstoneDaleConstantUsed()
+{
+  return isCustom(this->Gas) ? this->GladstoneDaleConstant
+                             : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureConstant(double constant)
+{
+  this->MixtureConstants.push_back(constant);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureConstants()
+{
+  this->MixtureConstants.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddMixtureMolarMass(double molarMass)
+{
+  this->MixtureMolarMasses.push_back(molarMass);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearMixtureMolarMasses()
+{
+  this->MixtureMolarMasses.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddField(const char* name)
+{
+  this->Fields.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearFields()
+{
+  this->Fields.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddTransferFunction(vtkPiecewiseFunction* function)
+{
+  this->TransferFunctions.emplace_back(function);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearTransferFunctions()
+{
+  this->TransferFunctions.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::AddFieldRange(double value)
+{
+  this->FieldRanges.push_back(value);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ClearFieldRanges()
+{
+  this->FieldRanges.clear();
+  this->Modified();
+}

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// The medium that vtkRefractiveIndex makes of meshes and blocks without a grid in between.
+#include "RefractiveIndexInternals.h"
+
+#include "AmrSource.h"
+#include "ChannelRanks.h"
+#include "FieldTints.h"
+#include "FlatData.h"
+#include "GasChoices.h"
+#include "MeshSearch.h"
+#include "RefractivityOfBodies.h"
+#include "SamplingBox.h"
+
+#include "vtkDataObject.h"
+#include "vtkSmartPointer.h"
+
+#include "Rays/RayWorker.h"
+#include "Schlieren.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+using namespace refractivity;
+
+namespace
+{
+
+bool isZero(int count) { return count == 0; }
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkSMPTools::Config refractivity::threadsOfLoops(vtkRefractiveIndex* self)
+{
+  const int given = self->GetNumberOfThreads();
+  const int limit =
+    given > 0 || std::getenv("VTK_SMP_MAX_THREADS") ? given : schlieren::coresOfProcess();
+  return vtkSMPTools::Config(limit, "STDThread", false);
+}
+
+//------------------------------------------------------------------------------
+std::string refractivity::noGas(const Source& source)
+{
+  return "There is no valid value in the " + source.label +
+    " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
+    "to cross. Choose another array or check the data.";
+}
+
+//------------------------------------------------------------------------------
+void refractivity::addText(std::string& text, const std::string& more)
+{
+  text += (text.empty() || more.empty() ? "" : " ") + more;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
+{
+  const Source source = chooseSource(this, input);
+  const int* given = this->SamplingDimensions;
+  if (source.image || SamplingBox(this->SamplingBounds).isGiven() ||
+    !std::all_of(given, given + 3, isZero))
+  {
+    return false;
+  }
+  flatAxisOf(source); // throws where there is no volume and no plane
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+{
+  Source source = chooseSource(this, input);
+  const int flat = flatAxisOf(source);
+  this->Grid.clear();
+  this->Search->release();
+  Tally tally;
+  bool hasGas = false, meetsBodies = false;
+  std::string ofMesh;
+  std::shared_ptr<const schlieren::MediumSource> result;
+  const auto take = [&](const auto& made)
+  {
+    hasGas = made->hasGas();
+    meetsBodies = made->meetsBodies();
+    result = made;
+  };
+  const WorkProgress progress(
+    [this](double done)
+    {
+      this->UpdateProgress(done);
+      return !this->GetAbortExecute();
+    });
+  const auto make = [&]
+  {
+    if (auto* mean = std::get_if<FieldMean>(&source.model))
+    {
+      mean->findRanges(source.leaves);
+    }
+    std::vector<FieldValues> fields;
+    if (contents == WITH_FIELDS)
+    {
+      fields = fieldValues(this, input, source);
+    }
+    progress.reach(0.02);
+    const auto outside = static_cast<refractivity::Outside>(this->Outside);
+    const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat);
+    if (std::optional<AmrLevels> levels = findLevels(source.leaves))
+    {
+      levels = turnedAcrossZ(std::move(*levels));
+      const auto made = std::make_shared<AmrSource>(
+        *levels, source, ownBodies, outside, tally, progress.part(0.02, 1));
+      for (FieldValues& field : fields)
+      {
+        bringToCells(field);
+        made->addField(*levels, field.source);
+      }
+      take(made);
+      return;
+    }
+    if (flat >= 0)
+    {
+      source = extruded(source, flat);
+      for (FieldValues& field : fields)
+      {
+        field.source = extruded(field.source, flat);
+      }
+    }
+    const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
+    const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
+    const auto leaves = preparedLeaves(source, cellValues, tally);
+    progress.reach(0.1);
+    const auto reconstruction =
+      isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
+    const std::uint64_t key = MeshSource::keyOf(leaves, ownBodies, outside, reconstruction);
+    KeptMesh& kept = *this->Mesh;
+    const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
+    std::shared_ptr<MeshSource> made;
+    if (kept.key == key)
+    {
+      made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium, flat);
+    }
+    else
+    {
+      kept.release();
+      ++kept.builds;
+      made =
+        std::make_shared<MeshSource>(leaves, ownBodies, outside, reconstruction, ofMedium, flat);
+      kept.key = key;
+    }
+    kept.mesh = made->mesh();
+    ofMesh = kept.mesh.warning;
+    const auto begunAt = [&](std::size_t number)
+    { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
+    for (std::size_t number = 0; number < fields.size(); ++number)
+    {
+      Tally notReported;
+      made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
+        progress.part(begunAt(number), begunAt(number + 1)));
+    }
+    take(made);
+  };
+  try
+  {
+    vtkSMPTools::LocalScope(threadsOfLoops(this), make);
+  }
+  catch (const Stopped&)
+  {
+    return nullptr;
+  }
+  if (!hasGas)
+  {
+    throw std::runtime_error(noGas(source));
+  }
+  warning = warningFrom(source.model, tally);
+  addText(warning, ofMesh);
+  if (bodies && !meetsBodies)
+  {
+    addText(warning, bodiesAreOutside);
+  }
+  addText(warning, this->NewNoteOnGases(source));
+  if (flat >= 0)
+  {
+    addText(warning, warningOfExtrusion(flat));
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::CanUsePieces()
+{
+  const int* given = this->SamplingDimensions;
+  return this->IndexModel != TRANSFER_FUNCTIONS && std::all_of(given, given + 3, isZero) &&
+    !SamplingBox(this->SamplingBounds).isGiven();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> channels)
+{
+  this->Pieces->SetChannels(std::move(channels));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ReleasePieces()
+{
+  if (std::exchange(this->HasPieces, false))
+  {
+    try
+    {
+      this->Pieces->Ask(
+        std::vector<std::vector<char>>(this->Pieces->Count(), pieceRequest(PieceWorker::Forget)));
+    }
+    catch (const std::runtime_error&)
+    {
+      // A rank has not come. It forgets its piece when the next one is made.
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetPieceData(vtkDataObject* data) { this->Pieces->GetOwn().SetData(data); }
+
+//------------------------------------------------------------------------------
+std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)
+{
+  if (!PieceWorker::IsFor(schlieren::RayWorker::kindOf(message)))
+  {
+    return {};
+  }
+  this->Pieces->SetThreads(threadsOfLoops(this));
+  return this->Pieces->Respond(message);
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfPieces(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning)
+{
+  this->Grid.clear();
+  this->Search->release();
+  this->Mesh->release();
+  this->Pieces->SetThreads(threadsOfLoops(this));
+  this->SetPieceData(input);
+  this->HasPieces = true;
+  std::shared_ptr<PiecesSource> made;
+  try
+  {
+    vtkSMPTools::LocalScope(threadsOfLoops(this),
+      [&]
+      {
+        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
+          static_cast<refractivity::Outside>(this->Outside),
+          WorkProgress(
+            [this](double done)
+            {
+              this->UpdateProgress(done);
+              return !this->GetAbortExecute();
+            }));
+      });
+  }
+  catch (const Stopped&)
+  {
+    this->SetPieceData(nullptr);
+    return nullptr;
+  }
+  this->SetPieceData(nullptr);
+  Source source;
+  source.model = modelFrom(this);
+  source.noteOnGases = noteOnGases(this);
+  source.label = made->label();
+  if (!made->hasGas())
+  {
+    throw std::runtime_error(noGas(source));
+  }
+  warning = warningFrom(source.model, made->tally());
+  addText(warning, made->warning());
+  if (bodies && !made->meetsBodies())
+  {
+    addText(warning, bodiesAreOutside);
+  }
+  addText(warning, this->NewNoteOnGases(source));
+  return made;
+}

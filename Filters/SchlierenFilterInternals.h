@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "LastPicture.h"
+#include "PictureInSlices.h"
+#include "Ranks.h"
+#include "RgbPictures.h"
+#include "SensitivityLock.h"
+#include "TimeExposure.h"
+#include "vtkSchlierenFilter.h"
+
+#include "FieldFromImage.h"
+
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkTimeStamp.h"
+
+#include "Medium/MediumSource.h"
+#include "Schlieren.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What vtkSchlierenFilter keeps between updates.
+struct vtkSchlierenFilter::Internals
+{
+  /// The other ranks trace rays, and answer for their pieces of the data, while this is there.
+  class WithWorkers
+  {
+  public:
+    WithWorkers(
+      Internals& internals, vtkRefractiveIndex* medium, const FilterRanks::Meeting& meeting)
+      : Of(internals)
+      , Medium(medium)
+    {
+      this->Of.Pictures.SetWorkers(meeting.GetWorkers());
+      this->Medium->SetPieceChannels(meeting.GetChannels());
+    }
+    ~WithWorkers()
+    {
+      this->Of.Pictures.SetWorkers({});
+      this->Medium->SetPieceChannels({});
+    }
+    WithWorkers(const WithWorkers&) = delete;
+    WithWorkers& operator=(const WithWorkers&) = delete;
+
+  private:
+    Internals& Of;
+    vtkRefractiveIndex* Medium;
+  };
+
+  FilterRanks Ranks;
+  PictureInSlices Pictures;
+  LastPicture Shown[2]; // at each output
+  RgbPictureReader RgbPictures;
+  vtkNew<vtkImageData> Refractivity;
+  std::shared_ptr<const schlieren::MediumSource> Source; // instead of Refractivity, of meshes
+  vtkTimeStamp SourceTime;
+  std::string Grid; // what Source was divided into
+
+  schlieren::Field field() const
+  {
+    if (!this->Source)
+    {
+      return fieldFrom(this->Refractivity);
+    }
+    schlieren::Field field;
+    field.source = this->Source;
+    field.grid = schlieren::coarsestGrid(*this->Source);
+    field.version = this->SourceTime.GetMTime();
+    return field;
+  }
+
+  // What Refractivity was made from: the input, and Medium at that time (0: nothing yet).
+  std::vector<double> Input;
+  vtkMTimeType MediumTime = 0;
+
+  // A source has fields only where it needs them: its voxels are as fine as these ask for.
+  bool holdsRefractivityOf(
+    const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsFields) const
+  {
+    return this->MediumTime == medium->GetMTime() && this->Input == input &&
+      (!this->Source || (this->Source->fields() > 0) == needsFields);
+  }
+
+  // Of the fields that tint, on the grid of Refractivity; empty where not needed, or where Source has them.
+  std::vector<float> FieldGradients;
+
+  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the picture
+  // at the outputs was begun, and the one that is not finished (0: there is none).
+  vtkMTimeType FailedAt = 0;
+  vtkMTimeType ShownOf = 0;
+  vtkMTimeType UnfinishedOf = 0;
+  vtkTimeStamp RefineTime;
+
+  SensitivityLock KLock;
+  SensitivityLock AmbientLock;
+  bool FindsAmbient = false;  // for the image that was begun last
+  std::optional<double> Time; // of the last update; unset for data without time steps
+
+  TimeExposure Exposure;   // of the last request
+  std::size_t Instant = 0; // of these, the one that is being made
+  // The image of its first instant, whose k and surroundings, and place, are those of all others.
+  std::optional<schlieren::Image> FirstInstant;
+
+  // Of Medium, the last time that Precision changed it, and before that.
+  vtkMTimeType PrecisionTime = 0;
+  vtkMTimeType TimeBeforePrecision = 0;
+
+  /// When anything but Precision has last changed Medium.
+  vtkMTimeType settingsTimeOf(vtkRefractiveIndex* medium) const
+  {
+    const vtkMTimeType time = medium->GetMTime();
+    return time == this->PrecisionTime ? this->TimeBeforePrecision : time;
+  }
+
+  vtkMTimeType StoppedOf = 0; // the one that Stop(), or an abort within a limit, has left; 0: none
+  double Done = 0;            // of the image that was begun last: 0 to 1
+
+  std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
+
+  void DropShown()
+  {
+    this->Shown[0].Drop();
+    this->Shown[1].Drop();
+  }
+};
+
+/// Share of the progress bar that belongs to finding the refractivity.
+inline constexpr double mediumShare = 0.2;
+
+/// Everything of the inputs that the refractivity depends on.
+std::vector<double> describeInputs(
+  vtkSchlierenFilter* self, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies);
+
+/// Whether the bench itself makes colours.
+bool seesColor(vtkSchlierenFilter* self);
