@@ -95,4 +95,32 @@ private:
   cudaStream_t stream_ = nullptr;
 };
 
+/// A moment in a queue's work.
+template <class Failure>
+class CudaEvent
+{
+public:
+  CudaEvent() { checkCuda<Failure>(cudaEventCreate(&event_), "Making an event"); }
+  CudaEvent(const CudaEvent&) = delete;
+  CudaEvent& operator=(const CudaEvent&) = delete;
+  ~CudaEvent() { cudaEventDestroy(event_); }
+
+  /// When the queue's work so far is done.
+  void record(const CudaStream<Failure>& stream)
+  {
+    checkCuda<Failure>(cudaEventRecord(event_, stream.get()), "Recording an event");
+  }
+  /// Both have happened.
+  static double secondsBetween(const CudaEvent& begin, const CudaEvent& end)
+  {
+    float milliseconds = 0;
+    checkCuda<Failure>(
+      cudaEventElapsedTime(&milliseconds, begin.event_, end.event_), "Reading an event");
+    return 1e-3 * static_cast<double>(milliseconds);
+  }
+
+private:
+  cudaEvent_t event_ = nullptr;
+};
+
 } // namespace schlieren

@@ -21,10 +21,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 
@@ -331,6 +333,8 @@ const char* cudaGetErrorString(cudaError_t error)
       return "out of memory";
     case cudaErrorInvalidConfiguration:
       return "invalid configuration argument";
+    case cudaErrorNotReady:
+      return "device not ready";
     default:
       return "no CUDA-capable device is detected";
   }
@@ -402,3 +406,46 @@ cudaError_t cudaStreamSynchronize(cudaStream_t stream)
 
 /// CUDA, too, does not wait for the stream's work.
 cudaError_t cudaStreamDestroy(cudaStream_t) { return cudaSuccess; }
+
+struct CUevent_st
+{
+  std::shared_ptr<std::chrono::steady_clock::time_point> happened; ///< zero before
+};
+
+cudaError_t cudaEventCreate(cudaEvent_t* event)
+{
+  *event = new CUevent_st{};
+  return cudaSuccess;
+}
+
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  event->happened = std::make_shared<std::chrono::steady_clock::time_point>();
+  queue.push_back(
+    { stream, [happened = event->happened] { *happened = std::chrono::steady_clock::now(); } });
+  return cudaSuccess;
+}
+
+cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t begin, cudaEvent_t end)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  if (!begin->happened || !end->happened)
+  {
+    return failed(cudaErrorInvalidValue);
+  }
+  const std::chrono::steady_clock::time_point none{};
+  if (*begin->happened == none || *end->happened == none)
+  {
+    return failed(cudaErrorNotReady);
+  }
+  *milliseconds =
+    std::chrono::duration<float, std::milli>(*end->happened - *begin->happened).count();
+  return cudaSuccess;
+}
+
+cudaError_t cudaEventDestroy(cudaEvent_t event)
+{
+  delete event;
+  return cudaSuccess;
+}

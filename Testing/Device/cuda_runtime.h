@@ -27,6 +27,7 @@ enum cudaError_t
   cudaErrorMemoryAllocation = 2,
   cudaErrorInvalidConfiguration = 9,
   cudaErrorNoDevice = 100,
+  cudaErrorNotReady = 600,
 };
 enum cudaMemcpyKind
 {
@@ -34,6 +35,7 @@ enum cudaMemcpyKind
   cudaMemcpyDeviceToHost = 2,
 };
 using cudaStream_t = struct CUstream_st*;
+using cudaEvent_t = struct CUevent_st*;
 
 struct uint3
 {
@@ -65,6 +67,10 @@ extern "C"
   cudaError_t cudaStreamCreate(cudaStream_t* stream);
   cudaError_t cudaStreamSynchronize(cudaStream_t stream);
   cudaError_t cudaStreamDestroy(cudaStream_t stream);
+  cudaError_t cudaEventCreate(cudaEvent_t* event);
+  cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream);
+  cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t begin, cudaEvent_t end);
+  cudaError_t cudaEventDestroy(cudaEvent_t event);
 
 } // extern "C"
 
