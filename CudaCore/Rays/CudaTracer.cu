@@ -19,14 +19,14 @@ namespace
 {
 
 template <class T>
-using Buffer = CudaBuffer<T, DeviceError>;
-using Stream = CudaStream<DeviceError>;
-using Event = CudaEvent<DeviceError>;
+using Buffer = CudaBuffer<T>;
+using Stream = CudaStream;
+using Event = CudaEvent;
 
 template <class T>
 void copy(T* toHost, const T* fromDevice, std::size_t count, const Stream& stream)
 {
-  checkCuda<DeviceError>(
+  checkCuda(
     cudaMemcpyAsync(toHost, fromDevice, count * sizeof(T), cudaMemcpyDeviceToHost, stream.get()),
     "Fetching rays");
 }
@@ -233,8 +233,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     fields > 0 ? std::make_unique<Buffer<float>>(sums) : nullptr;
   for (auto& lane : memory_->lanes)
   {
-    checkCuda<DeviceError>(
-      cudaMemset(lane.totals.data(), 0, sizeof(MarchTotals)), "Clearing the totals");
+    checkCuda(cudaMemset(lane.totals.data(), 0, sizeof(MarchTotals)), "Clearing the totals");
     lane.crossed = 0;
   }
   memory_->findPace(task, fields);
@@ -264,7 +263,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
             lane.totals.data() },
           blocks, lane.stream.get());
       });
-    checkCuda<DeviceError>(cudaGetLastError(), "Starting the ray kernel");
+    checkCuda(cudaGetLastError(), "Starting the ray kernel");
     lane.end.record(lane.stream);
     return Launch{ &lane, firstRow, rows };
   };

@@ -43,7 +43,7 @@ namespace emulated
 namespace
 {
 
-constexpr std::size_t capacity = std::size_t{ 4 } << 30;
+std::size_t capacity = defaultCapacity;
 
 std::recursive_mutex mutex;
 cudaError_t lastError = cudaSuccess;
@@ -127,7 +127,7 @@ public:
     return true;
   }
 
-  std::size_t free() const { return capacity - allocated_; }
+  std::size_t free() const { return capacity > allocated_ ? capacity - allocated_ : 0; }
 
   bool isOfDevice(const void* address) const
   {
@@ -274,6 +274,12 @@ void checkArgument(const void* value, std::size_t bytes)
       fail("a kernel is given an address of the host");
     }
   }
+}
+
+void setCapacity(std::size_t bytes)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  capacity = bytes;
 }
 
 bool isAllocated(const void* address, std::size_t bytes) { return memory.holds(address, bytes); }
