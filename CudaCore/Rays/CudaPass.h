@@ -17,7 +17,7 @@ namespace schlieren
 /// 132 multiprocessors at most, and for a band of shaded rays.
 bool canKeepOnCuda(std::size_t bytes);
 
-/// The rays of a pass, row by row, in the memory of the first CUDA device. Throws DeviceError.
+/// The rays of a pass, row by row, in the memory of the CUDA device. Throws DeviceError.
 class CudaPass
 {
 public:

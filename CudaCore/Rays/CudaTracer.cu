@@ -3,6 +3,7 @@
 #include "Rays/CudaTracer.h"
 
 #include "Device/CudaBuffer.h"
+#include "Device/CudaDevice.h"
 #include "Rays/CudaMarch.h"
 #include "Rays/LaunchPace.h"
 
@@ -39,6 +40,7 @@ bool cudaAvailable(std::string* reason)
   const cudaError_t status = cudaGetDeviceCount(&devices);
   if (status == cudaSuccess && devices > 0)
   {
+    checkCuda(cudaSetDevice(chosenCudaDevice(devices)), "Choosing a device");
     return true;
   }
   cudaGetLastError();
@@ -84,6 +86,14 @@ struct CudaTracer<Real>::DeviceMemory
     return medium.tree ? medium.tree->samples().size() : medium.volume.samples.size();
   }
 
+  static int currentDevice()
+  {
+    int device = 0;
+    checkCuda(cudaGetDevice(&device), "Asking for the device");
+    return device;
+  }
+
+  int device = currentDevice();
   MediumView<Real> view; ///< on the device
   Buffer<Real> samples;
   std::unique_ptr<Buffer<std::uint32_t>> solid;
@@ -219,6 +229,7 @@ template <class Real>
 bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
+  checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
   const RayTask<Real> onDevice = memory_->bring(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again

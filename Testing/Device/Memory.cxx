@@ -9,7 +9,8 @@
 //   - all memory is freed at the end of the program.
 // What breaks these rules ends the program.
 //
-// In the environment: CUDA_VISIBLE_DEVICES empty or -1 hides the device, as with CUDA. EMULATED_LAUNCHES
+// In the environment: CUDA_VISIBLE_DEVICES empty or -1 hides the device, as with CUDA. EMULATED_DEVICES: how many there
+// are, 1 by default; they have their memory in common, but a stream works for one of them only. EMULATED_LAUNCHES
 // names a file that gets the address of each kernel that is launched, as nm prints it.
 #include "Threads.h"
 
@@ -47,6 +48,8 @@ std::size_t capacity = defaultCapacity;
 
 std::recursive_mutex mutex;
 cudaError_t lastError = cudaSuccess;
+thread_local int currentDevice = 0;
+std::map<cudaStream_t, int> deviceOfStream;
 
 cudaError_t failed(cudaError_t error)
 {
@@ -296,6 +299,10 @@ cudaError_t enqueue(Launch launch, cudaStream_t stream)
   {
     return failed(cudaErrorInvalidConfiguration);
   }
+  if (stream != nullptr && deviceOfStream.at(stream) != currentDevice)
+  {
+    return failed(cudaErrorInvalidResourceHandle);
+  }
   note(launch.kernel);
   queue.push_back({ stream, [launch = std::move(launch)] { run(launch); } });
   return cudaSuccess;
@@ -317,8 +324,27 @@ cudaError_t cudaGetDeviceCount(int* count)
   const char* visible = std::getenv("CUDA_VISIBLE_DEVICES");
   const bool isHidden =
     visible != nullptr && (std::strcmp(visible, "") == 0 || std::strcmp(visible, "-1") == 0);
-  *count = isHidden ? 0 : 1;
+  const char* devices = std::getenv("EMULATED_DEVICES");
+  *count = isHidden ? 0 : devices != nullptr ? std::atoi(devices) : 1;
   return isHidden ? failed(cudaErrorNoDevice) : cudaSuccess;
+}
+
+cudaError_t cudaGetDevice(int* device)
+{
+  *device = currentDevice;
+  return cudaSuccess;
+}
+
+cudaError_t cudaSetDevice(int device)
+{
+  int count = 0;
+  const cudaError_t error = cudaGetDeviceCount(&count);
+  if (error != cudaSuccess || device < 0 || device >= count)
+  {
+    return error != cudaSuccess ? error : failed(cudaErrorInvalidDevice);
+  }
+  currentDevice = device;
+  return cudaSuccess;
 }
 
 cudaError_t cudaGetLastError()
@@ -339,6 +365,10 @@ const char* cudaGetErrorString(cudaError_t error)
       return "out of memory";
     case cudaErrorInvalidConfiguration:
       return "invalid configuration argument";
+    case cudaErrorInvalidDevice:
+      return "invalid device ordinal";
+    case cudaErrorInvalidResourceHandle:
+      return "invalid resource handle";
     case cudaErrorNotReady:
       return "device not ready";
     default:
@@ -400,6 +430,7 @@ cudaError_t cudaStreamCreate(cudaStream_t* stream)
   static std::uintptr_t streams = 0;
   const std::lock_guard<std::recursive_mutex> lock(mutex);
   *stream = reinterpret_cast<cudaStream_t>(++streams);
+  deviceOfStream[*stream] = currentDevice;
   return cudaSuccess;
 }
 

@@ -27,6 +27,8 @@ enum cudaError_t
   cudaErrorMemoryAllocation = 2,
   cudaErrorInvalidConfiguration = 9,
   cudaErrorNoDevice = 100,
+  cudaErrorInvalidDevice = 101,
+  cudaErrorInvalidResourceHandle = 400,
   cudaErrorNotReady = 600,
 };
 enum cudaMemcpyKind
@@ -56,6 +58,8 @@ extern "C"
 {
 
   cudaError_t cudaGetDeviceCount(int* count);
+  cudaError_t cudaGetDevice(int* device);
+  cudaError_t cudaSetDevice(int device);
   cudaError_t cudaGetLastError();
   const char* cudaGetErrorString(cudaError_t error);
   cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
