@@ -178,8 +178,13 @@ struct CudaTracer<Real>::DeviceMemory
       std::make_tuple(kernel.path, kernel.integrator, kernel.interpolation, task.stepLimit, fields);
     if (!pace || now != paced)
     {
-      const int shorter = kernel.integrator == Integrator::Adaptive ? adaptiveFactor : 1;
-      pace.emplace(static_cast<double>(task.stepLimit) / (trappedFactor * shorter));
+      // Steps may be shorter, and a step reads at several places; many GPUs are slow in double precision.
+      const bool isAdaptive = kernel.integrator == Integrator::Adaptive;
+      const double steps =
+        static_cast<double>(task.stepLimit) / (trappedFactor * (isAdaptive ? adaptiveFactor : 1));
+      const double places = isAdaptive || kernel.integrator == Integrator::Rk4 ? 4 : 1;
+      const double precision = sizeof(Real) == sizeof(float) ? 1 : 10;
+      pace.emplace(steps * places * precision);
       paced = now;
     }
   }

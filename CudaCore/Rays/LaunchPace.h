@@ -20,7 +20,7 @@ public:
   static constexpr double target = 0.025; ///< seconds; so what comes may take four times as long
   static constexpr std::int64_t mostRays = std::int64_t{ 1 } << 22;
 
-  /// `steps`: of a ray that crosses the medium.
+  /// `steps`: of a ray that crosses the medium, in those of Leapfrog in single precision.
   explicit LaunchPace(double steps)
   {
     constexpr double slowStepsPerSecond = 5e8;
