@@ -210,6 +210,7 @@ struct Bench::Unfinished
   const Scene scene;
   Device device = Device::Cpu;
   std::string deviceNote;
+  bool keepsRays = true;                   ///< as far as the budget of memory goes
   std::optional<ProgressiveImage> picture; ///< always there
   std::optional<DisplacementBound> bound;
   double kScale = 0;
@@ -494,10 +495,10 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     }
     aimPass(pass, number, scene, light);
     const double tracedBefore = asked.traceSeconds;
-    const TracedPass* traced =
-      rays.raysOf(number, pass, asked.device, field.gradients.count, scene.memoryBudget,
-        [&](TracedPass& place, bool isWantedOnHost)
-        { return trace(place, isWantedOnHost, pass, held, task, ofPass, asked); });
+    const TracedPass* traced = rays.raysOf(number, pass, asked.device, field.gradients.count,
+      asked.keepsRays ? scene.memoryBudget : 0,
+      [&](TracedPass& place, bool isWantedOnHost)
+      { return trace(place, isWantedOnHost, pass, held, task, ofPass, asked); });
     const bool hasTraced = asked.traceSeconds > tracedBefore;
     if (traced == nullptr || watch.isAborted() || (hasTraced && watch.isPaused()))
     {
@@ -628,21 +629,32 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& mo
                                                         : goOn<double>(picture, watch);
   };
   Image image;
-  try
+  for (bool isDone = false; !isDone;)
   {
-    image = goOnWith(*asked);
-  }
-  catch (const DeviceError& failure)
-  {
-    leaveDevice();
-    if (asked->device == Device::Cpu || asked->scene.device == Device::Cuda)
+    try
     {
-      throw;
+      image = goOnWith(*asked);
+      isDone = true;
     }
-    auto again = std::make_unique<Unfinished>(asked->field, asked->scene);
-    again->deviceNote = failure.what();
-    asked = std::move(again);
-    image = goOnWith(*asked);
+    catch (const DeviceError& failure)
+    {
+      leaveDevice();
+      auto again = std::make_unique<Unfinished>(asked->field, asked->scene);
+      if (asked->keepsRays && dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr)
+      {
+        again->device = asked->device;
+        again->keepsRays = false;
+      }
+      else if (asked->device == Device::Cpu || asked->scene.device == Device::Cuda)
+      {
+        throw;
+      }
+      else
+      {
+        again->deviceNote = failure.what();
+      }
+      asked = std::move(again);
+    }
   }
   if (!image.finished && !image.aborted)
   {

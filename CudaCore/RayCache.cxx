@@ -82,7 +82,8 @@ const TracedPass* RayCache::raysOf(std::int64_t number, const Pass& pass, Device
   {
     return nullptr;
   }
-  if (index == passes_.size() && (passes_.size() + 1) * scratch_.bytes() <= memoryBudget)
+  if (index == passes_.size() && (passes_.size() + 1) * scratch_.bytes() <= memoryBudget &&
+    (!scratch_.onDevice || canKeepOnCuda(scratch_.bytes())))
   {
     passes_.push_back(std::move(scratch_));
     scratch_ = {};
