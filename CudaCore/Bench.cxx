@@ -17,9 +17,11 @@
 #include "Validation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <type_traits>
 #include <variant>
 
@@ -37,9 +39,10 @@ struct MediumOnDevices
   {
   }
 
+  std::atomic<bool> isInUse{ false };
   Medium<Real> medium;
+  std::int64_t changes = 0;               ///< of its voxels
   std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
-  std::unique_ptr<TeamTracer<Real>> team; ///< likewise, together with workers
 
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
   double mapTolerance = 0;                   ///< of nu
@@ -60,6 +63,44 @@ struct MediumOnDevices
     mapTolerance = tolerance;
     return map.get();
   }
+};
+
+constexpr std::int64_t noChange = -1;
+
+/// The medium of a bench.
+template <class Real>
+struct HeldMedium
+{
+  std::shared_ptr<MediumOnDevices<Real>> shared;
+  std::int64_t changesSeen = noChange;    ///< those that the bench's rays are of
+  std::unique_ptr<TeamTracer<Real>> team; ///< once rays have been traced together with workers
+};
+
+/// While it is there, its bench is at work in the medium.
+template <class Real>
+class InUse
+{
+public:
+  explicit InUse(MediumOnDevices<Real>& medium)
+    : medium_(medium)
+    , isMine_(!medium.isInUse.exchange(true))
+  {
+  }
+  ~InUse()
+  {
+    if (isMine_)
+    {
+      medium_.isInUse = false;
+    }
+  }
+  InUse(const InUse&) = delete;
+  InUse& operator=(const InUse&) = delete;
+
+  explicit operator bool() const { return isMine_; } ///< false: another is
+
+private:
+  MediumOnDevices<Real>& medium_;
+  bool isMine_;
 };
 
 /// A monitor whose answers are the last ones: once it has said stop, it does.
@@ -95,7 +136,65 @@ private:
 /// Of the progress of an image, what belongs to making the medium's voxels, where some are to be made.
 constexpr double fractionOfVoxels = 0.3;
 
+/// A medium that is there as long as a bench holds it.
+template <class Real>
+using ElsewhereHeld = std::weak_ptr<MediumOnDevices<Real>>;
+
 } // namespace
+
+struct SharedMedia::Entries
+{
+  struct Entry
+  {
+    MediumKey key;
+    std::variant<ElsewhereHeld<float>, ElsewhereHeld<double>> medium;
+
+    bool isThere() const
+    {
+      return std::visit([](const auto& held) { return !held.expired(); }, medium);
+    }
+  };
+  std::mutex mutex;
+  std::vector<Entry> all;
+
+  void dropThoseGone()
+  {
+    all.erase(
+      std::remove_if(all.begin(), all.end(), [](const Entry& entry) { return !entry.isThere(); }),
+      all.end());
+  }
+
+  template <class Real>
+  std::shared_ptr<MediumOnDevices<Real>> find(const MediumKey& key)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto found = std::find_if(
+      all.begin(), all.end(), [&](const Entry& entry) { return entry.key.tie() == key.tie(); });
+    return found != all.end() ? std::get<ElsewhereHeld<Real>>(found->medium).lock() : nullptr;
+  }
+
+  template <class Real>
+  void add(const MediumKey& key, const std::shared_ptr<MediumOnDevices<Real>>& medium)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    dropThoseGone();
+    all.push_back({ key, ElsewhereHeld<Real>(medium) });
+  }
+};
+
+SharedMedia::SharedMedia()
+  : entries_(std::make_unique<Entries>())
+{
+}
+
+SharedMedia::~SharedMedia() = default;
+
+int SharedMedia::count() const
+{
+  const std::lock_guard<std::mutex> lock(entries_->mutex);
+  entries_->dropThoseGone();
+  return static_cast<int>(entries_->all.size());
+}
 
 /// What has been asked for, and as much of it as there is.
 struct Bench::Unfinished
@@ -103,7 +202,7 @@ struct Bench::Unfinished
   Unfinished(const Field& ofField, const Scene& ofScene)
     : field(ofField)
     , scene(ofScene)
-    , picture(ofScene)
+    , picture(std::in_place, ofScene)
   {
   }
 
@@ -111,7 +210,7 @@ struct Bench::Unfinished
   const Scene scene;
   Device device = Device::Cpu;
   std::string deviceNote;
-  ProgressiveImage picture;
+  std::optional<ProgressiveImage> picture; ///< always there
   std::optional<DisplacementBound> bound;
   double kScale = 0;
   double momentumDrift = 0;
@@ -119,6 +218,14 @@ struct Bench::Unfinished
   double progressOfVoxels = 0; ///< fractionOfVoxels where some have been made
   std::int64_t shown = 0;      ///< passes of the last picture that was handed out
   bool hasBeenSilent = false;  ///< the last call handed none out
+
+  /// Where the medium has changed under the picture.
+  void beginAnew()
+  {
+    picture.emplace(scene);
+    bound.reset();
+    shown = 0;
+  }
 };
 
 struct Bench::Stages
@@ -127,22 +234,26 @@ struct Bench::Stages
   std::vector<Channel*> workers;
   std::unique_ptr<Unfinished> unfinished; ///< after a pause
 
+  std::shared_ptr<SharedMedia> media; ///< may be null
   std::optional<MediumKey> mediumKey;
-  std::variant<std::monostate, MediumOnDevices<float>, MediumOnDevices<double>> medium;
+  std::variant<std::monostate, HeldMedium<float>, HeldMedium<double>> medium;
 
   RayCache rays;
   CutoffMaker cutoffs;
 
   template <class Real>
-  MediumOnDevices<Real>& prepareMedium(const Field& field, const Scene& scene);
-  /// Makes the voxels of a source that a view needs and that are not there.
+  std::shared_ptr<MediumOnDevices<Real>> makeMedium(const Field& field, const Scene& scene);
   template <class Real>
-  void refineFor(
-    const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor, Unfinished& asked);
+  HeldMedium<Real>& prepareMedium(const Field& field, const Scene& scene);
+  /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
+  /// of other benches.
+  template <class Real>
+  bool refineFor(
+    const Column& column, HeldMedium<Real>& held, const Monitor& monitor, Unfinished& asked);
 
   /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
   template <class Real>
-  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, MediumOnDevices<Real>& held,
+  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, HeldMedium<Real>& held,
     const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked);
 
   /// Goes on with a picture, until it is finished, aborted or paused.
@@ -157,7 +268,18 @@ struct Bench::Stages
 };
 
 template <class Real>
-MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
+std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
+  const Field& field, const Scene& scene)
+{
+  ++work.mediumBuilds;
+  return std::make_shared<MediumOnDevices<Real>>(field.source
+      ? buildTree<Real>(
+          field, { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
+      : buildMedium<Real>(field, scene.interpolation, scene.threads));
+}
+
+template <class Real>
+HeldMedium<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
 {
   const bool hasSource = field.source != nullptr;
   const void* samples = hasSource ? static_cast<const void*>(field.source.get())
@@ -173,19 +295,25 @@ MediumOnDevices<Real>& Bench::Stages::prepareMedium(const Field& field, const Sc
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
-    medium = MediumOnDevices<Real>(hasSource
-        ? buildTree<Real>(field,
-            { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
-        : buildMedium<Real>(field, scene.interpolation, scene.threads));
+    HeldMedium<Real> held;
+    held.shared = media ? media->entries_->find<Real>(key) : nullptr;
+    if (!held.shared)
+    {
+      held.shared = makeMedium<Real>(field, scene);
+      if (media)
+      {
+        media->entries_->add(key, held.shared);
+      }
+    }
+    medium = std::move(held);
     mediumKey = key;
-    ++work.mediumBuilds;
   }
-  return std::get<MediumOnDevices<Real>>(medium);
+  return std::get<HeldMedium<Real>>(medium);
 }
 
 template <class Real>
-void Bench::Stages::refineFor(
-  const Column& column, MediumOnDevices<Real>& held, const Monitor& monitor, Unfinished& asked)
+bool Bench::Stages::refineFor(
+  const Column& column, HeldMedium<Real>& held, const Monitor& monitor, Unfinished& asked)
 {
   Monitor ofTree;
   ofTree.aborted = monitor.aborted;
@@ -197,40 +325,42 @@ void Bench::Stages::refineFor(
       monitor.progress(fractionOfVoxels * fraction);
     };
   }
-  if (refine(held.medium, column, ofTree))
+  MediumOnDevices<Real>& shared = *held.shared;
+  const Unneeded ofOthers = held.shared.use_count() > 1 ? Unneeded::Stays : Unneeded::Goes;
+  if (refine(shared.medium, column, ofTree, ofOthers))
   {
-    rays.clear();
-    held.cuda.reset();
-    held.team.reset();
-    asked.bound.reset();
+    ++shared.changes;
+    shared.cuda.reset();
   }
+  return !shared.medium.tree->lacksRoom();
 }
 
 template <class Real>
 bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
-  MediumOnDevices<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
+  HeldMedium<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
 {
+  MediumOnDevices<Real>& shared = *held.shared;
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
   const std::uint64_t ofGradients = asked.field.gradients.version;
   bool isTraced = false;
   if (asked.device == Device::Cuda)
   {
-    if (!held.cuda)
+    if (!shared.cuda)
     {
-      held.cuda = std::make_unique<CudaTracer<Real>>(held.medium);
+      shared.cuda = std::make_unique<CudaTracer<Real>>(shared.medium);
     }
     using Exits = typename CudaTracer<Real>::Exits;
-    isTraced = held.cuda->trace(task, pass, { ofGradients, held.mapTolerance },
+    isTraced = shared.cuda->trace(task, pass, { ofGradients, shared.mapTolerance },
       isWantedOnHost ? Exits::OnHost : Exits::OnDevice, traced, monitor);
   }
   else if (!workers.empty())
   {
     if (!held.team)
     {
-      held.team = std::make_unique<TeamTracer<Real>>(held.medium);
+      held.team = std::make_unique<TeamTracer<Real>>(shared.medium);
     }
-    isTraced = held.team->trace(task, pass, { ofGradients, held.mapTolerance }, workers, traced,
+    isTraced = held.team->trace(task, pass, { ofGradients, shared.mapTolerance }, workers, traced,
       asked.scene.threads, monitor);
   }
   else
@@ -264,26 +394,53 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   image.threads = threadCount(scene.threads);
   image.workers = asked.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
 
-  MediumOnDevices<Real>& held = prepareMedium<Real>(field, scene);
-  image.ambient = held.medium.ambient;
+  HeldMedium<Real>& held = prepareMedium<Real>(field, scene);
+  std::optional<InUse<Real>> inUse(std::in_place, *held.shared);
+  const auto useOwn = [&]
+  {
+    inUse.reset();
+    held.team.reset();
+    held.shared.reset();
+    held.shared = makeMedium<Real>(field, scene);
+    held.changesSeen = noChange;
+    inUse.emplace(*held.shared);
+  };
+  if (!*inUse)
+  {
+    useOwn();
+  }
+  image.ambient = held.shared->medium.ambient;
   const Light light = lightOf(scene, field.grid, image.frame);
   if (field.source)
   {
-    refineFor(columnOf(scene, light, image.frame), held, watch.monitor(), asked);
-    image.medium = held.medium.tree->statistics();
+    const Column column = columnOf(scene, light, image.frame);
+    if (!refineFor(column, held, watch.monitor(), asked))
+    {
+      useOwn();
+      refineFor(column, held, watch.monitor(), asked);
+    }
+    image.medium = held.shared->medium.tree->statistics();
     if (watch.isAborted())
     {
       return aborted;
     }
   }
+  if (held.changesSeen != held.shared->changes)
+  {
+    held.changesSeen = held.shared->changes;
+    held.team.reset();
+    rays.clear();
+    asked.beginAnew();
+  }
+  const Medium<Real>& ofHeld = held.shared->medium;
   // What differs by rounding only is homogeneous.
   constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
   const double tolerance =
-    std::max(scene.homogeneityTolerance * held.medium.rangeOfNu, rounding * held.medium.largestNu);
+    std::max(scene.homogeneityTolerance * ofHeld.rangeOfNu, rounding * ofHeld.largestNu);
   if (!asked.bound)
   {
     const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
-    asked.bound = boundDisplacement(held.medium, light, view, scene.stepSize,
+    asked.bound = boundDisplacement(ofHeld, light, view, scene.stepSize,
       maySkip ? steepestOf(scene.interpolation) * tolerance : 0);
   }
   const DisplacementBound& bound = *asked.bound;
@@ -296,11 +453,11 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     ? 0
     : scene.homogeneityTolerance;
   const HomogeneityMap<Real>* map =
-    skips > 0 ? held.mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
+    skips > 0 ? held.shared->mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
   image.skippingBound =
-    map == nullptr ? 0 : skippingBound(held.medium, light, tolerance, scene.interpolation);
+    map == nullptr ? 0 : skippingBound(ofHeld, light, tolerance, scene.interpolation);
   const RayTask<Real> task =
-    makeTask<Real>(held.medium, map, held.medium.gradientsOf(field), light, settings);
+    makeTask<Real>(ofHeld, map, ofHeld.gradientsOf(field), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, asked.device, {},
@@ -313,9 +470,8 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   const std::int64_t around = rays.margin();
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
-  const DeflectionErrors errors{ noiseFloor(held.medium, field, light),
-    image.medium.deflectionError };
-  ProgressiveImage& picture = asked.picture;
+  const DeflectionErrors errors{ noiseFloor(ofHeld, field, light), image.medium.deflectionError };
+  ProgressiveImage& picture = *asked.picture;
   const auto isNewPictureThere = [&]
   { return picture.isWhole() && picture.passes() > asked.shown; };
   bool goesOn = !watch.mayPause() || picture.completeUndisturbed(watch.monitor());
@@ -361,8 +517,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
       }
       picture.begin(
         { cutoffs.cutoffOf(scene, asked.kScale, image.frame.pixelSize),
-          projectionOf(scene, image.frame, light, (1 + held.medium.ambient) * field.lengthScale),
-          margin,
+          projectionOf(scene, image.frame, light, (1 + ofHeld.ambient) * field.lengthScale), margin,
           (view.width + 2 * margin) * (view.height + 2 * margin) *
             passesToHold(scene.samplesPerPixel) },
         rays.tintOf(ofTraced, field, scene));
@@ -414,7 +569,7 @@ void Bench::Stages::leaveDevice()
     {
       if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
       {
-        held.cuda.reset();
+        held.shared->cuda.reset();
       }
     },
     medium);
@@ -432,6 +587,8 @@ Bench& Bench::operator=(Bench&&) noexcept = default;
 const Work& Bench::work() const { return stages_->work; }
 
 void Bench::setWorkers(std::vector<Channel*> workers) { stages_->workers = std::move(workers); }
+
+void Bench::setMedia(std::shared_ptr<SharedMedia> media) { stages_->media = std::move(media); }
 
 void Bench::giveUp() { stages_->unfinished.reset(); }
 

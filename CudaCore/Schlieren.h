@@ -370,10 +370,30 @@ struct Monitor
 /// What a Bench has done so far: lets a caller (and the tests) see that nothing is done twice.
 struct Work
 {
-  std::int64_t mediumBuilds = 0;
+  std::int64_t mediumBuilds = 0; ///< not those that another Bench has made
   std::int64_t raySets =
     0; ///< how often rays had to be traced anew: for another view, another medium
   std::int64_t raysTraced = 0;
+};
+
+/// Lets benches have one medium together where it is that of the same samples (or source), version, ambient
+/// refractivity, interpolation, precision, tolerance and memory. It is there as long as one of them uses it, and of a
+/// source it has the voxels of all their views. Where these do not fit in Scene::mediumMemory, or another bench is at
+/// work in the medium (which calls this one from its monitor, or is used by another thread), a bench makes its own.
+class SharedMedia
+{
+public:
+  SharedMedia();
+  ~SharedMedia();
+  SharedMedia(const SharedMedia&) = delete;
+  SharedMedia& operator=(const SharedMedia&) = delete;
+
+  int count() const; ///< media that are there now
+
+private:
+  friend class Bench;
+  struct Entries;
+  std::unique_ptr<Entries> entries_;
 };
 
 /// Runs the stages in order and keeps their results until something upstream of them changes.
@@ -400,6 +420,10 @@ public:
   /// Other processes that trace rays for the next images, each with a RayWorker at the other end of its channel. The
   /// images are the same to the last bit.
   void setWorkers(std::vector<Channel*> workers);
+
+  /// From the next medium on, it is one of these. Field::version then has to differ between any two fields that benches
+  /// are given, whatever their arrays' addresses.
+  void setMedia(std::shared_ptr<SharedMedia> media);
 
   const Work& work() const;
 

@@ -140,7 +140,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
   Internals& inside = *this->Inside;
   return !(this->ExposureTime > 0) && inside.ShownOf != 0 && inside.ShownOf != now &&
     inside.FailedAt != now && inside.Shown[PICTURE_PORT].IsThere() &&
-    (!this->ColorByField || inside.Source || !inside.FieldGradients.empty()) &&
+    (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
       describeInputs(this, inside.Ranks, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
         inside.Ranks.GetInput(
@@ -267,7 +267,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
     const std::size_t fields = this->Medium->GetFields().size();
     scene.fieldColors = fieldColors(this->FieldColors, fields);
     field.gradients = { static_cast<int>(fields),
-      inside.Source ? nullptr : inside.FieldGradients.data(), field.version };
+      inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
   }
   if (isHurried)
   {
@@ -394,14 +394,14 @@ bool vtkSchlierenFilter::Show(
   {
     addExposure(output, inside.Exposure.Begin, inside.Exposure.End);
   }
-  if (inside.Source)
+  if (const auto& source = inside.Refractivity->Source)
   {
     inside.Grid = mediumInWords(image.medium);
-    inside.Grid += inside.Source->fields() > 0 ? " or of the full colour" : "";
-    inside.Grid += inside.Source->isRemote() ? ", of data that stay on their ranks" : "";
+    inside.Grid += source->fields() > 0 ? " or of the full colour" : "";
+    inside.Grid += source->isRemote() ? ", of data that stay on their ranks" : "";
     addMedium(output, image.medium);
   }
-  addGrid(output, this->GetGrid(), inside.Refractivity);
+  addGrid(output, this->GetGrid(), inside.Refractivity->Image);
   setHistogram(histogram, image.histogram);
   inside.Shown[PICTURE_PORT].Keep(output);
   inside.Shown[HISTOGRAM_PORT].Keep(histogram);

@@ -32,12 +32,36 @@ void printList(ostream& os, vtkIndent indent, const char* name, const std::vecto
   os << "\n";
 }
 
+void printFunction(ostream& os, vtkIndent indent, vtkPiecewiseFunction* function)
+{
+  os << indent << "TransferFunction:";
+  for (int i = 0; function && i < function->GetSize(); ++i)
+  {
+    double node[4]; // place, value, midpoint, sharpness
+    function->GetNodeValue(i, node);
+    os << " (" << node[0] << " " << node[1] << " " << node[2] << " " << node[3] << ")";
+  }
+  if (function)
+  {
+    os << " clamping " << function->GetClamping();
+  }
+  os << "\n";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  this->PrintSettings(os, indent);
+  os << indent << "Grid: " << this->Grid << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::PrintSettings(ostream& os, vtkIndent indent)
+{
   os << indent << "IndexModel: " << this->IndexModel << "\n";
   os << indent << "Gas: " << this->Gas << "\n";
   os << indent << "GladstoneDaleConstant: " << this->GladstoneDaleConstant << "\n";
@@ -56,7 +80,10 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CO2: " << this->CO2 << "\n";
   os << indent << "Wavelength: " << this->Wavelength << "\n";
   printList(os, indent, "Fields", this->Fields);
-  os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
+  for (vtkPiecewiseFunction* function : this->TransferFunctions)
+  {
+    printFunction(os, indent, function);
+  }
   printList(os, indent, "FieldRanges", this->FieldRanges);
   os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
   os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
@@ -67,9 +94,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaskedSide: " << this->MaskedSide << "\n";
   os << indent << "Outside: " << this->Outside << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
-  os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
 
 //------------------------------------------------------------------------------

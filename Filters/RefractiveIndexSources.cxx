@@ -135,6 +135,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
     const std::uint64_t key = MeshSource::keyOf(leaves, ownBodies, outside, reconstruction);
+    if (this->Mesh->key != key)
+    {
+      this->LeaveMesh();
+    }
     KeptMesh& kept = *this->Mesh;
     const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
     std::shared_ptr<MeshSource> made;
@@ -144,7 +148,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     }
     else
     {
-      kept.release();
       ++kept.builds;
       made =
         std::make_shared<MeshSource>(leaves, ownBodies, outside, reconstruction, ofMedium, flat);
@@ -239,7 +242,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
 {
   this->Grid.clear();
   this->Search->release();
-  this->Mesh->release();
+  this->LeaveMesh();
   this->Pieces->SetThreads(threadsOfLoops(this));
   this->SetPieceData(input);
   this->HasPieces = true;

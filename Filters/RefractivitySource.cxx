@@ -331,6 +331,22 @@ std::vector<std::string> arraysOf(vtkRefractiveIndex* self)
   return names;
 }
 
+std::string choicesOfArrays(vtkRefractiveIndex* self)
+{
+  std::vector<Selection> selections = selectionsFrom(self);
+  if (self->HasMaskArray())
+  {
+    selections.push_back(selectionFrom(self, vtkRefractiveIndex::MASK, "Mask"));
+  }
+  std::string text;
+  for (const Selection& selection : selections)
+  {
+    text += selection.property + ": '" + selection.name + "' " +
+      std::to_string(selection.attribute) + (selection.cellsFirst ? " cells\n" : " points\n");
+  }
+  return text;
+}
+
 bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image)
 {
   try

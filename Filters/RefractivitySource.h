@@ -63,6 +63,9 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);
 /// The names of all arrays that may be read of an input.
 std::vector<std::string> arraysOf(vtkRefractiveIndex* self);
 
+/// How each of them was chosen: equal texts mean the same choices.
+std::string choicesOfArrays(vtkRefractiveIndex* self);
+
 /// Whether the values of an image will belong to its cells: as the user asked, unless its data, where
 /// they are there already, say otherwise.
 bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image);

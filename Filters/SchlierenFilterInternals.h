@@ -6,6 +6,7 @@
 #include "Ranks.h"
 #include "RgbPictures.h"
 #include "SensitivityLock.h"
+#include "SharedRefractivity.h"
 #include "TimeExposure.h"
 #include "TimeSlicedImage.h"
 #include "vtkSchlierenFilter.h"
@@ -16,7 +17,6 @@
 #include "vtkNew.h"
 #include "vtkTimeStamp.h"
 
-#include "Medium/MediumSource.h"
 #include "Schlieren.h"
 
 #include <memory>
@@ -56,21 +56,19 @@ struct vtkSchlierenFilter::Internals
   TimeSlicedImage Pictures;
   LastImage Shown[2]; // at each output
   RgbPictureReader RgbPictures;
-  vtkNew<vtkImageData> Refractivity;
-  std::shared_ptr<const schlieren::MediumSource> Source; // instead of Refractivity, of meshes
-  vtkTimeStamp SourceTime;
-  std::string Grid; // what Source was divided into
+  std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
+  std::string Grid; // what a source was divided into
 
   schlieren::Field field() const
   {
-    if (!this->Source)
+    if (!this->Refractivity->Source)
     {
-      return fieldFrom(this->Refractivity);
+      return fieldFrom(this->Refractivity->Image);
     }
     schlieren::Field field;
-    field.source = this->Source;
-    field.grid = schlieren::coarsestGrid(*this->Source);
-    field.version = this->SourceTime.GetMTime();
+    field.source = this->Refractivity->Source;
+    field.grid = schlieren::coarsestGrid(*field.source);
+    field.version = this->Refractivity->SourceTime;
     return field;
   }
 
@@ -83,10 +81,10 @@ struct vtkSchlierenFilter::Internals
     const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsFields) const
   {
     return this->MediumTime == medium->GetMTime() && this->Input == input &&
-      (!this->Source || (this->Source->fields() > 0) == needsFields);
+      (!this->Refractivity->Source || (this->Refractivity->Source->fields() > 0) == needsFields);
   }
 
-  // Of the fields that tint, on the grid of Refractivity; empty where not needed, or where Source has them.
+  // Of the fields that tint, on the grid of Refractivity; empty where not needed, or where a source has them.
   std::vector<float> FieldGradients;
 
   // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the image

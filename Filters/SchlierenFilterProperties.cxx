@@ -253,7 +253,8 @@ void vtkSchlierenFilter::SetPrecision(int precision)
 //------------------------------------------------------------------------------
 const char* vtkSchlierenFilter::GetGrid() const
 {
-  return this->Inside->Source ? this->Inside->Grid.c_str() : this->Medium->GetGrid();
+  const MadeRefractivity& made = *this->Inside->Refractivity;
+  return made.Source ? this->Inside->Grid.c_str() : made.Grid.c_str();
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include "TimeSlicedImage.h"
 
 #include "ImageStatus.h"
+#include "SharedRefractivity.h"
 
 #include <chrono>
 #include <optional>
@@ -29,6 +30,9 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+TimeSlicedImage::TimeSlicedImage() { this->Bench.setMedia(mediaOfProcess()); }
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,

@@ -13,6 +13,8 @@
 class TimeSlicedImage
 {
 public:
+  TimeSlicedImage();
+
   /// `seconds`: for rays and light, about; 0: no limit. What the image holds then, see schlieren::Image::finished.
   schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene,
     double seconds, const schlieren::Monitor& monitor);

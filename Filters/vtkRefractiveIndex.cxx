@@ -85,6 +85,21 @@ vtkTypeInt64 vtkRefractiveIndex::GetMeshSearches() { return this->Search->count;
 vtkTypeInt64 vtkRefractiveIndex::GetMeshBuilds() { return this->Mesh->builds; }
 
 //------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetMesh(std::shared_ptr<KeptMesh> mesh) { this->Mesh = std::move(mesh); }
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::LeaveMesh()
+{
+  if (this->Mesh.use_count() > 1)
+  {
+    const vtkTypeInt64 builds = this->Mesh->builds;
+    this->Mesh = std::make_shared<KeptMesh>();
+    this->Mesh->builds = builds;
+  }
+  this->Mesh->release();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractiveIndex::GetGridPlans() { return this->Plan->count; }
 
 //------------------------------------------------------------------------------
@@ -188,7 +203,7 @@ std::string vtkRefractiveIndex::Convert(
 {
   output->Initialize();
   this->Grid.clear();
-  this->Mesh->release();
+  this->LeaveMesh();
   Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())

@@ -501,6 +501,18 @@ public:
     vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
 
+  /**
+   * What the last MakeSource() keeps of its mesh for the next one. Filters of the same data can have one together;
+   * GetMeshBuilds() then counts for all of them.
+   */
+  VTK_WRAPEXCLUDE std::shared_ptr<refractivity::KeptMesh> GetMesh() const { return this->Mesh; }
+  VTK_WRAPEXCLUDE void SetMesh(std::shared_ptr<refractivity::KeptMesh> mesh);
+
+  /**
+   * Prints all properties that decide what is made of an input, the choice of arrays apart.
+   */
+  VTK_WRAPEXCLUDE void PrintSettings(ostream& os, vtkIndent indent);
+
   ///@{
   /**
    * The same of meshes that stay on several ranks, on rank 0, while the channels to all other ranks (null: one that
@@ -569,6 +581,8 @@ private:
 
   std::shared_ptr<refractivity::GridPlan> Plan;
   std::shared_ptr<refractivity::KeptMesh> Mesh;
+  /// Frees it, or leaves it to other filters that have it.
+  void LeaveMesh();
   std::shared_ptr<refractivity::MeshSearch> Search;
   bool IsSearchShared = false; // by another filter, whose it is
 

@@ -224,45 +224,33 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.FieldGradients.clear();
   this->Medium->AbortExecuteOff();
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  inside.Source.reset();
+  inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
-  inside.Refractivity->Initialize();
-  std::string warning;
-  if (inside.Ranks.AreInPieces())
+  // Pieces belong to the ranks of this filter.
+  const bool canShare = !inside.Ranks.AreInPieces();
+  RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
+  std::shared_ptr<const MadeRefractivity> made = canShare ? heldRefractivity(key) : nullptr;
+  if (made)
   {
-    inside.Source = this->Medium->MakeSourceOfPieces(input, bodies, warning);
-    inside.SourceTime.Modified();
+    this->Medium->ReleasePieces();
+    this->Medium->SetMesh(made->Mesh);
   }
   else
   {
-    this->Medium->ReleasePieces();
-  }
-  if (!inside.Ranks.AreInPieces() && this->Medium->CanMakeSource(input))
-  {
-    inside.Source = this->Medium->MakeSource(input, bodies, warning,
-      this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS
-                         : vtkRefractiveIndex::REFRACTIVITY_ALONE);
-    inside.SourceTime.Modified();
-  }
-  if (!inside.Source && !this->Medium->GetAbortExecute())
-  {
-    if (this->ColorByField)
+    made = this->MakeRefractivity(input, bodies);
+    if (!made)
     {
-      this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
+      return false;
     }
-    warning = this->Medium->Convert(input, inside.Refractivity, bodies);
+    if (canShare)
+    {
+      shareRefractivity(std::move(key), made);
+    }
   }
-  if (this->Medium->GetAbortExecute())
+  inside.Refractivity = made;
+  if (!made->Warning.empty())
   {
-    return false;
-  }
-  if (!warning.empty())
-  {
-    vtkWarningMacro(<< warning);
-  }
-  if (!inside.Source)
-  {
-    mergeMasks(inside.Refractivity);
+    vtkWarningMacro(<< made->Warning);
   }
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
@@ -270,17 +258,61 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 }
 
 //------------------------------------------------------------------------------
+std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
+  vtkDataObject* input, vtkDataObject* bodies)
+{
+  const Internals& inside = *this->Inside;
+  auto made = std::make_shared<MadeRefractivity>();
+  if (inside.Ranks.AreInPieces())
+  {
+    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning);
+  }
+  else
+  {
+    this->Medium->ReleasePieces();
+    if (this->Medium->CanMakeSource(input))
+    {
+      made->Source = this->Medium->MakeSource(input, bodies, made->Warning,
+        this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS
+                           : vtkRefractiveIndex::REFRACTIVITY_ALONE);
+    }
+  }
+  if (!made->Source && !this->Medium->GetAbortExecute())
+  {
+    if (this->ColorByField)
+    {
+      this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
+    }
+    made->Warning = this->Medium->Convert(input, made->Image, bodies);
+    if (!this->Medium->GetAbortExecute())
+    {
+      mergeMasks(made->Image);
+    }
+  }
+  if (this->Medium->GetAbortExecute())
+  {
+    return nullptr;
+  }
+  vtkTimeStamp now;
+  now.Modified();
+  made->SourceTime = now.GetMTime();
+  made->Mesh = this->Medium->GetMesh();
+  made->Grid = this->Medium->GetGrid();
+  return made;
+}
+
+//------------------------------------------------------------------------------
 void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;
-  if (!this->ColorByField || inside.Source)
+  if (!this->ColorByField || inside.Refractivity->Source)
   {
     inside.FieldGradients = std::vector<float>();
   }
   else if (inside.FieldGradients.empty())
   {
     inside.FieldGradients =
-      fieldGradients(this->Medium, input, inside.Refractivity, threadsFrom(*this));
+      fieldGradients(this->Medium, input, inside.Refractivity->Image, threadsFrom(*this));
   }
 }
 
@@ -373,6 +405,13 @@ int vtkSchlierenFilter::RequestUpdateExtent(
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo)
+{
+  this->Inside->Ranks.RequestData(inInfo,
+    this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All, this->GatherLimit);
 }
 
 //------------------------------------------------------------------------------

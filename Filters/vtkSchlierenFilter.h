@@ -58,7 +58,7 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for GradedFilter
 
-#include <memory>   // for std::unique_ptr
+#include <memory>   // for std::unique_ptr, std::shared_ptr
 #include <optional> // for std::optional
 #include <string>   // for std::string
 #include <vector>   // for std::vector
@@ -66,6 +66,7 @@
 class ExposureSteps;
 class vtkPiecewiseFunction;
 struct ImageCircumstances;
+struct MadeRefractivity;
 
 namespace schlieren
 {
@@ -887,6 +888,10 @@ public:
   /// All of these properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
+  /// Requests of the data of an input what this filter requests of its own: all, a piece or nothing. So that others who
+  /// have the same input do not make it run again.
+  VTK_WRAPEXCLUDE void RequestSame(vtkInformation* inInfo);
+
   vtkMTimeType GetMTime() override;
 
   vtkTypeBool ProcessRequest(
@@ -916,6 +921,9 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
+  /// Null if aborted.
+  std::shared_ptr<const MadeRefractivity> MakeRefractivity(
+    vtkDataObject* input, vtkDataObject* bodies);
   /// Finds the gradients of the fields that tint, if they do.
   void UpdateFieldGradients(vtkDataObject* input);
   /// The newest time of all properties, Refine() apart, and of those and everything upstream.

@@ -516,10 +516,10 @@ Medium<Real> buildTree(const Field& field, const TreeSettings& settings)
 }
 
 template <class Real>
-bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor)
+bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor, Unneeded ofOthers)
 {
   MediumTree<Real>& tree = *medium.tree;
-  const bool hasChanged = tree.refine(column, monitor);
+  const bool hasChanged = tree.refine(column, monitor, ofOthers);
   medium.largestN = tree.largestN();
   medium.rangeOfNu = tree.rangeOfNu();
   medium.largestNu = tree.largestNu();
@@ -577,8 +577,8 @@ FieldGradientsView Medium<Real>::gradientsOf(const Field& field) const
 
 template Medium<float> buildTree(const Field&, const TreeSettings&);
 template Medium<double> buildTree(const Field&, const TreeSettings&);
-template bool refine(Medium<float>&, const Column&, const Monitor&);
-template bool refine(Medium<double>&, const Column&, const Monitor&);
+template bool refine(Medium<float>&, const Column&, const Monitor&, Unneeded);
+template bool refine(Medium<double>&, const Column&, const Monitor&, Unneeded);
 template struct Medium<float>;
 template struct Medium<double>;
 template Medium<float> buildMedium(const Field&, Interpolation, int);

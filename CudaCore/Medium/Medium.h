@@ -55,6 +55,7 @@ Medium<Real> buildTree(const Field& field, const TreeSettings& settings);
 
 /// Makes the voxels that a view needs. Returns whether there are new ones.
 template <class Real>
-bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor);
+bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor,
+  Unneeded ofOthers = Unneeded::Goes);
 
 } // namespace schlieren

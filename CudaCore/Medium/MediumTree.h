@@ -30,6 +30,13 @@ struct TreeSettings
   int threads = 0;
 };
 
+/// Of leaves that a view does not need, where memory is short.
+enum class Unneeded
+{
+  Goes,
+  Stays ///< for the views of others
+};
+
 /// The medium of a source: nu = (N - N_ref) / (1 + N_ref), as fine as data and views ask for. It does not depend
 /// on the number of threads.
 ///
@@ -53,7 +60,10 @@ public:
   /// Makes the leaves that a view needs and that are not there; keeps the others while memory allows. Returns
   /// whether anything has changed. Where `monitor` says stop, what has been made stays, and the same call goes on: to
   /// the last bit as if there had been no stop.
-  bool refine(const Column& column, const Monitor& monitor = {});
+  bool refine(
+    const Column& column, const Monitor& monitor = {}, Unneeded unneeded = Unneeded::Goes);
+  /// Whether the last call has left leaves that the view needs because of Unneeded::Stays.
+  bool lacksRoom() const { return lacksRoom_; }
   bool isUnfinished() const { return !work_.isFinished; } ///< the monitor has stopped the last call
 
   // What rays see. Grid::dimensions of the whole domain are those of its coarsest level.
@@ -158,6 +168,8 @@ private:
   void forgetBelow(std::int32_t node);
   bool forgetUnneeded(const View& view);
   bool forgetUnneeded(std::int32_t node, const View& view);
+  bool isNeeded(const Node& node, const View& view) const;
+  bool hasUnneeded(const View& view) const;
   std::size_t bytesUsed() const;
 
   NodeFields fieldsOf(std::int32_t node) const;
@@ -185,6 +197,8 @@ private:
   BrickStore<float> gradients_;
   std::vector<std::int32_t> gradientBricks_;
   Work work_;
+  Unneeded unneeded_ = Unneeded::Goes; ///< as of the last call
+  bool lacksRoom_ = false;
   bool isArranged_ = false;
   bool isMeasured_ = false; ///< false: leaves have been made without knowing what is negligible
 

@@ -41,8 +41,10 @@ bool isSame(const Column& a, const Column& b)
 } // namespace
 
 template <class Real>
-bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor)
+bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unneeded unneeded)
 {
+  unneeded_ = unneeded;
+  lacksRoom_ = false;
   if (work_.isFinished || !isSame(work_.column, column))
   {
     work_ = {};
@@ -210,12 +212,20 @@ bool MediumTree<Real>::plan(const View& view)
     {
       return hasThrownAway;
     }
+    const bool mayGo = unneeded_ == Unneeded::Goes;
+    const bool wouldBeginAnew = work_.hasForgotten && costOfNew > available && !work_.hasBegunAnew;
+    if (!mayGo && (wouldBeginAnew || (!work_.hasForgotten && hasUnneeded(view))))
+    {
+      lacksRoom_ = true;
+      work_.tasks.clear();
+      return hasThrownAway;
+    }
     if (!work_.hasForgotten)
     {
       work_.hasForgotten = true;
       hasThrownAway = forgetUnneeded(view) || hasThrownAway;
     }
-    else if (costOfNew > available && !work_.hasBegunAnew)
+    else if (wouldBeginAnew)
     {
       work_.hasBegunAnew = true;
       hasThrownAway = true;
@@ -471,11 +481,25 @@ bool MediumTree<Real>::forgetUnneeded(const View& view)
 }
 
 template <class Real>
+bool MediumTree<Real>::isNeeded(const Node& node, const View& view) const
+{
+  return view.sees(node.place) && (node.children < 0 || view.allows(node.place.level));
+}
+
+template <class Real>
+bool MediumTree<Real>::hasUnneeded(const View& view) const
+{
+  return std::any_of(nodes_.begin(), nodes_.end(),
+    [&](const Node& node)
+    { return (node.children >= 0 || node.isKnown) && !isNeeded(node, view); });
+}
+
+template <class Real>
 bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
   const bool isInner = node.children >= 0;
-  if (!view.sees(node.place) || (isInner && !view.allows(node.place.level)))
+  if (!isNeeded(node, view))
   {
     const bool hasAny = isInner || node.isKnown;
     forgetBelow(at);
@@ -489,7 +513,7 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
   return hasChanged;
 }
 
-template bool MediumTree<float>::refine(const Column&, const Monitor&);
-template bool MediumTree<double>::refine(const Column&, const Monitor&);
+template bool MediumTree<float>::refine(const Column&, const Monitor&, Unneeded);
+template bool MediumTree<double>::refine(const Column&, const Monitor&, Unneeded);
 
 } // namespace schlieren

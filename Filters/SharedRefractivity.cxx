@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SharedRefractivity.h"
+
+#include "RefractivitySource.h"
+#include "vtkRefractiveIndex.h"
+
+#include "vtkImageData.h"
+
+#include "Schlieren.h"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <sstream>
+#include <utility>
+
+namespace
+{
+
+struct Entry
+{
+  RefractivityKey Key;
+  std::weak_ptr<const MadeRefractivity> Made;
+};
+
+struct Entries
+{
+  std::mutex Mutex;
+  std::vector<Entry> All;
+};
+
+Entries& entries()
+{
+  static Entries all;
+  return all;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+MadeRefractivity::MadeRefractivity() = default;
+
+//------------------------------------------------------------------------------
+MadeRefractivity::~MadeRefractivity() = default;
+
+//------------------------------------------------------------------------------
+RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataObject* bodies,
+  std::vector<double> inputs, bool hasFields)
+{
+  std::ostringstream settings;
+  settings.precision(std::numeric_limits<double>::max_digits10);
+  medium->PrintSettings(settings, vtkIndent());
+  settings << refractivity::choicesOfArrays(medium);
+  return { data, bodies, std::move(inputs), settings.str(), hasFields };
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const MadeRefractivity> heldRefractivity(const RefractivityKey& key)
+{
+  const std::lock_guard<std::mutex> lock(entries().Mutex);
+  std::vector<Entry>& all = entries().All;
+  const auto found =
+    std::find_if(all.begin(), all.end(), [&](const Entry& entry) { return entry.Key == key; });
+  return found != all.end() ? found->Made.lock() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made)
+{
+  const std::lock_guard<std::mutex> lock(entries().Mutex);
+  std::vector<Entry>& all = entries().All;
+  all.erase(std::remove_if(all.begin(), all.end(),
+              [&](const Entry& entry) { return entry.Made.expired() || entry.Key == key; }),
+    all.end());
+  all.push_back({ std::move(key), made });
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<schlieren::SharedMedia> mediaOfProcess()
+{
+  static const auto media = std::make_shared<schlieren::SharedMedia>();
+  return media;
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkNew.h"
+#include "vtkType.h"
+
+#include "Medium/MediumSource.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkImageData;
+class vtkRefractiveIndex;
+
+namespace schlieren
+{
+class SharedMedia;
+}
+namespace refractivity
+{
+struct KeptMesh;
+}
+
+/// What vtkSchlierenFilter makes of its data before there is a view. Once made, it does not change.
+struct MadeRefractivity
+{
+  MadeRefractivity();
+  ~MadeRefractivity();
+
+  vtkNew<vtkImageData> Image;
+  std::shared_ptr<const schlieren::MediumSource> Source; ///< instead of Image, of meshes
+  vtkMTimeType SourceTime = 0;
+  std::shared_ptr<refractivity::KeptMesh> Mesh; ///< of Source
+  std::string Grid;                             ///< of Image, in words
+  std::string Warning;                          ///< for whoever uses it
+};
+
+/// What it is made from: equal keys mean equal refractivity.
+struct RefractivityKey
+{
+  const vtkDataObject* Data = nullptr;
+  const vtkDataObject* Bodies = nullptr;
+  std::vector<double> Inputs; ///< see describeInput
+  std::string Settings;       ///< see vtkRefractiveIndex::PrintSettings, and the choice of arrays
+  bool HasFields = false;     ///< Source has them
+
+  bool operator==(const RefractivityKey& other) const
+  {
+    return this->Data == other.Data && this->Bodies == other.Bodies &&
+      this->Inputs == other.Inputs && this->Settings == other.Settings &&
+      this->HasFields == other.HasFields;
+  }
+};
+
+RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataObject* bodies,
+  std::vector<double> inputs, bool hasFields);
+
+/// The refractivities of this process that a filter holds.
+/// Another filter of the same data, in whatever view, takes the one that is there; null: there is none.
+std::shared_ptr<const MadeRefractivity> heldRefractivity(const RefractivityKey& key);
+void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made);
+
+/// The media that are made of them.
+std::shared_ptr<schlieren::SharedMedia> mediaOfProcess();

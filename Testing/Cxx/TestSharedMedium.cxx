@@ -1,0 +1,369 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Filters of the same data, as those of several views and of a pipeline, have one medium together: what makes another,
+// and when it goes. The truth is the image of a filter that is alone with its data.
+#include "CellMeshes.h"
+
+#include "vtkPiecewiseFunction.h"
+#include "vtkTrivialProducer.h"
+#include "vtkWeakPointer.h"
+
+namespace
+{
+
+using Filter = vtkSmartPointer<vtkSchlierenFilter>;
+using Producer = vtkSmartPointer<vtkTrivialProducer>;
+using Change = std::function<void(vtkSchlierenFilter*)>;
+
+Producer producerOf(vtkDataObject* data)
+{
+  auto producer = Producer::New();
+  producer->SetOutput(data);
+  return producer;
+}
+
+Filter filterOf(vtkAlgorithm* data, const Change& change = nullptr)
+{
+  Filter filter = bench(nullptr, 24);
+  filter->SetInputConnection(data->GetOutputPort());
+  if (change)
+  {
+    change(filter);
+  }
+  return filter;
+}
+
+vtkSmartPointer<vtkImageData> blobImage(int points = 16)
+{
+  auto image = cube(points);
+  const auto blob = [](const Vec& x) { return 1e-4 * std::exp(-3 * dot(x, x) + x[0]); };
+  addPointArray(image, "N", blob);
+  addPointArray(image, "rho", [&](const Vec& x) { return 1 + 1e4 * blob(x); });
+  addPointArray(image, "other", [&](const Vec& x) { return 1.2 + 1e4 * blob(x) * x[1]; });
+  addPointArray(image, "T", [&](const Vec& x) { return 290 + 10 * x[0] * x[1]; });
+  addPointArray(image, "p", [&](const Vec& x) { return 1e5 + 1e4 * x[2]; });
+  addPointArray(image, "Y", [](const Vec& x) { return 0.3 + 0.2 * x[1]; });
+  addPointArray(image, "Z", [](const Vec& x) { return 0.3 + 0.2 * x[0]; });
+  addPointArray(image, "mask", [](const Vec& x) { return x[1]; });
+  addCellArray(image, "N", [](const Vec& x) { return 1e-4 * x[0] * x[1]; });
+  return image;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> tetMesh()
+{
+  return meshOf(VTK_TETRA, 4,
+    { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
+      { { 1, 1, 1 }, { 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 0 } },
+      { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 0 } },
+      { { 0, 1, 1 }, { 1, 0, 1 }, { 0, 0, 1 }, { 1, 1, 0 } },
+      { { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 0 }, { 0, 1, 1 } },
+      { { 1, 0, 0 }, { 0, 0, 1 }, { 1, 1, 0 }, { 1, 0, 1 } } },
+    0.1, false);
+}
+
+std::vector<double> imageOf(vtkSchlierenFilter* filter)
+{
+  filter->Update();
+  std::vector<double> values = valuesOf(filter, "Deflection");
+  const std::vector<double> more = valuesOf(filter, "Intensity");
+  values.insert(values.end(), more.begin(), more.end());
+  return values;
+}
+
+void array(vtkSchlierenFilter* filter, int index, const char* name)
+{
+  filter->SetInputArrayToProcess(index, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+}
+
+void density(vtkSchlierenFilter* filter)
+{
+  filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
+  array(filter, vtkRefractiveIndex::DENSITY, "rho");
+}
+
+void moistAir(vtkSchlierenFilter* filter)
+{
+  filter->SetIndexModel(vtkRefractiveIndex::CIDDOR);
+  array(filter, vtkRefractiveIndex::TEMPERATURE, "T");
+  array(filter, vtkRefractiveIndex::PRESSURE, "p");
+}
+
+vtkSmartPointer<vtkPiecewiseFunction> ramp(double end)
+{
+  auto function = vtkSmartPointer<vtkPiecewiseFunction>::New();
+  function->AddPoint(0, 0);
+  function->AddPoint(1, end);
+  return function;
+}
+
+void fields(vtkSchlierenFilter* filter)
+{
+  filter->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
+  filter->AddField("rho");
+  filter->AddTransferFunction(ramp(1));
+}
+
+} // namespace
+
+TEST(SharedMedium, ViewsAndFiltersOfTheSameDataHaveOne)
+{
+  const auto image = blobImage();
+  const auto mesh = tetMesh();
+  for (vtkDataObject* data : std::initializer_list<vtkDataObject*>{ image, mesh })
+  {
+    SCOPED_TRACE(data->GetClassName());
+    const Producer producer = producerOf(data);
+    Filter filters[3];
+    vtkTypeInt64 builds = 0;
+    for (int n = 0; n < 3; ++n)
+    {
+      filters[n] = filterOf(producer);
+      filters[n]->SetViewDirection(0.3 * n, 0.2, -1);
+      filters[n]->SetCutoff(n);
+      imageOf(filters[n]);
+      builds += filters[n]->GetMediumBuilds();
+    }
+    EXPECT_EQ(builds, 1);
+    EXPECT_EQ(filters[0]->GetMediumBuilds(), 1);
+    EXPECT_EQ(filters[2]->GetMeshBuilds(), data == mesh ? 1 : 0);
+    EXPECT_STREQ(filters[0]->GetGrid(), filters[1]->GetGrid());
+
+    // It stays with those that are left, and goes with the last.
+    filters[0] = nullptr;
+    filters[1]->SetViewDirection(1, 0, -0.1);
+    imageOf(filters[1]);
+    EXPECT_EQ(filters[1]->GetMediumBuilds(), 0);
+    filters[1] = filters[2] = nullptr;
+    const Filter again = filterOf(producer);
+    imageOf(again);
+    EXPECT_EQ(again->GetMediumBuilds(), 1);
+  }
+}
+
+// What other index models would read: ParaView sets such arrays on its own.
+TEST(SharedMedium, ArraysThatAreNotReadDoNotMatter)
+{
+  const Producer producer = producerOf(blobImage());
+  const Filter first = filterOf(producer, density), second = filterOf(producer, density);
+  array(second, vtkRefractiveIndex::INDEX_ARRAY, "none");
+  const std::vector<double> image = imageOf(first);
+  EXPECT_EQ(imageOf(second), image);
+  EXPECT_EQ(second->GetMediumBuilds(), 0);
+}
+
+TEST(SharedMedium, OtherDataMakeAnother)
+{
+  const auto image = blobImage();
+  const Producer producer = producerOf(image), alike = producerOf(blobImage());
+  const Filter first = filterOf(producer);
+  const std::vector<double> before = imageOf(first);
+  const Filter ofAlike = filterOf(alike);
+  EXPECT_EQ(imageOf(ofAlike), before);
+  EXPECT_EQ(ofAlike->GetMediumBuilds(), 1);
+
+  // A new version of the data is made for the first that is updated.
+  const Filter second = filterOf(producer);
+  imageOf(second);
+  vtkDataArray* values = image->GetPointData()->GetArray("N");
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    values->SetTuple1(i, 3e-4 - 2 * values->GetTuple1(i));
+  }
+  values->Modified();
+  image->Modified();
+  producer->Modified();
+  const std::vector<double> after = imageOf(second);
+  EXPECT_NE(after, before);
+  EXPECT_EQ(imageOf(first), after);
+  EXPECT_EQ(first->GetMediumBuilds() + second->GetMediumBuilds(), 2);
+}
+
+TEST(SharedMedium, TimeStepsOfAMeshUseTheMeshOfAnyFilter)
+{
+  const auto mesh = tetMesh();
+  const Producer producer = producerOf(mesh);
+  Filter first = filterOf(producer);
+  const Filter second = filterOf(producer);
+  imageOf(first);
+  imageOf(second);
+  addPointArray(mesh, "N", [](const Vec& x) { return 1e-4 * std::sin(2 * x[0] + x[1]); });
+  mesh->Modified();
+  producer->Modified();
+  imageOf(second);
+  imageOf(first);
+  EXPECT_EQ(second->GetMediumBuilds(), 1);
+  EXPECT_EQ(first->GetMeshBuilds(), 1);
+
+  // What one of them does with another mesh is not the others' concern.
+  first->SetInputConnection(producerOf(blobImage())->GetOutputPort());
+  imageOf(first);
+  EXPECT_EQ(second->GetMeshBuilds(), 1);
+  addPointArray(mesh, "N", linear);
+  mesh->Modified();
+  producer->Modified();
+  const std::vector<double> shared = imageOf(second);
+  EXPECT_EQ(second->GetMeshBuilds(), 1);
+  first = nullptr;
+  EXPECT_EQ(imageOf(filterOf(producerOf(tetMesh()))), shared);
+}
+
+TEST(SharedMedium, WarningsAreForEachUser)
+{
+  const auto image = blobImage();
+  image->GetPointData()->GetArray("N")->SetTuple1(5, std::nan(""));
+  const Producer producer = producerOf(image);
+  const Filter filters[] = { filterOf(producer), filterOf(producer) };
+  std::size_t warnings[2];
+  for (int n = 0; n < 2; ++n)
+  {
+    auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filters[n]));
+    imageOf(filters[n]);
+    warnings[n] = complaints->Warnings.size();
+    EXPECT_TRUE(complaints->Errors.empty());
+  }
+  EXPECT_EQ(warnings[0], warnings[1]);
+}
+
+TEST(SharedMedium, WhatCannotBeMadeIsNotShared)
+{
+  const Producer producer = producerOf(blobImage());
+  for (int n = 0; n < 2; ++n)
+  {
+    const Filter filter = filterOf(producer,
+      [](vtkSchlierenFilter* one) { array(one, vtkRefractiveIndex::INDEX_ARRAY, "none"); });
+    auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+    filter->Update();
+    EXPECT_EQ(complaints->Errors.size(), 1u);
+  }
+}
+
+// Every property of the medium, from a state in which it matters.
+TEST(SharedMedium, EveryPropertyMakesAnother)
+{
+  using F = vtkSchlierenFilter;
+  using R = vtkRefractiveIndex;
+  const auto mixture = [](F* f)
+  {
+    density(f);
+    f->SetIndexModel(R::GLADSTONE_DALE_MIXTURE);
+    f->AddMixtureArray("Y");
+    f->AddMixtureGas("Custom");
+    f->AddMixtureConstant(1e-4);
+    f->AddMixtureMolarMass(0.004);
+  };
+  const auto twoFields = [](F* f)
+  {
+    fields(f);
+    f->AddFieldRange(0);
+    f->AddFieldRange(2);
+  };
+  const struct
+  {
+    const char* name;
+    Change from, to;
+  } changes[] = {
+    { "IndexModel", density, [](F* f) { f->SetIndexModel(R::REFRACTIVITY); } },
+    { "IndexArray", nullptr, [](F* f) { array(f, R::INDEX_ARRAY, "rho"); } },
+    { "association", [](F* f) { f->SetInputArrayToProcess(R::INDEX_ARRAY, 0, 0, 0, "N"); },
+      [](F* f) { f->SetInputArrayToProcess(R::INDEX_ARRAY, 0, 0, 1, "N"); } },
+    { "Humidity", moistAir, [](F* f) { array(f, R::HUMIDITY, "Y"); } },
+    { "Density", density, [](F* f) { array(f, R::DENSITY, "other"); } },
+    { "Gas", density, [](F* f) { f->SetGas("helium"); } },
+    { "GladstoneDaleConstant", density,
+      [](F* f) { f->SetGladstoneDaleConstant(2.26e-4 * (1 + 1e-14)); } },
+    { "DensityScale", density, [](F* f) { f->SetDensityScale(2); } },
+    { "MixtureArrays", mixture,
+      [](F* f)
+      {
+        f->ClearMixtureArrays();
+        f->AddMixtureArray("Z");
+      } },
+    { "MixtureGases", mixture,
+      [](F* f)
+      {
+        f->ClearMixtureGases();
+        f->AddMixtureGas("argon");
+      } },
+    { "MixtureConstants", mixture,
+      [](F* f)
+      {
+        f->ClearMixtureConstants();
+        f->AddMixtureConstant(2e-4);
+      } },
+    { "MixtureMolarMasses", mixture,
+      [](F* f)
+      {
+        f->ClearMixtureMolarMasses();
+        f->AddMixtureMolarMass(0.04);
+      } },
+    { "BackgroundGas", mixture, [](F* f) { f->SetBackgroundGas("helium"); } },
+    { "BackgroundConstant", mixture, [](F* f) { f->SetBackgroundConstant(1e-4); } },
+    { "BackgroundMolarMass", mixture, [](F* f) { f->SetBackgroundMolarMass(0.03); } },
+    { "FractionType", mixture, [](F* f) { f->SetFractionType(R::VOLUME); } },
+    { "Temperature", moistAir, [](F* f) { array(f, R::TEMPERATURE, "p"); } },
+    { "TemperatureScale", moistAir, [](F* f) { f->SetTemperatureScale(1.1); } },
+    { "PressureScale", moistAir, [](F* f) { f->SetPressureScale(1.1); } },
+    { "RelativeHumidity", moistAir, [](F* f) { f->SetRelativeHumidity(0.5); } },
+    { "CO2", moistAir, [](F* f) { f->SetCO2(900); } },
+    { "Wavelength", moistAir, [](F* f) { f->SetWavelength(450); } },
+    { "Fields", fields,
+      [](F* f)
+      {
+        f->ClearFields();
+        f->AddField("other");
+      } },
+    { "TransferFunctions", fields,
+      [](F* f)
+      {
+        f->ClearTransferFunctions();
+        f->AddTransferFunction(ramp(0.5));
+      } },
+    { "FieldRanges", twoFields,
+      [](F* f)
+      {
+        f->ClearFieldRanges();
+        f->AddFieldRange(0);
+        f->AddFieldRange(3);
+      } },
+    { "RefractivityScale", fields, [](F* f) { f->SetRefractivityScale(1e-4); } },
+    { "SamplingDimensions", nullptr, [](F* f) { f->SetSamplingDimensions(9, 9, 9); } },
+    { "SamplingBounds", nullptr, [](F* f) { f->SetSamplingBounds(-0.5, 1, -1, 1, -1, 1); } },
+    { "Mask", nullptr, [](F* f) { array(f, R::MASK, "mask"); } },
+    { "MaskThreshold", [](F* f) { array(f, R::MASK, "mask"); },
+      [](F* f) { f->SetMaskThreshold(0.1); } },
+    { "MaskedSide", [](F* f) { array(f, R::MASK, "mask"); },
+      [](F* f) { f->SetMaskedSide(R::MASKED_BELOW); } },
+    { "Outside", nullptr, [](F* f) { f->SetOutside(R::OUTSIDE_BLOCKS); } },
+    { "Reconstruction", nullptr, [](F* f) { f->SetReconstruction(R::LINEAR_IN_CELLS); } },
+    { "DoublePrecision", nullptr, [](F* f) { f->SetPrecision(F::DOUBLE); } },
+  };
+  vtkNew<vtkRefractiveIndex> all;
+  std::ostringstream printed;
+  all->PrintSettings(printed, vtkIndent());
+  for (const auto& [name, from, to] : changes)
+  {
+    SCOPED_TRACE(name);
+    const Producer producer = producerOf(blobImage());
+    const Filter first = filterOf(producer, from), second = filterOf(producer, from);
+    imageOf(first);
+    imageOf(second);
+    EXPECT_EQ(second->GetMediumBuilds(), 0);
+    to(second);
+    const std::vector<double> beside = imageOf(second);
+    EXPECT_EQ(second->GetMediumBuilds(), 1);
+
+    const Filter alone = filterOf(producerOf(blobImage()), from);
+    to(alone);
+    EXPECT_EQ(beside, imageOf(alone));
+  }
+  // What is printed is what there is: no property without a line above.
+  std::istringstream lines(printed.str());
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::string name = line.substr(0, line.find(':'));
+    const bool isKnown = std::any_of(std::begin(changes), std::end(changes),
+      [&](const auto& change) { return name == change.name; });
+    EXPECT_TRUE(isKnown) << name;
+  }
+}
