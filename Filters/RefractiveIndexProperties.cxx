@@ -80,6 +80,7 @@ void vtkRefractiveIndex::PrintSettings(ostream& os, vtkIndent indent)
   os << indent << "CO2: " << this->CO2 << "\n";
   os << indent << "Wavelength: " << this->Wavelength << "\n";
   printList(os, indent, "Fields", this->Fields);
+  os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
   for (vtkPiecewiseFunction* function : this->TransferFunctions)
   {
     printFunction(os, indent, function);
