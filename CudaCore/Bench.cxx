@@ -509,11 +509,11 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     rays.ask(*traced, ofTraced, number, scene, errors);
     if (!picture.isBegun())
     {
-      if (fullScaleOf(scene.cutoff) > 0)
+      if (techniqueOf(scene.cutoff).hasK())
       {
         asked.kScale = scene.kScale
           ? *scene.kScale
-          : automaticK(rays.strongDeflection(), fullScaleOf(scene.cutoff));
+          : automaticK(rays.strongDeflection(), techniqueOf(scene.cutoff).fullScale);
       }
       picture.begin(
         { cutoffs.cutoffOf(scene, asked.kScale, image.frame.pixelSize),
@@ -614,7 +614,7 @@ Image Bench::resume(const Monitor& monitor)
 {
   if (!isUnfinished())
   {
-    throw Error("There is no unfinished picture to go on with. Render one.");
+    throw Error("There is no unfinished image to resume. Render one.");
   }
   return stages_->render(std::move(stages_->unfinished), monitor);
 }

@@ -101,7 +101,8 @@ void HeldRays::ask(const TracedPass& traced, const TracedRays& rays, std::int64_
   {
     histogram_.emplace(scene.histogramSize);
   }
-  const bool isKWanted = number == 0 && fullScaleOf(scene.cutoff) > 0 && !scene.kScale && !strong_;
+  const bool isKWanted =
+    number == 0 && techniqueOf(scene.cutoff).hasK() && !scene.kScale && !strong_;
   const bool isHistogramWanted = scene.histogramSize > 0 && histogram_->passes() == number;
   if (isHistogramWanted && traced.onDevice)
   {

@@ -11,6 +11,7 @@
 
 #include "Medium/IndexModels.h"
 #include "Medium/MediumSource.h"
+#include "Optics/Techniques.h"
 #include "PixelArray.h"
 #include "Rays/Channel.h"
 
@@ -70,23 +71,6 @@ enum class Device
   Auto, ///< CUDA where a device answers, else the CPU
   Cpu,
   Cuda ///< an error where no device answers
-};
-
-/// What makes light and dark of where light is bent to. eps: direction cosines along u and v; e = eps .
-/// (cos angle, sin angle), along the knife edge's normal; k: Scene::kScale. Each ray's light is limited to
-/// 0 ... 1; where the medium concentrates rays on a pixel, the pixel's intensity exceeds 1.
-enum class Cutoff
-{
-  KnifeEdge,          ///< I = 1/2 - offset + k e; undisturbed light: 1/2 - offset
-  Shadowgraph,        ///< I = 1 for every ray: where rays land makes the picture
-  Circular,           ///< I = 1 - k |eps|: dark where light is bent; undisturbed: 1
-  CircularComplement, ///< I = k |eps|; undisturbed: 0
-  GradedFilter,       ///< I = Scene::gradedFilter at 1/2 - offset + k e
-  ColorFilter, ///< the colour at k eps of Scene::colorFilter, or of a wheel: hue is the direction of eps,
-               ///< saturation min(1, k |eps|)
-  Interferogram, ///< I = (1 + cos(2 pi OPD / wavelength + carrier)) / 2; undisturbed: 1 without a carrier
-  Background ///< what a camera sees of a pattern behind the flow (BOS): the light of the place where its ray
-             ///< meets the pattern. Undisturbed: the pattern's mean
 };
 
 /// Red, green and blue, row by row, bottom row first; sRGB.

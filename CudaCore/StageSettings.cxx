@@ -64,20 +64,21 @@ double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& l
 double filmDistance(const Scene& scene, const Frame& frame)
 {
   const double depth = frame.exit - frame.entry;
-  switch (scene.cutoff)
+  switch (techniqueOf(scene.cutoff).plane)
   {
-    case Cutoff::Shadowgraph:
+    case RecordedPlane::Screen:
       return scene.screenDistance.value_or(depth);
-    case Cutoff::Background:
+    case RecordedPlane::Background:
       return scene.background.distance.value_or(depth);
-    default:
-      return -0.5 * depth + scene.focusOffset;
+    case RecordedPlane::Focus:
+      break;
   }
+  return -0.5 * depth + scene.focusOffset;
 }
 
 std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
 {
-  if (scene.cutoff == Cutoff::Background)
+  if (isOfCamera(scene.cutoff))
   {
     return 1;
   }
@@ -98,7 +99,7 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
 {
-  return scene.cutoff == Cutoff::Background
+  return isOfCamera(scene.cutoff)
     ? reversedLight(grid, frame)
     : lightFrom(scene.source, filmDistance(scene, frame), grid, scene.view, frame);
 }
@@ -127,7 +128,7 @@ Projection projectionOf(
 {
   Projection projection{ filmDistance(scene, frame), 1 / (frame.pixelSize * light.magnification),
     pathPerDataUnit, light.inclination };
-  projection.isOfCamera = scene.cutoff == Cutoff::Background;
+  projection.isOfCamera = isOfCamera(scene.cutoff);
   if (!projection.isOfCamera && scene.source.distance)
   {
     projection.perSourceDistance = 1 / (*scene.source.distance * light.magnification);
@@ -138,7 +139,7 @@ Projection projectionOf(
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
 {
   pass.offset = pixelOffset(number, scene.seed);
-  if (scene.cutoff != Cutoff::Background)
+  if (!isOfCamera(scene.cutoff))
   {
     const std::array<double, 2> place =
       sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);

@@ -54,7 +54,7 @@ struct LightKey
   static LightKey of(const Scene& scene, double film)
   {
     LightKey key;
-    key.isOfCamera = scene.cutoff == Cutoff::Background;
+    key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
     if (key.isOfCamera)
     {
       return key;

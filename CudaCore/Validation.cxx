@@ -37,11 +37,12 @@ void validateTolerances(const Scene& scene)
     "StepSize).");
   require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
     "HomogeneityTolerance", scene.homogeneityTolerance,
-    "between 0 (nothing is skipped) and 1 (all of the flow is), as a share of the refractivity's "
+    "between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the "
+    "refractivity's "
     "range.");
   require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance",
     scene.mediumTolerance,
-    "between 0 (voxels are as fine as the data) and 1, as a share of the largest deflection.");
+    "between 0 (voxels are as fine as the data) and 1, as a fraction of the largest deflection.");
   require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
     scene.pathTolerance, "to zero or more, in pixels.");
 }
@@ -85,7 +86,7 @@ void validateCutoff(const Scene& scene)
     }
   };
   require(std::isfinite(scene.cutoffOffset), "CutoffOffset", scene.cutoffOffset,
-    ". Set it to a finite share of the source's image: 0 cuts half of it, 1/2 all.");
+    ". Set it to a finite fraction of the source's image: 0 cuts half of it, 1/2 all.");
   if (scene.cutoff == Cutoff::GradedFilter)
   {
     const std::vector<double>& filter = scene.gradedFilter;
@@ -96,7 +97,7 @@ void validateCutoff(const Scene& scene)
     if (bad != filter.end())
     {
       require(false, "A value of GradedFilter", *bad,
-        ", but a filter lets a share of light pass. "
+        ", but a filter lets a fraction of the light pass. "
         "Set it between 0 and 1.");
     }
   }
@@ -104,7 +105,7 @@ void validateCutoff(const Scene& scene)
   {
     validatePicture(*scene.colorFilter, "ColorFilterImage");
   }
-  if (scene.cutoff == Cutoff::Interferogram)
+  if (techniqueOf(scene.cutoff).hasFringes)
   {
     require(scene.wavelength > 0 && std::isfinite(1 / scene.wavelength) &&
         std::isfinite(scene.wavelength),
@@ -113,7 +114,7 @@ void validateCutoff(const Scene& scene)
     {
       require(scene.fringes.spacing > 0 && std::isfinite(scene.fringes.spacing), "FringeSpacing",
         scene.fringes.spacing,
-        ", but finite fringes are some way apart. Set it to a positive number of data units, or "
+        ", but finite fringes have a spacing. Set it to a positive number of data units, or "
         "FringeMode to Infinite.");
       require(std::isfinite(scene.fringes.angle), "FringeAngle", scene.fringes.angle,
         ". Set it to an angle in degrees.");
@@ -179,7 +180,7 @@ void validateScene(const Scene& scene)
   {
     std::ostringstream text;
     text << "NoiseFilterRadius is " << scene.noiseFilterRadius << " pixels. Set it between 0 and "
-         << largestFilterRadius << "; to blur more, make a smaller picture.";
+         << largestFilterRadius << "; to blur more, make a smaller image.";
     throw Error(text.str());
   }
   if (scene.threads < 0)
@@ -204,7 +205,7 @@ void validateLight(const Scene& scene, const Frame& frame)
   const double depth = frame.exit - frame.entry;
   require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
     ". Set it to a finite number of data units, 0 for the middle of the data.");
-  if (scene.cutoff == Cutoff::Background)
+  if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
     constexpr double furthest = 1e30; // displacements are floats
@@ -218,13 +219,13 @@ void validateLight(const Scene& scene, const Frame& frame)
     if (scene.background.kind == PatternKind::Picture)
     {
       require(scene.background.picture != nullptr,
-        "There is no picture behind the flow. Set BackgroundImage, or another BackgroundPattern.");
+        "There is no image behind the flow. Set BackgroundImage, or another BackgroundPattern.");
       validatePicture(*scene.background.picture, "BackgroundImage");
     }
     return; // light comes from the pattern
   }
   const LightSource& source = scene.source;
-  const double middleToFilm = scene.cutoff == Cutoff::Shadowgraph
+  const double middleToFilm = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen
     ? 0.5 * depth + scene.screenDistance.value_or(depth)
     : scene.focusOffset;
   double slope = 0;
@@ -249,7 +250,7 @@ void validateLight(const Scene& scene, const Frame& frame)
   }
   require(slope <= 1, "Light would be inclined to the view by ",
     std::atan(slope) / radiansPerDegree,
-    " degrees at the picture's corners. Increase SourceDistance or decrease SourceWidth, "
+    " degrees at the image's corners. Increase SourceDistance or decrease SourceWidth, "
     "SourceLength "
     "or ParallelScale, so that it is no more than 45.");
 }

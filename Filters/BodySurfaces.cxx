@@ -3,7 +3,7 @@
 #include "BodySurfaces.h"
 
 #include "BodyVoxels.h"
-#include "BoundaryFaces.h"
+#include "CoincidentPoints.h"
 #include "LatticeDistances.h"
 #include "RefractivityOfBodies.h"
 
@@ -22,8 +22,6 @@ namespace refractivity
 
 namespace
 {
-
-constexpr double mergingPart = 1e-3; // of the smallest edge at a point
 
 /// Triangles whose points are there once.
 Triangles surfaceOf(vtkDataObject* bodies)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryFaces.h"
 
+#include "CoincidentPoints.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -17,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace refractivity
@@ -26,7 +27,6 @@ namespace refractivity
 namespace
 {
 
-constexpr double mergingPart = 1e-3; // of the smallest edge or cell beside a point
 constexpr double lookingPart = 0.05; // of a cell's height or a face's edge: how far behind to look
 constexpr double cellTolerance = 4e-3; // of a cell's height: no cell holds what is further from it
 
@@ -46,7 +46,8 @@ Faces withoutSidesAcrossZ(const Faces& all)
     if (std::any_of(begin, end, [&](std::int32_t corner) { return zOf(corner) != zOf(*begin); }))
     {
       faces.corners.insert(faces.corners.end(), begin, end);
-      faces.finish(all.owners[face], all.states[face], all.hidesBehind[face] != 0);
+      faces.finish(
+        all.owners[face], all.states[face], all.hidesBehind[face] != 0, all.areParts[face] != 0);
     }
   }
   return faces;
@@ -143,6 +144,7 @@ struct Kept
   std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
   Sides sides;
   bool hidesBehind;
+  bool isPart; // of a larger face: one place tells whether it is covered
 };
 
 /// Takes away what belongs to two visible cells.
@@ -211,7 +213,8 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding)
       {
         std::reverse(corners.begin(), corners.end());
       }
-      kept.push_back({ std::move(corners), sides, hides || isHidden[1 - side] });
+      kept.push_back({ std::move(corners), sides, hides || isHidden[1 - side],
+        faces.areParts[owner[side]] != 0 });
     }
   }
   return kept;
@@ -232,7 +235,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   std::vector<Point> corners;
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
-    for (std::size_t n = 0; haveMiddle[i] && n < kept[i].corners.size(); ++n)
+    for (std::size_t n = 0; haveMiddle[i] && !kept[i].isPart && n < kept[i].corners.size(); ++n)
     {
       const Point& corner = faces.points[static_cast<std::size_t>(kept[i].corners[n])];
       corners.push_back(middles[i] + 0.8 * (corner - kept[i].sides.middle));
@@ -244,7 +247,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     bool isCovered = haveMiddle[i] != 0;
-    if (isCovered)
+    if (isCovered && !kept[i].isPart)
     {
       const auto end = next + static_cast<std::ptrdiff_t>(kept[i].corners.size());
       isCovered = std::all_of(next, end, [](unsigned char is) { return is != 0; });
@@ -330,65 +333,6 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
 }
 
 } // namespace
-
-double relativeRounding(const std::vector<Point>& points)
-{
-  for (const Point& point : points)
-  {
-    for (const double x : point)
-    {
-      if (static_cast<double>(static_cast<float>(x)) != x)
-      {
-        return 1e-12;
-      }
-    }
-  }
-  return 5e-7;
-}
-
-std::vector<std::int32_t> coincidentPoints(
-  const std::vector<Point>& points, const std::vector<double>& tolerances)
-{
-  // Sorted along a direction across which the points of no plausible mesh lie in planes, so that few others are
-  // in between.
-  const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
-  std::vector<std::pair<double, std::int32_t>> sorted;
-  sorted.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    sorted.emplace_back(dot(along, points[i]), static_cast<std::int32_t>(i));
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::int32_t> numbers(points.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  const auto rootOf = [&](std::int32_t i)
-  {
-    while (numbers[static_cast<std::size_t>(i)] != i)
-    {
-      i = numbers[static_cast<std::size_t>(i)];
-    }
-    return i;
-  };
-  for (auto one = sorted.begin(); one != sorted.end(); ++one)
-  {
-    const auto i = static_cast<std::size_t>(one->second);
-    for (auto other = one + 1; other != sorted.end() && other->first - one->first <= tolerances[i];
-         ++other)
-    {
-      const auto j = static_cast<std::size_t>(other->second);
-      if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
-      {
-        const auto [low, high] = std::minmax({ rootOf(one->second), rootOf(other->second) });
-        numbers[static_cast<std::size_t>(high)] = low;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    numbers[i] = rootOf(static_cast<std::int32_t>(i));
-  }
-  return numbers;
-}
 
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
   const WorkProgress& progress, Extent extent)

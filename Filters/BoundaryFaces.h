@@ -67,11 +67,4 @@ std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDa
 std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
   const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves);
 
-/// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
-std::vector<std::int32_t> coincidentPoints(
-  const std::vector<Point>& points, const std::vector<double>& tolerances);
-
-/// How far rounding may have moved points: of single precision where all coordinates fit into it.
-double relativeRounding(const std::vector<Point>& points);
-
 } // namespace refractivity

@@ -112,16 +112,19 @@ void ExposureSteps::Meet(std::vector<std::string> arrays)
 }
 
 //------------------------------------------------------------------------------
-bool ExposureSteps::GoOn()
+void ExposureSteps::MeetWithAll(double mostCells)
 {
-  if (this->Step + 1 >= this->Exposure.Steps.size())
-  {
-    return false;
-  }
-  this->Meeting.reset(); // the other ranks go on, too
-  ++this->Step;
-  requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
+  this->Meeting->SetOutcome(true); // the other ranks do the same
+  this->Meeting.reset();
+  this->Ranks.SetTooFew(mostCells);
   this->Ranks.Request(this->Filter, this->Inputs);
+  this->UpdateInputs();
+  this->Meet(this->Arrays);
+}
+
+//------------------------------------------------------------------------------
+void ExposureSteps::UpdateInputs()
+{
   this->IsThere = true;
   for (int port = 0; port < Ports; ++port)
   {
@@ -132,6 +135,20 @@ bool ExposureSteps::GoOn()
       this->IsThere = upstream && upstream->Update(from->GetIndex()) && this->IsThere;
     }
   }
+}
+
+//------------------------------------------------------------------------------
+bool ExposureSteps::GoOn()
+{
+  if (this->Step + 1 >= this->Exposure.Steps.size())
+  {
+    return false;
+  }
+  this->Meeting.reset(); // the other ranks go on, too
+  ++this->Step;
+  requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
+  this->Ranks.Request(this->Filter, this->Inputs);
+  this->UpdateInputs();
   this->Meet(this->Arrays);
   return true;
 }

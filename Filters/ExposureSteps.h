@@ -42,6 +42,9 @@ public:
   void Meet(std::vector<std::string> arrays);
   FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
 
+  /// Where pieces are too few, see FilterRanks: updates the inputs once more, all of them on rank 0, and meets again.
+  void MeetWithAll(double mostCells);
+
   /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
   bool GoOn();
 
@@ -54,6 +57,8 @@ public:
 
 private:
   static constexpr int Ports = 2;
+
+  void UpdateInputs();
 
   vtkAlgorithm* Filter;
   FilterRanks& Ranks;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GasBoundary.h"
 
+#include "CoincidentPoints.h"
 #include "LatticeSampling.h"
 #include "OuterFaces.h"
 #include "WeightedMedian.h"
@@ -53,7 +54,7 @@ GasBoundary::GasBoundary(
 
 bool GasBoundary::isBeyondAll(const Point& place) const
 {
-  const int nearest = this->TreeOfWindows ? this->TreeOfWindows->nearlyNearest(place) : -1;
+  const int nearest = this->TreeOfWindows ? this->TreeOfWindows->nearest(place) : -1;
   if (nearest < 0)
   {
     return false;
@@ -177,7 +178,7 @@ GasBoundary::Place GasBoundary::kindAt(const Point& place, bool isInCell) const
   {
     return Place::Gas;
   }
-  const int nearest = this->Tree.nearlyNearest(place);
+  const int nearest = this->Tree.nearest(place);
   if (nearest < 0)
   {
     return this->Far;

@@ -244,31 +244,31 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
              lattice.first[1] + at.j * lattice.spacing[1],
              lattice.first[2] + at.k * lattice.spacing[2] }) == Place::Wall;
   };
-  if (const bool hasWall = hasAny(InWall); hasWall != hasAny(InWindow))
+  const bool hasWall = hasAny(InWall), hasWindow = hasAny(InWindow);
+  if (!hasWall || !hasWindow)
   {
-    bool areAll = true; // of the same kind as those that are known, by the corners
-    for (int corner = 0; corner < 8 && areAll && hasWall; ++corner)
+    // Mostly all are of one kind, by the corners.
+    int walls = hasWall ? 1 : 0, windows = hasWindow ? 1 : 0;
+    for (int corner = 0; corner < 8 && !hasWindow; ++corner)
     {
       const Index at{ (corner & 1) != 0 ? lattice.points[0] - 1 : 0,
         (corner & 2) != 0 ? lattice.points[1] - 1 : 0,
         (corner & 4) != 0 ? lattice.points[2] - 1 : 0 };
-      areAll = this->States[this->numberOf(at)] != Unknown || isWallAt(at);
+      if (this->States[this->numberOf(at)] == Unknown)
+      {
+        ++(isWallAt(at) ? walls : windows);
+      }
     }
-    if (!areAll)
-    {
-      this->forPoints(
-        [&](const Index& at)
+    this->forPoints(
+      [&](const Index& at)
+      {
+        unsigned char& state = this->States[this->numberOf(at)];
+        if (state == Unknown)
         {
-          unsigned char& state = this->States[this->numberOf(at)];
-          if (state == Unknown)
-          {
-            state = isWallAt(at) ? InWall : InWindow;
-          }
-        });
-      return;
-    }
-    std::replace(this->States.begin(), this->States.end(), static_cast<unsigned char>(Unknown),
-      static_cast<unsigned char>(hasWall ? InWall : InWindow));
+          const bool isWall = walls > 0 && (windows == 0 || isWallAt(at));
+          state = isWall ? InWall : InWindow;
+        }
+      });
     return;
   }
   std::vector<Index> known;

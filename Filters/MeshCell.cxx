@@ -105,9 +105,11 @@ void MeshCell::set(vtkDataSet* data, vtkIdType cell)
     case VTK_TETRA:
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
+      this->IsLagrangeProduct = false;
       break; // their functions are static
     default:
       data->GetCell(cell, this->Cell);
+      this->IsLagrangeProduct = this->Product.set(this->Cell);
   }
   const auto count = static_cast<std::size_t>(this->Count);
   this->Weights.resize(std::max<std::size_t>(count, 8));
@@ -200,9 +202,14 @@ void MeshCell::startInTheMiddle()
   this->Place[2] = this->FlatAxis >= 0 ? 0 : (this->Form == Shape::Wedge ? 0.5 : middle);
 }
 
-/// Whether Place is the place of `x`; else the step of Newton's method that leads there.
-bool MeshCell::isAt(const Vector& x, Vector& step)
+/// Where Place is, and the derivative by each of its coordinates.
+void MeshCell::evaluate(Vector& x, Vector columns[3])
 {
+  if (this->IsLagrangeProduct)
+  {
+    this->Product.evaluate(this->Place, this->Points, x, columns);
+    return;
+  }
   if (this->Type == VTK_HEXAHEDRON)
   {
     vtkHexahedron::InterpolationFunctions(this->Place, this->Weights.data());
@@ -213,25 +220,24 @@ bool MeshCell::isAt(const Vector& x, Vector& step)
     this->Cell->InterpolateFunctions(this->Place, this->Weights.data());
     this->Cell->InterpolateDerivs(this->Place, this->Derivatives.data());
   }
-  const std::size_t count = this->Points.size();
-  Vector rest = x, columns[3] = {};
-  const std::size_t dimension = this->FlatAxis < 0 ? 3 : 2;
-  // VTK's functions differ in the order of what they return.
-  const bool isByPoint =
-    this->Type == VTK_LAGRANGE_QUADRILATERAL || this->Type == VTK_LAGRANGE_HEXAHEDRON;
+  const std::size_t count = this->Points.size(), dimension = this->FlatAxis < 0 ? 3 : 2;
+  x = columns[0] = columns[1] = columns[2] = {};
   for (std::size_t i = 0; i < count; ++i)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    x = x + this->Weights[i] * this->Points[i];
+    for (std::size_t along = 0; along < dimension; ++along)
     {
-      rest[axis] -= this->Weights[i] * this->Points[i][axis];
-      for (std::size_t along = 0; along < dimension; ++along)
-      {
-        columns[along][axis] +=
-          this->Derivatives[isByPoint ? i * dimension + along : along * count + i] *
-          this->Points[i][axis];
-      }
+      columns[along] = columns[along] + this->Derivatives[along * count + i] * this->Points[i];
     }
   }
+}
+
+/// Whether Place is the place of `x`; else the step of Newton's method that leads there.
+bool MeshCell::isAt(const Vector& x, Vector& step)
+{
+  Vector reached, columns[3];
+  this->evaluate(reached, columns);
+  const Vector rest = x - reached;
   if (this->FlatAxis >= 0)
   {
     columns[2][static_cast<std::size_t>(this->FlatAxis)] = 1;
@@ -363,6 +369,10 @@ double MeshCell::valueAt(const double x[3], const double coordinates[3], const d
         int part = 0;
         double nearest[3], again[3], distance = 0;
         this->Cell->EvaluatePosition(x, nearest, part, again, distance, weights);
+      }
+      else if (this->IsLagrangeProduct)
+      {
+        this->Product.weights(p, weights);
       }
       else
       {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LagrangeProduct.h"
+#include "Vectors.h"
+
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -31,7 +34,6 @@ public:
   double valueAt(const double x[3], const double coordinates[3], const double* values);
 
 private:
-  using Vector = std::array<double, 3>;
   enum class Shape
   {
     Box,
@@ -46,6 +48,7 @@ private:
   void setInverse();
   void startInTheMiddle();
   bool iterate(const Vector& x);
+  void evaluate(Vector& x, Vector columns[3]);
   bool isAt(const Vector& x, Vector& step);
   double missOf(const double coordinates[3]) const;
 
@@ -57,6 +60,8 @@ private:
   vtkIdType Count = 0;
   int Type = 0;
   int FlatAxis;
+  bool IsLagrangeProduct = false;
+  LagrangeProduct Product;
   Shape Form = Shape::Other;
 
   // For find().

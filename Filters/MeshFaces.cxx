@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFaces.h"
 
+#include "CellTypes.h"
+#include "CurvedFaces.h"
 #include "FlatData.h"
 #include "RefractivityValues.h"
 
-#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkExtractCells.h"
@@ -30,7 +31,6 @@ namespace refractivity
 namespace
 {
 
-constexpr int subdivisions = 2; // of the faces of curved cells
 constexpr const char* ownersName = "OwnerOfFace";
 constexpr const char* originsName = "PointOfLeaf";
 
@@ -180,24 +180,78 @@ void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3
   }
 }
 
-/// Adds what the value at a place in a cell is made of.
-void addShares(vtkUnstructuredGrid* cells, vtkIdType id, std::uint32_t leaf, Point place,
-  vtkIdTypeArray* origins, Faces& faces)
+/// An array of the numbers of points or cells.
+vtkSmartPointer<vtkIdTypeArray> numbersOf(vtkIdType count, const char* name)
 {
-  vtkCell* cell = cells->GetCell(id);
-  std::vector<double> weights(static_cast<std::size_t>(cell->GetNumberOfPoints()));
-  Point nearest, coordinates;
-  int part = 0;
-  double distance = 0;
-  cell->EvaluatePosition(
-    place.data(), nearest.data(), part, coordinates.data(), distance, weights.data());
-  const bool areFinite =
-    std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
-  for (std::size_t i = 0; i < weights.size(); ++i)
+  auto numbers = vtkSmartPointer<vtkIdTypeArray>::New();
+  numbers->SetName(name);
+  numbers->SetNumberOfValues(count);
+  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, vtkIdType{ 0 });
+  return numbers;
+}
+
+/// The surface of these cells, which are not curved.
+void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
+  State state, const LeftOut& isLeftOut, Faces& faces)
+{
+  auto cells = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  cells->CopyStructure(data);
+  cells->GetPointData()->AddArray(numbersOf(data->GetNumberOfPoints(), originsName));
+  cells->GetCellData()->AddArray(numbersOf(data->GetNumberOfCells(), ownersName));
+  vtkNew<vtkGeometryFilter> surface;
+  if (cells->IsA("vtkUnstructuredGrid") &&
+    chosen.size() == static_cast<std::size_t>(cells->GetNumberOfCells()))
   {
-    const vtkIdType point = origins->GetValue(cell->GetPointId(static_cast<int>(i)));
-    const double mean = 1 / static_cast<double>(weights.size());
-    faces.shares.push_back({ leaf, point, areFinite ? weights[i] : mean });
+    surface->SetInputData(cells);
+  }
+  else
+  {
+    vtkNew<vtkIdList> list;
+    list->SetNumberOfIds(static_cast<vtkIdType>(chosen.size()));
+    std::copy(chosen.begin(), chosen.end(), list->GetPointer(0));
+    vtkNew<vtkExtractCells> extract;
+    extract->SetInputData(cells);
+    extract->SetCellList(list);
+    surface->SetInputConnection(extract->GetOutputPort());
+  }
+  surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  surface->Update();
+  vtkPolyData* polygons = surface->GetOutput();
+  auto* owners =
+    vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
+  auto* origins =
+    vtkIdTypeArray::SafeDownCast(polygons->GetPointData()->GetAbstractArray(originsName));
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(polygons->GetNumberOfPoints()), -1);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
+  {
+    if (isLeftOut(owners->GetValue(face)))
+    {
+      continue;
+    }
+    polygons->GetCellPoints(face, ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      std::int32_t& number = numbers[static_cast<std::size_t>(ids->GetId(i))];
+      if (number < 0)
+      {
+        const vtkIdType point = origins->GetValue(ids->GetId(i));
+        Point x;
+        data->GetPoint(point, x.data());
+        faces.shares.push_back({ leaf, point, 1 });
+        number = faces.addPoint(x);
+      }
+      faces.corners.push_back(number);
+    }
+    Point owner{ 0, 0, 0 };
+    data->GetCellPoints(owners->GetValue(face), ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      Point x;
+      data->GetPoint(ids->GetId(i), x.data());
+      owner = owner + (1. / static_cast<double>(ids->GetNumberOfIds())) * x;
+    }
+    faces.finish(owner, state, false);
   }
 }
 
@@ -205,132 +259,25 @@ void addShares(vtkUnstructuredGrid* cells, vtkIdType id, std::uint32_t leaf, Poi
 void addUnstructured(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states,
   State state, Copies copies, Faces& faces)
 {
-  const auto count = std::count(states.begin(), states.end(), state);
-  if (count == 0)
+  std::vector<vtkIdType> plain, curved;
+  for (std::size_t i = 0; i < states.size(); ++i)
   {
-    return;
-  }
-  vtkNew<vtkIdTypeArray> all;
-  all->SetName(originsName);
-  all->SetNumberOfValues(data->GetNumberOfPoints());
-  std::iota(all->GetPointer(0), all->GetPointer(0) + all->GetNumberOfValues(), vtkIdType{ 0 });
-  vtkNew<vtkUnstructuredGrid> cells;
-  std::vector<vtkIdType> chosenCells; // of the data; empty: all
-  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
-  if (mesh && count == mesh->GetNumberOfCells())
-  {
-    cells->CopyStructure(mesh);
-    cells->GetPointData()->AddArray(all);
-  }
-  else
-  {
-    vtkNew<vtkIdList> chosen;
-    chosen->Allocate(static_cast<vtkIdType>(count));
-    for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i] == state)
     {
-      if (states[i] == state)
-      {
-        chosen->InsertNextId(static_cast<vtkIdType>(i));
-        chosenCells.push_back(static_cast<vtkIdType>(i));
-      }
+      const auto cell = static_cast<vtkIdType>(i);
+      const auto type = static_cast<unsigned char>(data->GetCellType(cell));
+      (vtkCellTypeUtilities::IsLinear(type) ? plain : curved).push_back(cell);
     }
-    auto numbered = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
-    numbered->CopyStructure(data);
-    numbered->GetPointData()->AddArray(all);
-    vtkNew<vtkExtractCells> extract;
-    extract->SetInputData(numbered);
-    extract->SetCellList(chosen);
-    extract->Update();
-    cells->CopyStructure(extract->GetOutput());
-    cells->GetPointData()->AddArray(
-      extract->GetOutput()->GetPointData()->GetAbstractArray(originsName));
   }
-  // Not by PassThroughCellIds: VTK 9.2 gives wrong numbers to the faces of curved cells.
-  vtkNew<vtkIdTypeArray> numbers;
-  numbers->SetName(ownersName);
-  numbers->SetNumberOfValues(cells->GetNumberOfCells());
-  for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
-  {
-    numbers->SetValue(i, i);
-  }
-  cells->GetCellData()->AddArray(numbers);
-  vtkNew<vtkGeometryFilter> surface;
-  surface->SetInputData(cells);
-  surface->SetNonlinearSubdivisionLevel(subdivisions);
-  surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  surface->Update();
-  vtkPolyData* polygons = surface->GetOutput();
-  auto* owners =
-    vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
-
   const LeftOut isLeftOut(data, copies);
-  const auto isWanted = [&](vtkIdType face)
+  if (!plain.empty())
   {
-    const vtkIdType owner = owners->GetValue(face);
-    return !isLeftOut(chosenCells.empty() ? owner : chosenCells[static_cast<std::size_t>(owner)]);
-  };
-  vtkNew<vtkIdList> ids;
-  std::vector<vtkIdType> cellsOfPoints(static_cast<std::size_t>(polygons->GetNumberOfPoints()), -1);
-  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
-  {
-    polygons->GetCellPoints(face, ids);
-    if (!isWanted(face))
-    {
-      continue;
-    }
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-    {
-      cellsOfPoints[static_cast<std::size_t>(ids->GetId(i))] = owners->GetValue(face);
-    }
+    addPlainCells(data, leaf, plain, state, isLeftOut, faces);
   }
-  auto* origins =
-    vtkIdTypeArray::SafeDownCast(cells->GetPointData()->GetAbstractArray(originsName));
-  vtkDataArray* kept = polygons->GetPointData()->GetArray(originsName);
-  std::vector<std::int32_t> numbersOfPoints(cellsOfPoints.size(), -1);
-  for (vtkIdType i = 0; i < polygons->GetNumberOfPoints(); ++i)
+  if (!curved.empty())
   {
-    const auto at = static_cast<std::size_t>(i);
-    if (cellsOfPoints[at] < 0)
-    {
-      continue;
-    }
-    Point x, ofLeaf;
-    polygons->GetPoint(i, x.data());
-    // Of points between others, VTK has a mean of their numbers, if any.
-    const double number = kept ? kept->GetComponent(i, 0) : 0;
-    const auto point = static_cast<vtkIdType>(
-      std::clamp(number, 0., static_cast<double>(data->GetNumberOfPoints() - 1)));
-    data->GetPoint(point, ofLeaf.data());
-    if (ofLeaf[0] == x[0] && ofLeaf[1] == x[1] && ofLeaf[2] == x[2])
-    {
-      faces.shares.push_back({ leaf, point, 1 });
-    }
-    else
-    {
-      addShares(cells, cellsOfPoints[at], leaf, x, origins, faces);
-    }
-    numbersOfPoints[at] = faces.addPoint(x);
-  }
-  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
-  {
-    if (!isWanted(face))
-    {
-      continue;
-    }
-    polygons->GetCellPoints(face, ids);
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-    {
-      faces.corners.push_back(numbersOfPoints[static_cast<std::size_t>(ids->GetId(i))]);
-    }
-    Point owner{ 0, 0, 0 };
-    cells->GetCellPoints(owners->GetValue(face), ids);
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-    {
-      Point x;
-      cells->GetPoint(ids->GetId(i), x.data());
-      owner = owner + (1. / static_cast<double>(ids->GetNumberOfIds())) * x;
-    }
-    faces.finish(owner, state, false);
+    addCurvedCells(
+      data, leaf, curved, state, [&](vtkIdType cell) { return !isLeftOut(cell); }, faces);
   }
 }
 

@@ -45,6 +45,7 @@ struct Faces
   std::vector<Point> owners;              // the middle of the cell
   std::vector<State> states;              // of the cell
   std::vector<unsigned char> hidesBehind; // known from within the leaf
+  std::vector<unsigned char> areParts;    // of the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
   /// Its shares have been added.
@@ -55,12 +56,13 @@ struct Faces
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// The face whose corners have been added.
-  void finish(const Point& owner, State state, bool hides)
+  void finish(const Point& owner, State state, bool hides, bool isPart = false)
   {
     this->starts.push_back(this->corners.size());
     this->owners.push_back(owner);
     this->states.push_back(state);
     this->hidesBehind.push_back(hides ? 1 : 0);
+    this->areParts.push_back(isPart ? 1 : 0);
   }
 };
 

@@ -269,6 +269,7 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   putAll(faces.owners, answer);
   putAll(faces.states, answer);
   putAll(faces.hidesBehind, answer);
+  putAll(faces.areParts, answer);
   putAll(this->Piece->valuesAt(faces), answer);
 }
 

@@ -87,6 +87,7 @@ void append(const Faces& more, Faces& faces)
   faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
   faces.hidesBehind.insert(
     faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
+  faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
 }
 
 /// Of each rank some cells' sizes, and how many cells it has: of all ranks the same part.
@@ -297,6 +298,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
       more.owners = reader.GetAll<std::vector<Point>>();
       more.states = reader.GetAll<std::vector<State>>();
       more.hidesBehind = reader.GetAll<std::vector<unsigned char>>();
+      more.areParts = reader.GetAll<std::vector<unsigned char>>();
       append(more, faces);
       const auto ofFaces = reader.GetAll<std::vector<double>>();
       values.insert(values.end(), ofFaces.begin(), ofFaces.end());

@@ -10,9 +10,10 @@
 #include "MeanImage.h"
 #include "PictureOutput.h"
 #include "RealOptics.h"
-#include "SceneFromFilter.h"
+#include "SceneFromSettings.h"
 
 #include "vtkCommand.h"
+#include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -20,13 +21,6 @@
 
 namespace
 {
-
-ColorScale colorScaleFrom(vtkSchlierenFilter* self)
-{
-  const bool isShadow = self->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH;
-  return seesColor(self) ? ColorScale::Srgb
-                         : (isShadow ? ColorScale::LinearToTwice : ColorScale::Linear);
-}
 
 bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
 {
@@ -49,7 +43,7 @@ void vtkSchlierenFilter::Refine()
   }
   else
   {
-    hasMore = meeting.Serve(threadsFrom(this),
+    hasMore = meeting.Serve(threadsFrom(*this),
       [this](const std::vector<char>& message) { return this->Respond(message); });
   }
   if (hasMore)
@@ -137,7 +131,7 @@ bool vtkSchlierenFilter::WorkOn()
       return true;
     }
   }
-  return std::exchange(inside.UnfinishedOf, 0) != 0; // then there will be another picture
+  return std::exchange(inside.UnfinishedOf, 0) != 0; // then there will be another image
 }
 
 //------------------------------------------------------------------------------
@@ -198,7 +192,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   }
 
   const LastPicture& shown = inside.Shown[PICTURE_PORT];
-  const bool isColored = this->ColorByField || seesColor(this);
+  const bool isColored = this->ColorByField || this->HasOwnColor();
   if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
   {
     // Something to show if time is over before the first sample of each pixel is there.
@@ -226,7 +220,7 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
 //------------------------------------------------------------------------------
 std::optional<double> vtkSchlierenFilter::KeptK()
 {
-  if (!choosesK(this))
+  if (!choosesK(*this))
   {
     return {}; // what is kept waits: the change may be undone
   }
@@ -234,7 +228,7 @@ std::optional<double> vtkSchlierenFilter::KeptK()
     this->CircumstancesOf(
       { static_cast<double>(this->Cutoff), static_cast<double>(this->AutoAmbientRefractivity),
         this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity },
-      settingsOfRays(this)));
+      settingsOfRays(*this)));
 }
 
 //------------------------------------------------------------------------------
@@ -258,8 +252,9 @@ schlieren::Image vtkSchlierenFilter::Begin(
                                                  : this->KeptAmbient();
   inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
-  schlieren::Scene scene = sceneFrom(this, this->Medium, field.grid, inside.RgbPictures);
-  if (inside.FirstInstant && choosesK(this))
+  schlieren::Scene scene = sceneFrom(*this, field.grid, inside.RgbPictures);
+  addObjects(scene, this->GradedFilter, this->Medium);
+  if (inside.FirstInstant && choosesK(*this))
   {
     scene.kScale = inside.FirstInstant->kScale;
   }
@@ -362,7 +357,7 @@ bool vtkSchlierenFilter::Show(
   }
   const schlieren::Scene& scene = inside.Pictures.GetScene();
   const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
-  if (isWhole) // of a hurried one the whole picture will say it
+  if (isWhole) // of a preview the whole image will say it
   {
     for (const std::string& warning : inside.Pictures.GetWarnings(image))
     {
@@ -373,22 +368,25 @@ bool vtkSchlierenFilter::Show(
   {
     this->KeepFound(image);
   }
-  const bool isKept = choosesK(this) && this->GetLockedK() > 0;
+  const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
   this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) +
     (inside.Exposure.IsNone() ? "" : ", " + inside.Exposure.GetWords()) +
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
-  this->Sensitivity = sensitivityInWords(this, image.kScale, isKept);
+  this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);
   ++this->PictureCount;
   output->Initialize();
   histogram->Initialize();
   setOutput(output, image);
   if (!image.color.empty())
   {
-    addColor(output, image, colorScaleFrom(this));
+    const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
+      : CutoffHasScreen(this->Cutoff)             ? ColorScale::LinearToTwice
+                                                  : ColorScale::Linear;
+    addColor(output, image, colors);
   }
-  if (scene.cutoff == schlieren::Cutoff::Interferogram && scene.fringes.finite)
+  if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {
     addFringeSpacing(output, scene.fringes.spacing);
   }

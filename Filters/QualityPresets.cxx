@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QualityPresets.h"
 
+#include "SchlierenSettings.h"
 #include "vtkSchlierenFilter.h"
 
 #include <algorithm>
@@ -9,15 +10,15 @@
 
 using Filter = vtkSchlierenFilter;
 
-#define SETTING(name, ...)                                                           \
-  QualitySetting                                                                     \
-  {                                                                                  \
-#name, [](Filter * filter) { return static_cast<double>(filter->Get##name()); }, \
-      [](Filter * filter, double value)                                              \
-    { filter->Set##name(static_cast<decltype(filter->Get##name())>(value)); },       \
-    {                                                                                \
-      __VA_ARGS__                                                                    \
-    }                                                                                \
+#define SETTING(name, ...)                                                                      \
+  QualitySetting                                                                                \
+  {                                                                                             \
+#name, [](const AccuracySettings& settings) { return static_cast<double>(settings.name); }, \
+      [](AccuracySettings & settings, double value)                                             \
+    { settings.name = static_cast<decltype(settings.name)>(value); },                           \
+    {                                                                                           \
+      __VA_ARGS__                                                                               \
+    }                                                                                           \
   }
 
 // clang-format off

@@ -4,14 +4,14 @@
 
 #include <array>
 
-class vtkSchlierenFilter;
+struct AccuracySettings;
 
-/// A property of vtkSchlierenFilter that its presets of Quality set.
+/// A property that the presets of Quality set.
 struct QualitySetting
 {
   const char* Property;
-  double (*Get)(vtkSchlierenFilter*);
-  void (*Set)(vtkSchlierenFilter*, double);
+  double (*Get)(const AccuracySettings&);
+  void (*Set)(AccuracySettings&, double);
   std::array<double, 4> Values; ///< in each preset, in the order of vtkSchlierenFilter::Qualities
 };
 

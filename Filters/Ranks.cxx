@@ -206,12 +206,15 @@ void FilterRanks::CountChanges(vtkAlgorithm* filter)
   {
     ++this->Now.changes;
     this->CountedAt.Modified();
+    this->SetTooFew(std::numeric_limits<double>::infinity());
   }
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part)
+bool FilterRanks::Request(
+  vtkAlgorithm* filter, vtkInformationVector** inputs, Part part, double mostCells)
 {
+  part = mostCells >= this->TooFew ? Part::All : part;
   vtkMultiProcessController* controller = controllerOfRanks();
   if (!this->Inside && controller)
   {
@@ -461,7 +464,7 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double mostCells)
     ++of.Gatherings;
     of.Gathered[0] = of.Gathered[1] = nullptr;
     of.Problem = this->FindAbsent();
-    of.InPieces = of.Problem.empty() && this->CanStayInPieces();
+    of.InPieces = of.Problem.empty() && this->CanStayInPieces(mostCells);
     try
     {
       for (int input = of.InPieces ? 1 : 0; input < 2 && of.Problem.empty(); ++input)
@@ -517,7 +520,7 @@ std::vector<Holdings> FilterRanks::Others::HoldingsOf(int input, vtkDataObject* 
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::CanStayInPieces() const
+bool FilterRanks::Meeting::CanStayInPieces(double mostCells) const
 {
   bool areAll = refractivity::areMeshes(this->Own->data);
   for (const auto& channel : this->Of.Inside->Channels)
@@ -531,7 +534,20 @@ bool FilterRanks::Meeting::CanStayInPieces() const
   {
     cells += holdings[rank][1];
   }
-  return areAll && ranks.size() > 1 && cells > this->Of.MostCells;
+  return areAll && ranks.size() > 1 && cells > mostCells;
+}
+
+//------------------------------------------------------------------------------
+bool FilterRanks::Meeting::AreTooFew(double mostCells) const
+{
+  if (!this->Of.Inside || !this->Of.AreRequestedInPieces() || !this->FindAbsent().empty())
+  {
+    return false;
+  }
+  const std::vector<std::size_t> ranks =
+    ranksWithMore(this->Of.Inside->HoldingsOf(0, this->Own->data));
+  const bool hasRank0All = ranks.empty() || (ranks.size() == 1 && ranks[0] == 0);
+  return !hasRank0All && !this->CanStayInPieces(mostCells);
 }
 
 //------------------------------------------------------------------------------

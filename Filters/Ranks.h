@@ -51,8 +51,14 @@ public:
     All,  // on rank 0, and nothing on others
     Piece // of meshes: each rank one of as many as there are; of bodies and other data, as All
   };
-  /// In RequestUpdateExtent. Whether the inputs have changed since the last request, or their time step has.
-  bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part = Part::All);
+  /// In RequestUpdateExtent. Whether the inputs have changed since the last request, or their time step has. In place of
+  /// pieces, all is requested where no more than `mostCells` are known to have been found too few: see SetTooFew().
+  bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part = Part::All,
+    double mostCells = 0);
+  bool AreRequestedInPieces() const { return this->RequestedPart == Part::Piece; }
+
+  /// On all ranks: until the inputs change, pieces with so few cells in all that rank 0 had better have all of them.
+  void SetTooFew(double mostCells) { this->TooFew = mostCells; }
 
   /// What the filter works with.
   struct Inputs
@@ -77,6 +83,10 @@ public:
     /// rank 0 has of them, see AreInPieces().
     Inputs Gather(double mostCells = std::numeric_limits<double>::infinity());
 
+    /// On rank 0: whether pieces were requested, but are not to stay where they are, see Gather(). Rank 0 had better
+    /// request all: pieces that are joined differ a little from that where they meet.
+    bool AreTooFew(double mostCells) const;
+
     /// On rank 0: the connections to those that trace rays, and those to all other ranks, null where one has not come.
     std::vector<schlieren::Channel*> GetWorkers() const;
     std::vector<schlieren::Channel*> GetChannels() const;
@@ -94,7 +104,7 @@ public:
     void WaitForOthers(Time end);
     void WaitForRank0(Time end);
     std::string FindAbsent() const;
-    bool CanStayInPieces() const;
+    bool CanStayInPieces(double mostCells) const;
     vtkSmartPointer<vtkDataObject> Collect(int input);
 
     FilterRanks& Of;
@@ -129,6 +139,7 @@ private:
   vtkTimeStamp CountedAt;
   Version Requested;
   Part RequestedPart = Part::All;
+  double TooFew = std::numeric_limits<double>::infinity();
   std::chrono::steady_clock::time_point RequestedAt{};
   Version Compared;
   double MostCells = 0;  // of Compared

@@ -2,21 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RealOptics.h"
 
-#include "vtkMath.h"
+#include "SchlierenSettings.h"
 #include "vtkSchlierenFilter.h"
+
+#include "vtkMath.h"
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 namespace
 {
 
-using Filter = vtkSchlierenFilter;
-
 /// From a diverging source to the middle of the data, and from fringe to fringe, by default.
 constexpr double depthsToSource = 10;
-constexpr double fringesInPicture = 10;
+constexpr double fringesInImage = 10;
 
 std::string textOf(double value)
 {
@@ -49,41 +50,56 @@ void requireSize(const char* property, double value)
   }
 }
 
+const schlieren::Technique& techniqueOf(const OpticsSettings& optics)
+{
+  return schlieren::techniqueOf(static_cast<schlieren::Cutoff>(optics.Cutoff));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-bool usesK(vtkSchlierenFilter* self)
+bool usesK(const OpticsSettings& optics) { return techniqueOf(optics).hasK(); }
+
+//------------------------------------------------------------------------------
+bool choosesK(const OpticsSettings& optics)
 {
-  const int cutoff = self->GetCutoff();
-  return cutoff == Filter::KNIFE_EDGE ||
-    (cutoff >= Filter::CIRCULAR && cutoff <= Filter::COLOR_FILTER);
+  return usesK(optics) && !optics.KFromOptics && optics.AutoKScale;
 }
 
 //------------------------------------------------------------------------------
-bool choosesK(vtkSchlierenFilter* self)
+double kOfOptics(const OpticsSettings& optics)
 {
-  return usesK(self) && !self->GetKFromOptics() && self->GetAutoKScale();
+  return optics.FocalLength > 0 && optics.SourceWidth > 0
+    ? optics.FocalLength / (metresPerMillimetre * optics.SourceWidth)
+    : std::numeric_limits<double>::quiet_NaN();
 }
 
 //------------------------------------------------------------------------------
-void setSensitivity(vtkSchlierenFilter* self, schlieren::Scene& scene)
+double offsetOfOptics(const OpticsSettings& optics)
 {
-  scene.cutoffOffset = self->GetCutoffOffset();
-  if (self->GetKFromOptics())
+  return optics.SourceWidth > 0 ? optics.CutoffPosition / optics.SourceWidth
+                                : std::numeric_limits<double>::quiet_NaN();
+}
+
+//------------------------------------------------------------------------------
+void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
+{
+  scene.cutoffOffset = optics.CutoffOffset;
+  if (optics.KFromOptics)
   {
-    requirePositive("FocalLength", self->GetFocalLength(), "m", "the second mirror");
-    requirePositive("SourceWidth", self->GetSourceWidth(), "mm", "the source's image");
-    if (!std::isfinite(self->GetCutoffPosition()))
+    requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+    requirePositive("SourceWidth", optics.SourceWidth, "mm", "the source's image");
+    if (!std::isfinite(optics.CutoffPosition))
     {
-      refuse("CutoffPosition", self->GetCutoffPosition(), "mm",
+      refuse("CutoffPosition", optics.CutoffPosition, "mm",
         "which is no place. Set it to how far the edge is in, 0 for the middle.");
     }
-    scene.kScale = self->GetKScaleOfOptics();
-    scene.cutoffOffset = self->GetCutoffOffsetOfOptics();
+    scene.kScale = kOfOptics(optics);
+    scene.cutoffOffset = offsetOfOptics(optics);
   }
-  else if (!self->GetAutoKScale())
+  else if (!optics.AutoKScale)
   {
-    scene.kScale = self->GetKScale();
+    scene.kScale = optics.KScale;
   }
 }
 
@@ -94,66 +110,65 @@ std::string kInWords(double k, bool isKept)
 }
 
 //------------------------------------------------------------------------------
-std::string sensitivityInWords(vtkSchlierenFilter* self, double k, bool isKept)
+std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept)
 {
-  if (self->GetCutoff() == Filter::INTERFEROGRAM)
+  if (techniqueOf(settings).hasFringes)
   {
-    return self->GetWhiteLight()
+    return settings.WhiteLight
       ? "white light: a fringe of each colour is its wavelength of optical path"
-      : "a fringe is " + textOf(self->GetWavelength()) +
+      : "a fringe is " + textOf(settings.Wavelength) +
         " nm of optical path: Wavelength, in the group Medium";
   }
-  if (!usesK(self) || !(k > 0))
+  if (!usesK(settings) || !(k > 0))
   {
     return "";
   }
-  const double focalLength = self->GetFocalLength();
+  const double focalLength = settings.FocalLength;
   // From the light that nothing bends to the brightest or the darkest.
-  const bool isHalf =
-    self->GetCutoff() == Filter::KNIFE_EDGE || self->GetCutoff() == Filter::GRADED_FILTER;
+  const schlieren::Technique& technique = techniqueOf(settings);
   std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
-    textOf(1e3 * (isHalf ? 0.5 : 1) / k) + " mrad";
+    textOf(1e3 * technique.fullScale / k) + " mrad";
   if (focalLength > 0)
   {
     words += "; optics: " + textOf(focalLength) + " m focal length, source " +
       textOf(focalLength / k / metresPerMillimetre) + " mm wide";
   }
-  if (self->GetKFromOptics() && isHalf)
+  if (settings.KFromOptics && technique.hasEdge)
   {
-    words += ", the edge " + textOf(self->GetCutoffPosition()) + " mm in (offset " +
-      textOf(self->GetCutoffOffsetOfOptics()) + ")";
+    words += ", the edge " + textOf(settings.CutoffPosition) + " mm in (offset " +
+      textOf(offsetOfOptics(settings)) + ")";
   }
   return words;
 }
 
 //------------------------------------------------------------------------------
-schlieren::LightSource lightSourceFrom(vtkSchlierenFilter* self, const schlieren::Frame& frame)
+schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame)
 {
   schlieren::LightSource source;
-  if (self->GetLightSource() == Filter::DIVERGING)
+  if (optics.LightSource == vtkSchlierenFilter::DIVERGING)
   {
-    const double distance = self->GetSourceDistance();
+    const double distance = optics.SourceDistance;
     source.distance = distance == 0 ? depthsToSource * (frame.exit - frame.entry) : distance;
   }
-  source.shape = static_cast<schlieren::SourceShape>(self->GetSourceShape());
+  source.shape = static_cast<schlieren::SourceShape>(optics.SourceShape);
   if (source.shape != schlieren::SourceShape::Point)
   {
-    requirePositive("FocalLength", self->GetFocalLength(), "m", "the mirrors");
-    requireSize("SourceWidth", self->GetSourceWidth());
-    source.width = metresPerMillimetre * self->GetSourceWidth() / self->GetFocalLength();
+    requirePositive("FocalLength", optics.FocalLength, "m", "the mirrors");
+    requireSize("SourceWidth", optics.SourceWidth);
+    source.width = metresPerMillimetre * optics.SourceWidth / optics.FocalLength;
   }
   if (source.shape == schlieren::SourceShape::Slit)
   {
-    requireSize("SourceLength", self->GetSourceLength());
-    source.length = metresPerMillimetre * self->GetSourceLength() / self->GetFocalLength();
+    requireSize("SourceLength", optics.SourceLength);
+    source.length = metresPerMillimetre * optics.SourceLength / optics.FocalLength;
   }
   return source;
 }
 
 //------------------------------------------------------------------------------
-double fringeSpacingFrom(vtkSchlierenFilter* self, const schlieren::Frame& frame)
+double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
 {
-  const double angle = self->GetBeamAngle();
+  const double angle = settings.BeamAngle;
   if (!(angle >= 0 && angle <= 180))
   {
     refuse("BeamAngle", angle, "degrees",
@@ -161,11 +176,10 @@ double fringeSpacingFrom(vtkSchlierenFilter* self, const schlieren::Frame& frame
   }
   if (angle > 0)
   {
-    const double wavelength = metresPerNanometre * self->GetWavelength();
+    const double wavelength = metresPerNanometre * settings.Wavelength;
     return wavelength / (2 * std::sin(vtkMath::RadiansFromDegrees(angle) / 2)) /
-      self->GetLengthScale();
+      settings.LengthScale;
   }
-  return self->GetFringeSpacing() == 0
-    ? frame.pixelSize * self->GetImageSize()[1] / fringesInPicture
-    : self->GetFringeSpacing();
+  return settings.FringeSpacing == 0 ? frame.pixelSize * settings.ImageSize[1] / fringesInImage
+                                     : settings.FringeSpacing;
 }

@@ -4,6 +4,8 @@
 
 #include "GasChoices.h"
 
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkRefractiveIndex.h"
 
@@ -286,6 +288,70 @@ Model modelFrom(vtkRefractiveIndex* self)
   }
 }
 
+//------------------------------------------------------------------------------
+Selection selectionFrom(vtkRefractiveIndex* self, int index, const char* property)
+{
+  vtkInformation* info = self->GetInputArrayInformation(index);
+  Selection selection;
+  selection.property = property;
+  if (const char* name = info->Get(vtkDataObject::FIELD_NAME()))
+  {
+    selection.name = name;
+  }
+  else if (info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    selection.attribute = info->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+  }
+  selection.cellsFirst =
+    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  return selection;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
+{
+  using Index = vtkRefractiveIndex;
+  std::vector<Selection> selections;
+  const auto add = [&](int index, const char* property)
+  { selections.push_back(selectionFrom(self, index, property)); };
+  switch (self->GetIndexModel())
+  {
+    case Index::GLADSTONE_DALE:
+      add(Index::DENSITY, "Density");
+      break;
+    case Index::GLADSTONE_DALE_MIXTURE:
+      add(Index::DENSITY, "Density");
+      for (const std::string& name : self->GetMixtureArrays())
+      {
+        selections.push_back({ "MixtureArrays", name, -1, selections[0].cellsFirst });
+      }
+      break;
+    case Index::CIDDOR:
+      add(Index::TEMPERATURE, "Temperature");
+      add(Index::PRESSURE, "Pressure");
+      if (self->HasHumidityArray())
+      {
+        add(Index::HUMIDITY, "Humidity");
+      }
+      break;
+    case Index::TRANSFER_FUNCTIONS:
+      for (const std::string& name : self->GetFields())
+      {
+        selections.push_back({ "Fields", name });
+      }
+      if (selections.empty())
+      {
+        selections.push_back({ "Fields", "" }); // to be told so
+      }
+      break;
+    default:
+      add(Index::INDEX_ARRAY, "IndexArray");
+      break;
+  }
+  return selections;
+}
+
+//------------------------------------------------------------------------------
 Tally& Tally::operator+=(const Tally& other)
 {
   this->all += other.all;

@@ -52,7 +52,7 @@ struct CiddorAir
   std::string warning(const std::string& share) const;
 };
 
-/// All models. The arrays that each one takes are in RefractivitySource.cxx.
+/// All models.
 using Model = std::variant<Linear, GasMixture, CiddorAir, FieldMean>;
 
 /// The curves of `self`'s fields, of straight lines unless its model is TRANSFER_FUNCTIONS. Throws
@@ -61,6 +61,20 @@ FieldMean fieldMeanFrom(vtkRefractiveIndex* self);
 
 /// The model that was chosen. Throws std::runtime_error where its properties make no sense.
 Model modelFrom(vtkRefractiveIndex* self);
+
+/// What the user chose for one array.
+struct Selection
+{
+  std::string property; // that it was chosen with
+  std::string name;     // empty: by attribute, or not chosen
+  int attribute = -1;   // vtkDataSetAttributes::AttributeTypes
+  bool cellsFirst = false;
+};
+
+Selection selectionFrom(vtkRefractiveIndex* self, int index, const char* property);
+
+/// The arrays that the model takes, in its order; at least one.
+std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self);
 
 /// How many of the points or cells that have values are doubtful.
 struct Tally

@@ -87,7 +87,7 @@ struct vtkSchlierenFilter::Internals
   // Of the fields that tint, on the grid of Refractivity; empty where not needed, or where a source has them.
   std::vector<float> FieldGradients;
 
-  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the picture
+  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the image
   // at the outputs was begun, and the one that is not finished (0: there is none).
   vtkMTimeType FailedAt = 0;
   vtkMTimeType ShownOf = 0;
@@ -132,7 +132,4 @@ inline constexpr double mediumShare = 0.2;
 
 /// Everything of the inputs that the refractivity depends on.
 std::vector<double> describeInputs(
-  vtkSchlierenFilter* self, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies);
-
-/// Whether the bench itself makes colours.
-bool seesColor(vtkSchlierenFilter* self);
+  vtkAlgorithm* filter, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies);

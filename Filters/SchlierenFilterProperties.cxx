@@ -8,7 +8,37 @@
 #include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
-#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace
+{
+
+/// One that has nothing for numbers that are no cutoff.
+schlieren::Technique techniqueOf(int cutoff)
+{
+  return cutoff >= 0 && static_cast<std::size_t>(cutoff) < schlieren::techniques.size()
+    ? schlieren::techniqueOf(static_cast<schlieren::Cutoff>(cutoff))
+    : schlieren::Technique{};
+}
+
+template <class Value>
+void print(ostream& os, const Value& value)
+{
+  if constexpr (std::is_arithmetic_v<Value> || std::is_same_v<Value, std::string>)
+  {
+    os << " " << value;
+  }
+  else
+  {
+    for (const auto& number : value)
+    {
+      os << " " << number;
+    }
+  }
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
@@ -16,78 +46,19 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Medium:\n";
   this->Medium->PrintSelf(os, indent.GetNextIndent());
-  os << indent << "LengthScale: " << this->LengthScale << "\n";
-  os << indent << "AutoAmbientRefractivity: " << this->AutoAmbientRefractivity << "\n";
-  os << indent << "AmbientRefractivity: " << this->AmbientRefractivity << "\n";
-  os << indent << "LockAmbient: " << this->LockAmbient << "\n";
+  this->SchlierenSettings::visit(
+    [&](const char* name, const auto& value)
+    {
+      os << indent << name << ":";
+      print(os, value);
+      os << "\n";
+    });
+  os << indent << "GradedFilter: " << this->GradedFilter << "\n";
+  os << indent << "Quality: " << this->GetQuality() << "\n";
   os << indent << "LockedAmbient: " << this->GetLockedAmbient() << "\n";
-  os << indent << "Wavelength: " << this->Wavelength << "\n";
-  os << indent << "ViewDirection: " << this->ViewDirection[0] << " " << this->ViewDirection[1]
-     << " " << this->ViewDirection[2] << "\n";
-  os << indent << "ViewUp: " << this->ViewUp[0] << " " << this->ViewUp[1] << " " << this->ViewUp[2]
-     << "\n";
-  os << indent << "HasFocalPoint: " << this->HasFocalPoint << "\n";
-  os << indent << "FocalPoint: " << this->FocalPoint[0] << " " << this->FocalPoint[1] << " "
-     << this->FocalPoint[2] << "\n";
-  os << indent << "ParallelScale: " << this->ParallelScale << "\n";
-  os << indent << "ImageSize: " << this->ImageSize[0] << " " << this->ImageSize[1] << "\n";
-  os << indent << "Cutoff: " << this->Cutoff << "\n";
-  os << indent << "KnifeEdgeAngle: " << this->KnifeEdgeAngle << "\n";
-  os << indent << "CutoffOffset: " << this->CutoffOffset << "\n";
-  os << indent << "InvertCutoff: " << this->InvertCutoff << "\n";
-  os << indent << "AutoKScale: " << this->AutoKScale << "\n";
-  os << indent << "LockK: " << this->LockK << "\n";
   os << indent << "LockedK: " << this->GetLockedK() << "\n";
-  os << indent << "KScale: " << this->KScale << "\n";
-  os << indent << "KFromOptics: " << this->KFromOptics << "\n";
-  os << indent << "FocalLength: " << this->FocalLength << "\n";
-  os << indent << "SourceWidth: " << this->SourceWidth << "\n";
-  os << indent << "SourceLength: " << this->SourceLength << "\n";
-  os << indent << "CutoffPosition: " << this->CutoffPosition << "\n";
   os << indent << "KScaleUsed: " << this->KScaleUsed << "\n";
   os << indent << "Sensitivity: " << this->Sensitivity << "\n";
-  os << indent << "GradedFilter: " << this->GradedFilter << "\n";
-  os << indent << "ColorFilterImage: " << this->ColorFilterImage << "\n";
-  os << indent << "FringeMode: " << this->FringeMode << "\n";
-  os << indent << "FringeSpacing: " << this->FringeSpacing << "\n";
-  os << indent << "FringeAngle: " << this->FringeAngle << "\n";
-  os << indent << "BeamAngle: " << this->BeamAngle << "\n";
-  os << indent << "WhiteLight: " << this->WhiteLight << "\n";
-  os << indent << "ScreenDistance: " << this->ScreenDistance << "\n";
-  os << indent << "FocusOffset: " << this->FocusOffset << "\n";
-  os << indent << "LightSource: " << this->LightSource << "\n";
-  os << indent << "SourceDistance: " << this->SourceDistance << "\n";
-  os << indent << "SourceShape: " << this->SourceShape << "\n";
-  os << indent << "BackgroundPattern: " << this->BackgroundPattern << "\n";
-  os << indent << "BackgroundDistance: " << this->BackgroundDistance << "\n";
-  os << indent << "BackgroundPeriod: " << this->BackgroundPeriod << "\n";
-  os << indent << "BackgroundAngle: " << this->BackgroundAngle << "\n";
-  os << indent << "BackgroundImage: " << this->BackgroundImage << "\n";
-  os << indent << "ColorByField: " << this->ColorByField << "\n";
-  os << indent << "FieldColors:";
-  for (const double value : this->FieldColors)
-  {
-    os << " " << value;
-  }
-  os << "\n";
-  os << indent << "Quality: " << this->GetQuality() << "\n";
-  for (const QualitySetting& setting : qualitySettings)
-  {
-    os << indent << setting.Property << ": " << setting.Get(this) << "\n";
-  }
-  os << indent << "ExposureTime: " << this->ExposureTime << "\n";
-  os << indent << "ExposureSamples: " << this->ExposureSamples << "\n";
-  os << indent << "NoiseFilter: " << this->NoiseFilter << "\n";
-  os << indent << "NoiseFilterRadius: " << this->NoiseFilterRadius << "\n";
-  os << indent << "HistogramSize: " << this->HistogramSize << "\n";
-  os << indent << "MemoryBudget: " << this->MemoryBudget << "\n";
-  os << indent << "MediumMemory: " << this->MediumMemory << "\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "Device: " << this->Device << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "GatherLimit: " << this->GatherLimit << "\n";
-  os << indent << "PreviewReduction: " << this->PreviewReduction << "\n";
-  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "Finished: " << this->GetFinished() << "\n";
   os << indent << "PictureCount: " << this->PictureCount << "\n";
   os << indent << "Status: " << this->Status << "\n";
@@ -148,19 +119,10 @@ void vtkSchlierenFilter::SetGradedFilter(vtkPiecewiseFunction* function)
 vtkPiecewiseFunction* vtkSchlierenFilter::GetGradedFilter() const { return this->GradedFilter; }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetKScaleOfOptics()
-{
-  return this->FocalLength > 0 && this->SourceWidth > 0
-    ? this->FocalLength / (metresPerMillimetre * this->SourceWidth)
-    : std::numeric_limits<double>::quiet_NaN();
-}
+double vtkSchlierenFilter::GetKScaleOfOptics() { return kOfOptics(*this); }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetCutoffOffsetOfOptics()
-{
-  return this->SourceWidth > 0 ? this->CutoffPosition / this->SourceWidth
-                               : std::numeric_limits<double>::quiet_NaN();
-}
+double vtkSchlierenFilter::GetCutoffOffsetOfOptics() { return offsetOfOptics(*this); }
 
 //------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetGladstoneDaleConstantUsed()
@@ -170,15 +132,77 @@ double vtkSchlierenFilter::GetGladstoneDaleConstantUsed()
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetCutoff(int cutoff)
+{
+  cutoff = std::clamp(cutoff, 0, static_cast<int>(schlieren::techniques.size()) - 1);
+  if (this->Cutoff != cutoff)
+  {
+    this->Cutoff = cutoff;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasK(int cutoff) { return techniqueOf(cutoff).hasK(); }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasEdge(int cutoff) { return techniqueOf(cutoff).hasEdge; }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasFringes(int cutoff) { return techniqueOf(cutoff).hasFringes; }
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasScreen(int cutoff)
+{
+  return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Screen;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasBackground(int cutoff)
+{
+  return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Background;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern)
+{
+  switch (techniqueOf(cutoff).coloring)
+  {
+    case schlieren::Coloring::Always:
+      return true;
+    case schlieren::Coloring::InWhiteLight:
+      return whiteLight;
+    case schlieren::Coloring::OfBackgroundPicture:
+      return backgroundPattern == PICTURE;
+    case schlieren::Coloring::None:
+      break;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::HasOwnColor() const
+{
+  return CutoffHasColor(this->Cutoff, this->WhiteLight, this->BackgroundPattern);
+}
+
+//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetQuality(int quality)
 {
   if (quality < INTERACTIVE || quality >= CUSTOM)
   {
     return;
   }
+  AccuracySettings preset;
   for (const QualitySetting& setting : qualitySettings)
   {
-    setting.Set(this, setting.Values[static_cast<std::size_t>(quality)]);
+    setting.Set(preset, setting.Values[static_cast<std::size_t>(quality)]);
+  }
+  this->SetPrecision(preset.Precision); // the medium's, too
+  if (this->GetQuality() != quality)
+  {
+    static_cast<AccuracySettings&>(*this) = preset;
+    this->Modified();
   }
 }
 
@@ -189,7 +213,7 @@ int vtkSchlierenFilter::GetQuality()
   while (quality < CUSTOM &&
     !std::all_of(qualitySettings.begin(), qualitySettings.end(),
       [&](const QualitySetting& setting)
-      { return setting.Get(this) == setting.Values[static_cast<std::size_t>(quality)]; }))
+      { return setting.Get(*this) == setting.Values[static_cast<std::size_t>(quality)]; }))
   {
     ++quality;
   }

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SensitivityLock.h"
 
-#include "QualityPresets.h"
-
+#include "SchlierenSettings.h"
 #include "vtkSchlierenFilter.h"
 
+#include <iterator>
 #include <tuple>
+#include <type_traits>
 
 namespace
 {
@@ -34,33 +35,32 @@ bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<double> settingsOfRays(vtkSchlierenFilter* self)
+std::vector<double> settingsOfRays(const SchlierenSettings& settings)
 {
-  std::vector<double> settings(self->GetViewDirection(), self->GetViewDirection() + 3);
-  settings.insert(settings.end(), self->GetViewUp(), self->GetViewUp() + 3);
-  settings.push_back(self->GetHasFocalPoint());
-  settings.insert(settings.end(), self->GetFocalPoint(), self->GetFocalPoint() + 3);
-  settings.push_back(self->GetParallelScale());
-  settings.insert(settings.end(), self->GetImageSize(), self->GetImageSize() + 2);
-  for (const QualitySetting& setting : qualitySettings)
+  std::vector<double> values;
+  const auto add = [&values](const char*, const auto& value)
   {
-    settings.push_back(setting.Get(self));
-  }
-  for (const double value :
-    { double(self->GetLightSource()), self->GetSourceDistance(), double(self->GetSourceShape()),
-      double(self->GetColorByField()), double(self->GetDevice()) })
-  {
-    settings.push_back(value);
-  }
-  if (self->GetSourceShape() != Filter::POINT)
-  {
-    for (const double value : { self->GetSourceWidth(), self->GetSourceLength(),
-           self->GetFocalLength(), self->GetKnifeEdgeAngle() })
+    if constexpr (std::is_array_v<std::remove_reference_t<decltype(value)>>)
     {
-      settings.push_back(value);
+      values.insert(values.end(), std::begin(value), std::end(value));
     }
+    else
+    {
+      values.push_back(static_cast<double>(value));
+    }
+  };
+  settings.ViewSettings::visit(add);
+  settings.AccuracySettings::visit(add);
+  values.insert(values.end(),
+    { double(settings.LightSource), settings.SourceDistance, double(settings.SourceShape),
+      double(settings.ColorByField), double(settings.Device) });
+  if (settings.SourceShape != Filter::POINT)
+  {
+    values.insert(values.end(),
+      { settings.SourceWidth, settings.SourceLength, settings.FocalLength,
+        settings.KnifeEdgeAngle });
   }
-  return settings;
+  return values;
 }
 
 //------------------------------------------------------------------------------

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-class vtkSchlierenFilter;
+struct SchlierenSettings;
 
 /// What a number that is found for an image belongs to.
 struct ImageCircumstances
@@ -17,8 +17,8 @@ struct ImageCircumstances
   std::vector<double> rays;                ///< of k: camera, quality, light
 };
 
-/// Camera, quality and light: all of the filter that an automatic k depends on, but the medium and the cutoff.
-std::vector<double> settingsOfRays(vtkSchlierenFilter* self);
+/// Camera, quality and light: all of the settings that an automatic k depends on, but the medium and the cutoff.
+std::vector<double> settingsOfRays(const SchlierenSettings& settings);
 
 /// Keeps an automatic k, found for one image, for later ones, as vtkSchlierenFilter::LockK says; or another number.
 class SensitivityLock

@@ -103,9 +103,9 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
   this->build(middle, end, centres);
 }
 
-int TriangleTree::nearlyNearest(const Point& place) const
+int TriangleTree::nearest(const Point& place) const
 {
-  constexpr double nearly = 0.9; // of the square: distances within 5 % of each other
+  constexpr double tie = 1 + 1e-6; // of the squares
   if (this->Nodes.empty())
   {
     return -1;
@@ -127,13 +127,13 @@ int TriangleTree::nearlyNearest(const Point& place) const
     double squared;
   } stack[64];
   int waiting = 0;
-  double best = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity(), height = 0;
   std::int32_t nearest = -1;
   stack[waiting++] = { 0, squaredDistanceTo(this->Nodes[0]) };
   while (waiting > 0)
   {
     const Waiting next = stack[--waiting];
-    if (nearest >= 0 && next.squared >= nearly * best)
+    if (nearest >= 0 && next.squared > tie * best)
     {
       continue;
     }
@@ -156,11 +156,19 @@ int TriangleTree::nearlyNearest(const Point& place) const
       const std::int32_t triangle = this->Order[static_cast<std::size_t>(i)];
       const double squared =
         squaredDistance(this->Surface, static_cast<std::size_t>(triangle), place);
-      if (squared < best || nearest < 0)
+      if (squared > tie * best)
       {
-        best = squared;
-        nearest = triangle;
+        continue;
       }
+      const auto number = static_cast<std::size_t>(triangle);
+      const double over =
+        std::abs(dot(unit(this->Surface.normal(number)), place - this->Surface.corner(number, 0)));
+      if (nearest < 0 || tie * squared < best || over > height)
+      {
+        nearest = triangle;
+        height = over;
+      }
+      best = std::min(best, squared);
     }
   }
   return nearest;

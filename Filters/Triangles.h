@@ -63,9 +63,9 @@ public:
   template <class Visit>
   void forTrianglesAt(const schlieren::Box& box, const Visit& visit) const;
 
-  /// The triangle that is nearest to a place, or one that is farther away by no more than a twentieth.
-  /// -1: there are none.
-  int nearlyNearest(const Point& place) const;
+  /// The triangle that is nearest to a place; of those that are equally near, as at a common edge, the one whose plane
+  /// is farthest away, which faces the place most. -1: there are none.
+  int nearest(const Point& place) const;
 
   /// Whether a corner x of any triangle has dot(normal, x) > offset.
   bool hasBeyond(const Point& normal, double offset) const;

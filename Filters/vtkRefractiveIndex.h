@@ -27,7 +27,7 @@
  * hidden if all its cells are, and so are all points of a hidden cell that would otherwise vanish.
  *
  * The second input, optional, holds the surfaces of bodies (vtkPolyData or composites of it): points
- * inside closed ones, whichever way these face, and points within half a voxel of open ones are
+ * inside closed ones, whatever the orientation of their faces, and points within half a voxel of open ones are
  * masked. Bodies may overlap, enclose each other and reach out of the data.
  *
  * IndexModel chooses how N is found. An image that already holds a point array `Refractivity` is
@@ -37,7 +37,7 @@
  * The field data hold `SamplingDimensions`, the grid that was used.
  *
  * Mistakes (no such array, empty input, no valid value, ...) end in one error and an empty output. One
- * warning tells of points where the model is outside its range, or fractions add up to more than 1.
+ * warning names points where the model is outside its range, or fractions add up to more than 1.
  *
  * @sa vtkSchlierenFilter
  */
@@ -263,7 +263,7 @@ public:
   ///@{
   /**
    * Wavelength of the light in vacuum, nanometres: for moist air 300 to 1700, for gases chosen by
-   * name any (one warning tells where their constants were not measured). Default: 632.8.
+   * name any (one warning says where their constants were not measured). Default: 632.8.
    */
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
@@ -473,7 +473,7 @@ public:
   /**
    * What the filter does, without a pipeline: fills `output` from `input` and, where not null, `bodies`. Returns what the user
    * should be warned of, mostly nothing. Throws std::runtime_error with a message for the user, and
-   * std::bad_alloc; `output` is then undefined. If AbortExecute is set on the way, it returns early
+   * std::bad_alloc; `output` is then undefined. If AbortExecute is set meanwhile, it returns early
    * with an empty output.
    */
   VTK_WRAPEXCLUDE std::string Convert(
@@ -481,7 +481,7 @@ public:
 
   /**
    * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
-   * the user should be warned of. Throws as Convert() does. CanMakeSource() tells whether the input is for that;
+   * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
    * what else there is is to be made a grid by Convert(): images, and where SamplingDimensions are given. If
    * AbortExecute is set meanwhile, the result is null.
    *
@@ -625,5 +625,55 @@ private:
   bool DoublePrecision = false;
   int NumberOfThreads = 0;
 };
+
+/// A property that is that of `inner`, and a list of them.
+#define vtkForwardPropertyMacro(inner, name, type)                      \
+  virtual void Set##name(type value) { this->inner->Set##name(value); } \
+  virtual type Get##name() { return this->inner->Get##name(); }
+#define vtkForwardListMacro(inner, one, all, type)                    \
+  virtual void Add##one(type value) { this->inner->Add##one(value); } \
+  virtual void Clear##all() { this->inner->Clear##all(); }
+#define vtkForwardVectorMacro(inner, name, type, count)                                \
+  virtual void Set##name(const type values[count]) { this->inner->Set##name(values); } \
+  virtual type* Get##name() VTK_SIZEHINT(count) { return this->inner->Get##name(); }
+
+/// All properties that say what the refractivity is, for a filter that has a vtkRefractiveIndex, its member `inner`.
+#define vtkRefractiveIndexForwardMacro(inner)                                             \
+  vtkForwardPropertyMacro(inner, IndexModel, int);                                        \
+  vtkForwardPropertyMacro(inner, Gas, const char*);                                       \
+  vtkForwardPropertyMacro(inner, GladstoneDaleConstant, double);                          \
+  vtkForwardPropertyMacro(inner, DensityScale, double);                                   \
+  vtkForwardListMacro(inner, MixtureArray, MixtureArrays, const char*);                   \
+  vtkForwardListMacro(inner, MixtureGas, MixtureGases, const char*);                      \
+  vtkForwardListMacro(inner, MixtureConstant, MixtureConstants, double);                  \
+  vtkForwardListMacro(inner, MixtureMolarMass, MixtureMolarMasses, double);               \
+  vtkForwardPropertyMacro(inner, BackgroundGas, const char*);                             \
+  vtkForwardPropertyMacro(inner, BackgroundConstant, double);                             \
+  vtkForwardPropertyMacro(inner, BackgroundMolarMass, double);                            \
+  vtkForwardPropertyMacro(inner, FractionType, int);                                      \
+  vtkForwardPropertyMacro(inner, TemperatureScale, double);                               \
+  vtkForwardPropertyMacro(inner, PressureScale, double);                                  \
+  vtkForwardPropertyMacro(inner, RelativeHumidity, double);                               \
+  vtkForwardPropertyMacro(inner, CO2, double);                                            \
+  vtkForwardListMacro(inner, Field, Fields, const char*);                                 \
+  vtkForwardListMacro(inner, TransferFunction, TransferFunctions, vtkPiecewiseFunction*); \
+  vtkForwardListMacro(inner, FieldRange, FieldRanges, double);                            \
+  vtkForwardPropertyMacro(inner, RefractivityScale, double);                              \
+  vtkForwardPropertyMacro(inner, MaskThreshold, double);                                  \
+  vtkForwardPropertyMacro(inner, MaskedSide, int);                                        \
+  vtkForwardPropertyMacro(inner, Outside, int);                                           \
+  vtkForwardPropertyMacro(inner, OutsideBlocksLight, int);                                \
+  vtkForwardPropertyMacro(inner, Reconstruction, int);                                    \
+  vtkForwardVectorMacro(inner, SamplingDimensions, int, 3);                               \
+  virtual void SetSamplingDimensions(int x, int y, int z)                                 \
+  {                                                                                       \
+    this->inner->SetSamplingDimensions(x, y, z);                                          \
+  }                                                                                       \
+  vtkForwardVectorMacro(inner, SamplingBounds, double, 6);                                \
+  virtual void SetSamplingBounds(                                                         \
+    double xLow, double xHigh, double yLow, double yHigh, double zLow, double zHigh)      \
+  {                                                                                       \
+    this->inner->SetSamplingBounds(xLow, xHigh, yLow, yHigh, zLow, zHigh);                \
+  }
 
 #endif

@@ -9,7 +9,7 @@
 #include "InputDescription.h"
 #include "QualityPresets.h"
 #include "RefractivitySource.h"
-#include "SceneFromFilter.h"
+#include "SceneFromSettings.h"
 #include "SchlierenFilterInternals.h"
 
 #include "vtkCommand.h"
@@ -88,35 +88,19 @@ void tellPlaces(vtkInformationVector* outputs)
 
 //------------------------------------------------------------------------------
 std::vector<double> describeInputs(
-  vtkSchlierenFilter* self, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies)
+  vtkAlgorithm* filter, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies)
 {
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
   std::vector<double> description =
-    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(self, 0));
+    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(filter, 0));
   description.push_back(ranks.GetGatherings()); // of what other ranks have
   if (bodies)
   {
     const std::vector<double> ofBodies =
-      describeInput(bodies, upstreamTime(self, vtkRefractiveIndex::BODIES));
+      describeInput(bodies, upstreamTime(filter, vtkRefractiveIndex::BODIES));
     description.insert(description.end(), ofBodies.begin(), ofBodies.end());
   }
   return description;
-}
-
-//------------------------------------------------------------------------------
-bool seesColor(vtkSchlierenFilter* self)
-{
-  switch (self->GetCutoff())
-  {
-    case vtkSchlierenFilter::COLOR_FILTER:
-      return true;
-    case vtkSchlierenFilter::INTERFEROGRAM:
-      return self->GetWhiteLight();
-    case vtkSchlierenFilter::BACKGROUND_ORIENTED:
-      return self->GetBackgroundPattern() == vtkSchlierenFilter::PICTURE;
-    default:
-      return false;
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -328,7 +312,7 @@ void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
   else if (inside.FieldGradients.empty())
   {
     inside.FieldGradients =
-      fieldGradients(this->Medium, input, inside.Refractivity->Image, threadsFrom(this));
+      fieldGradients(this->Medium, input, inside.Refractivity->Image, threadsFrom(*this));
   }
 }
 
@@ -343,7 +327,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   double spacing[3] = { 1, 1, 1 };
   try
   {
-    // Where the picture lies depends on the input's points: RequestData corrects what is told here
+    // Where the image lies depends on the input's points: RequestData corrects what is told here
     // before the input has been produced.
     const FilterRanks& ranks = this->Inside->Ranks;
     if (vtkDataObject* input = ranks.GetInput(0, vtkDataObject::GetData(inputVector[0])))
@@ -370,7 +354,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
         }
         grid = gridFrom(planned);
       }
-      const schlieren::Frame frame = frameFrom(this, grid);
+      const schlieren::Frame frame = frameFrom(*this, grid);
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
     }
@@ -382,7 +366,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
   outInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
-  const bool isColored = this->ColorByField || seesColor(this);
+  const bool isColored = this->ColorByField || this->HasOwnColor();
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
     isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(
@@ -415,9 +399,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  const auto part = this->GatherLimit == 0 && this->CanUsePieces() ? FilterRanks::Part::Piece
-                                                                   : FilterRanks::Part::All;
-  if (this->Inside->Ranks.Request(this, inputVector, part))
+  const auto part = this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
+  if (this->Inside->Ranks.Request(this, inputVector, part, this->GatherLimit))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
@@ -449,14 +432,29 @@ int vtkSchlierenFilter::RequestData(
   steps.Meet(refractivity::arraysOf(this->Medium));
   if (!isRank0())
   {
-    this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
-    do
+    const auto serve = [&]()
     {
-      steps.GetMeeting().Serve(threadsFrom(this),
+      this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
+      return steps.GetMeeting().Serve(threadsFrom(*this),
         [this](const std::vector<char>& message) { return this->Respond(message); });
-    } while (steps.GoOn());
+    };
+    if (serve())
+    {
+      steps.MeetWithAll(this->GatherLimit);
+      serve();
+    }
+    while (steps.GoOn())
+    {
+      serve();
+    }
     this->Medium->SetPieceData(nullptr);
     return 1;
+  }
+  const double mostCells =
+    this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
+  if (steps.GetMeeting().AreTooFew(mostCells))
+  {
+    steps.MeetWithAll(mostCells);
   }
   const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
 
@@ -491,8 +489,7 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(
-      this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity());
+    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(mostCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
     if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
@@ -505,7 +502,7 @@ int vtkSchlierenFilter::RequestData(
     inside.UnfinishedOf = 0;
     if (!(this->TimeLimit > 0))
     {
-      inside.DropShown(); // there will be a better picture, which wants the memory
+      inside.DropShown(); // there will be a better image, which wants the memory
     }
     bool isMade = goesOn || isExposure || this->UpdateRefractivity(input, bodies);
     if (isMade && !goesOn && !isExposure)

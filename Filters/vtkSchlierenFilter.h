@@ -2,26 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSchlierenFilter
- * @brief   the picture that a schlieren, shadowgraph or interferometry bench takes of a flow
+ * @brief   the image that a schlieren, shadowgraph or interferometry bench takes of a flow
  *
  * Bends light through the refractive index of a flow and produces a 2-D vtkImageData, in the plane
  * z = 0, whose coordinates are those of the view: x = position . u, y = position . v in data units,
- * where u points right and v up. So the picture of the default view lies over the data.
+ * where u points right and v up. So the image of the default view lies over the data.
  *
- * Point arrays of the picture (their vtkDataArray::UNITS_LABEL tells the unit), all but the first two
+ * Point arrays of the image (their vtkDataArray::UNITS_LABEL is the unit), all but the first two
  * and the last two from the rays that start in the pixel:
- * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured picture;
- * - `Color` (3 unsigned chars, active scalars then), where the picture has colours: in sRGB behind a
+ * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured image;
+ * - `Color` (3 unsigned chars, active scalars then), where the image has colours: in sRGB behind a
  *   COLOR_FILTER, in WhiteLight and of a background's PICTURE; else, with ColorByField, the intensity, tinted, as linear bytes:
  *   255 is 1, of a shadowgraph 2;
  * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, against undisturbed light;
  * - `Displacement` (2 floats): sideways, at the plane where light leaves the data, data units;
- * - `BlockedFraction` (float): share of the light that a solid stopped;
+ * - `BlockedFraction` (float): fraction of the light that a solid stopped;
  * - `Background` (float) and `BackgroundDisplacement` (2 floats, data units), with BACKGROUND_ORIENTED
  *   only: the same without the flow, and the place of the pattern that is seen, less that without the flow
- *   (what is seen has moved the other way).
+ *   (what is seen has moved in the opposite direction).
  *
  * Field data: `Device`, `PathModel`, `KScale` (the k used), `UndisturbedLevel` (intensity of light that
  * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
@@ -40,7 +40,7 @@
  *
  * The inputs and the properties that describe the medium are those of vtkRefractiveIndex; an image
  * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
- * until something that it depends on changes: another cutoff, k or knife angle traces nothing,
+ * until something that it depends on changes: another cutoff, k or knife angle needs no re-tracing,
  * another view traces again but keeps the medium.
  *
  * Mistakes end in one error that says what to do, and an empty output.
@@ -51,6 +51,7 @@
 #ifndef vtkSchlierenFilter_h
 #define vtkSchlierenFilter_h
 
+#include "SchlierenSettings.h" // for the values of the properties
 #include "vtkImageAlgorithm.h"
 #include "vtkNew.h"                    // for vtkNew
 #include "vtkRefractiveIndex.h"        // for the properties handed on
@@ -73,12 +74,8 @@ struct Image;
 struct Monitor;
 } // namespace schlieren
 
-/// A property that belongs to the inner vtkRefractiveIndex.
-#define vtkSchlierenMediumMacro(name, type)                              \
-  virtual void Set##name(type value) { this->Medium->Set##name(value); } \
-  virtual type Get##name() { return this->Medium->Get##name(); }
-
-class VTKSCHLIERENFILTERS_EXPORT vtkSchlierenFilter : public vtkImageAlgorithm
+class VTKSCHLIERENFILTERS_EXPORT vtkSchlierenFilter : public vtkImageAlgorithm,
+                                                      private SchlierenSettings
 {
 public:
   static vtkSchlierenFilter* New();
@@ -197,67 +194,11 @@ public:
 
   ///@{
   /**
-   * The medium: see vtkRefractiveIndex. The arrays are chosen with SetInputArrayToProcess in the same
-   * way (vtkRefractiveIndex::InputArrays).
+   * The medium: see vtkRefractiveIndex. The arrays are chosen with SetInputArrayToProcess as there
+   * (vtkRefractiveIndex::InputArrays).
    */
-  vtkSchlierenMediumMacro(IndexModel, int);
-  vtkSchlierenMediumMacro(GladstoneDaleConstant, double);
-  vtkSchlierenMediumMacro(Gas, const char*);
+  vtkRefractiveIndexForwardMacro(Medium);
   virtual double GetGladstoneDaleConstantUsed();
-  vtkSchlierenMediumMacro(DensityScale, double);
-  virtual void AddMixtureArray(const char* name) { this->Medium->AddMixtureArray(name); }
-  virtual void ClearMixtureArrays() { this->Medium->ClearMixtureArrays(); }
-  virtual void AddMixtureGas(const char* name) { this->Medium->AddMixtureGas(name); }
-  virtual void ClearMixtureGases() { this->Medium->ClearMixtureGases(); }
-  virtual void AddMixtureConstant(double value) { this->Medium->AddMixtureConstant(value); }
-  virtual void ClearMixtureConstants() { this->Medium->ClearMixtureConstants(); }
-  virtual void AddMixtureMolarMass(double value) { this->Medium->AddMixtureMolarMass(value); }
-  virtual void ClearMixtureMolarMasses() { this->Medium->ClearMixtureMolarMasses(); }
-  vtkSchlierenMediumMacro(BackgroundGas, const char*);
-  vtkSchlierenMediumMacro(BackgroundConstant, double);
-  vtkSchlierenMediumMacro(BackgroundMolarMass, double);
-  vtkSchlierenMediumMacro(FractionType, int);
-  vtkSchlierenMediumMacro(TemperatureScale, double);
-  vtkSchlierenMediumMacro(PressureScale, double);
-  vtkSchlierenMediumMacro(RelativeHumidity, double);
-  vtkSchlierenMediumMacro(CO2, double);
-  virtual void AddField(const char* name) { this->Medium->AddField(name); }
-  virtual void ClearFields() { this->Medium->ClearFields(); }
-  virtual void AddTransferFunction(vtkPiecewiseFunction* function)
-  {
-    this->Medium->AddTransferFunction(function);
-  }
-  virtual void ClearTransferFunctions() { this->Medium->ClearTransferFunctions(); }
-  virtual void AddFieldRange(double value) { this->Medium->AddFieldRange(value); }
-  virtual void ClearFieldRanges() { this->Medium->ClearFieldRanges(); }
-  vtkSchlierenMediumMacro(RefractivityScale, double);
-  vtkSchlierenMediumMacro(MaskThreshold, double);
-  vtkSchlierenMediumMacro(MaskedSide, int);
-  vtkSchlierenMediumMacro(Outside, int);
-  vtkSchlierenMediumMacro(Reconstruction, int);
-  vtkSchlierenMediumMacro(OutsideBlocksLight, int);
-  virtual void SetSamplingDimensions(int x, int y, int z)
-  {
-    this->Medium->SetSamplingDimensions(x, y, z);
-  }
-  virtual void SetSamplingDimensions(const int dimensions[3])
-  {
-    this->Medium->SetSamplingDimensions(dimensions);
-  }
-  virtual int* GetSamplingDimensions() VTK_SIZEHINT(3)
-  {
-    return this->Medium->GetSamplingDimensions();
-  }
-  virtual void SetSamplingBounds(
-    double xLow, double xHigh, double yLow, double yHigh, double zLow, double zHigh)
-  {
-    this->Medium->SetSamplingBounds(xLow, xHigh, yLow, yHigh, zLow, zHigh);
-  }
-  virtual void SetSamplingBounds(const double bounds[6])
-  {
-    this->Medium->SetSamplingBounds(bounds);
-  }
-  virtual double* GetSamplingBounds() VTK_SIZEHINT(6) { return this->Medium->GetSamplingBounds(); }
   const char* GetGrid() const;
   ///@}
 
@@ -320,7 +261,7 @@ public:
 
   ///@{
   /**
-   * What is up in the picture; not parallel to ViewDirection. Default: (0, 1, 0).
+   * What is up in the image; not parallel to ViewDirection. Default: (0, 1, 0).
    */
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
@@ -328,8 +269,8 @@ public:
 
   ///@{
   /**
-   * The point at the centre of the picture, data units. By default, and after ClearFocalPoint(), the
-   * data's centre; what GetFocalPoint() tells is then of no effect.
+   * The point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
+   * data's centre; what GetFocalPoint() returns is then of no effect.
    */
   virtual void SetFocalPoint(double x, double y, double z);
   virtual void SetFocalPoint(const double point[3])
@@ -343,7 +284,7 @@ public:
 
   ///@{
   /**
-   * Half the height of the picture, data units; 0 (the default) fits the data.
+   * Half the height of the image, data units; 0 (the default) fits the data.
    */
   vtkSetMacro(ParallelScale, double);
   vtkGetMacro(ParallelScale, double);
@@ -362,15 +303,30 @@ public:
    * What turns deflections into light and dark, one of Cutoffs. With the deflection eps, its part e along
    * KnifeEdgeAngle and the sensitivity k, the intensity is, limited to 0 ... 1,
    * - KNIFE_EDGE (the default): 1/2 - offset + k e;
-   * - SHADOWGRAPH: 1, so that only where light lands on a screen makes the picture;
+   * - SHADOWGRAPH: 1, so that only where light lands on a screen makes the image;
    * - CIRCULAR: 1 - k |eps|, a dark field's inverse; CIRCULAR_COMPLEMENT: k |eps|;
    * - GRADED_FILTER: that of GradedFilter at 1/2 - offset + k e;
    * - COLOR_FILTER: the colour at k eps of ColorFilterImage, or of a wheel;
    * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
    * - BACKGROUND_ORIENTED: what a camera sees of a pattern behind the flow.
    */
-  vtkSetClampMacro(Cutoff, int, KNIFE_EDGE, BACKGROUND_ORIENTED);
+  virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);
+  ///@}
+
+  ///@{
+  /**
+   * What one of Cutoffs has: a sensitivity k; a straight edge with an angle, an offset and another side; fringes; a
+   * screen behind the flow (full light is 2 there, else 1), or a pattern; and, with these settings, colours of its own.
+   * False for other numbers.
+   */
+  static bool CutoffHasK(int cutoff);
+  static bool CutoffHasEdge(int cutoff);
+  static bool CutoffHasFringes(int cutoff);
+  static bool CutoffHasScreen(int cutoff);
+  static bool CutoffHasBackground(int cutoff);
+  static bool CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern);
+  bool HasOwnColor() const;
   ///@}
 
   ///@{
@@ -384,7 +340,7 @@ public:
 
   ///@{
   /**
-   * How far the knife edge or the graded filter is in from the middle of the source's image, as a share
+   * How far the knife edge or the graded filter is in from the middle of the source's image, as a fraction
    * of its width; undisturbed light loses as much. Default: 0. CutoffPosition counts with KFromOptics.
    */
   vtkSetMacro(CutoffOffset, double);
@@ -486,7 +442,7 @@ public:
   ///@{
   /**
    * What FocalLength, SourceWidth and CutoffPosition stand for, whether KFromOptics is on or not: k and the
-   * offset as a share of the source's image. NaN where there is none. And the k of the last picture; 0
+   * offset as a fraction of the source's image. NaN where there is none. And the k of the last image; 0
    * before the first, after a failed one and where there is no cutoff.
    */
   double GetKScaleOfOptics();
@@ -511,10 +467,10 @@ public:
 
   ///@{
   /**
-   * The picture of the COLOR_FILTER, in sRGB; it covers k times the deflection from -1 to 1 both ways. Either
+   * The image of the COLOR_FILTER, in sRGB; it covers k times the deflection from -1 to 1 along both axes. Either
    * the name of a PNG file, or the file's content itself as text: "data:image/png;base64,..." (RFC 2397).
    * Grey, 16-bit and transparent (shown on white)
-   * pictures will do. Empty (the default): a wheel whose hue is the direction of the deflection, from red
+   * images will do. Empty (the default): a wheel whose hue is the direction of the deflection, from red
    * along u, and whose saturation is its size, full at k |eps| = 1.
    */
   vtkSetStdStringFromCharMacro(ColorFilterImage);
@@ -525,8 +481,8 @@ public:
   /**
    * Fringes of an interferogram, one of FringeModes. INFINITE_FRINGES (the default): undisturbed light is
    * bright everywhere. FINITE_FRINGES: the reference beam is tilted, which lays straight fringes over the
-   * picture: FringeSpacing apart (data units on the film, positive; 0, the default: a tenth of the
-   * picture's height), one after the other in the direction of FringeAngle (degrees; 0, the default, is u,
+   * image: FringeSpacing apart (data units on the film, positive; 0, the default: a tenth of the
+   * image's height), one after the other in the direction of FringeAngle (degrees; 0, the default, is u,
    * 90 is v). Where the beams cross at a BeamAngle (degrees, above 0 to 180; 0, the default: not given),
    * the spacing is wavelength / (2 sin(BeamAngle / 2)).
    */
@@ -611,8 +567,8 @@ public:
 
   ///@{
   /**
-   * Whether the picture is tinted by the colours of the Fields, with any IndexModel (after Brownlee et
-   * al. 2011, sec. 8). Along its way, light gathers g_i = integral |grad f_i| ds of each field f_i (its
+   * Whether the image is tinted by the colours of the Fields, with any IndexModel (after Brownlee et
+   * al. 2011, sec. 8). Along its path, light gathers g_i = integral |grad f_i| ds of each field f_i (its
    * place in its range, 0 to 1; with TRANSFER_FUNCTIONS what its function makes of that). Its colour is
    * 1 + s (sum g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is
    * G over its 99th percentile in the image, at most 1. In meshes, voxels are then as fine as the fields need, too:
@@ -626,7 +582,7 @@ public:
   ///@{
   /**
    * The fields' colours: red, green and blue, 0 to 1, of each. Empty (the default): hues that are
-   * easily told apart.
+   * easily distinguished.
    */
   virtual void AddFieldColor(double value);
   virtual void ClearFieldColors();
@@ -682,8 +638,8 @@ public:
 
   ///@{
   /**
-   * Rays cross a cube of cells in one step where n - 1 varies in it by no more than this share of its
-   * range in the whole medium. 0 (skip nothing) to 1. What that may change is told by SkippingBound.
+   * Rays cross a cube of cells in one step where n - 1 varies in it by no more than this fraction of its
+   * range in the whole medium. 0 (skip nothing) to 1. What that may change: SkippingBound.
    */
   vtkSetMacro(HomogeneityTolerance, double);
   vtkGetMacro(HomogeneityTolerance, double);
@@ -692,7 +648,7 @@ public:
   ///@{
   /**
    * What lies between the samples, one of Interpolations: QUADRATIC and CUBIC B-splines have a
-   * continuous gradient; LINEAR is faster and prints the grid into the picture; CENTRAL takes central
+   * continuous gradient; LINEAR is faster and prints the grid into the image; CENTRAL takes central
    * differences for the gradient (Brownlee et al. 2011).
    */
   vtkSetClampMacro(Interpolation, int, QUADRATIC, CUBIC);
@@ -709,8 +665,8 @@ public:
 
   ///@{
   /**
-   * How rays become a picture, one of FilmEstimators: SHEET draws the light between neighbouring rays, PHOTON
-   * shares each ray's light among the four pixels around it.
+   * How rays become an image, one of FilmEstimators: SHEET draws the light between neighbouring rays, PHOTON
+   * divides each ray's light among the four pixels around it.
    */
   vtkSetClampMacro(FilmEstimator, int, SHEET, PHOTON);
   vtkGetMacro(FilmEstimator, int);
@@ -727,7 +683,7 @@ public:
   ///@{
   /**
    * Of ADAPTIVE: the error allowed in a step, relative to what the steepest gradient of the medium bends
-   * over the same way. 1e-12 to 1.
+   * over the same path. 1e-12 to 1.
    */
   vtkSetMacro(AdaptiveTolerance, double);
   vtkGetMacro(AdaptiveTolerance, double);
@@ -780,7 +736,7 @@ public:
 
   ///@{
   /**
-   * What takes the grain out of the picture, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN whose
+   * What takes the grain out of the image, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN whose
    * standard deviation is half of NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or
    * a CONE that shrinks as samples come in (Jensen 1996): it encloses as many as the radius does of one
    * per pixel.
@@ -801,7 +757,7 @@ public:
 
   ///@{
   /**
-   * Memory, MiB, in which rays are held so that another cutoff traces nothing. Default: 1024. The picture
+   * Memory, MiB, in which rays are cached so that another cutoff needs no re-tracing. Default: 1024. The image
    * does not depend on it.
    */
   vtkSetClampMacro(MemoryBudget, int, 0, VTK_INT_MAX);
@@ -810,7 +766,7 @@ public:
 
   ///@{
   /**
-   * Chooses the places of the rays within the pixels; the same seed gives the same picture.
+   * Chooses the places of the rays within the pixels; the same seed gives the same image.
    * 0 to 2147483647. Default: 1.
    */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
@@ -836,10 +792,11 @@ public:
 
   ///@{
   /**
-   * Where ParaView runs as several processes, the number of cells up to which a mesh that is spread over them is sent to
-   * rank 0, which makes the medium alone; then the image is the same to the last bit, however many processes there are.
-   * Larger ones stay where they are: each rank has its cells, with copies of others' around them, and samples them for
-   * the medium. 0: that, and each rank requests its own piece of meshes whose reader can divide them. Data of other
+   * Where ParaView runs as several processes, the number of cells up to which rank 0 has all of a mesh and makes the
+   * medium alone; then the image is the same to the last bit, however many processes there are. Each rank requests a
+   * piece of meshes; where these have no more cells in all, rank 0 requests all, and where they are spread over the ranks
+   * even so, they are sent to it. Larger ones stay where they are: each rank has its cells, with copies of others'
+   * around them, and samples them for the medium. 0: so do all meshes. Of data of other
    * types, two-dimensional data, and all where ColorByField, ExposureTime, SamplingDimensions or the model
    * TRANSFER_FUNCTIONS are in use are always sent. The default is 10^7.
    */
@@ -863,7 +820,7 @@ public:
 
   ///@{
   /**
-   * How many pixels along each axis one of a hurried picture stands for: with 2, a picture that lies at the
+   * How many pixels along each axis one of a preview stands for: with 2, an image that lies at the
    * same place has half as many columns and rows, and one ray for each, whatever SamplesPerPixel is, with
    * steps no shorter than those of INTERACTIVE. For a window to show while the view is being turned.
    * Default: 1.
@@ -875,13 +832,13 @@ public:
   ///@{
   /**
    * Seconds that an update may take for rays and light, about; 0 (the default): no limit. When they are over,
-   * the output is the picture of the samples that are there, or, before the first of each pixel is, the
-   * picture from before, stretched where it was of another size (of a new filter: a hurried one). Refine()
-   * then takes another slice and, if that has completed samples, lets the next update show them; where nothing but
+   * the output is the image of the samples that are there, or, before the first of each pixel is, the
+   * image from before, stretched where it was of another size (of a new filter: a preview). Refine()
+   * then works for as long again and, if that has completed samples, lets the next update show them; where nothing but
    * properties of this filter has changed since, it takes the first one, too. Without a limit it lets the next
-   * update finish the picture. GetFinished() tells whether there is anything left.
-   * Each makes some progress, however short the limit, and the finished picture is the one made without a
-   * limit, to the last bit. Another limit is no reason to make a picture again. What the medium takes does not
+   * update finish the image. GetFinished() says whether there is anything left.
+   * Each makes some progress, however short the limit, and the finished image is the one made without a
+   * limit, to the last bit. Another limit is no reason to make an image again. What the medium takes does not
    * count, and progress is not reported.
    */
   void SetTimeLimit(double seconds) { this->TimeLimit = seconds; }
@@ -892,9 +849,9 @@ public:
 
   ///@{
   /**
-   * Leaves an unfinished image as it is: it counts as finished then, until Refine() lets the next update go on
-   * with it, or something else changes the image. So is an update with a TimeLimit left that is aborted while
-   * the refractivity is found; the output is empty then. GetStopped() tells whether that is so.
+   * Leaves an unfinished image as it is: it counts as finished then, until Refine() lets the next update resume
+   * it, or something else changes the image. So is an update with a TimeLimit left that is aborted while
+   * the refractivity is found; the output is empty then. GetStopped() says whether that is so.
    */
   void Stop();
   bool GetStopped();
@@ -906,13 +863,13 @@ public:
   int GetPercentDone();
 
   /**
-   * How many different pictures this filter has made, with the one that Refine() has made for the next update:
-   * unchanged where a slice had nothing new to show.
+   * How many different images this filter has made, with the one that Refine() has made for the next update:
+   * unchanged where such a step had nothing new to show.
    */
   vtkTypeInt64 GetPictureCount() const;
 
   /**
-   * The last picture in words, in one line: samples per pixel; rays per second, when some were traced last;
+   * The last image in words, in one line: samples per pixel; rays per second, when some were traced last;
    * device; whether rays bend, and where they do not, by how many pixels refracted ones may leave the data beside
    * them (DisplacementBound), if that bound says anything. Empty where there is none.
    */
@@ -920,13 +877,16 @@ public:
 
   ///@{
   /**
-   * The name of the render view whose camera ParaView's window makes this picture's view follow, or empty
+   * The name of the render view whose camera ParaView's window makes this image's view follow, or empty
    * (the default). The filter itself does nothing with it; the window sets ViewDirection, ViewUp,
    * FocalPoint and ParallelScale.
    */
   void SetFollowedView(const char* name) { this->FollowedView = name ? name : ""; }
   const char* GetFollowedView() const { return this->FollowedView.c_str(); }
   ///@}
+
+  /// All of these properties that are numbers and texts.
+  VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
   vtkMTimeType GetMTime() override;
 
@@ -965,17 +925,17 @@ private:
   /// The newest time of all properties, Refine() apart, and of those and everything upstream.
   vtkMTimeType GetTimeOfProperties();
   vtkMTimeType GetTimeOfPicture();
-  /// Whether an update has only to go on with the picture that is not finished.
+  /// Whether an update has only to resume the image that is not finished.
   bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
-  /// Answers what rank 0 asks about this rank's piece of the data; empty: it is for somebody else.
+  /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
   std::vector<char> Respond(const std::vector<char>& message);
   /// Whether data that several ranks have may stay where they are.
   bool CanUsePieces();
-  /// Takes a slice of a picture besides updates. Whether an update has something to do now.
+  /// Works on an image between updates. Whether an update has something to do now.
   bool WorkOn();
   /// Refine() there. Whether the next update has more to show.
   bool RefineOnRank0();
-  /// Whether a new picture can be begun besides updates, `now` being GetTimeOfPicture().
+  /// Whether a new image can be begun between updates, `now` being GetTimeOfPicture().
   bool CanBegin(vtkMTimeType now);
   /// What is kept from an earlier image: the automatic k, and the refractivity of the surroundings. Unset where there is
   /// none, or none counts.
@@ -989,89 +949,21 @@ private:
   void KeepFound(const schlieren::Image& image);
   /// Reports progress of what is being made, or of an instant of it.
   void Progress(double fraction);
-  /// Makes the picture from the refractivity, or goes on with it. False if aborted.
+  /// Makes the image from the refractivity, or resumes it. False if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
-  /// Hands out what there is of a picture, where there is anything new. False if aborted.
+  /// Hands out what there is of an image, where there is anything new. False if aborted.
   bool Show(schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram);
   void ForgetPicture();
 
   vtkNew<vtkRefractiveIndex> Medium;
   std::unique_ptr<Internals> Inside;
 
-  double LengthScale = 1;
-  bool AutoAmbientRefractivity = true;
-  double AmbientRefractivity = 0;
-  bool LockAmbient = true;
-  double Wavelength = 632.8;
-  double ViewDirection[3] = { 0, 0, -1 };
-  double ViewUp[3] = { 0, 1, 0 };
-  double FocalPoint[3] = { 0, 0, 0 };
-  bool HasFocalPoint = false;
-  double ParallelScale = 0;
-  int ImageSize[2] = { 512, 512 };
-  int Cutoff = KNIFE_EDGE;
-  double KnifeEdgeAngle = 0;
-  double CutoffOffset = 0;
-  bool InvertCutoff = false;
-  bool AutoKScale = true;
-  double KScale = 1000;
-  int LockK = LOCK_OVER_TIME;
-  bool KFromOptics = false;
-  double FocalLength = 1;
-  double SourceWidth = 1;
-  double SourceLength = 10;
-  double CutoffPosition = 0;
+  vtkSmartPointer<vtkPiecewiseFunction> GradedFilter;
   double KScaleUsed = 0;
   std::string Sensitivity;
-  vtkSmartPointer<vtkPiecewiseFunction> GradedFilter;
-  std::string ColorFilterImage;
-  int FringeMode = INFINITE_FRINGES;
-  double FringeSpacing = 0;
-  double FringeAngle = 0;
-  double BeamAngle = 0;
-  bool WhiteLight = false;
-  double ScreenDistance = -1;
-  double FocusOffset = 0;
-  int LightSource = COLLIMATED;
-  double SourceDistance = 0;
-  int SourceShape = POINT;
-  int BackgroundPattern = DOTS;
-  double BackgroundDistance = -1;
-  double BackgroundPeriod = 0;
-  double BackgroundAngle = 0;
-  std::string BackgroundImage;
-  bool ColorByField = false;
-  std::vector<double> FieldColors;
-  // The constructor sets them with SetQuality.
-  int PathModel = 0;
-  int Integrator = 0;
-  double StepSize = 0;
-  double HomogeneityTolerance = 0;
-  int Interpolation = 0;
-  int SamplesPerPixel = 0;
-  int FilmEstimator = 0;
-  int Precision = 0;
-  double AdaptiveTolerance = 0;
-  double MediumTolerance = 0;
-  double PathTolerance = 0;
-  double ExposureTime = 0;
-  int ExposureSamples = 8;
-  int NoiseFilter = NO_FILTER;
-  double NoiseFilterRadius = 2;
-  int HistogramSize = 256;
-  int MemoryBudget = 1024;
-  int MediumMemory = 1024;
-  int Seed = 1;
-  int Device = AUTO;
-  int NumberOfThreads = 0;
-  int GatherLimit = 10000000;
-  int PreviewReduction = 1;
-  double TimeLimit = 0;
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
   std::string FollowedView;
 };
-
-#undef vtkSchlierenMediumMacro
 
 #endif

@@ -17,7 +17,7 @@ void GrowingPicture::begin(const Exposure& exposure, std::optional<Tint> tint)
 {
   exposure_ = exposure;
   films_ = filmsOf(scene_, exposure.cutoff, std::move(tint), exposure.mostRays);
-  if (scene_.cutoff == Cutoff::Background)
+  if (isOfCamera(scene_.cutoff))
   {
     undisturbed_.emplace(scene_, exposure_);
   }

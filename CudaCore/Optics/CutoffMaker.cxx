@@ -27,25 +27,6 @@ std::array<float, n> linearValues()
 
 } // namespace
 
-double fullScaleOf(Cutoff cutoff)
-{
-  switch (cutoff)
-  {
-    case Cutoff::KnifeEdge:
-    case Cutoff::GradedFilter:
-      return 0.5;
-    case Cutoff::Circular:
-    case Cutoff::CircularComplement:
-    case Cutoff::ColorFilter:
-      return 1;
-    case Cutoff::Shadowgraph:
-    case Cutoff::Interferogram:
-    case Cutoff::Background:
-      break;
-  }
-  return 0;
-}
-
 Cutoffs CutoffMaker::patternOf(const Scene& scene, double pixelSize)
 {
   constexpr double defaultPeriod = 8; // pixels

@@ -11,10 +11,6 @@
 namespace schlieren
 {
 
-/// The k |eps| that automatic k makes of the strong deflections of a picture: 1/2 where light can change
-/// both ways from the middle, else 1; 0 where there is no k.
-double fullScaleOf(Cutoff cutoff);
-
 /// Makes cutoffs, and owns the tables that they look up.
 class CutoffMaker
 {

@@ -143,13 +143,13 @@ Frame frameOf(const Grid& grid, const View& view)
   if (!(length(right) > parallelSine))
   {
     throw Error(
-      "ViewUp is zero or parallel to ViewDirection, so the picture has no upward direction. "
+      "ViewUp is zero or parallel to ViewDirection, so the image has no upward direction. "
       "Set ViewUp to another direction, for example (0, 1, 0) or (1, 0, 0).");
   }
   if (view.parallelScale < 0)
   {
     throw Error("ParallelScale is " + std::to_string(view.parallelScale) +
-      ", but it is half the height of the picture. Set it to a positive length, or to 0 to fit the "
+      ", but it is half the height of the image. Set it to a positive length, or to 0 to fit the "
       "data.");
   }
 
@@ -167,7 +167,7 @@ Frame frameOf(const Grid& grid, const View& view)
   frame.pixelSize = 2 * halfHeight / view.height;
   if (!(frame.pixelSize > 0) || !std::isfinite(frame.pixelSize))
   {
-    throw Error("The picture has no extent: the data spans no area seen along ViewDirection. Set "
+    throw Error("The image has no extent: the data spans no area seen along ViewDirection. Set "
                 "ParallelScale, or look along another direction.");
   }
 

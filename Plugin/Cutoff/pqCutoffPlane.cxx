@@ -138,7 +138,7 @@ pqCutoffPlane::Handle pqCutoffPlane::handleAt(const pqCutoff& cutoff, const QPoi
   }
   const QPointF deflection = this->deflectionAt(pixel);
   const double near = reach * this->deflectionPerPixel();
-  if (!cutoff.hasEdge())
+  if (!cutoff.HasEdge)
   {
     return std::abs(sizeOf(cutoff, deflection) - 1 / cutoff.K) < near ? SizeHandle : NoHandle;
   }

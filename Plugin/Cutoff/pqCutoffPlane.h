@@ -21,6 +21,7 @@ struct pqCutoff
   };
 
   int Kind = NoCutoff;
+  bool HasEdge = false; ///< a straight one, else it is a circle or a square
   double K = 0;
   double Angle = 0;      ///< degrees
   double Offset = 0;     ///< of the edge, as a share of the source's image
@@ -30,8 +31,6 @@ struct pqCutoff
   bool EdgeIsFastened =
     false; ///< it stays where it is while k changes: Offset is in proportion to k
   std::function<double(double)> Graded; ///< transmission, 0 to 1, over the filter's width, 0 to 1
-
-  bool hasEdge() const { return this->Kind == KnifeEdge || this->Kind == GradedFilter; }
 
   /// The direction whose deflection the edge measures.
   QPointF normal() const;

@@ -126,7 +126,7 @@ void pqCutoffView::fit()
     double range = marginOfLight * this->Light.extent();
     if (this->Cutoff.Kind != pqCutoff::NoCutoff && this->Cutoff.K > 0)
     {
-      const double scale = this->Cutoff.hasEdge()
+      const double scale = this->Cutoff.HasEdge
         ? std::max(std::abs(this->Cutoff.deflectionOf(0)), std::abs(this->Cutoff.deflectionOf(1)))
         : 1 / this->Cutoff.K;
       range = std::max(range, marginOfScale * scale);
@@ -234,7 +234,7 @@ void pqCutoffView::drawLines(QPainter& painter) const
   const auto setPen = [&](pqCutoffPlane::Handle handle, Qt::PenStyle style)
   { painter.setPen(QPen(lineColor, handle == lit ? 3 : 1.6, style)); };
   painter.setBrush(Qt::NoBrush);
-  if (!this->Cutoff.hasEdge())
+  if (!this->Cutoff.HasEdge)
   {
     const double size = 1 / this->Cutoff.K / plane.deflectionPerPixel();
     const QRectF box(centre - QPointF(size, size), QSizeF(2 * size, 2 * size));
@@ -433,7 +433,7 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   const bool moves = right || event->key() == Qt::Key_Left;
   const bool scales = up || event->key() == Qt::Key_Down;
   if (!(this->Cutoff.K > 0) || this->Cutoff.Kind == pqCutoff::NoCutoff ||
-    !(scales || (moves && this->Cutoff.hasEdge())) || (this->isGrabbed() && !this->ByKeys))
+    !(scales || (moves && this->Cutoff.HasEdge)) || (this->isGrabbed() && !this->ByKeys))
   {
     QWidget::keyPressEvent(event);
     return;
@@ -441,7 +441,7 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   const bool turns = moves && event->modifiers() & Qt::ShiftModifier;
   const Plane::Handle handle = turns ? Plane::TurnHandle
     : moves                          ? Plane::EdgeLine
-    : this->Cutoff.hasEdge()         ? Plane::BrightLine
+    : this->Cutoff.HasEdge           ? Plane::BrightLine
                                      : Plane::SizeHandle;
   if (this->ByKeys && this->Grabbed != handle)
   {

@@ -50,18 +50,13 @@ vtkPiecewiseFunction* gradedFilterOf(vtkSMProxy* proxy)
 pqCutoff cutoffOf(vtkSMProxy* proxy)
 {
   pqCutoff cutoff;
-  switch (const int kind = vtkSMPropertyHelper(proxy, "Cutoff").GetAsInt())
+  const int kind = vtkSMPropertyHelper(proxy, "Cutoff").GetAsInt();
+  if (!Filter::CutoffHasK(kind))
   {
-    case pqCutoff::KnifeEdge:
-    case pqCutoff::Circular:
-    case pqCutoff::CircularComplement:
-    case pqCutoff::GradedFilter:
-    case pqCutoff::ColorFilter:
-      cutoff.Kind = kind;
-      break;
-    default:
-      return cutoff;
+    return cutoff;
   }
+  cutoff.Kind = kind;
+  cutoff.HasEdge = Filter::CutoffHasEdge(kind);
   cutoff.Angle = valueOf(proxy, "KnifeEdgeAngle");
   cutoff.Inverted = valueOf(proxy, "InvertCutoff") != 0;
   cutoff.IsOfDisc = valueOf(proxy, "SourceShape") == Filter::DISC;
@@ -159,7 +154,7 @@ void pqCutoffWidget::showNumbers()
   QStringList numbers;
   if (this->View->isEnabled() && cutoff.Kind != pqCutoff::NoCutoff)
   {
-    if (cutoff.hasEdge())
+    if (cutoff.HasEdge)
     {
       numbers << tr("offset %1").arg(cutoff.Offset, 0, 'g', 3)
               << QString::fromUtf8("%1°").arg(cutoff.Angle);

@@ -13,6 +13,7 @@
 #include "vtkPVSession.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSession.h"
+#include "vtkWeakPointer.h"
 
 vtkStandardNewMacro(vtkSMSchlierenRepresentationProxy);
 
@@ -20,16 +21,7 @@ vtkStandardNewMacro(vtkSMSchlierenRepresentationProxy);
 vtkSMSchlierenRepresentationProxy::vtkSMSchlierenRepresentationProxy() = default;
 
 //------------------------------------------------------------------------------
-vtkSMSchlierenRepresentationProxy::~vtkSMSchlierenRepresentationProxy()
-{
-  // It may outlive this.
-  if (auto* here = this->ObjectsCreated && this->Session
-      ? vtkSchlierenRepresentation::SafeDownCast(this->GetClientSideObject())
-      : nullptr)
-  {
-    here->SetRequest(nullptr);
-  }
-}
+vtkSMSchlierenRepresentationProxy::~vtkSMSchlierenRepresentationProxy() = default;
 
 //------------------------------------------------------------------------------
 void vtkSMSchlierenRepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)
@@ -52,17 +44,20 @@ void vtkSMSchlierenRepresentationProxy::CreateVTKObjects()
   {
     return;
   }
-  here->SetRequest(
-    [this](const double request[13])
-    {
-      vtkClientServerStream stream;
-      stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "TraceForClient"
-             << vtkClientServerStream::InsertArray(request, 13) << vtkClientServerStream::End;
-      this->ExecuteStream(stream, false, vtkPVSession::DATA_SERVER);
-      vtkNew<vtkSchlierenImageInformation> information;
-      this->GatherInformation(information, vtkPVSession::DATA_SERVER);
-      return vtkSmartPointer<vtkImageData>(information->GetImage());
-    });
+  here->SetRequest([self = vtkWeakPointer<vtkSMSchlierenRepresentationProxy>(this)](
+                     const double request[13]) { return self ? self->Fetch(request) : nullptr; });
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkImageData> vtkSMSchlierenRepresentationProxy::Fetch(const double request[13])
+{
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "TraceForClient"
+         << vtkClientServerStream::InsertArray(request, 13) << vtkClientServerStream::End;
+  this->ExecuteStream(stream, false, vtkPVSession::DATA_SERVER);
+  vtkNew<vtkSchlierenImageInformation> information;
+  this->GatherInformation(information, vtkPVSession::DATA_SERVER);
+  return information->GetImage();
 }
 
 //------------------------------------------------------------------------------

@@ -12,6 +12,9 @@
 
 #include "vtkSMRepresentationProxy.h"
 #include "vtkSchlierenRepresentationModule.h" // for export macro
+#include "vtkSmartPointer.h"                  // for Fetch
+
+class vtkImageData;
 
 class VTKSCHLIERENREPRESENTATION_EXPORT vtkSMSchlierenRepresentationProxy
   : public vtkSMRepresentationProxy
@@ -31,6 +34,9 @@ protected:
 private:
   vtkSMSchlierenRepresentationProxy(const vtkSMSchlierenRepresentationProxy&) = delete;
   void operator=(const vtkSMSchlierenRepresentationProxy&) = delete;
+
+  /// The image for a request; see vtkSchlierenRepresentation::TraceForClient().
+  vtkSmartPointer<vtkImageData> Fetch(const double request[13]);
 };
 
 #endif

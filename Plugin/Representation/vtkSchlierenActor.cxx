@@ -460,7 +460,7 @@ void vtkSchlierenActor::UpdatePixels()
     }
     else
     {
-      const bool isShadow = this->Bench->GetCutoff() == vtkSchlierenFilter::SHADOWGRAPH;
+      const bool isShadow = vtkSchlierenFilter::CutoffHasScreen(this->Bench->GetCutoff());
       this->Pixels->GetPointData()->SetScalars(
         greyOf(arrays->GetArray("Intensity"), isShadow ? 2 : 1));
     }

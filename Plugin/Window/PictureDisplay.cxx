@@ -23,16 +23,14 @@ int valueOf(vtkSMProxy* proxy, const char* name)
 
 bool hasColors(vtkSMProxy* filter)
 {
-  const int cutoff = valueOf(filter, "Cutoff");
-  return cutoff == Filter::COLOR_FILTER || valueOf(filter, "ColorByField") != 0 ||
-    (cutoff == Filter::INTERFEROGRAM && valueOf(filter, "WhiteLight") != 0) ||
-    (cutoff == Filter::BACKGROUND_ORIENTED &&
-      valueOf(filter, "BackgroundPattern") == Filter::PICTURE);
+  return valueOf(filter, "ColorByField") != 0 ||
+    Filter::CutoffHasColor(valueOf(filter, "Cutoff"), valueOf(filter, "WhiteLight") != 0,
+      valueOf(filter, "BackgroundPattern"));
 }
 
 double white(vtkSMProxy* filter)
 {
-  return valueOf(filter, "Cutoff") == Filter::SHADOWGRAPH ? 2 : 1;
+  return Filter::CutoffHasScreen(valueOf(filter, "Cutoff")) ? 2 : 1;
 }
 
 std::string shownArray(vtkSMProxy* representation)

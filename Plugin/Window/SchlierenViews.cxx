@@ -409,9 +409,7 @@ private:
       [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::REFRACTED); });
     vtkSMProxy* filter = bent->getProxy();
     const int cutoff = vtkSMPropertyHelper(filter, "Cutoff").GetAsInt();
-    const bool hasK = cutoff != Filter::SHADOWGRAPH && cutoff != Filter::INTERFEROGRAM &&
-      cutoff != Filter::BACKGROUND_ORIENTED;
-    if (hasK && vtkSMPropertyHelper(filter, "KFromOptics").GetAsInt() == 0 &&
+    if (Filter::CutoffHasK(cutoff) && vtkSMPropertyHelper(filter, "KFromOptics").GetAsInt() == 0 &&
       vtkSMPropertyHelper(filter, "AutoKScale").GetAsInt() != 0)
     {
       vtkSMSourceProxy::SafeDownCast(filter)->UpdatePipeline();

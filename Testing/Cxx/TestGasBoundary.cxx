@@ -501,6 +501,15 @@ Data withScalars(vtkDataSet* data)
   return data;
 }
 
+Data bluntFin()
+{
+  vtkNew<vtkMultiBlockPLOT3DReader> reader;
+  reader->SetXYZFileName(shared("bluntfin_plot3d/bluntfinxyz.bin").c_str());
+  reader->SetQFileName(shared("bluntfin_plot3d/bluntfinq.bin").c_str());
+  reader->Update();
+  return withScalars(vtkDataSet::SafeDownCast(reader->GetOutput()->GetBlock(0)));
+}
+
 } // namespace
 
 // Within a cylinder, through whose side it goes.
@@ -529,11 +538,7 @@ TEST(GasBoundary, HeatingCoilIsAWall)
 // Half of a fin with a round leading edge.
 TEST(GasBoundary, BluntFinIsAWall)
 {
-  vtkNew<vtkMultiBlockPLOT3DReader> reader;
-  reader->SetXYZFileName(shared("bluntfin_plot3d/bluntfinxyz.bin").c_str());
-  reader->SetQFileName(shared("bluntfin_plot3d/bluntfinq.bin").c_str());
-  reader->Update();
-  const Data mesh = withScalars(vtkDataSet::SafeDownCast(reader->GetOutput()->GetBlock(0)));
+  const Data mesh = bluntFin();
   double bounds[6];
   mesh->GetBounds(bounds);
   const double fin = (bounds[1] - 0.5 + pi / 4) * bounds[5];
@@ -954,6 +959,31 @@ TEST(GasBoundary, CurvedCellsHaveNoWallsWithin)
   const double box =
     2 * (lengths[0] * lengths[1] + lengths[1] * lengths[2] + lengths[2] * lengths[0]);
   expectAreas(areasOf(GasBoundary({ mesh }, nullptr, Outside::Auto, isWithin)), 0, box, 1e-4);
+}
+
+// The fin, half of which is modelled, opens in the plane of symmetry and in the plate that it stands on. Far from its
+// sides, all that is above the plate is within it, however fine the lattice is.
+TEST(GasBoundary, BodiesThatOpenInTwoSidesOfTheBoxAreWallUpToTheirEdge)
+{
+  const Data mesh = bluntFin(); // half as thick as 0.5, from y = 0 on; the plate is at z = 0
+  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  for (const double h : { 0.002, 0.0075, 0.015, 0.02 })
+  {
+    const Samples samples(boundary, { { 2, h / 2, h / 2 }, { h, h, h }, { 18, 18, 18 } },
+      [](const Vec&) { return false; });
+    for (std::size_t i = 0; i < samples.places.size(); ++i)
+    {
+      ASSERT_EQ(samples.places[i], Place::Wall) << h << " " << i;
+    }
+    const double below = -h / 2;
+    const Samples around(boundary, { { 2, below, below }, { h, h, h }, { 18, 18, 18 } },
+      [](const Vec&) { return false; });
+    for (std::size_t i = 0; i < around.places.size(); ++i)
+    {
+      const Vec x = around.point(i);
+      ASSERT_TRUE(x[1] < 0 || x[2] < 0 || around.places[i] == Place::Wall) << h << " " << i;
+    }
+  }
 }
 
 // A cylinder from side to side of its mesh: what is beside its ends is known from the nearest face.

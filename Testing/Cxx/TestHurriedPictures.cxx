@@ -6,7 +6,7 @@
 #include "HurriedPicture.h"
 #include "QualityPresets.h"
 #include "RgbPictures.h"
-#include "SceneFromFilter.h"
+#include "SceneFromSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -123,7 +123,6 @@ TEST(HurriedPicture, LiesWhereTheInformationSays)
 TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
 {
   vtkNew<vtkSchlierenFilter> filter;
-  vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
   grid.dimensions = { 41, 41, 21 };
   RgbPictureReader pictures;
@@ -131,9 +130,9 @@ TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
   filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
   filter->SetFringeMode(vtkSchlierenFilter::FINITE_FRINGES);
   filter->SetNoiseFilter(vtkSchlierenFilter::GAUSSIAN);
-  const schlieren::Scene whole = sceneFrom(filter, medium, grid, pictures);
+  const schlieren::Scene whole = sceneFrom(filter->GetSettings(), grid, pictures);
   filter->SetPreviewReduction(4);
-  const schlieren::Scene hurried = sceneFrom(filter, medium, grid, pictures);
+  const schlieren::Scene hurried = sceneFrom(filter->GetSettings(), grid, pictures);
   EXPECT_EQ(hurried.view.width, 128);
   EXPECT_EQ(hurried.samplesPerPixel, 1);
   EXPECT_EQ(hurried.stepSize, interactiveStepSize());
@@ -143,25 +142,24 @@ TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
   EXPECT_EQ(hurried.histogramSize, whole.histogramSize);
   EXPECT_EQ(hurried.interpolation, whole.interpolation);
   filter->SetStepSize(3);
-  EXPECT_EQ(sceneFrom(filter, medium, grid, pictures).stepSize, 3);
+  EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).stepSize, 3);
 }
 
 TEST(HurriedPicture, ShowsTheSameBackground)
 {
   vtkNew<vtkSchlierenFilter> filter;
-  vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
   grid.dimensions = { 41, 41, 21 };
   RgbPictureReader pictures;
   const double pixel =
-    schlieren::frameOf(grid, sceneFrom(filter, medium, grid, pictures).view).pixelSize;
+    schlieren::frameOf(grid, sceneFrom(filter->GetSettings(), grid, pictures).view).pixelSize;
   filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
   filter->SetPreviewReduction(2);
-  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid, pictures).background.period, 8 * pixel);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 8 * pixel);
   filter->SetPreviewReduction(4); // finer than four of its pixels would be grey
-  EXPECT_DOUBLE_EQ(sceneFrom(filter, medium, grid, pictures).background.period, 16 * pixel);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 16 * pixel);
   filter->SetBackgroundPeriod(0.1);
-  EXPECT_EQ(sceneFrom(filter, medium, grid, pictures).background.period, 0.1);
+  EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 0.1);
 }
 
 TEST(HurriedPicture, HidesNoMistake)

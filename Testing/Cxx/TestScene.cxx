@@ -5,7 +5,7 @@
 #include "Fixtures.h"
 #include "RealOptics.h"
 #include "RgbPictures.h"
-#include "SceneFromFilter.h"
+#include "SceneFromSettings.h"
 
 #include "vtkPiecewiseFunction.h"
 
@@ -33,7 +33,9 @@ protected:
 
   schlieren::Scene scene()
   {
-    return sceneFrom(this->filter, this->medium, this->grid, this->pictures);
+    schlieren::Scene made = sceneFrom(this->filter->GetSettings(), this->grid, this->pictures);
+    addObjects(made, this->filter->GetGradedFilter(), this->medium);
+    return made;
   }
 
   std::string error()
@@ -121,20 +123,21 @@ TEST_F(Scene, SensitivityFollowsFromOptics)
 TEST_F(Scene, SensitivityIsToldInWords)
 {
   this->filter->SetFocalLength(2);
-  EXPECT_EQ(sensitivityInWords(this->filter, 4000),
+  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000),
     "k = 4000: full scale is a deflection of 0.125 mrad; optics: 2 m focal length, source 0.5 mm "
     "wide");
   this->filter->SetCutoff(Filter::CIRCULAR);
-  EXPECT_EQ(sensitivityInWords(this->filter, 4000).substr(0, 49),
+  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000).substr(0, 49),
     "k = 4000: full scale is a deflection of 0.25 mrad");
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
   this->filter->SetKFromOptics(true);
   this->filter->SetCutoffPosition(-0.1);
-  EXPECT_NE(sensitivityInWords(this->filter, 4000).find("the edge -0.1 mm in (offset -0.1)"),
+  EXPECT_NE(
+    sensitivityInWords(this->filter->GetSettings(), 4000).find("the edge -0.1 mm in (offset -0.1)"),
     std::string::npos);
-  EXPECT_EQ(sensitivityInWords(this->filter, 0), "");
+  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 0), "");
   this->filter->SetCutoff(Filter::SHADOWGRAPH);
-  EXPECT_EQ(sensitivityInWords(this->filter, 4000), "");
+  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000), "");
 }
 
 // An interferogram has no k: a fringe is a wavelength.
@@ -142,9 +145,11 @@ TEST_F(Scene, SensitivityOfAnInterferogramIsItsWavelength)
 {
   this->filter->SetCutoff(Filter::INTERFEROGRAM);
   this->filter->SetWavelength(500);
-  EXPECT_EQ(sensitivityInWords(this->filter, 0).find("a fringe is 500 nm of optical path"), 0u);
+  EXPECT_EQ(
+    sensitivityInWords(this->filter->GetSettings(), 0).find("a fringe is 500 nm of optical path"),
+    0u);
   this->filter->SetWhiteLight(true);
-  EXPECT_EQ(sensitivityInWords(this->filter, 0).find("white light"), 0u);
+  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 0).find("white light"), 0u);
 }
 
 TEST_F(Scene, OpticsThatCannotBeAreRefused)

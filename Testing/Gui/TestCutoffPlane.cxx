@@ -19,6 +19,7 @@ pqCutoff knifeEdge(double angle = 0, double offset = 0)
 {
   pqCutoff cutoff;
   cutoff.Kind = pqCutoff::KnifeEdge;
+  cutoff.HasEdge = true;
   cutoff.K = 1000;
   cutoff.Angle = angle;
   cutoff.Offset = offset;
@@ -72,6 +73,7 @@ TEST(CutoffPlane, StopsDependOnTheDistanceAlone)
 {
   pqCutoff cutoff = knifeEdge();
   cutoff.Kind = pqCutoff::Circular;
+  cutoff.HasEdge = false;
   EXPECT_NEAR(cutoff.transmission({ 3e-4, -4e-4 }), 0.5, 1e-12);
   cutoff.Kind = pqCutoff::CircularComplement;
   EXPECT_NEAR(cutoff.transmission({ -6e-4, 0 }), 0.6, 1e-12);
@@ -158,6 +160,7 @@ TEST(CutoffPlane, TheSizeOfStopsAndFiltersIsDraggedByTheirRim)
 {
   pqCutoff wheel = knifeEdge();
   wheel.Kind = pqCutoff::ColorFilter;
+  wheel.HasEdge = false;
   wheel.K = 2000; // 50 pixels
   EXPECT_EQ(plane().handleAt(wheel, at(30, 40)), Plane::SizeHandle);
   EXPECT_EQ(plane().handleAt(wheel, at(50, 50)), Plane::NoHandle);

@@ -58,6 +58,54 @@ for proxy in (refractivity, bench):
 for name, texts in TEXTS.items():
     assert set(bench.GetProperty(name).Available) == texts, name
 
+# PrintSelf names them all, but the one that is another name for a value of Outside.
+printed = str(vtkSchlierenFilter())
+for item in property_tables.read().values():
+    if item.group not in ("Inputs", "Commands", "Information") and not item.is_array and item.command:
+        name = item.command.replace("Set", "", 1).replace("Add", "", 1)
+        forms = (f" {name}: ", f" {name}s:", f" {name}es:")
+        assert name == "OutsideBlocksLight" or any(form in printed for form in forms), name
+
+# The panel shows what belongs to a cutoff: the XML's lists of cutoffs are those of the table in Optics/Techniques.h.
+properties = property_tables.read()
+CUTOFFS = properties["Cutoff"].entries
+assert sorted(CUTOFFS.values()) == list(range(len(CUTOFFS)))
+for text, number in CUTOFFS.items():
+    assert getattr(vtkSchlierenFilter, text.upper().replace(" ", "_")) == number, text
+made = vtkSchlierenFilter()
+made.SetCutoff(1000)
+assert made.GetCutoff() == max(CUTOFFS.values())
+assert not vtkSchlierenFilter.CutoffHasK(-1) and not vtkSchlierenFilter.CutoffHasK(len(CUTOFFS))
+
+
+def cutoffs_with(*features):
+    return {number for number in CUTOFFS.values() if any(feature(number) for feature in features)}
+
+
+WITH_K, WITH_EDGE, WITH_FRINGES, WITH_SCREEN, WITH_BACKGROUND = (
+    cutoffs_with(getattr(vtkSchlierenFilter, "CutoffHas" + feature))
+    for feature in ("K", "Edge", "Fringes", "Screen", "Background"))
+shown_with = {}
+for item in properties.values():
+    for decorator in item.element.iter("PropertyWidgetDecorator"):
+        if decorator.get("property") == "Cutoff":
+            listed = {int(number) for number in (decorator.get("values") or decorator.get("value")).split()}
+            if decorator.get("inverse") == "1":
+                listed = set(CUTOFFS.values()) - listed
+            assert shown_with.setdefault(item.name, listed) == listed, item.name
+for shown, names in (
+        (WITH_K, "AutoKScale LockK KScale KFromOptics FocalLength SourceWidth"),
+        (WITH_K | WITH_FRINGES, "Sensitivity"),
+        (WITH_EDGE, "KnifeEdgeAngle CutoffOffset InvertCutoff CutoffPosition"),
+        (WITH_FRINGES, "Wavelength FringeMode FringeSpacing FringeAngle BeamAngle WhiteLight"),
+        (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
+        (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundAngle BackgroundImage"),
+        ({vtkSchlierenFilter.GRADED_FILTER}, "GradedFilter"), ({vtkSchlierenFilter.COLOR_FILTER}, "ColorFilterImage")):
+    assert shown, names
+    for name in names.split():
+        assert shown_with.pop(name) == shown, f"{name} is shown with other cutoffs than {shown} that have it"
+assert not shown_with, f"{shown_with} depend on Cutoff, but this test does not know by what"
+
 
 def work(proxy):
     """How often it has built the medium, and how many rays it has traced."""

@@ -376,6 +376,58 @@ def spread():
     assert np.array_equal(same, slabs)
 
 
+# The slab that is requested, of the same cells.
+REQUESTED = """
+import builtins
+info = self.GetExecutive().GetOutputInformation(0)
+piece = info.Get(self.GetExecutive().UPDATE_PIECE_NUMBER())
+pieces = info.Get(self.GetExecutive().UPDATE_NUMBER_OF_PIECES())
+vars(builtins).setdefault("requests", []).append((piece, pieces))
+""" + DATA.replace("KIND", "''").replace("wavelet = ", """
+if piece < pieces:
+    first, last = -8 + 16 * piece // pieces, -8 + 16 * (piece + 1) // pieces
+wavelet = """).replace("cells.Update()", """
+if piece < pieces:
+    cells.Update()
+""")
+
+
+def requested():
+    """Rank 0 requests a piece, as all ranks do; where there are few cells, all of them, and again only when it must."""
+    import builtins
+    from paraview.simple import ProgrammableSource
+    from plugin_testing import Schlieren
+    builtins.requests = []
+
+    def expect_requests(words, *requests):
+        expect(words, seen, True, time)
+        assert not is_rank0() or builtins.requests == list(requests), builtins.requests
+        builtins.requests.clear()
+
+    source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", ScriptRequestInformation=INFORMATION,
+                                Script=REQUESTED)
+    seen = Schlieren(Input=source, **BENCH)
+    time = 0
+    expect_requests("of few", (0, 4), (0, 1))
+    whole = values_of(seen, "Intensity").copy()
+    seen.ViewDirection = [1, 0, 0]
+    expect_requests("from the side")
+    time = 1
+    expect_requests("of few later", (0, 1))
+    seen.ViewDirection = [0, 0, -1]
+    seen.GatherLimit = 4000
+    expect_requests("of many", (0, 4))
+    many = values_of(seen, "Intensity").copy()
+    seen.UpdatePropertyInformation()
+    assert not is_rank0() or "on their ranks" in seen.GetProperty("Grid").GetData()
+    assert not is_rank0() or np.abs(many - whole).max() < 1e-6
+    source.Script = REQUESTED + "\n"
+    expect_requests("of many others", (0, 4))
+    seen.GatherLimit = 5000
+    expect_requests("of few again", (0, 1))
+    assert np.array_equal(whole, values_of(seen, "Intensity"))
+
+
 def missing():
     """A file that one of the ranks cannot read."""
     from paraview.simple import ProgrammableSource, XMLImageDataReader
@@ -464,7 +516,7 @@ def run_results(command, parts, file):
 
 
 SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed}
-PARTS = {"redistribute": redistribute, "spread": spread, "missing": missing, "killed": killed}
+PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     np.savez(sys.argv[-1], **{f"{part}: {name}": values for part in sys.argv[1:-1]
                               for name, values in SAVED[part]().items()})
@@ -509,6 +561,9 @@ else:
             assert np.array_equal(one[name], several[name]), name
         assert 0.02 < (one["sphere: BlockedFraction"] == 1).mean() < 0.2
 
+    for options in ([], ["--sym"])[isSanitized:]:
+        said = run(on(4) + options, "requested")
+        assert "ERR|" not in said and "Expected: the end" in said
     assert len(re.findall("ERR.* Rank 2 of 4 does not say", run(on(4), "missing"))) == 1
     started = time_of_day()
     run(on(4), "killed", ends=False)

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Vectors.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace refractivity
+{
+
+/// Points of cells are one if they are closer than this part of the smallest edge or cell beside them.
+constexpr double mergingPart = 1e-3;
+
+/// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
+std::vector<std::int32_t> coincidentPoints(
+  const std::vector<Point>& points, const std::vector<double>& tolerances);
+
+/// How far rounding may have moved points: of single precision where all coordinates fit into it.
+double relativeRounding(const std::vector<Point>& points);
+
+} // namespace refractivity

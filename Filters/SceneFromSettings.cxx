@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SceneFromSettings.h"
+
+#include "GasChoices.h"
+#include "HurriedPicture.h"
+#include "RealOptics.h"
+#include "RgbPictures.h"
+#include "SchlierenSettings.h"
+
+#include "vtkPiecewiseFunction.h"
+#include "vtkSchlierenFilter.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace
+{
+
+/// Whether an enumeration of the filter has the same values as one of the tracer.
+template <class Core, class Enum>
+constexpr bool sameValue(Enum value, Core ofCore)
+{
+  return static_cast<Core>(value) == ofCore;
+}
+
+using Self = vtkSchlierenFilter;
+static_assert(sameValue(Self::AUTO_PATH, schlieren::PathModel::Auto) &&
+  sameValue(Self::STRAIGHT, schlieren::PathModel::Straight) &&
+  sameValue(Self::REFRACTED, schlieren::PathModel::Refracted));
+static_assert(sameValue(Self::LEAPFROG, schlieren::Integrator::Leapfrog) &&
+  sameValue(Self::RK4, schlieren::Integrator::Rk4) &&
+  sameValue(Self::ADAPTIVE, schlieren::Integrator::Adaptive) &&
+  sameValue(Self::EULER, schlieren::Integrator::Euler));
+static_assert(sameValue(Self::QUADRATIC, schlieren::Interpolation::Quadratic) &&
+  sameValue(Self::LINEAR, schlieren::Interpolation::Linear) &&
+  sameValue(Self::CENTRAL, schlieren::Interpolation::Central) &&
+  sameValue(Self::CUBIC, schlieren::Interpolation::Cubic));
+static_assert(sameValue(Self::SINGLE, schlieren::Precision::Single) &&
+  sameValue(Self::DOUBLE, schlieren::Precision::Double));
+static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
+  sameValue(Self::CPU, schlieren::Device::Cpu) && sameValue(Self::CUDA, schlieren::Device::Cuda));
+static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
+  sameValue(Self::SHADOWGRAPH, schlieren::Cutoff::Shadowgraph) &&
+  sameValue(Self::CIRCULAR, schlieren::Cutoff::Circular) &&
+  sameValue(Self::CIRCULAR_COMPLEMENT, schlieren::Cutoff::CircularComplement) &&
+  sameValue(Self::GRADED_FILTER, schlieren::Cutoff::GradedFilter) &&
+  sameValue(Self::COLOR_FILTER, schlieren::Cutoff::ColorFilter) &&
+  sameValue(Self::INTERFEROGRAM, schlieren::Cutoff::Interferogram) &&
+  sameValue(Self::BACKGROUND_ORIENTED, schlieren::Cutoff::Background));
+static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
+  sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
+  sameValue(Self::DISC, schlieren::SourceShape::Disc));
+static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
+  sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
+  sameValue(Self::PICTURE, schlieren::PatternKind::Picture));
+static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
+  sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
+static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
+  sameValue(Self::GAUSSIAN, schlieren::NoiseFilter::Gaussian) &&
+  sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
+  sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
+
+/// Where a graded filter is read off.
+constexpr int gradedFilterSamples = 1025;
+
+schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
+{
+  schlieren::Fringes fringes;
+  fringes.finite = settings.FringeMode == vtkSchlierenFilter::FINITE_FRINGES;
+  if (fringes.finite)
+  {
+    fringes.spacing = fringeSpacingFrom(settings, frame);
+    fringes.angle = settings.FringeAngle;
+  }
+  fringes.whiteLight = settings.WhiteLight;
+  return fringes;
+}
+
+schlieren::BackgroundPattern backgroundFrom(
+  const OpticsSettings& settings, RgbPictureReader& pictures)
+{
+  schlieren::BackgroundPattern pattern;
+  pattern.kind = static_cast<schlieren::PatternKind>(settings.BackgroundPattern);
+  if (!(settings.BackgroundDistance < 0))
+  {
+    pattern.distance = settings.BackgroundDistance;
+  }
+  pattern.period = settings.BackgroundPeriod;
+  pattern.angle = settings.BackgroundAngle;
+  if (pattern.kind == schlieren::PatternKind::Picture)
+  {
+    if (settings.BackgroundImage.empty())
+    {
+      throw std::runtime_error(
+        "BackgroundImage is empty, so there is no image behind the flow. Give "
+        "the name of one, or set BackgroundPattern to Dots or Stripes.");
+    }
+    pattern.picture = pictures.read("BackgroundImage", settings.BackgroundImage);
+  }
+  return pattern;
+}
+
+/// Of the whole image.
+schlieren::View viewFrom(const ViewSettings& settings)
+{
+  schlieren::View view;
+  std::copy_n(settings.ViewDirection, 3, view.viewDirection.begin());
+  std::copy_n(settings.ViewUp, 3, view.viewUp.begin());
+  if (settings.HasFocalPoint)
+  {
+    const double* point = settings.FocalPoint;
+    view.focalPoint = schlieren::Vector{ point[0], point[1], point[2] };
+  }
+  view.parallelScale = settings.ParallelScale;
+  view.width = settings.ImageSize[0];
+  view.height = settings.ImageSize[1];
+  return view;
+}
+
+std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
+{
+  if (!function || function->GetSize() == 0)
+  {
+    return { 0, 1 };
+  }
+  std::vector<double> values(gradedFilterSamples);
+  function->GetTable(0, 1, gradedFilterSamples, values.data());
+  return values;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
+{
+  const schlieren::View view = viewFrom(settings);
+  const schlieren::Frame frame = schlieren::frameOf(grid, view);
+  const int reduction = settings.PreviewReduction;
+  return reduction > 1 ? schlieren::frameOf(grid, hurriedView(view, frame, reduction)) : frame;
+}
+
+//------------------------------------------------------------------------------
+int threadsFrom(const ResourceSettings& settings)
+{
+  const char* limit = std::getenv("VTK_SMP_MAX_THREADS");
+  return settings.NumberOfThreads > 0 || !limit ? settings.NumberOfThreads
+                                                : std::max(0, std::atoi(limit));
+}
+
+//------------------------------------------------------------------------------
+schlieren::Scene sceneFrom(
+  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbPictureReader& pictures)
+{
+  schlieren::Scene scene;
+  scene.view = viewFrom(settings);
+  const schlieren::Frame frame = schlieren::frameOf(grid, scene.view);
+  scene.source = lightSourceFrom(settings, frame);
+  scene.cutoff = static_cast<schlieren::Cutoff>(settings.Cutoff);
+  scene.knifeEdgeAngle = settings.KnifeEdgeAngle;
+  scene.invertCutoff = settings.InvertCutoff;
+  // What another cutoff needs may hold anything.
+  if (usesK(settings))
+  {
+    setSensitivity(settings, scene);
+  }
+  if (scene.cutoff == schlieren::Cutoff::ColorFilter && !settings.ColorFilterImage.empty())
+  {
+    scene.colorFilter = pictures.read("ColorFilterImage", settings.ColorFilterImage);
+  }
+  if (schlieren::techniqueOf(scene.cutoff).hasFringes)
+  {
+    scene.wavelength = metresPerNanometre * settings.Wavelength;
+    scene.fringes = fringesFrom(settings, frame);
+  }
+  if (schlieren::isOfCamera(scene.cutoff))
+  {
+    scene.background = backgroundFrom(settings, pictures);
+  }
+  if (!(settings.ScreenDistance < 0)) // NaN too, which the core then reports
+  {
+    scene.screenDistance = settings.ScreenDistance;
+  }
+  scene.focusOffset = settings.FocusOffset;
+  scene.filmEstimator = static_cast<schlieren::FilmEstimator>(settings.FilmEstimator);
+  scene.noiseFilter = static_cast<schlieren::NoiseFilter>(settings.NoiseFilter);
+  scene.noiseFilterRadius = settings.NoiseFilterRadius;
+  scene.histogramSize = settings.HistogramSize;
+  scene.memoryBudget = static_cast<std::size_t>(settings.MemoryBudget) << 20;
+  scene.samplesPerPixel = settings.SamplesPerPixel;
+  scene.seed = static_cast<std::uint32_t>(settings.Seed);
+  scene.pathModel = static_cast<schlieren::PathModel>(settings.PathModel);
+  scene.integrator = static_cast<schlieren::Integrator>(settings.Integrator);
+  scene.stepSize = settings.StepSize;
+  scene.homogeneityTolerance = settings.HomogeneityTolerance;
+  scene.interpolation = static_cast<schlieren::Interpolation>(settings.Interpolation);
+  scene.precision = static_cast<schlieren::Precision>(settings.Precision);
+  scene.adaptiveTolerance = settings.AdaptiveTolerance;
+  scene.pathTolerance = settings.PathTolerance;
+  scene.mediumTolerance = settings.MediumTolerance;
+  scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
+  scene.device = static_cast<schlieren::Device>(settings.Device);
+  scene.threads = threadsFrom(settings);
+  if (settings.PreviewReduction > 1)
+  {
+    hurry(scene, frame, settings.PreviewReduction);
+  }
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+void addObjects(
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, vtkRefractiveIndex* medium)
+{
+  if (scene.cutoff == schlieren::Cutoff::GradedFilter)
+  {
+    scene.gradedFilter = gradedFilterFrom(gradedFilter);
+  }
+  if (scene.fringes.whiteLight)
+  {
+    scene.fringes.dispersion = refractivity::dispersionOfGases(medium, scene.wavelength);
+  }
+}

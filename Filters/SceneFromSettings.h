@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Schlieren.h"
+
+class RgbPictureReader;
+class vtkPiecewiseFunction;
+class vtkRefractiveIndex;
+struct ResourceSettings;
+struct SchlierenSettings;
+
+/// What the settings say, as the tracer wants it. Checked is only what is converted here: the rest the tracer does.
+/// Throws std::runtime_error with a message for the user.
+
+/// All but what comes from objects. `grid` is that of the medium.
+schlieren::Scene sceneFrom(
+  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbPictureReader& pictures);
+
+/// What comes from objects, where the scene needs it: the graded filter (null: a straight line), and the dispersion of
+/// white light. The colours of fields are apart.
+void addObjects(
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, vtkRefractiveIndex* medium);
+
+/// Where the image lies.
+schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);
+
+/// Threads to use: those given, or else VTK_SMP_MAX_THREADS; 0: coresOfProcess().
+int threadsFrom(const ResourceSettings& resources);

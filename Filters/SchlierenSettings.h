@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SchlierenSettings_h
+#define SchlierenSettings_h
+
+#include <string>
+#include <vector>
+
+/// What the properties of vtkSchlierenFilter hold, under their names: numbers and texts, nothing of VTK. The filter's
+/// documentation says what each one means, and its setters check ranges. What is behind the filter gets these, never
+/// the filter. visit() calls what it is given with the name and the value of each.
+
+/// Apart from vtkRefractiveIndex.
+struct MediumSettings
+{
+  double LengthScale = 1;
+  bool AutoAmbientRefractivity = true;
+  double AmbientRefractivity = 0;
+  bool LockAmbient = true;
+  double Wavelength = 632.8;
+
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    use("LengthScale", this->LengthScale);
+    use("AutoAmbientRefractivity", this->AutoAmbientRefractivity);
+    use("AmbientRefractivity", this->AmbientRefractivity);
+    use("LockAmbient", this->LockAmbient);
+    use("Wavelength", this->Wavelength);
+  }
+};
+
+struct ViewSettings
+{
+  double ViewDirection[3] = { 0, 0, -1 };
+  double ViewUp[3] = { 0, 1, 0 };
+  bool HasFocalPoint = false;
+  double FocalPoint[3] = { 0, 0, 0 };
+  double ParallelScale = 0;
+  int ImageSize[2] = { 512, 512 };
+
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    use("ViewDirection", this->ViewDirection);
+    use("ViewUp", this->ViewUp);
+    use("HasFocalPoint", this->HasFocalPoint);
+    use("FocalPoint", this->FocalPoint);
+    use("ParallelScale", this->ParallelScale);
+    use("ImageSize", this->ImageSize);
+  }
+};
+
+/// The graded filter is apart from these: it is an object.
+struct OpticsSettings
+{
+  int Cutoff = 0;
+  double KnifeEdgeAngle = 0;
+  double CutoffOffset = 0;
+  bool InvertCutoff = false;
+  bool AutoKScale = true;
+  int LockK = 1; // over time
+  double KScale = 1000;
+  bool KFromOptics = false;
+  double FocalLength = 1;
+  double SourceWidth = 1;
+  double SourceLength = 10;
+  double CutoffPosition = 0;
+  std::string ColorFilterImage;
+  int FringeMode = 0;
+  double FringeSpacing = 0;
+  double FringeAngle = 0;
+  double BeamAngle = 0;
+  bool WhiteLight = false;
+  double ScreenDistance = -1;
+  double FocusOffset = 0;
+  int LightSource = 0;
+  double SourceDistance = 0;
+  int SourceShape = 0;
+  int BackgroundPattern = 0;
+  double BackgroundDistance = -1;
+  double BackgroundPeriod = 0;
+  double BackgroundAngle = 0;
+  std::string BackgroundImage;
+  bool ColorByField = false;
+  std::vector<double> FieldColors;
+
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    use("Cutoff", this->Cutoff);
+    use("KnifeEdgeAngle", this->KnifeEdgeAngle);
+    use("CutoffOffset", this->CutoffOffset);
+    use("InvertCutoff", this->InvertCutoff);
+    use("AutoKScale", this->AutoKScale);
+    use("LockK", this->LockK);
+    use("KScale", this->KScale);
+    use("KFromOptics", this->KFromOptics);
+    use("FocalLength", this->FocalLength);
+    use("SourceWidth", this->SourceWidth);
+    use("SourceLength", this->SourceLength);
+    use("CutoffPosition", this->CutoffPosition);
+    use("ColorFilterImage", this->ColorFilterImage);
+    use("FringeMode", this->FringeMode);
+    use("FringeSpacing", this->FringeSpacing);
+    use("FringeAngle", this->FringeAngle);
+    use("BeamAngle", this->BeamAngle);
+    use("WhiteLight", this->WhiteLight);
+    use("ScreenDistance", this->ScreenDistance);
+    use("FocusOffset", this->FocusOffset);
+    use("LightSource", this->LightSource);
+    use("SourceDistance", this->SourceDistance);
+    use("SourceShape", this->SourceShape);
+    use("BackgroundPattern", this->BackgroundPattern);
+    use("BackgroundDistance", this->BackgroundDistance);
+    use("BackgroundPeriod", this->BackgroundPeriod);
+    use("BackgroundAngle", this->BackgroundAngle);
+    use("BackgroundImage", this->BackgroundImage);
+    use("ColorByField", this->ColorByField);
+    use("FieldColors", this->FieldColors);
+  }
+};
+
+/// What the presets of Quality set: see QualityPresets.h, which has their values.
+struct AccuracySettings
+{
+  int PathModel = 0;
+  int Integrator = 0;
+  double StepSize = 0;
+  double HomogeneityTolerance = 0;
+  int Interpolation = 0;
+  int SamplesPerPixel = 0;
+  int FilmEstimator = 0;
+  int Precision = 0;
+  double AdaptiveTolerance = 0;
+  double PathTolerance = 0;
+  double MediumTolerance = 0;
+
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    use("PathModel", this->PathModel);
+    use("Integrator", this->Integrator);
+    use("StepSize", this->StepSize);
+    use("HomogeneityTolerance", this->HomogeneityTolerance);
+    use("Interpolation", this->Interpolation);
+    use("SamplesPerPixel", this->SamplesPerPixel);
+    use("FilmEstimator", this->FilmEstimator);
+    use("Precision", this->Precision);
+    use("AdaptiveTolerance", this->AdaptiveTolerance);
+    use("PathTolerance", this->PathTolerance);
+    use("MediumTolerance", this->MediumTolerance);
+  }
+};
+
+struct FilmSettings
+{
+  double ExposureTime = 0;
+  int ExposureSamples = 8;
+  int NoiseFilter = 0;
+  double NoiseFilterRadius = 2;
+  int HistogramSize = 256;
+  int Seed = 1;
+  int PreviewReduction = 1;
+
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    use("ExposureTime", this->ExposureTime);
+    use("ExposureSamples", this->ExposureSamples);
+    use("NoiseFilter", this->NoiseFilter);
+    use("NoiseFilterRadius", this->NoiseFilterRadius);
+    use("HistogramSize", this->HistogramSize);
+    use("Seed", this->Seed);
+    use("PreviewReduction", this->PreviewReduction);
+  }
+};
+
+/// What computes, and with how much: no image depends on these.
+struct ResourceSettings
+{
+  int MemoryBudget = 1024;
+  int MediumMemory = 1024;
+  int Device = 0;
+  int NumberOfThreads = 0;
+  int GatherLimit = 10000000;
+  double TimeLimit = 0;
+
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    use("MemoryBudget", this->MemoryBudget);
+    use("MediumMemory", this->MediumMemory);
+    use("Device", this->Device);
+    use("NumberOfThreads", this->NumberOfThreads);
+    use("GatherLimit", this->GatherLimit);
+    use("TimeLimit", this->TimeLimit);
+  }
+};
+
+struct SchlierenSettings : MediumSettings,
+                           ViewSettings,
+                           OpticsSettings,
+                           AccuracySettings,
+                           FilmSettings,
+                           ResourceSettings
+{
+  template <class Visit>
+  void visit(const Visit& use) const
+  {
+    this->MediumSettings::visit(use);
+    this->ViewSettings::visit(use);
+    this->OpticsSettings::visit(use);
+    this->AccuracySettings::visit(use);
+    this->FilmSettings::visit(use);
+    this->ResourceSettings::visit(use);
+  }
+};
+
+#endif
