@@ -4,12 +4,12 @@
 #include "Schlieren.h"
 
 #include "Device/Parallel.h"
-#include "Film/GrowingPicture.h"
-#include "HeldRays.h"
+#include "Film/ProgressiveImage.h"
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/CutoffMaker.h"
+#include "RayCache.h"
 #include "Rays/CudaTracer.h"
 #include "Rays/TeamTracer.h"
 #include "Rays/Tracer.h"
@@ -210,7 +210,8 @@ struct Bench::Unfinished
   const Scene scene;
   Device device = Device::Cpu;
   std::string deviceNote;
-  std::optional<GrowingPicture> picture; ///< always there
+  bool keepsRays = true;                   ///< as far as the budget of memory goes
+  std::optional<ProgressiveImage> picture; ///< always there
   std::optional<DisplacementBound> bound;
   double kScale = 0;
   double momentumDrift = 0;
@@ -238,7 +239,7 @@ struct Bench::Stages
   std::optional<MediumKey> mediumKey;
   std::variant<std::monostate, HeldMedium<float>, HeldMedium<double>> medium;
 
-  HeldRays rays;
+  RayCache rays;
   CutoffMaker cutoffs;
 
   template <class Real>
@@ -471,7 +472,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
   const DeflectionErrors errors{ noiseFloor(ofHeld, field, light), image.medium.deflectionError };
-  GrowingPicture& picture = *asked.picture;
+  ProgressiveImage& picture = *asked.picture;
   const auto isNewPictureThere = [&]
   { return picture.isWhole() && picture.passes() > asked.shown; };
   bool goesOn = !watch.mayPause() || picture.completeUndisturbed(watch.monitor());
@@ -494,10 +495,10 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     }
     aimPass(pass, number, scene, light);
     const double tracedBefore = asked.traceSeconds;
-    const TracedPass* traced =
-      rays.raysOf(number, pass, asked.device, field.gradients.count, scene.memoryBudget,
-        [&](TracedPass& place, bool isWantedOnHost)
-        { return trace(place, isWantedOnHost, pass, held, task, ofPass, asked); });
+    const TracedPass* traced = rays.raysOf(number, pass, asked.device, field.gradients.count,
+      asked.keepsRays ? scene.memoryBudget : 0,
+      [&](TracedPass& place, bool isWantedOnHost)
+      { return trace(place, isWantedOnHost, pass, held, task, ofPass, asked); });
     const bool hasTraced = asked.traceSeconds > tracedBefore;
     if (traced == nullptr || watch.isAborted() || (hasTraced && watch.isPaused()))
     {
@@ -628,21 +629,32 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& mo
                                                         : goOn<double>(picture, watch);
   };
   Image image;
-  try
+  for (bool isDone = false; !isDone;)
   {
-    image = goOnWith(*asked);
-  }
-  catch (const DeviceError& failure)
-  {
-    leaveDevice();
-    if (asked->device == Device::Cpu || asked->scene.device == Device::Cuda)
+    try
     {
-      throw;
+      image = goOnWith(*asked);
+      isDone = true;
     }
-    auto again = std::make_unique<Unfinished>(asked->field, asked->scene);
-    again->deviceNote = failure.what();
-    asked = std::move(again);
-    image = goOnWith(*asked);
+    catch (const DeviceError& failure)
+    {
+      leaveDevice();
+      auto again = std::make_unique<Unfinished>(asked->field, asked->scene);
+      if (asked->keepsRays && dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr)
+      {
+        again->device = asked->device;
+        again->keepsRays = false;
+      }
+      else if (asked->device == Device::Cpu || asked->scene.device == Device::Cuda)
+      {
+        throw;
+      }
+      else
+      {
+        again->deviceNote = failure.what();
+      }
+      asked = std::move(again);
+    }
   }
   if (!image.finished && !image.aborted)
   {

@@ -449,7 +449,9 @@ void gradientMagnitudes(const Grid& grid, const float* values, const unsigned ch
 /// or has a quota (a container).
 int coresOfProcess();
 
-/// Whether a CUDA device answers. When it does not, `reason` (if given) says why.
+/// Whether a CUDA device answers, which images are then made on in this thread: the one that SCHLIEREN_CUDA_DEVICE in the
+/// environment numbers, else one for each rank of a machine in turn. When none does, `reason` (if given) says why. Throws
+/// Error where there is no device of that number.
 bool cudaAvailable(std::string* reason = nullptr);
 
 } // namespace schlieren

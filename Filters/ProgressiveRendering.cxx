@@ -5,10 +5,10 @@
 
 #include "ExposureSteps.h"
 #include "FieldTints.h"
-#include "HurriedPicture.h"
+#include "ImageOutput.h"
 #include "InputDescription.h"
 #include "MeanImage.h"
-#include "PictureOutput.h"
+#include "Preview.h"
 #include "RealOptics.h"
 #include "SceneFromSettings.h"
 
@@ -191,7 +191,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
   }
 
-  const LastPicture& shown = inside.Shown[PICTURE_PORT];
+  const LastImage& shown = inside.Shown[PICTURE_PORT];
   const bool isColored = this->ColorByField || this->HasOwnColor();
   if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
   {
@@ -271,7 +271,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   }
   if (isHurried)
   {
-    hurry(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
+    makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
   return inside.Pictures.Begin(field, scene, seconds, monitor);
 }

@@ -211,6 +211,36 @@ void FilterRanks::CountChanges(vtkAlgorithm* filter)
 }
 
 //------------------------------------------------------------------------------
+void FilterRanks::RequestData(vtkInformation* inInfo, Part part, double mostCells) const
+{
+  vtkMultiProcessController* controller = controllerOfRanks();
+  if (part == Part::Piece && mostCells < this->TooFew && controller && isDivisible(inInfo))
+  {
+    requestPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
+    return;
+  }
+  const bool isWanted = isRank0();
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
+    inInfo->Set(
+      Pipeline::UPDATE_EXTENT(), isWanted ? inInfo->Get(Pipeline::WHOLE_EXTENT()) : nothing, 6);
+  }
+  else
+  {
+    // The pipeline has put the image's there, which blocks would hand on to images upstream.
+    inInfo->Remove(Pipeline::UPDATE_EXTENT());
+  }
+  // A piece that is out of range is empty, as VTK has it. Many sources divide by the number of pieces, so
+  // that it cannot be 0; and those that do not check the piece find nothing where it is larger than what
+  // they divide.
+  constexpr int manyPieces = 1 << 15;
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), isWanted ? 0 : manyPieces);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), isWanted ? 1 : manyPieces);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+//------------------------------------------------------------------------------
 bool FilterRanks::Request(
   vtkAlgorithm* filter, vtkInformationVector** inputs, Part part, double mostCells)
 {
@@ -223,7 +253,6 @@ bool FilterRanks::Request(
     this->Inside = std::make_unique<Others>(controller, firstTag + filters++ % 10000);
   }
   this->RequestedAt = Clock::now();
-  const bool isWanted = isRank0();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
     vtkInformation* inInfo = inputs[port]->GetInformationObject(0);
@@ -235,29 +264,7 @@ bool FilterRanks::Request(
     {
       this->Now.timeStep = inInfo->Get(Pipeline::UPDATE_TIME_STEP());
     }
-    if (part == Part::Piece && controller && port == 0 && isDivisible(inInfo))
-    {
-      requestPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
-      continue;
-    }
-    if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
-      inInfo->Set(
-        Pipeline::UPDATE_EXTENT(), isWanted ? inInfo->Get(Pipeline::WHOLE_EXTENT()) : nothing, 6);
-    }
-    else
-    {
-      // The pipeline has put the image's there, which blocks would hand on to images upstream.
-      inInfo->Remove(Pipeline::UPDATE_EXTENT());
-    }
-    // A piece that is out of range is empty, as VTK has it. Many sources divide by the number of pieces, so
-    // that it cannot be 0; and those that do not check the piece find nothing where it is larger than what
-    // they divide.
-    constexpr int manyPieces = 1 << 15;
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), isWanted ? 0 : manyPieces);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), isWanted ? 1 : manyPieces);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    this->RequestData(inInfo, port == 0 ? part : Part::All, mostCells);
   }
   if (part != this->RequestedPart)
   {

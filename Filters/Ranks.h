@@ -17,6 +17,7 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkInformation;
 class vtkInformationVector;
 
 /// False on the other MPI processes of ParaView where there are several: rank 0 makes what there is one of, the
@@ -56,6 +57,9 @@ public:
   bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part = Part::All,
     double mostCells = 0);
   bool AreRequestedInPieces() const { return this->RequestedPart == Part::Piece; }
+
+  /// Requests the same of data alone.
+  void RequestData(vtkInformation* inInfo, Part part, double mostCells) const;
 
   /// On all ranks: until the inputs change, pieces with so few cells in all that rank 0 had better have all of them.
   void SetTooFew(double mostCells) { this->TooFew = mostCells; }

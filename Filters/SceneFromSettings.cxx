@@ -3,7 +3,7 @@
 #include "SceneFromSettings.h"
 
 #include "GasChoices.h"
-#include "HurriedPicture.h"
+#include "Preview.h"
 #include "RealOptics.h"
 #include "RgbPictures.h"
 #include "SchlierenSettings.h"
@@ -140,7 +140,7 @@ schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::G
   const schlieren::View view = viewFrom(settings);
   const schlieren::Frame frame = schlieren::frameOf(grid, view);
   const int reduction = settings.PreviewReduction;
-  return reduction > 1 ? schlieren::frameOf(grid, hurriedView(view, frame, reduction)) : frame;
+  return reduction > 1 ? schlieren::frameOf(grid, previewView(view, frame, reduction)) : frame;
 }
 
 //------------------------------------------------------------------------------
@@ -206,7 +206,7 @@ schlieren::Scene sceneFrom(
   scene.threads = threadsFrom(settings);
   if (settings.PreviewReduction > 1)
   {
-    hurry(scene, frame, settings.PreviewReduction);
+    makePreview(scene, frame, settings.PreviewReduction);
   }
   return scene;
 }

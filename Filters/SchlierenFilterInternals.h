@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LastPicture.h"
-#include "PictureInSlices.h"
+#include "LastImage.h"
 #include "Ranks.h"
 #include "RgbPictures.h"
 #include "SensitivityLock.h"
 #include "SharedRefractivity.h"
 #include "TimeExposure.h"
+#include "TimeSlicedImage.h"
 #include "vtkSchlierenFilter.h"
 
 #include "FieldFromImage.h"
@@ -53,8 +53,8 @@ struct vtkSchlierenFilter::Internals
   };
 
   FilterRanks Ranks;
-  PictureInSlices Pictures;
-  LastPicture Shown[2]; // at each output
+  TimeSlicedImage Pictures;
+  LastImage Shown[2]; // at each output
   RgbPictureReader RgbPictures;
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // what a source was divided into

@@ -5,8 +5,8 @@
 #include "ExposureSteps.h"
 #include "FieldTints.h"
 #include "GasChoices.h"
-#include "HurriedPicture.h"
 #include "InputDescription.h"
+#include "Preview.h"
 #include "QualityPresets.h"
 #include "RefractivitySource.h"
 #include "SceneFromSettings.h"
@@ -321,8 +321,8 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  const int extent[6] = { 0, hurriedPixels(this->ImageSize[0], this->PreviewReduction) - 1, 0,
-    hurriedPixels(this->ImageSize[1], this->PreviewReduction) - 1, 0, 0 };
+  const int extent[6] = { 0, previewPixels(this->ImageSize[0], this->PreviewReduction) - 1, 0,
+    previewPixels(this->ImageSize[1], this->PreviewReduction) - 1, 0, 0 };
   double origin[3] = { 0, 0, 0 };
   double spacing[3] = { 1, 1, 1 };
   try
@@ -405,6 +405,13 @@ int vtkSchlierenFilter::RequestUpdateExtent(
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo)
+{
+  this->Inside->Ranks.RequestData(inInfo,
+    this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All, this->GatherLimit);
 }
 
 //------------------------------------------------------------------------------

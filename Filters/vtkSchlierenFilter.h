@@ -888,6 +888,10 @@ public:
   /// All of these properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
+  /// Requests of the data of an input what this filter requests of its own: all, a piece or nothing. So that others who
+  /// have the same input do not make it run again.
+  VTK_WRAPEXCLUDE void RequestSame(vtkInformation* inInfo);
+
   vtkMTimeType GetMTime() override;
 
   vtkTypeBool ProcessRequest(

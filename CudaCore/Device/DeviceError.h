@@ -14,6 +14,13 @@ public:
   using Error::Error;
 };
 
+/// The device's memory is used up: it may do with less.
+class OutOfDeviceMemory : public DeviceError
+{
+public:
+  using DeviceError::DeviceError;
+};
+
 /// Of the builds in which files named NoCuda... stand in for the .cu files.
 constexpr const char* builtWithoutCuda = "this build has no CUDA support";
 

@@ -330,8 +330,7 @@ struct CudaFilm::DeviceMemory
   {
     if (!copied || onHost != table.values)
     {
-      copied = std::make_unique<CudaBuffer<float, DeviceError>>(
-        table.values, table.size, "Copying the cutoff");
+      copied = std::make_unique<CudaBuffer<float>>(table.values, table.size, "Copying the cutoff");
       onHost = table.values;
     }
     return { copied->data(), table.size };
@@ -355,10 +354,10 @@ struct CudaFilm::DeviceMemory
 
   static void clear(void* bytes, std::size_t size)
   {
-    checkCuda<DeviceError>(cudaMemset(bytes, 0, size), "Clearing the film");
+    checkCuda(cudaMemset(bytes, 0, size), "Clearing the film");
   }
 
-  using Bytes = CudaBuffer<unsigned char, DeviceError>;
+  using Bytes = CudaBuffer<unsigned char>;
   static unsigned char* room(std::unique_ptr<Bytes>& bytes, std::size_t& size, std::size_t wanted)
   {
     if (!bytes || size < wanted)
@@ -372,13 +371,13 @@ struct CudaFilm::DeviceMemory
 
   std::int64_t raysPerBand;
   std::size_t pixels;
-  CudaBuffer<Counter, DeviceError> light;
-  CudaBuffer<PixelSums, DeviceError> sums;
-  CudaBuffer<RayCounts, DeviceError> counts;
-  CudaBuffer<LightSums, DeviceError> planes;
+  CudaBuffer<Counter> light;
+  CudaBuffer<PixelSums> sums;
+  CudaBuffer<RayCounts> counts;
+  CudaBuffer<LightSums> planes;
   Sums view;
   std::unique_ptr<CudaFilm> samples;
-  std::unique_ptr<CudaBuffer<float, DeviceError>> copied;
+  std::unique_ptr<CudaBuffer<float>> copied;
   const float* onHost = nullptr; ///< what has been copied
   std::unique_ptr<Bytes> shaded, bent;
   std::size_t shadedBytes = 0, bentBytes = 0;
@@ -422,7 +421,7 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
         deposit(shaded, estimator, sums);
       },
       cutoff);
-    checkCuda<DeviceError>(cudaGetLastError(), "Starting the film's kernel");
+    checkCuda(cudaGetLastError(), "Starting the film's kernel");
   }
   if (memory_->samples)
   {
@@ -433,10 +432,7 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
 RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
 {
   const auto fetch = [](void* to, const void* from, std::size_t bytes)
-  {
-    checkCuda<DeviceError>(
-      cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the picture");
-  };
+  { checkCuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the picture"); };
   if (memory_->samples)
   {
     memory_->samples->develop(*films.samples, means); // overwritten below

@@ -59,8 +59,7 @@ unsigned blocksFor(std::int64_t count)
 template <class T>
 void copyToHost(std::vector<T>& host, const T* device)
 {
-  checkCuda<DeviceError>(
-    cudaMemcpy(host.data(), device, host.size() * sizeof(T), cudaMemcpyDeviceToHost),
+  checkCuda(cudaMemcpy(host.data(), device, host.size() * sizeof(T), cudaMemcpyDeviceToHost),
     "Building the homogeneity map");
 }
 
@@ -75,18 +74,18 @@ HomogeneityMap<Real> buildHomogeneityMapOnCuda(
     std::vector<NuRange<Real>>(static_cast<std::size_t>(pyramid.first(pyramid.levels))),
     std::vector<std::uint8_t>(static_cast<std::size_t>(pyramid.size(0))) };
 
-  const CudaBuffer<Real, DeviceError> samples(
+  const CudaBuffer<Real> samples(
     medium.volume.samples.data(), medium.volume.samples.size(), "Copying the medium");
   MediumView<Real> view = medium.view();
   view.samples = samples.data();
-  std::optional<CudaBuffer<std::uint32_t, DeviceError>> solid;
+  std::optional<CudaBuffer<std::uint32_t>> solid;
   if (!medium.solid.empty())
   {
     solid.emplace(medium.solid.data(), medium.solid.size(), "Copying the solids");
     view.solid = solid->data();
   }
-  const CudaBuffer<NuRange<Real>, DeviceError> ranges(map.ranges.size());
-  const CudaBuffer<std::uint8_t, DeviceError> levels(map.levels.size());
+  const CudaBuffer<NuRange<Real>> ranges(map.ranges.size());
+  const CudaBuffer<std::uint8_t> levels(map.levels.size());
 
   const unsigned blocks = blocksFor(pyramid.size(0));
   visitScheme(interpolation,
@@ -102,7 +101,7 @@ HomogeneityMap<Real> buildHomogeneityMapOnCuda(
   }
   launchKernel(levelKernel<Real>, blocks, threadsPerBlock, 0, nullptr, ranges.data(), pyramid,
     tolerance, levels.data());
-  checkCuda<DeviceError>(cudaGetLastError(), "Starting the homogeneity map's kernels");
+  checkCuda(cudaGetLastError(), "Starting the homogeneity map's kernels");
   copyToHost(map.ranges, ranges.data());
   copyToHost(map.levels, levels.data());
   return map;

@@ -41,7 +41,7 @@ struct MarchedRows
 };
 
 /// Starts the kernel of the task, with all that it points to on the device. CudaMarch*.cu instantiate it for one scheme
-/// each, so that they can be compiled at the same time.
+/// each, those that take longest for one precision, so that they can be compiled at the same time.
 template <class Scheme, class Real>
 void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedRows& rows,
   const dim3& blocks, cudaStream_t stream);

@@ -7,7 +7,5 @@ namespace schlieren
 
 template void launchMarch<CentralInterpolation>(
   const RayTask<float>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchMarch<CentralInterpolation>(
-  const RayTask<double>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

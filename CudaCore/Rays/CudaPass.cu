@@ -142,25 +142,33 @@ double numberOf(long long bits)
 }
 
 template <class T>
-void clear(const CudaBuffer<T, DeviceError>& values, std::size_t count)
+void clear(const CudaBuffer<T>& values, std::size_t count)
 {
-  checkCuda<DeviceError>(cudaMemset(values.data(), 0, count * sizeof(T)), "Counting rays");
+  checkCuda(cudaMemset(values.data(), 0, count * sizeof(T)), "Counting rays");
 }
 
 template <class T>
-std::vector<T> toHost(const CudaBuffer<T, DeviceError>& values, std::size_t count)
+std::vector<T> toHost(const CudaBuffer<T>& values, std::size_t count)
 {
   std::vector<T> fetched(count);
-  checkCuda<DeviceError>(
-    cudaMemcpy(fetched.data(), values.data(), count * sizeof(T), cudaMemcpyDeviceToHost),
+  checkCuda(cudaMemcpy(fetched.data(), values.data(), count * sizeof(T), cudaMemcpyDeviceToHost),
     "Counting rays");
   return fetched;
 }
 
 } // namespace
 
+bool canKeepOnCuda(std::size_t bytes)
+{
+  constexpr std::size_t reserve = std::size_t{ 256 } << 20;
+  std::size_t free = 0, total = 0;
+  checkCuda(cudaMemGetInfo(&free, &total), "Asking for free memory");
+  constexpr std::size_t passAndFilms = 4; // a pixel of films takes up to 88 bytes, a ray 40
+  return free >= passAndFilms * bytes + reserve;
+}
+
 CudaPass::CudaPass(std::size_t rays)
-  : exits_(allocateOnCuda<RayExit, DeviceError>(rays))
+  : exits_(allocateOnCuda<RayExit>(rays))
   , size_(rays)
 {
 }
@@ -168,8 +176,7 @@ CudaPass::CudaPass(std::size_t rays)
 CudaPass::CudaPass(const std::vector<RayExit>& exits)
   : CudaPass(exits.size())
 {
-  checkCuda<DeviceError>(
-    cudaMemcpy(exits_, exits.data(), size_ * sizeof(RayExit), cudaMemcpyHostToDevice),
+  checkCuda(cudaMemcpy(exits_, exits.data(), size_ * sizeof(RayExit), cudaMemcpyHostToDevice),
     "Sending rays");
 }
 
@@ -178,32 +185,31 @@ CudaPass::~CudaPass() { cudaFree(exits_); }
 std::vector<RayExit> CudaPass::toHost() const
 {
   std::vector<RayExit> exits(size_);
-  checkCuda<DeviceError>(
-    cudaMemcpy(exits.data(), exits_, size_ * sizeof(RayExit), cudaMemcpyDeviceToHost),
+  checkCuda(cudaMemcpy(exits.data(), exits_, size_ * sizeof(RayExit), cudaMemcpyDeviceToHost),
     "Fetching rays");
   return exits;
 }
 
 double CudaPass::largestDeflection(const Pass& pass, int width, int height) const
 {
-  const CudaBuffer<long long, DeviceError> largest(1);
+  const CudaBuffer<long long> largest(1);
   clear(largest, 1);
   const RaysOfPicture rays(exits_, pass, width, height);
   launchKernel(largestKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, largest.data());
-  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  checkCuda(cudaGetLastError(), "Counting rays");
   return numberOf(schlieren::toHost(largest, 1)[0]);
 }
 
 CudaPass::Squares CudaPass::countSquares(const Pass& pass, int width, int height) const
 {
-  const CudaBuffer<unsigned long long, DeviceError> counts(LeadingBits::count);
-  const CudaBuffer<long long, DeviceError> largest(1);
+  const CudaBuffer<unsigned long long> counts(LeadingBits::count);
+  const CudaBuffer<long long> largest(1);
   clear(counts, LeadingBits::count);
   clear(largest, 1);
   const RaysOfPicture rays(exits_, pass, width, height);
   launchKernel(countSquaresKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, counts.data(),
     largest.data());
-  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  checkCuda(cudaGetLastError(), "Counting rays");
   const std::vector<unsigned long long> fetched = schlieren::toHost(counts, LeadingBits::count);
   return { { fetched.begin(), fetched.end() }, numberOf(schlieren::toHost(largest, 1)[0]) };
 }
@@ -212,24 +218,24 @@ std::vector<double> CudaPass::squaresIn(
   std::size_t bin, std::int64_t count, const Pass& pass, int width, int height) const
 {
   const auto size = static_cast<std::size_t>(count);
-  const CudaBuffer<unsigned long long, DeviceError> found(1);
-  const CudaBuffer<double, DeviceError> squares(size);
+  const CudaBuffer<unsigned long long> found(1);
+  const CudaBuffer<double> squares(size);
   clear(found, 1);
   const RaysOfPicture rays(exits_, pass, width, height);
   launchKernel(findSquaresKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bin,
     found.data(), squares.data());
-  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  checkCuda(cudaGetLastError(), "Counting rays");
   return schlieren::toHost(squares, size);
 }
 
 void CudaPass::countDeflections(const Pass& pass, int width, int height, const DeflectionBins& bins,
   std::vector<std::int64_t>& counts) const
 {
-  const CudaBuffer<unsigned long long, DeviceError> here(counts.size());
+  const CudaBuffer<unsigned long long> here(counts.size());
   clear(here, counts.size());
   const RaysOfPicture rays(exits_, pass, width, height);
   launchKernel(countKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bins, here.data());
-  checkCuda<DeviceError>(cudaGetLastError(), "Counting rays");
+  checkCuda(cudaGetLastError(), "Counting rays");
   const std::vector<unsigned long long> fetched = schlieren::toHost(here, counts.size());
   for (std::size_t n = 0; n < counts.size(); ++n)
   {

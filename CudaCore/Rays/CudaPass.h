@@ -12,7 +12,12 @@
 namespace schlieren
 {
 
-/// The rays of a pass, row by row, in the memory of the first CUDA device. Throws DeviceError.
+/// Whether the device has memory to keep the rays of a pass of so many bytes, and for what then follows: the next pass,
+/// films of an image of as many pixels, and 256 MB for kernels' stacks, which take 624 bytes of each of 2048 threads on each of
+/// 132 multiprocessors at most, and for a band of shaded rays.
+bool canKeepOnCuda(std::size_t bytes);
+
+/// The rays of a pass, row by row, in the memory of the CUDA device. Throws DeviceError.
 class CudaPass
 {
 public:

@@ -3,11 +3,15 @@
 #include "Rays/CudaTracer.h"
 
 #include "Device/CudaBuffer.h"
+#include "Device/CudaDevice.h"
 #include "Rays/CudaMarch.h"
+#include "Rays/LaunchPace.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
+#include <tuple>
 
 namespace schlieren
 {
@@ -15,17 +19,15 @@ namespace schlieren
 namespace
 {
 
-/// So few that progress is told and an abort is heard often enough.
-constexpr std::int64_t raysPerLaunch = std::int64_t{ 1 } << 20;
-
 template <class T>
-using Buffer = CudaBuffer<T, DeviceError>;
-using Stream = CudaStream<DeviceError>;
+using Buffer = CudaBuffer<T>;
+using Stream = CudaStream;
+using Event = CudaEvent;
 
 template <class T>
 void copy(T* toHost, const T* fromDevice, std::size_t count, const Stream& stream)
 {
-  checkCuda<DeviceError>(
+  checkCuda(
     cudaMemcpyAsync(toHost, fromDevice, count * sizeof(T), cudaMemcpyDeviceToHost, stream.get()),
     "Fetching rays");
 }
@@ -38,6 +40,7 @@ bool cudaAvailable(std::string* reason)
   const cudaError_t status = cudaGetDeviceCount(&devices);
   if (status == cudaSuccess && devices > 0)
   {
+    checkCuda(cudaSetDevice(chosenCudaDevice(devices)), "Choosing a device");
     return true;
   }
   cudaGetLastError();
@@ -54,7 +57,6 @@ struct CudaTracer<Real>::DeviceMemory
   explicit DeviceMemory(const Medium<Real>& medium)
     : view(medium.view())
     , samples(begin(medium), size(medium), "Copying the medium")
-    , totals(1)
   {
     view.samples = samples.data() + (view.samples - begin(medium));
     if (medium.tree)
@@ -84,6 +86,14 @@ struct CudaTracer<Real>::DeviceMemory
     return medium.tree ? medium.tree->samples().size() : medium.volume.samples.size();
   }
 
+  static int currentDevice()
+  {
+    int device = 0;
+    checkCuda(cudaGetDevice(&device), "Asking for the device");
+    return device;
+  }
+
+  int device = currentDevice();
   MediumView<Real> view; ///< on the device
   Buffer<Real> samples;
   std::unique_ptr<Buffer<std::uint32_t>> solid;
@@ -147,8 +157,37 @@ struct CudaTracer<Real>::DeviceMemory
   };
   std::unique_ptr<Gradients> gradients;
 
-  Buffer<MarchTotals> totals;
-  std::array<Stream, 2> streams; ///< one launch ends while the next is under way
+  /// One launch ends while the next is under way.
+  struct Lane
+  {
+    Stream stream;
+    Event begin, end;                ///< of its launch
+    Buffer<MarchTotals> totals{ 1 }; ///< of its launches
+    std::int64_t crossed = 0;        ///< likewise, of those that have ended
+  };
+  std::array<Lane, 2> lanes;
+
+  /// The pace of the last pass, and what it depends on.
+  std::optional<LaunchPace> pace;
+  std::tuple<PathModel, Integrator, Interpolation, std::int32_t, int> paced{};
+
+  void findPace(const RayTask<Real>& task, int fields)
+  {
+    const KernelChoice& kernel = task.kernel;
+    const auto now =
+      std::make_tuple(kernel.path, kernel.integrator, kernel.interpolation, task.stepLimit, fields);
+    if (!pace || now != paced)
+    {
+      // Steps may be shorter, and a step reads at several places; many GPUs are slow in double precision.
+      const bool isAdaptive = kernel.integrator == Integrator::Adaptive;
+      const double steps =
+        static_cast<double>(task.stepLimit) / (trappedFactor * (isAdaptive ? adaptiveFactor : 1));
+      const double places = isAdaptive || kernel.integrator == Integrator::Rk4 ? 4 : 1;
+      const double precision = sizeof(Real) == sizeof(float) ? 1 : 10;
+      pace.emplace(steps * places * precision);
+      paced = now;
+    }
+  }
 
   /// The task with what it points to on the device. Sends what is new.
   RayTask<Real> bring(const RayTask<Real>& task, const TaskVersions& versions)
@@ -195,6 +234,7 @@ template <class Real>
 bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
+  checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
   const RayTask<Real> onDevice = memory_->bring(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again
@@ -207,49 +247,69 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const std::size_t sums = rays * static_cast<std::size_t>(fields);
   const std::unique_ptr<Buffer<float>> gathered =
     fields > 0 ? std::make_unique<Buffer<float>>(sums) : nullptr;
-  checkCuda<DeviceError>(
-    cudaMemset(memory_->totals.data(), 0, sizeof(MarchTotals)), "Clearing the totals");
-
-  constexpr std::int64_t mostBlocks = 65535; // along a grid's second axis
-  const std::int64_t rowsPerLaunch =
-    blockRows * std::clamp<std::int64_t>(raysPerLaunch / pass.columns / blockRows, 1, mostBlocks);
-  const std::int64_t launches = (pass.rows + rowsPerLaunch - 1) / rowsPerLaunch;
-  const auto streamOf = [this](std::int64_t number) -> const Stream&
-  { return memory_->streams[static_cast<std::size_t>(number % 2)]; };
-  const auto rowsOf = [&](std::int64_t number)
-  { return std::min(rowsPerLaunch, pass.rows - number * rowsPerLaunch); };
-
-  const auto launch = [&](std::int64_t number)
+  for (auto& lane : memory_->lanes)
   {
+    checkCuda(cudaMemset(lane.totals.data(), 0, sizeof(MarchTotals)), "Clearing the totals");
+    lane.crossed = 0;
+  }
+  memory_->findPace(task, fields);
+
+  /// Some rows, traced in a lane.
+  struct Launch
+  {
+    typename DeviceMemory::Lane* lane;
+    std::int64_t firstRow, rows;
+  };
+  /// Of the rows from this one on.
+  const auto launch = [&](std::int64_t number, std::int64_t firstRow)
+  {
+    constexpr std::int64_t mostBlocks = 65535; // along a grid's second axis
+    const std::int64_t rows = std::min(pass.rows - firstRow,
+      blockRows *
+        std::clamp<std::int64_t>(memory_->pace->rays() / pass.columns / blockRows, 1, mostBlocks));
+    auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
     const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
-      static_cast<unsigned>((rowsOf(number) + blockRows - 1) / blockRows));
+      static_cast<unsigned>((rows + blockRows - 1) / blockRows));
+    lane.begin.record(lane.stream);
     visitScheme(task.kernel.interpolation,
       [&](auto scheme)
       {
         launchMarch<decltype(scheme)>(onDevice, fields > 0,
-          { pass, number * rowsPerLaunch, there->exits(), gathered ? gathered->data() : nullptr,
-            memory_->totals.data() },
-          blocks, streamOf(number).get());
+          { pass, firstRow, there->exits(), gathered ? gathered->data() : nullptr,
+            lane.totals.data() },
+          blocks, lane.stream.get());
       });
-    checkCuda<DeviceError>(cudaGetLastError(), "Starting the ray kernel");
+    checkCuda(cudaGetLastError(), "Starting the ray kernel");
+    lane.end.record(lane.stream);
+    return Launch{ &lane, firstRow, rows };
+  };
+  const auto totalsOf = [](const typename DeviceMemory::Lane& lane)
+  {
+    MarchTotals totals{};
+    copy(&totals, lane.totals.data(), 1, lane.stream);
+    lane.stream.wait("Tracing rays");
+    return totals;
   };
   /// Waits for the launch.
-  const auto fetch = [&](std::int64_t number)
+  const auto fetch = [&](const Launch& launched)
   {
-    const Stream& stream = streamOf(number);
+    auto& lane = *launched.lane;
+    const auto count = static_cast<std::size_t>(launched.rows * pass.columns);
     if (exits == Exits::OnHost)
     {
-      const auto first = static_cast<std::size_t>(number * rowsPerLaunch * pass.columns);
-      const auto count = static_cast<std::size_t>(rowsOf(number) * pass.columns);
-      copy(traced.exits.data() + first, there->exits() + first, count, stream);
+      const auto first = static_cast<std::size_t>(launched.firstRow * pass.columns);
+      copy(traced.exits.data() + first, there->exits() + first, count, lane.stream);
       if (fields > 0)
       {
         const auto perRay = static_cast<std::size_t>(fields);
         copy(traced.gathered.data() + first * perRay, gathered->data() + first * perRay,
-          count * perRay, stream);
+          count * perRay, lane.stream);
       }
     }
-    stream.wait("Tracing rays");
+    const auto crossed = static_cast<std::int64_t>(totalsOf(lane).crossed);
+    memory_->pace->add(static_cast<std::int64_t>(count), crossed - lane.crossed,
+      Event::secondsBetween(lane.begin, lane.end));
+    lane.crossed = crossed;
   };
 
   if (exits == Exits::OnHost)
@@ -260,34 +320,49 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   {
     traced = {};
   }
-  launch(0);
-  for (std::int64_t number = 0; number < launches; ++number)
+  std::int64_t launches = 1;
+  Launch current = launch(0, 0);
+  while (true)
   {
-    if (number + 1 < launches)
+    const std::int64_t end = current.firstRow + current.rows;
+    std::optional<Launch> next;
+    if (end < pass.rows)
     {
-      launch(number + 1); // runs while this one's rays are copied
+      next.emplace(launch(launches++, end)); // runs while this one's rays are copied
     }
-    fetch(number);
+    fetch(current);
     if (monitor.progress)
     {
-      monitor.progress(static_cast<double>(number + 1) / static_cast<double>(launches));
+      monitor.progress(static_cast<double>(end) / static_cast<double>(pass.rows));
     }
     if (monitor.aborted && monitor.aborted())
     {
-      streamOf(number + 1).wait("Tracing rays"); // which would write to what comes next
+      for (const auto& lane : memory_->lanes)
+      {
+        lane.stream.wait("Tracing rays"); // which would write to what comes next
+      }
       return false;
     }
+    if (!next)
+    {
+      break;
+    }
+    current = *next;
   }
   if (exits == Exits::OnDevice)
   {
     traced.onDevice = std::move(there);
   }
-  MarchTotals totals{};
-  checkCuda<DeviceError>(
-    cudaMemcpy(&totals, memory_->totals.data(), sizeof(MarchTotals), cudaMemcpyDeviceToHost),
-    "Fetching the totals");
-  traced.crossed = static_cast<std::int64_t>(totals.crossed);
-  std::memcpy(&traced.worstDrift, &totals.worstDrift, sizeof(double));
+  traced.crossed = 0;
+  traced.worstDrift = 0;
+  for (const auto& lane : memory_->lanes)
+  {
+    const MarchTotals totals = totalsOf(lane);
+    double worstDrift = 0;
+    std::memcpy(&worstDrift, &totals.worstDrift, sizeof(worstDrift));
+    traced.crossed += static_cast<std::int64_t>(totals.crossed);
+    traced.worstDrift = std::max(traced.worstDrift, worstDrift);
+  }
   return true;
 }
 

@@ -12,7 +12,7 @@
 namespace schlieren
 {
 
-/// Traces rays on the first CUDA device. Holds in its memory what rays need, from pass to pass: the medium,
+/// Traces rays on the CUDA device that cudaAvailable has chosen. Holds in its memory what rays need, from pass to pass: the medium,
 /// the homogeneity map, the gradients of fields. Throws DeviceError.
 template <class Real>
 class CudaTracer

@@ -16,6 +16,8 @@ bool cudaAvailable(std::string* reason)
   return false;
 }
 
+bool canKeepOnCuda(std::size_t) { return false; }
+
 CudaPass::CudaPass(std::size_t rays)
   : size_(rays)
 {

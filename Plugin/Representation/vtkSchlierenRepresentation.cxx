@@ -136,24 +136,15 @@ int vtkSchlierenRepresentation::FillInputPortInformation(int, vtkInformation* in
 }
 
 //------------------------------------------------------------------------------
-// The same as the bench requests, so that nothing upstream runs twice: rank 0 has the whole.
+// The same as the bench requests, so that nothing upstream runs twice.
 int vtkSchlierenRepresentation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   this->Superclass::RequestUpdateExtent(request, input, output);
-  const bool isRank0 = ranks().first == 0;
-  constexpr int manyPieces = 1 << 15;
-  const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
-  for (int i = 0; i < input[0]->GetNumberOfInformationObjects(); ++i)
+  vtkSchlierenFilter* bench = this->Actor->GetBench();
+  for (int i = 0; bench && i < input[0]->GetNumberOfInformationObjects(); ++i)
   {
-    vtkInformation* info = input[0]->GetInformationObject(i);
-    if (info->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      info->Set(
-        Pipeline::UPDATE_EXTENT(), isRank0 ? info->Get(Pipeline::WHOLE_EXTENT()) : nothing, 6);
-    }
-    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), isRank0 ? 0 : manyPieces);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), isRank0 ? 1 : manyPieces);
+    bench->RequestSame(input[0]->GetInformationObject(i));
   }
   return 1;
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Device/CudaBuffer.h" // with the emulated device
-#include "Device/DeviceError.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +11,7 @@ TEST(CudaBuffer, SaysWhatCouldNotBeCopied)
 {
   try
   {
-    const CudaBuffer<float, DeviceError> buffer(nullptr, 2, "Copying the cutoff");
+    const CudaBuffer<float> buffer(nullptr, 2, "Copying the cutoff");
     FAIL() << "no error";
   }
   catch (const DeviceError& failure)

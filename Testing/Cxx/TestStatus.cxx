@@ -3,7 +3,7 @@
 //
 // What a picture's line of words says.
 #include "Fixtures.h"
-#include "PictureStatus.h"
+#include "ImageStatus.h"
 
 #include "Schlieren.h"
 

@@ -9,7 +9,8 @@
 //   - all memory is freed at the end of the program.
 // What breaks these rules ends the program.
 //
-// In the environment: CUDA_VISIBLE_DEVICES empty or -1 hides the device, as with CUDA. EMULATED_LAUNCHES
+// In the environment: CUDA_VISIBLE_DEVICES empty or -1 hides the device, as with CUDA. EMULATED_DEVICES: how many there
+// are, 1 by default; they have their memory in common, but a stream works for one of them only. EMULATED_LAUNCHES
 // names a file that gets the address of each kernel that is launched, as nm prints it.
 #include "Threads.h"
 
@@ -21,10 +22,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 
@@ -41,10 +44,12 @@ namespace emulated
 namespace
 {
 
-constexpr std::size_t capacity = std::size_t{ 4 } << 30;
+std::size_t capacity = defaultCapacity;
 
 std::recursive_mutex mutex;
 cudaError_t lastError = cudaSuccess;
+thread_local int currentDevice = 0;
+std::map<cudaStream_t, int> deviceOfStream;
 
 cudaError_t failed(cudaError_t error)
 {
@@ -125,7 +130,7 @@ public:
     return true;
   }
 
-  std::size_t free() const { return capacity - allocated_; }
+  std::size_t free() const { return capacity > allocated_ ? capacity - allocated_ : 0; }
 
   bool isOfDevice(const void* address) const
   {
@@ -274,6 +279,14 @@ void checkArgument(const void* value, std::size_t bytes)
   }
 }
 
+void setCapacity(std::size_t bytes)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  capacity = bytes;
+}
+
+bool isAllocated(const void* address, std::size_t bytes) { return memory.holds(address, bytes); }
+
 cudaError_t enqueue(Launch launch, cudaStream_t stream)
 {
   const std::lock_guard<std::recursive_mutex> lock(mutex);
@@ -285,6 +298,10 @@ cudaError_t enqueue(Launch launch, cudaStream_t stream)
     launch.sharedBytes > 48 << 10)
   {
     return failed(cudaErrorInvalidConfiguration);
+  }
+  if (stream != nullptr && deviceOfStream.at(stream) != currentDevice)
+  {
+    return failed(cudaErrorInvalidResourceHandle);
   }
   note(launch.kernel);
   queue.push_back({ stream, [launch = std::move(launch)] { run(launch); } });
@@ -307,8 +324,27 @@ cudaError_t cudaGetDeviceCount(int* count)
   const char* visible = std::getenv("CUDA_VISIBLE_DEVICES");
   const bool isHidden =
     visible != nullptr && (std::strcmp(visible, "") == 0 || std::strcmp(visible, "-1") == 0);
-  *count = isHidden ? 0 : 1;
+  const char* devices = std::getenv("EMULATED_DEVICES");
+  *count = isHidden ? 0 : devices != nullptr ? std::atoi(devices) : 1;
   return isHidden ? failed(cudaErrorNoDevice) : cudaSuccess;
+}
+
+cudaError_t cudaGetDevice(int* device)
+{
+  *device = currentDevice;
+  return cudaSuccess;
+}
+
+cudaError_t cudaSetDevice(int device)
+{
+  int count = 0;
+  const cudaError_t error = cudaGetDeviceCount(&count);
+  if (error != cudaSuccess || device < 0 || device >= count)
+  {
+    return error != cudaSuccess ? error : failed(cudaErrorInvalidDevice);
+  }
+  currentDevice = device;
+  return cudaSuccess;
 }
 
 cudaError_t cudaGetLastError()
@@ -329,6 +365,12 @@ const char* cudaGetErrorString(cudaError_t error)
       return "out of memory";
     case cudaErrorInvalidConfiguration:
       return "invalid configuration argument";
+    case cudaErrorInvalidDevice:
+      return "invalid device ordinal";
+    case cudaErrorInvalidResourceHandle:
+      return "invalid resource handle";
+    case cudaErrorNotReady:
+      return "device not ready";
     default:
       return "no CUDA-capable device is detected";
   }
@@ -388,6 +430,7 @@ cudaError_t cudaStreamCreate(cudaStream_t* stream)
   static std::uintptr_t streams = 0;
   const std::lock_guard<std::recursive_mutex> lock(mutex);
   *stream = reinterpret_cast<cudaStream_t>(++streams);
+  deviceOfStream[*stream] = currentDevice;
   return cudaSuccess;
 }
 
@@ -400,3 +443,46 @@ cudaError_t cudaStreamSynchronize(cudaStream_t stream)
 
 /// CUDA, too, does not wait for the stream's work.
 cudaError_t cudaStreamDestroy(cudaStream_t) { return cudaSuccess; }
+
+struct CUevent_st
+{
+  std::shared_ptr<std::chrono::steady_clock::time_point> happened; ///< zero before
+};
+
+cudaError_t cudaEventCreate(cudaEvent_t* event)
+{
+  *event = new CUevent_st{};
+  return cudaSuccess;
+}
+
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  event->happened = std::make_shared<std::chrono::steady_clock::time_point>();
+  queue.push_back(
+    { stream, [happened = event->happened] { *happened = std::chrono::steady_clock::now(); } });
+  return cudaSuccess;
+}
+
+cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t begin, cudaEvent_t end)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  if (!begin->happened || !end->happened)
+  {
+    return failed(cudaErrorInvalidValue);
+  }
+  const std::chrono::steady_clock::time_point none{};
+  if (*begin->happened == none || *end->happened == none)
+  {
+    return failed(cudaErrorNotReady);
+  }
+  *milliseconds =
+    std::chrono::duration<float, std::milli>(*end->happened - *begin->happened).count();
+  return cudaSuccess;
+}
+
+cudaError_t cudaEventDestroy(cudaEvent_t event)
+{
+  delete event;
+  return cudaSuccess;
+}

@@ -155,6 +155,30 @@ TEST(EmulatedDevice, WorksWhenItIsWaitedFor)
   cudaStreamDestroy(other);
 }
 
+TEST(EmulatedDevice, NotesWhenWorkWasDone)
+{
+  cudaStream_t stream{};
+  cudaStreamCreate(&stream);
+  cudaEvent_t begin{}, end{};
+  cudaEventCreate(&begin);
+  cudaEventCreate(&end);
+  int* data = deviceMemory<int>(1 << 12);
+  float milliseconds = -1;
+  EXPECT_EQ(cudaEventElapsedTime(&milliseconds, begin, end), cudaErrorInvalidValue);
+  cudaEventRecord(begin, stream);
+  launchKernel(write, 1 << 12, 1, 0, stream, data, 1);
+  cudaEventRecord(end, stream);
+  EXPECT_EQ(cudaEventElapsedTime(&milliseconds, begin, end), cudaErrorNotReady);
+  cudaStreamSynchronize(stream);
+  EXPECT_EQ(cudaEventElapsedTime(&milliseconds, begin, end), cudaSuccess);
+  EXPECT_GT(milliseconds, 0);
+  cudaGetLastError();
+  cudaFree(data);
+  cudaEventDestroy(begin);
+  cudaEventDestroy(end);
+  cudaStreamDestroy(stream);
+}
+
 TEST(EmulatedDevice, HasNoNumbersInNewMemory)
 {
   float* data = deviceMemory<float>(3);

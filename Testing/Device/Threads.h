@@ -15,4 +15,11 @@ namespace emulated
 /// "backward", or a number, the seed of a shuffle.
 void run(const Launch& launch);
 
+/// Of the device's memory. What is allocated stays, even if it is more.
+void setCapacity(std::size_t bytes);
+constexpr std::size_t defaultCapacity = std::size_t{ 4 } << 30;
+
+/// Whether all of it is one allocation's.
+bool isAllocated(const void* memory, std::size_t bytes);
+
 } // namespace emulated

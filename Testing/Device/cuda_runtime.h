@@ -27,6 +27,9 @@ enum cudaError_t
   cudaErrorMemoryAllocation = 2,
   cudaErrorInvalidConfiguration = 9,
   cudaErrorNoDevice = 100,
+  cudaErrorInvalidDevice = 101,
+  cudaErrorInvalidResourceHandle = 400,
+  cudaErrorNotReady = 600,
 };
 enum cudaMemcpyKind
 {
@@ -34,6 +37,7 @@ enum cudaMemcpyKind
   cudaMemcpyDeviceToHost = 2,
 };
 using cudaStream_t = struct CUstream_st*;
+using cudaEvent_t = struct CUevent_st*;
 
 struct uint3
 {
@@ -50,18 +54,29 @@ struct dim3
   }
 };
 
-cudaError_t cudaGetDeviceCount(int* count);
-cudaError_t cudaGetLastError();
-const char* cudaGetErrorString(cudaError_t error);
-cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
-cudaError_t cudaFree(void* memory);
-cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
-cudaError_t cudaMemcpyAsync(
-  void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
-cudaError_t cudaMemset(void* to, int value, std::size_t bytes);
-cudaError_t cudaStreamCreate(cudaStream_t* stream);
-cudaError_t cudaStreamSynchronize(cudaStream_t stream);
-cudaError_t cudaStreamDestroy(cudaStream_t stream);
+extern "C"
+{
+
+  cudaError_t cudaGetDeviceCount(int* count);
+  cudaError_t cudaGetDevice(int* device);
+  cudaError_t cudaSetDevice(int device);
+  cudaError_t cudaGetLastError();
+  const char* cudaGetErrorString(cudaError_t error);
+  cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
+  cudaError_t cudaFree(void* memory);
+  cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
+  cudaError_t cudaMemcpyAsync(
+    void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
+  cudaError_t cudaMemset(void* to, int value, std::size_t bytes);
+  cudaError_t cudaStreamCreate(cudaStream_t* stream);
+  cudaError_t cudaStreamSynchronize(cudaStream_t stream);
+  cudaError_t cudaStreamDestroy(cudaStream_t stream);
+  cudaError_t cudaEventCreate(cudaEvent_t* event);
+  cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream);
+  cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t begin, cudaEvent_t end);
+  cudaError_t cudaEventDestroy(cudaEvent_t event);
+
+} // extern "C"
 
 namespace emulated
 {

@@ -43,7 +43,7 @@ struct Peak
     const auto attribute = [](cudaDeviceAttr which)
     {
       int value = 0;
-      checkCuda<DeviceError>(cudaDeviceGetAttribute(&value, which, 0), "Asking for an attribute");
+      checkCuda(cudaDeviceGetAttribute(&value, which, 0), "Asking for an attribute");
       return static_cast<double>(value);
     };
     const double cycles =

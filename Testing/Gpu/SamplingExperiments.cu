@@ -331,7 +331,7 @@ private:
     { return static_cast<std::size_t>(volume.dimensions[axis] + 2); };
     const cudaExtent extent = make_cudaExtent(edge(0), edge(1), edge(2));
     const cudaChannelFormatDesc format = cudaCreateChannelDesc<float>();
-    checkCuda<DeviceError>(cudaMalloc3DArray(&array_, &format, extent), "Allocating a texture");
+    checkCuda(cudaMalloc3DArray(&array_, &format, extent), "Allocating a texture");
     cudaMemcpy3DParms copy{};
     // The runtime does not write to the source of this copy.
     copy.srcPtr = make_cudaPitchedPtr(
@@ -339,7 +339,7 @@ private:
     copy.dstArray = array_;
     copy.extent = extent;
     copy.kind = cudaMemcpyHostToDevice;
-    checkCuda<DeviceError>(cudaMemcpy3D(&copy), "Filling a texture");
+    checkCuda(cudaMemcpy3D(&copy), "Filling a texture");
 
     cudaResourceDesc resource{};
     resource.resType = cudaResourceTypeArray;
@@ -351,7 +351,7 @@ private:
     }
     description.filterMode = filter;
     description.readMode = cudaReadModeElementType;
-    checkCuda<DeviceError>(
+    checkCuda(
       cudaCreateTextureObject(&object_, &resource, &description, nullptr), "Making a texture");
   }
 
@@ -400,29 +400,29 @@ March march(const Sampler& sampler, const Bundle<Real>& bundle)
 {
   constexpr std::size_t rays = std::size_t{ pixels } * pixels;
   constexpr unsigned blocks = rays / threadsPerBlock;
-  const CudaBuffer<Vec3<Real>, DeviceError> deflections(rays);
+  const CudaBuffer<Vec3<Real>> deflections(rays);
   cudaEvent_t begin{}, end{};
-  checkCuda<DeviceError>(cudaEventCreate(&begin), "Making an event");
-  checkCuda<DeviceError>(cudaEventCreate(&end), "Making an event");
+  checkCuda(cudaEventCreate(&begin), "Making an event");
+  checkCuda(cudaEventCreate(&end), "Making an event");
   float fastest = INFINITY;
   constexpr int repetitions = 6;
   for (int n = 0; n < repetitions; ++n)
   {
-    checkCuda<DeviceError>(cudaEventRecord(begin), "Recording an event");
+    checkCuda(cudaEventRecord(begin), "Recording an event");
     marchKernel<Order><<<blocks, threadsPerBlock>>>(sampler, bundle, deflections.data());
-    checkCuda<DeviceError>(cudaGetLastError(), "Starting a kernel");
-    checkCuda<DeviceError>(cudaEventRecord(end), "Recording an event");
-    checkCuda<DeviceError>(cudaEventSynchronize(end), "Marching");
+    checkCuda(cudaGetLastError(), "Starting a kernel");
+    checkCuda(cudaEventRecord(end), "Recording an event");
+    checkCuda(cudaEventSynchronize(end), "Marching");
     float milliseconds = 0;
-    checkCuda<DeviceError>(cudaEventElapsedTime(&milliseconds, begin, end), "Timing");
+    checkCuda(cudaEventElapsedTime(&milliseconds, begin, end), "Timing");
     fastest = std::min(fastest, milliseconds);
   }
   cudaEventDestroy(begin);
   cudaEventDestroy(end);
 
   std::vector<Vec3<Real>> onHost(rays);
-  checkCuda<DeviceError>(cudaMemcpy(onHost.data(), deflections.data(), rays * sizeof(Vec3<Real>),
-                           cudaMemcpyDeviceToHost),
+  checkCuda(cudaMemcpy(
+              onHost.data(), deflections.data(), rays * sizeof(Vec3<Real>), cudaMemcpyDeviceToHost),
     "Copying deflections");
   March all{ 1e-3 * static_cast<double>(fastest), {} };
   all.deflections.reserve(rays);
@@ -512,7 +512,7 @@ struct Experiment
     const std::int64_t samples[3] = { volume.dimensions[0] + 2, volume.dimensions[1] + 2,
       volume.dimensions[2] + 2 };
 
-    const CudaBuffer<float, DeviceError> rows(
+    const CudaBuffer<float> rows(
       volume.samples.data(), volume.samples.size(), "Copying the samples");
     MediumView<float> view = medium.view();
     view.samples = rows.data();
@@ -535,8 +535,7 @@ struct Experiment
   {
     const BrickLayout<edge> layout(samples);
     const std::vector<float> bricks = inBricks(volume, layout);
-    const CudaBuffer<float, DeviceError> onDevice(
-      bricks.data(), bricks.size(), "Copying the bricks");
+    const CudaBuffer<float> onDevice(bricks.data(), bricks.size(), "Copying the bricks");
     each(
       "bricks of " + std::to_string(edge) + "^3", Bricks<Scheme, edge>{ onDevice.data(), layout });
   }
@@ -572,7 +571,7 @@ struct Experiment
   std::vector<std::vector<Vec3<double>>> findTruth() const
   {
     const Medium<double> medium = buildMedium<double>(blob.field, interpolation, 0);
-    const CudaBuffer<double, DeviceError> rows(
+    const CudaBuffer<double> rows(
       medium.volume.samples.data(), medium.volume.samples.size(), "Copying the medium");
     MediumView<double> view = medium.view();
     view.samples = rows.data();

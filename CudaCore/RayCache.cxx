@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "HeldRays.h"
+#include "RayCache.h"
 
 #include "Optics/CutoffMaker.h"
 
@@ -10,7 +10,7 @@
 namespace schlieren
 {
 
-bool HeldRays::prepare(RaysKey key, std::int64_t margin)
+bool RayCache::prepare(RaysKey key, std::int64_t margin)
 {
   if (key_ && !key.gradients)
   {
@@ -31,7 +31,7 @@ bool HeldRays::prepare(RaysKey key, std::int64_t margin)
   return true;
 }
 
-void HeldRays::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
+void RayCache::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
 {
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   if (inScratch_ == number && scratch_.gathered.size() == rays * static_cast<std::size_t>(fields))
@@ -58,7 +58,7 @@ void HeldRays::prepareScratch(std::int64_t number, const Pass& pass, Device devi
   isScratchTraced_ = false;
 }
 
-const TracedPass* HeldRays::raysOf(std::int64_t number, const Pass& pass, Device device, int fields,
+const TracedPass* RayCache::raysOf(std::int64_t number, const Pass& pass, Device device, int fields,
   std::size_t memoryBudget, const Trace& trace)
 {
   const auto index = static_cast<std::size_t>(number);
@@ -74,7 +74,7 @@ const TracedPass* HeldRays::raysOf(std::int64_t number, const Pass& pass, Device
   prepareScratch(number, pass, device, fields);
   if (!isScratchTraced_)
   {
-    // All passes of a picture in one place.
+    // All passes of an image in one place.
     const bool isWantedOnHost = fields > 0 || (!passes_.empty() && !passes_.front().onDevice);
     isScratchTraced_ = trace(scratch_, isWantedOnHost);
   }
@@ -82,7 +82,8 @@ const TracedPass* HeldRays::raysOf(std::int64_t number, const Pass& pass, Device
   {
     return nullptr;
   }
-  if (index == passes_.size() && (passes_.size() + 1) * scratch_.bytes() <= memoryBudget)
+  if (index == passes_.size() && (passes_.size() + 1) * scratch_.bytes() <= memoryBudget &&
+    (!scratch_.onDevice || canKeepOnCuda(scratch_.bytes())))
   {
     passes_.push_back(std::move(scratch_));
     scratch_ = {};
@@ -92,7 +93,7 @@ const TracedPass* HeldRays::raysOf(std::int64_t number, const Pass& pass, Device
   return &scratch_;
 }
 
-void HeldRays::ask(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
+void RayCache::ask(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
   const Scene& scene, const DeflectionErrors& errors)
 {
   if (number == 0 && scene.histogramSize > 0 &&
@@ -121,7 +122,7 @@ void HeldRays::ask(const TracedPass& traced, const TracedRays& rays, std::int64_
   }
 }
 
-std::optional<Tint> HeldRays::tintOf(const TracedRays& rays, const Field& field, const Scene& scene)
+std::optional<Tint> RayCache::tintOf(const TracedRays& rays, const Field& field, const Scene& scene)
 {
   if (field.gradients.count == 0)
   {
@@ -135,14 +136,14 @@ std::optional<Tint> HeldRays::tintOf(const TracedRays& rays, const Field& field,
   return Tint{ scene.fieldColors, *tint_ };
 }
 
-void HeldRays::finish()
+void RayCache::finish()
 {
   scratch_ = {};
   inScratch_ = -1;
   spare_.clear();
 }
 
-void HeldRays::clear()
+void RayCache::clear()
 {
   key_.reset();
   passes_.clear();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LastPicture.h"
+#include "LastImage.h"
 
 #include "ArrayRanges.h"
 
@@ -13,19 +13,19 @@
 #include <vector>
 
 //------------------------------------------------------------------------------
-bool LastPicture::IsThere() const { return this->Picture->GetNumberOfPoints() > 0; }
+bool LastImage::IsThere() const { return this->Picture->GetNumberOfPoints() > 0; }
 
 //------------------------------------------------------------------------------
-bool LastPicture::HasColor() const { return this->Picture->GetPointData()->HasArray("Color") != 0; }
+bool LastImage::HasColor() const { return this->Picture->GetPointData()->HasArray("Color") != 0; }
 
 //------------------------------------------------------------------------------
-void LastPicture::Keep(vtkImageData* output) { this->Picture->ShallowCopy(output); }
+void LastImage::Keep(vtkImageData* output) { this->Picture->ShallowCopy(output); }
 
 //------------------------------------------------------------------------------
-void LastPicture::Drop() { this->Picture->Initialize(); }
+void LastImage::Drop() { this->Picture->Initialize(); }
 
 //------------------------------------------------------------------------------
-void LastPicture::Show(vtkImageData* output, const int promised[6])
+void LastImage::Show(vtkImageData* output, const int promised[6])
 {
   output->ShallowCopy(this->Picture);
   const int* has = this->Picture->GetDimensions();
@@ -64,7 +64,7 @@ void LastPicture::Show(vtkImageData* output, const int promised[6])
   arrays->SetNumberOfTuples(pixels);
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
-    // All of a picture's are plain numbers; CopyData would take several times as long.
+    // All of an image's are plain numbers; CopyData would take several times as long.
     vtkDataArray* array = arrays->GetArray(i);
     const auto bytes =
       static_cast<std::size_t>(array->GetNumberOfComponents() * array->GetDataTypeSize());

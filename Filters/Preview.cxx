@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "HurriedPicture.h"
+#include "Preview.h"
 
 #include "QualityPresets.h"
 
@@ -8,18 +8,18 @@
 #include <cmath>
 
 //------------------------------------------------------------------------------
-int hurriedPixels(int pixels, int reduction)
+int previewPixels(int pixels, int reduction)
 {
   return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) / reduction)));
 }
 
 //------------------------------------------------------------------------------
-schlieren::View hurriedView(
+schlieren::View previewView(
   const schlieren::View& view, const schlieren::Frame& frame, int reduction)
 {
   schlieren::View hurried = view;
-  hurried.width = hurriedPixels(view.width, reduction);
-  hurried.height = hurriedPixels(view.height, reduction);
+  hurried.width = previewPixels(view.width, reduction);
+  hurried.height = previewPixels(view.height, reduction);
   const double larger = std::max(static_cast<double>(view.width) / hurried.width,
     static_cast<double>(view.height) / hurried.height);
   hurried.parallelScale = 0.5 * hurried.height * larger * frame.pixelSize;
@@ -34,7 +34,7 @@ int reductionAtFirst(const schlieren::View& view)
 }
 
 //------------------------------------------------------------------------------
-void hurry(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
+void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
 {
   constexpr double pixelsPerPeriod = 8; // the tracer's default
   constexpr double fewestPerPeriod = 4; // finer ones fade to grey
@@ -43,7 +43,7 @@ void hurry(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction
     scene.background.period =
       std::max(pixelsPerPeriod, fewestPerPeriod * reduction) * frame.pixelSize;
   }
-  scene.view = hurriedView(scene.view, frame, reduction);
+  scene.view = previewView(scene.view, frame, reduction);
   scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // fewer is a mistake that stays one
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
   scene.noiseFilterRadius /= reduction;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PictureInSlices.h"
+#include "TimeSlicedImage.h"
 
-#include "PictureStatus.h"
+#include "ImageStatus.h"
 #include "SharedRefractivity.h"
 
 #include <chrono>
@@ -12,7 +12,7 @@ namespace
 {
 
 /// Adds a pause after so much time. It runs from the first question on: before that the medium is made, which
-/// takes what it takes, and would leave nothing for the picture.
+/// takes what it takes, and would leave nothing for the image.
 schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 {
   using Clock = std::chrono::steady_clock;
@@ -32,10 +32,10 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 } // namespace
 
 //------------------------------------------------------------------------------
-PictureInSlices::PictureInSlices() { this->Bench.setMedia(mediaOfProcess()); }
+TimeSlicedImage::TimeSlicedImage() { this->Bench.setMedia(mediaOfProcess()); }
 
 //------------------------------------------------------------------------------
-schlieren::Image PictureInSlices::Begin(const schlieren::Field& field,
+schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
   const schlieren::Scene& scene, double seconds, const schlieren::Monitor& monitor)
 {
   this->Scene = scene;
@@ -44,13 +44,13 @@ schlieren::Image PictureInSlices::Begin(const schlieren::Field& field,
 }
 
 //------------------------------------------------------------------------------
-schlieren::Image PictureInSlices::GoOn(double seconds, const schlieren::Monitor& monitor)
+schlieren::Image TimeSlicedImage::GoOn(double seconds, const schlieren::Monitor& monitor)
 {
   return this->Noted(this->Bench.resume(limited(monitor, seconds)));
 }
 
 //------------------------------------------------------------------------------
-schlieren::Image PictureInSlices::Noted(schlieren::Image image)
+schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
 {
   const std::int64_t rays = this->Bench.work().raysTraced - this->RaysBefore;
   if (rays > 0 && image.traceSeconds > 0)
@@ -61,13 +61,13 @@ schlieren::Image PictureInSlices::Noted(schlieren::Image image)
 }
 
 //------------------------------------------------------------------------------
-std::string PictureInSlices::GetStatus(const schlieren::Image& image) const
+std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
 {
   return statusInWords(image, this->Scene, this->RaysPerSecond);
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::string> PictureInSlices::GetWarnings(const schlieren::Image& image)
+std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& image)
 {
   const std::string warnings[] = { image.deviceNote,
     image.raysTraced > 0 && image.raysBlocked == image.raysTraced

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Film/GrowingPicture.h"
+#include "Film/ProgressiveImage.h"
 
 #include <utility>
 
 namespace schlieren
 {
 
-GrowingPicture::GrowingPicture(const Scene& scene)
+ProgressiveImage::ProgressiveImage(const Scene& scene)
   : scene_(scene)
   , means_(scene.view.width, scene.view.height, scene.threads)
 {
 }
 
-void GrowingPicture::begin(const Exposure& exposure, std::optional<Tint> tint)
+void ProgressiveImage::begin(const Exposure& exposure, std::optional<Tint> tint)
 {
   exposure_ = exposure;
   films_ = filmsOf(scene_, exposure.cutoff, std::move(tint), exposure.mostRays);
@@ -23,7 +23,7 @@ void GrowingPicture::begin(const Exposure& exposure, std::optional<Tint> tint)
   }
 }
 
-bool GrowingPicture::add(
+bool ProgressiveImage::add(
   const TracedPass& traced, const Pass& pass, Rays rays, const Monitor& monitor)
 {
   if (traced.onDevice)
@@ -58,7 +58,7 @@ bool GrowingPicture::add(
   return true;
 }
 
-bool GrowingPicture::completeUndisturbed(const Monitor& monitor)
+bool ProgressiveImage::completeUndisturbed(const Monitor& monitor)
 {
   while (undisturbed_ && undisturbed_->passes() < passes_)
   {
@@ -70,12 +70,12 @@ bool GrowingPicture::completeUndisturbed(const Monitor& monitor)
   return true;
 }
 
-bool GrowingPicture::isWhole() const
+bool ProgressiveImage::isWhole() const
 {
   return passes_ > 0 && nextRow_ == 0 && (!undisturbed_ || undisturbed_->passes() == passes_);
 }
 
-void GrowingPicture::developCounts(Image& image)
+void ProgressiveImage::developCounts(Image& image)
 {
   if (filmOnDevice_)
   {
@@ -90,7 +90,7 @@ void GrowingPicture::developCounts(Image& image)
   image.saturatedShare = counts_.saturatedShare();
 }
 
-void GrowingPicture::develop(Image& image)
+void ProgressiveImage::develop(Image& image)
 {
   developCounts(image);
   filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);
@@ -102,7 +102,7 @@ void GrowingPicture::develop(Image& image)
   }
 }
 
-bool GrowingPicture::finish(Image& image, const Monitor& monitor)
+bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
 {
   developCounts(image);
   filmOnDevice_.reset();

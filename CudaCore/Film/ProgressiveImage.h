@@ -17,22 +17,22 @@
 namespace schlieren
 {
 
-/// Whether the rays of a pass stay where they are until the picture is finished.
+/// Whether the rays of a pass stay where they are until the image is finished.
 enum class Rays
 {
   Stay,
   Go
 };
 
-/// A picture that is summed up pass by pass, as a whole or in pieces: not a bit of it depends on where it was
-/// stopped. Where `paused` of the monitor is set, passes are exposed one by one, so that there is a picture
+/// An image that is summed up pass by pass, as a whole or in pieces: not a bit of it depends on where it was
+/// stopped. Where `paused` of the monitor is set, passes are exposed one by one, so that there is an image
 /// to show; else those that stay are exposed together, which is faster.
-class GrowingPicture
+class ProgressiveImage
 {
 public:
-  explicit GrowingPicture(const Scene& scene);
-  GrowingPicture(const GrowingPicture&) = delete;
-  GrowingPicture& operator=(const GrowingPicture&) = delete;
+  explicit ProgressiveImage(const Scene& scene);
+  ProgressiveImage(const ProgressiveImage&) = delete;
+  ProgressiveImage& operator=(const ProgressiveImage&) = delete;
 
   /// What the first pass has to be traced for.
   void begin(const Exposure& exposure, std::optional<Tint> tint);
@@ -53,10 +53,10 @@ public:
   /// Whether the films hold whole passes, and could be developed.
   bool isWhole() const;
 
-  /// Writes the picture of the passes so far into the image. More may follow.
+  /// Writes what the passes so far make into `image`. More may follow.
   void develop(Image& image);
 
-  /// Writes the picture into the image, with what has been left for the end, and gives all memory back. False
+  /// Writes the result into `image`, with what has been left for the end, and gives all memory back. False
   /// if aborted.
   bool finish(Image& image, const Monitor& monitor);
 

@@ -17,19 +17,19 @@ struct MediumStatistics;
 /// of what skipping changes, if that might be as much as the largest deflection.
 void dropIdleBounds(schlieren::Image& image);
 
-/// Makes `output` the picture `image`, with all arrays and field data that vtkSchlierenFilter promises
+/// Makes `output` the image `image`, with all arrays and field data that vtkSchlierenFilter promises
 /// but Color, Grid and MediumDimensions, and without bounds that are infinite. Takes the memory of the image's arrays over, `color` excepted.
 void setOutput(vtkImageData* output, schlieren::Image& image);
 
-/// How the light of a picture becomes the bytes of Color.
+/// How the light of an image becomes the bytes of Color.
 enum class ColorScale
 {
-  Linear,        ///< a tinted picture: 1 is 255
+  Linear,        ///< a tinted image: 1 is 255
   LinearToTwice, ///< of a shadowgraph, whose light is 1 where nothing bends it: 2 is 255
   Srgb           ///< colours to be seen as they are (IEC 61966-2-1): 1 is 255
 };
 
-/// Adds the colours of a picture and makes them the scalars.
+/// Adds the colours of an image and makes them the scalars.
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
 
 /// Adds the spacing of finite fringes, data units.

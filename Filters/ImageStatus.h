@@ -10,7 +10,7 @@ struct Image;
 struct Scene;
 } // namespace schlieren
 
-/// A picture in words that fit in a line: its samples, the speed and the device, and how exact its rays are.
+/// An image in words that fit in a line: its samples, the speed and the device, and how exact its rays are.
 /// `raysPerSecond`: 0 where it is not known.
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PictureOutput.h"
+#include "ImageOutput.h"
 
 #include "ArrayRanges.h"
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-/// Makes the pictures of a filter one after the other, each as a whole or in slices of time.
-class PictureInSlices
+/// Makes the images of a filter one after the other, each as a whole or time-sliced.
+class TimeSlicedImage
 {
 public:
-  PictureInSlices();
+  TimeSlicedImage();
 
   /// `seconds`: for rays and light, about; 0: no limit. What the image holds then, see schlieren::Image::finished.
   schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene,
@@ -34,7 +34,7 @@ public:
   /// In words that fit in a line; see statusInWords.
   std::string GetStatus(const schlieren::Image& image) const;
 
-  /// What the user should know of its rays: once for the same rays, whatever pictures are made of them.
+  /// What the user should know of its rays: once for the same rays, whatever images are made of them.
   std::vector<std::string> GetWarnings(const schlieren::Image& image);
 
 private:
@@ -42,7 +42,7 @@ private:
 
   schlieren::Bench Bench;
   schlieren::Scene Scene;
-  std::int64_t RaysBefore = 0; // this picture
+  std::int64_t RaysBefore = 0; // this image
   double RaysPerSecond = 0;    // when rays were traced last
   std::int64_t WarnedOf[3] = { 0, 0, 0 };
 };

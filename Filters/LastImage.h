@@ -5,8 +5,8 @@
 #include "vtkImageData.h"
 #include "vtkNew.h"
 
-/// The picture that was shown last, for as long as there is nothing better.
-class LastPicture
+/// The image that was shown last, for as long as there is nothing better.
+class LastImage
 {
 public:
   bool IsThere() const;
@@ -16,7 +16,7 @@ public:
   void Keep(vtkImageData* output);
   void Drop();
 
-  /// Makes `output` that picture. Where another extent has been promised, its pixels are stretched to it.
+  /// Makes `output` that image. Where another extent has been promised, its pixels are stretched to it.
   void Show(vtkImageData* output, const int promised[6]);
 
 private:

@@ -3,7 +3,7 @@
 //
 // Pictures of fewer pixels, for while a view is turned: the same place, seen roughly.
 #include "Fixtures.h"
-#include "HurriedPicture.h"
+#include "Preview.h"
 #include "QualityPresets.h"
 #include "RgbPictures.h"
 #include "SceneFromSettings.h"
@@ -60,7 +60,7 @@ std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge
 } // namespace
 
 // Of a smooth flow, whose picture changes little within four pixels.
-TEST(HurriedPicture, IsTheWholeOneAveragedOverBoxes)
+TEST(Preview, IsTheWholeOneAveragedOverBoxes)
 {
   for (const int cutoff : { vtkSchlierenFilter::KNIFE_EDGE, vtkSchlierenFilter::SHADOWGRAPH })
   {
@@ -88,7 +88,7 @@ TEST(HurriedPicture, IsTheWholeOneAveragedOverBoxes)
   }
 }
 
-TEST(HurriedPicture, LiesWhereTheInformationSays)
+TEST(Preview, LiesWhereTheInformationSays)
 {
   const int sizes[][3] = { { 160, 120, 4 }, { 101, 37, 3 }, { 16, 16, 64 }, { 200, 3, 32 } };
   for (const auto& [width, height, reduction] : sizes)
@@ -120,7 +120,7 @@ TEST(HurriedPicture, LiesWhereTheInformationSays)
   }
 }
 
-TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
+TEST(Preview, HasOneRayPerPixelAndTheRestAsSet)
 {
   vtkNew<vtkSchlierenFilter> filter;
   schlieren::Grid grid;
@@ -145,7 +145,7 @@ TEST(HurriedPicture, HasOneRayPerPixelAndTheRestAsSet)
   EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).stepSize, 3);
 }
 
-TEST(HurriedPicture, ShowsTheSameBackground)
+TEST(Preview, ShowsTheSameBackground)
 {
   vtkNew<vtkSchlierenFilter> filter;
   schlieren::Grid grid;
@@ -162,7 +162,7 @@ TEST(HurriedPicture, ShowsTheSameBackground)
   EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 0.1);
 }
 
-TEST(HurriedPicture, HidesNoMistake)
+TEST(Preview, HidesNoMistake)
 {
   expectOneMessage(
     bench(columnImage()).Get(),

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Images on a device with little memory, which the emulated one can have.
+#include "Fields.h"
+#include "Rays/RayExit.h"
+#include "Threads.h"
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr std::size_t megabyte = std::size_t{ 1 } << 20;
+constexpr int pixels = 200 * 150;
+
+class SmallDevice : public testing::Test
+{
+protected:
+  SmallDevice()
+    : field_(cube(20, 1), gaussian)
+  {
+    scene_.device = Device::Cuda;
+    scene_.pathModel = PathModel::Refracted;
+    scene_.view.width = 200;
+    scene_.view.height = 150;
+    scene_.samplesPerPixel = 3;
+    scene_.kScale = 300;
+  }
+  ~SmallDevice() override { emulated::setCapacity(emulated::defaultCapacity); }
+
+  static double gaussian(double x, double y, double z)
+  {
+    return 3e-4 * std::exp(-(x * x + y * y + z * z) / 0.1);
+  }
+  Image render(Bench& bench) { return bench.render(field_.field, scene_); }
+  /// With all the memory that it wants.
+  Image rendered()
+  {
+    emulated::setCapacity(emulated::defaultCapacity);
+    Bench bench;
+    return render(bench);
+  }
+
+  SampledField<float> field_;
+  Scene scene_;
+};
+
+TEST_F(SmallDevice, KeepsNoRaysThatFillIt)
+{
+  const Image expected = rendered();
+  emulated::setCapacity(16 * megabyte);
+  Bench bench;
+  for (int image = 1; image <= 2; ++image)
+  {
+    const Image found = render(bench);
+    EXPECT_EQ(found.device, Device::Cuda);
+    EXPECT_EQ(found.deviceNote, "");
+    EXPECT_EQ(found.intensity, expected.intensity);
+    EXPECT_EQ(bench.work().raysTraced, image * expected.raysTraced);
+  }
+}
+
+TEST_F(SmallDevice, LosesRaysRatherThanTheImage)
+{
+  Bench bench;
+  const std::int64_t rays = render(bench).raysTraced;
+  scene_.cutoff = Cutoff::Shadowgraph;
+  const Image expected = rendered();
+
+  // Three passes of rays are there, and less than a film's sums fits beside them.
+  emulated::setCapacity(3 * pixels * sizeof(RayExit) + megabyte);
+  ASSERT_EQ(bench.work().raysTraced, rays);
+  for (int image = 1; image <= 2; ++image)
+  {
+    const Image found = render(bench);
+    EXPECT_EQ(found.device, Device::Cuda);
+    EXPECT_EQ(found.deviceNote, "");
+    EXPECT_EQ(found.intensity, expected.intensity);
+    EXPECT_EQ(bench.work().raysTraced, (1 + image) * rays);
+  }
+}
+
+TEST_F(SmallDevice, LeavesToTheCpuWhatIsTooMuch)
+{
+  emulated::setCapacity(megabyte);
+  Bench bench;
+  try
+  {
+    render(bench);
+    FAIL() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("of its 1 MB of memory free"), std::string::npos)
+      << error.what();
+  }
+  scene_.device = Device::Auto;
+  const Image found = render(bench);
+  EXPECT_EQ(found.device, Device::Cpu);
+  EXPECT_NE(found.deviceNote.find("of its 1 MB of memory free"), std::string::npos)
+    << found.deviceNote;
+  emulated::setCapacity(emulated::defaultCapacity);
+  EXPECT_EQ(render(bench).device, Device::Cuda);
+}
+
+} // namespace
+
+} // namespace schlieren
