@@ -5,8 +5,9 @@
  * @brief   an image of vtkSchlierenFilter that fills a view, behind everything else
  *
  * The image is traced while it is drawn, because only then are the camera and the size those of the rendering, on
- * servers and in screenshots of another size, too. Where the bench is in another process, that one traces it. It lies just before the far plane of the camera, so all surfaces
- * hide it. With a perspective camera its pixels agree with surfaces in the plane of the focal point.
+ * servers and in screenshots of another size, too; where the bench is in another process, by that one. It lies just
+ * before the far plane of the camera, so all surfaces hide it. With a perspective camera its pixels agree with surfaces
+ * in the plane of the focal point.
  */
 #ifndef vtkSchlierenActor_h
 #define vtkSchlierenActor_h
@@ -63,7 +64,7 @@ public:
   vtkImageData* ImageForElsewhere(const View& view, int occasion);
 
   /**
-   * Where the bench is in another process: who asks this one for an image. Unset: there is none.
+   * Where the bench is in another process: what has that one trace an image. Unset: the bench is in this one.
    */
   using Tracer = std::function<vtkSmartPointer<vtkImageData>(const View& view, int occasion)>;
   void SetTracerElsewhere(Tracer tracer) { this->TracerElsewhere = std::move(tracer); }
