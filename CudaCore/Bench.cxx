@@ -69,7 +69,7 @@ constexpr std::int64_t noChange = -1;
 
 /// The medium of a bench.
 template <class Real>
-struct HeldMedium
+struct MediumOfBench
 {
   std::shared_ptr<MediumOnDevices<Real>> shared;
   std::int64_t changesSeen = noChange;    ///< those that the bench's rays are of
@@ -136,9 +136,9 @@ private:
 /// Of the progress of an image, what belongs to making the medium's voxels, where some are to be made.
 constexpr double fractionOfVoxels = 0.3;
 
-/// A medium that is there as long as a bench holds it.
+/// A medium that is there as long as a bench uses it.
 template <class Real>
-using ElsewhereHeld = std::weak_ptr<MediumOnDevices<Real>>;
+using WeakMedium = std::weak_ptr<MediumOnDevices<Real>>;
 
 } // namespace
 
@@ -147,7 +147,7 @@ struct SharedMedia::Entries
   struct Entry
   {
     MediumKey key;
-    std::variant<ElsewhereHeld<float>, ElsewhereHeld<double>> medium;
+    std::variant<WeakMedium<float>, WeakMedium<double>> medium;
 
     bool isThere() const
     {
@@ -170,7 +170,7 @@ struct SharedMedia::Entries
     const std::lock_guard<std::mutex> lock(mutex);
     const auto found = std::find_if(
       all.begin(), all.end(), [&](const Entry& entry) { return entry.key.tie() == key.tie(); });
-    return found != all.end() ? std::get<ElsewhereHeld<Real>>(found->medium).lock() : nullptr;
+    return found != all.end() ? std::get<WeakMedium<Real>>(found->medium).lock() : nullptr;
   }
 
   template <class Real>
@@ -178,7 +178,7 @@ struct SharedMedia::Entries
   {
     const std::lock_guard<std::mutex> lock(mutex);
     dropThoseGone();
-    all.push_back({ key, ElsewhereHeld<Real>(medium) });
+    all.push_back({ key, WeakMedium<Real>(medium) });
   }
 };
 
@@ -237,7 +237,7 @@ struct Bench::Stages
 
   std::shared_ptr<SharedMedia> media; ///< may be null
   std::optional<MediumKey> mediumKey;
-  std::variant<std::monostate, HeldMedium<float>, HeldMedium<double>> medium;
+  std::variant<std::monostate, MediumOfBench<float>, MediumOfBench<double>> medium;
 
   RayCache rays;
   CutoffMaker cutoffs;
@@ -245,16 +245,16 @@ struct Bench::Stages
   template <class Real>
   std::shared_ptr<MediumOnDevices<Real>> makeMedium(const Field& field, const Scene& scene);
   template <class Real>
-  HeldMedium<Real>& prepareMedium(const Field& field, const Scene& scene);
+  MediumOfBench<Real>& prepareMedium(const Field& field, const Scene& scene);
   /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
   /// of other benches.
   template <class Real>
   bool refineFor(
-    const Column& column, HeldMedium<Real>& held, const Monitor& monitor, Unfinished& asked);
+    const Column& column, MediumOfBench<Real>& held, const Monitor& monitor, Unfinished& asked);
 
   /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
   template <class Real>
-  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, HeldMedium<Real>& held,
+  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, MediumOfBench<Real>& held,
     const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked);
 
   /// Goes on with a picture, until it is finished, aborted or paused.
@@ -280,7 +280,7 @@ std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
 }
 
 template <class Real>
-HeldMedium<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
+MediumOfBench<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
 {
   const bool hasSource = field.source != nullptr;
   const void* samples = hasSource ? static_cast<const void*>(field.source.get())
@@ -296,7 +296,7 @@ HeldMedium<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& 
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
-    HeldMedium<Real> held;
+    MediumOfBench<Real> held;
     held.shared = media ? media->entries_->find<Real>(key) : nullptr;
     if (!held.shared)
     {
@@ -309,12 +309,12 @@ HeldMedium<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& 
     medium = std::move(held);
     mediumKey = key;
   }
-  return std::get<HeldMedium<Real>>(medium);
+  return std::get<MediumOfBench<Real>>(medium);
 }
 
 template <class Real>
 bool Bench::Stages::refineFor(
-  const Column& column, HeldMedium<Real>& held, const Monitor& monitor, Unfinished& asked)
+  const Column& column, MediumOfBench<Real>& held, const Monitor& monitor, Unfinished& asked)
 {
   Monitor ofTree;
   ofTree.aborted = monitor.aborted;
@@ -338,7 +338,7 @@ bool Bench::Stages::refineFor(
 
 template <class Real>
 bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
-  HeldMedium<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
+  MediumOfBench<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
 {
   MediumOnDevices<Real>& shared = *held.shared;
   const auto start = std::chrono::steady_clock::now();
@@ -395,13 +395,12 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   image.threads = threadCount(scene.threads);
   image.workers = asked.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
 
-  HeldMedium<Real>& held = prepareMedium<Real>(field, scene);
+  MediumOfBench<Real>& held = prepareMedium<Real>(field, scene);
   std::optional<InUse<Real>> inUse(std::in_place, *held.shared);
   const auto useOwn = [&]
   {
     inUse.reset();
     held.team.reset();
-    held.shared.reset();
     held.shared = makeMedium<Real>(field, scene);
     held.changesSeen = noChange;
     inUse.emplace(*held.shared);

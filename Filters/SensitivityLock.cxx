@@ -67,20 +67,16 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
 std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& now)
 {
   // A series differs from time to time, and an animation moves the camera before or after the first image of a time
-  // is made: only at the time that k is of does the camera make another one.
+  // is made: only at the time that k is of does the camera make another one. One that was given is of another time.
   const bool holds = this->Last && this->Last->medium == now.medium &&
     (haveSameData(*this->Last, now) || isAtOtherTime(*this->Last, now)) &&
-    (this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
+    (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
       mode == Filter::LOCK_ALWAYS);
   if (mode == Filter::LOCK_OFF || (this->Last && !holds))
   {
     this->Drop();
   }
   this->Last = now;
-  if (!this->Origin)
-  {
-    this->Origin = now;
-  }
   return this->K;
 }
 

@@ -56,7 +56,7 @@ RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataOb
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const MadeRefractivity> heldRefractivity(const RefractivityKey& key)
+std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key)
 {
   const std::lock_guard<std::mutex> lock(entries().Mutex);
   std::vector<Entry>& all = entries().All;

@@ -58,9 +58,9 @@ struct RefractivityKey
 RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataObject* bodies,
   std::vector<double> inputs, bool hasFields);
 
-/// The refractivities of this process that a filter holds.
+/// The refractivities of this process that a filter uses.
 /// Another filter of the same data, in whatever view, takes the one that is there; null: there is none.
-std::shared_ptr<const MadeRefractivity> heldRefractivity(const RefractivityKey& key);
+std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key);
 void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made);
 
 /// The media that are made of them.

@@ -229,7 +229,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   // Pieces belong to the ranks of this filter.
   const bool canShare = !inside.Ranks.AreInPieces();
   RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
-  std::shared_ptr<const MadeRefractivity> made = canShare ? heldRefractivity(key) : nullptr;
+  std::shared_ptr<const MadeRefractivity> made = canShare ? findRefractivity(key) : nullptr;
   if (made)
   {
     this->Medium->ReleasePieces();

@@ -7,13 +7,16 @@
 #include "pqDataRepresentation.h"
 #include "pqFetchedImage.h"
 #include "pqPipelineSource.h"
+#include "pqRepresentationRefiner.h"
 #include "pqServerManagerModel.h"
 #include "pqView.h"
 
+#include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkEventQtSlotConnect.h"
 #include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
@@ -48,11 +51,31 @@ bool shows(pqView* view, vtkSMProxy* filter)
   const QList<pqDataRepresentation*> pictures =
     source ? source->getRepresentations(picturePort, view) : QList<pqDataRepresentation*>();
   return std::any_of(pictures.begin(), pictures.end(),
-    [](pqDataRepresentation* picture) { return picture->isVisible(); });
+           [](pqDataRepresentation* picture) { return picture->isVisible(); }) ||
+    pqRepresentationRefiner::isDrawnIn(view, filter);
 }
 
-/// Where the line of sight through a pixel of the window meets the picture's plane, z = 0.
-bool placeUnder(const int pixel[2], vtkRenderer* renderer, QPointF& place)
+/// Where the plane of an image lies in a view: that of the filter's output is z = 0; that of a representation goes through
+/// the focal point, and its coordinates are those along the view's axes.
+struct ImagePlane
+{
+  double Right[3] = { 1, 0, 0 }, Up[3] = { 0, 1, 0 }, Normal[3] = { 0, 0, 1 }, Height = 0;
+
+  static ImagePlane ofRepresentation(vtkRenderer* renderer)
+  {
+    ImagePlane plane;
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->GetDirectionOfProjection(plane.Normal);
+    vtkMath::Cross(plane.Normal, camera->GetViewUp(), plane.Right);
+    vtkMath::Normalize(plane.Right);
+    vtkMath::Cross(plane.Right, plane.Normal, plane.Up);
+    plane.Height = vtkMath::Dot(camera->GetFocalPoint(), plane.Normal);
+    return plane;
+  }
+};
+
+/// Where the line of sight through a pixel of the window meets the plane.
+bool placeUnder(const int pixel[2], vtkRenderer* renderer, const ImagePlane& plane, QPointF& place)
 {
   double ends[2][4];
   for (int end = 0; end < 2; ++end)
@@ -65,9 +88,15 @@ bool placeUnder(const int pixel[2], vtkRenderer* renderer, QPointF& place)
       ends[end][axis] /= ends[end][3];
     }
   }
-  const double way = ends[0][2] / (ends[0][2] - ends[1][2]);
-  place = { ends[0][0] + way * (ends[1][0] - ends[0][0]),
-    ends[0][1] + way * (ends[1][1] - ends[0][1]) };
+  const double before = vtkMath::Dot(ends[0], plane.Normal) - plane.Height;
+  const double behind = vtkMath::Dot(ends[1], plane.Normal) - plane.Height;
+  const double way = before / (before - behind);
+  const auto along = [&](const double axis[3])
+  {
+    const double first = vtkMath::Dot(ends[0], axis);
+    return first + way * (vtkMath::Dot(ends[1], axis) - first);
+  };
+  place = { along(plane.Right), along(plane.Up) };
   return std::isfinite(place.x()) && std::isfinite(place.y());
 }
 
@@ -219,8 +248,11 @@ void pqPicturePainter::mouseEvent(
 void pqPicturePainter::brush(vtkRenderWindowInteractor* interactor)
 {
   QPointF position;
-  if (!placeUnder(
-        interactor->GetEventPosition(), renderViewOf(this->Pressed)->GetRenderer(), position))
+  vtkRenderer* renderer = renderViewOf(this->Pressed)->GetRenderer();
+  const ImagePlane plane = pqRepresentationRefiner::isDrawnIn(this->Pressed, this->Filter)
+    ? ImagePlane::ofRepresentation(renderer)
+    : ImagePlane();
+  if (!placeUnder(interactor->GetEventPosition(), renderer, plane, position))
   {
     return;
   }

@@ -15,6 +15,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -207,9 +208,8 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenActor::LookThrough(vtkRenderer* renderer)
+bool vtkSchlierenActor::LookThrough(const View& view)
 {
-  const View view = ViewOf(renderer);
   const bool isMoved = !this->HasSeen || !(view == this->Seen);
   this->Seen = view;
   this->HasSeen = true;
@@ -252,6 +252,21 @@ void vtkSchlierenActor::RemoveFrom(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
+bool vtkSchlierenActor::IsHidden(vtkRenderer* renderer)
+{
+  vtkPropCollection* props = renderer->GetViewProps();
+  for (int i = 0; i < props->GetNumberOfItems(); ++i)
+  {
+    auto* actor = vtkSchlierenActor::SafeDownCast(props->GetItemAsObject(i));
+    if (actor && actor->GetVisibility())
+    {
+      return actor != this;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
 void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
 {
   if (!this->HasSeen)
@@ -264,7 +279,10 @@ void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
   }
   else
   {
-    this->LookThrough(renderer);
+    if (!this->IsDrawnElsewhere)
+    {
+      this->LookThrough(ViewOf(renderer));
+    }
     this->TraceUpTo(this->TimeSlice);
   }
   this->HasData = true;
@@ -328,13 +346,13 @@ void vtkSchlierenActor::TracePreview()
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenActor::Trace(bool isInteractive, bool isMoved)
+void vtkSchlierenActor::Trace(int occasion, bool isMoved)
 {
-  if (isInteractive || (isMoved && this->TimeSlice > 0 && !this->IsForScreenshot))
+  if (occasion == TURNED || (isMoved && this->TimeSlice > 0 && occasion != SCREENSHOT))
   {
     this->TracePreview();
   }
-  else if (this->IsForScreenshot || !(this->TimeSlice > 0))
+  else if (occasion == SCREENSHOT || !(this->TimeSlice > 0))
   {
     this->TraceUpTo(0);
   }
@@ -366,23 +384,62 @@ bool vtkSchlierenActor::Refine()
 int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
-  if (!renderer || !this->Bench || !this->HasData || this->HasFailed())
+  if (!renderer || this->IsHidden(renderer))
   {
     return 0;
   }
-  const Silent silent(this->Silence);
-  const bool isMoved = this->LookThrough(renderer);
   // ParaView's views ask for 5 images per second while they are turned, else for 0.002.
-  this->Trace(
-    !this->IsForScreenshot && renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1, isMoved);
+  const int occasion = this->IsForScreenshot                  ? SCREENSHOT
+    : renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1 ? TURNED
+                                                              : STILL;
+  const View view = ViewOf(renderer);
+  if (this->TracerElsewhere)
+  {
+    this->Seen = view;
+    const vtkSmartPointer<vtkImageData> image = this->TracerElsewhere(view, occasion);
+    if (!image)
+    {
+      return 0;
+    }
+    this->Pixels->ShallowCopy(image);
+  }
+  else if (!this->Image(view, occasion))
+  {
+    return 0;
+  }
+  const int* size = this->Pixels->GetDimensions();
+  this->GetTexture()->SetInterpolate(size[0] != view.Size[0] || size[1] != view.Size[1]);
+  this->PlaceQuad(renderer);
+  return this->Superclass::RenderOpaqueGeometry(viewport);
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkSchlierenActor::Image(const View& view, int occasion)
+{
+  if (!this->Bench || !this->HasData || this->HasFailed())
+  {
+    return nullptr;
+  }
+  const Silent silent(this->Silence);
+  this->Trace(occasion, this->LookThrough(view));
   this->NoteTimes();
   if (this->HasFailed())
   {
-    return 0;
+    return nullptr;
   }
   this->UpdatePixels();
-  this->PlaceQuad(renderer);
-  return this->Superclass::RenderOpaqueGeometry(viewport);
+  return this->Pixels;
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkSchlierenActor::ImageForElsewhere(const View& view, int occasion)
+{
+  this->IsDrawnElsewhere = true;
+  if (occasion == STILL && this->HasSeen && view == this->Seen && this->Bench && this->HasData)
+  {
+    this->Refine();
+  }
+  return this->Image(view, occasion);
 }
 
 //------------------------------------------------------------------------------
@@ -394,6 +451,8 @@ void vtkSchlierenActor::UpdatePixels()
     this->PixelsTime = image->GetMTime();
     this->Pixels->Initialize();
     this->Pixels->SetDimensions(image->GetDimensions());
+    this->Pixels->SetOrigin(image->GetOrigin());
+    this->Pixels->SetSpacing(image->GetSpacing());
     vtkPointData* arrays = image->GetPointData();
     if (vtkDataArray* color = arrays->GetArray("Color"))
     {
@@ -407,19 +466,15 @@ void vtkSchlierenActor::UpdatePixels()
     }
     this->Pixels->Modified();
   }
-  const int* size = image->GetDimensions();
-  this->GetTexture()->SetInterpolate(
-    size[0] != this->Seen.Size[0] || size[1] != this->Seen.Size[1]);
 }
 
 //------------------------------------------------------------------------------
 // The image's coordinates are those of the view: x to the right, y upwards.
 void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
 {
-  vtkImageData* image = this->Bench->GetOutput();
-  const double* pixel = image->GetSpacing();
+  const double* pixel = this->Pixels->GetSpacing();
   double centers[6];
-  image->GetBounds(centers);
+  this->Pixels->GetBounds(centers);
   vtkCamera* camera = renderer->GetActiveCamera();
   const double* direction = this->Seen.Direction.data();
   const double* focalPoint = this->Seen.FocalPoint.data();

@@ -5,8 +5,9 @@
  * @brief   an image of vtkSchlierenFilter that fills a view, behind everything else
  *
  * The image is traced while it is drawn, because only then are the camera and the size those of the rendering, on
- * servers and in screenshots of another size, too. It lies just before the far plane of the camera, so all surfaces
- * hide it. With a perspective camera its pixels agree with surfaces in the plane of the focal point.
+ * servers and in screenshots of another size, too; where the bench is in another process, by that one. It lies just
+ * before the far plane of the camera, so all surfaces hide it. With a perspective camera its pixels agree with surfaces
+ * in the plane of the focal point.
  */
 #ifndef vtkSchlierenActor_h
 #define vtkSchlierenActor_h
@@ -16,6 +17,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <functional>
 
 class vtkCallbackCommand;
 class vtkImageData;
@@ -32,6 +34,40 @@ public:
 
   void SetBench(vtkSchlierenFilter* bench);
   vtkSchlierenFilter* GetBench() const { return this->Bench; }
+
+  /// What an image depends on besides the data and the bench's own properties.
+  struct View
+  {
+    std::array<double, 3> Direction{}, Up{}, FocalPoint{};
+    double ParallelScale = 0;
+    std::array<int, 2> Size{};
+    bool operator==(const View& other) const;
+  };
+
+  enum Occasions
+  {
+    TURNED,
+    STILL,
+    SCREENSHOT
+  };
+
+  /**
+   * Whether another one comes first in the renderer, which is drawn then: light does not pass through both.
+   */
+  bool IsHidden(vtkRenderer* renderer);
+
+  /**
+   * Traces an image for a rendering on such an occasion: its bytes, and where it lies in the plane of the view. Null
+   * where there is none. ImageForElsewhere() is for a rendering by another process; it also does what Refine() does.
+   */
+  vtkImageData* Image(const View& view, int occasion);
+  vtkImageData* ImageForElsewhere(const View& view, int occasion);
+
+  /**
+   * Where the bench is in another process: what has that one trace an image. Unset: the bench is in this one.
+   */
+  using Tracer = std::function<vtkSmartPointer<vtkImageData>(const View& view, int occasion)>;
+  void SetTracerElsewhere(Tracer tracer) { this->TracerElsewhere = std::move(tracer); }
 
   /**
    * While it is in a renderer and visible, the smoothing of edges (FXAA) is left out, which would blur what the image
@@ -103,18 +139,10 @@ private:
   vtkSchlierenActor(const vtkSchlierenActor&) = delete;
   void operator=(const vtkSchlierenActor&) = delete;
 
-  /// What an image depends on besides the data and the bench's own properties.
-  struct View
-  {
-    std::array<double, 3> Direction{}, Up{}, FocalPoint{};
-    double ParallelScale = 0;
-    std::array<int, 2> Size{};
-    bool operator==(const View& other) const;
-  };
   static View ViewOf(vtkRenderer* renderer);
   /// Makes the bench look as the renderer does. Whether that is another view than before.
-  bool LookThrough(vtkRenderer* renderer);
-  void Trace(bool isInteractive, bool isMoved);
+  bool LookThrough(const View& view);
+  void Trace(int occasion, bool isMoved);
   void TracePreview();
   void TraceUpTo(double seconds);
   void NoteTimes();
@@ -124,6 +152,8 @@ private:
   void PlaceQuad(vtkRenderer* renderer);
 
   vtkSmartPointer<vtkSchlierenFilter> Bench;
+  Tracer TracerElsewhere;
+  bool IsDrawnElsewhere = false;
   vtkNew<vtkCallbackCommand> Silence; // of the bench's progress while drawing
   vtkNew<vtkCallbackCommand> SuspendFXAA;
   vtkNew<vtkCallbackCommand> RestoreFXAA;

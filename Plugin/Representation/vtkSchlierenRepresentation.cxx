@@ -7,6 +7,7 @@
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -32,6 +33,13 @@ struct Captured : vtkPVView
 {
   static bool Is(vtkPVView* view) { return (view->*(&Captured::GetInCaptureScreenshot))(); }
 };
+
+/// Whether processes with data can draw, too.
+bool canServerDraw(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  return renderView && renderView->GetRemoteRenderingAvailable();
+}
 
 vtkRenderer* rendererOf(vtkView* view)
 {
@@ -88,6 +96,28 @@ bool vtkSchlierenRepresentation::GetFinished()
 
 //------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::GetReduction() { return this->Actor->GetReduction(); }
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::TraceForClient(const double request[13])
+{
+  vtkSchlierenActor::View view;
+  std::copy(request, request + 3, view.Direction.begin());
+  std::copy(request + 3, request + 6, view.Up.begin());
+  std::copy(request + 6, request + 9, view.FocalPoint.begin());
+  view.ParallelScale = request[9];
+  view.Size = { static_cast<int>(request[10]), static_cast<int>(request[11]) };
+  if (this->Actor->GetBench())
+  {
+    this->PassTimeToBench();
+  }
+  this->TracedImage = this->Actor->ImageForElsewhere(view, static_cast<int>(request[12]));
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::SetRequest(Request request)
+{
+  this->RequestOfServer = std::move(request);
+}
 
 //------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetVisibility(bool isVisible)
@@ -155,6 +185,43 @@ void vtkSchlierenRepresentation::PassTimeToBench()
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::TellIfHidden()
+{
+  const bool wasHidden = this->IsHidden;
+  vtkRenderer* renderer = rendererOf(this->GetView());
+  this->IsHidden = renderer && this->GetVisibility() && this->Actor->IsHidden(renderer);
+  if (this->IsHidden && !wasHidden && this->Actor->GetBench() && ranks().first == 0)
+  {
+    vtkErrorMacro(<< "Two flows are to be shown as Schlieren in one view, which shows that of the "
+                     "one that was there "
+                     "first: light would have to pass through both. Hide one, or make them one by "
+                     "Append Datasets or "
+                     "Group Datasets.");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::UseRequest()
+{
+  if (!this->RequestOfServer || canServerDraw(this->GetView()))
+  {
+    this->Actor->SetTracerElsewhere(nullptr);
+    return;
+  }
+  this->Actor->SetTracerElsewhere(
+    [this](const vtkSchlierenActor::View& view, int occasion)
+    {
+      double request[13] = { 0, 0, 0, 0, 0, 0, 0, 0, 0, view.ParallelScale,
+        static_cast<double>(view.Size[0]), static_cast<double>(view.Size[1]),
+        static_cast<double>(occasion) };
+      std::copy(view.Direction.begin(), view.Direction.end(), request);
+      std::copy(view.Up.begin(), view.Up.end(), request + 3);
+      std::copy(view.FocalPoint.begin(), view.FocalPoint.end(), request + 6);
+      return this->RequestOfServer(request);
+    });
+}
+
+//------------------------------------------------------------------------------
 bool vtkSchlierenRepresentation::AddToView(vtkView* view)
 {
   vtkRenderer* renderer = rendererOf(view);
@@ -191,16 +258,19 @@ int vtkSchlierenRepresentation::ProcessViewRequest(
   }
   if (request == vtkPVView::REQUEST_UPDATE())
   {
+    this->TellIfHidden();
     this->Actor->ClearBounds();
     vtkPVRenderView::SetPiece(input, this, this->Nothing);
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(input, this, false, false);
     vtkPVRenderView::SetGeometryBounds(input, this, this->Bounds);
-    vtkPVRenderView::SetRequiresDistributedRendering(input, this, true);
+    vtkPVRenderView::SetRequiresDistributedRendering(input, this, canServerDraw(this->GetView()));
+    this->UseRequest();
     vtkPVRenderView::SetStreamable(input, this, true);
   }
   else if (request == vtkPVView::REQUEST_UPDATE_LOD())
   {
-    vtkPVRenderView::SetRequiresDistributedRenderingLOD(input, this, true);
+    vtkPVRenderView::SetRequiresDistributedRenderingLOD(
+      input, this, canServerDraw(this->GetView()));
   }
   else if (request == vtkPVRenderView::REQUEST_STREAMING_UPDATE())
   {
@@ -209,10 +279,13 @@ int vtkSchlierenRepresentation::ProcessViewRequest(
       vtkPVRenderView::SetNextStreamedPiece(input, this, this->Nothing);
     }
   }
-  else if (request == vtkPVView::REQUEST_RENDER() && this->Actor->GetBench())
+  else if (request == vtkPVView::REQUEST_RENDER())
   {
-    this->PassTimeToBench();
-    if (ranks().second > 1)
+    if (this->Actor->GetBench())
+    {
+      this->PassTimeToBench();
+    }
+    if (this->Actor->GetBench() && ranks().second > 1)
     {
       this->Actor->SetFillsView(rendererOf(this->GetView()));
     }

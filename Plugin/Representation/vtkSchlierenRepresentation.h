@@ -9,13 +9,19 @@
  * An update, which can be aborted and reports progress, finds the refractivity. Rays are traced when the view is
  * rendered: coarsely while it is turned, and whenever TimeSlice is positive, progressively afterwards, in calls of
  * vtkPVRenderView::StreamingUpdate().
+ *
+ * Where the server cannot draw, it traces the image as well; the client's representation requests it when it draws.
  */
 #ifndef vtkSchlierenRepresentation_h
 #define vtkSchlierenRepresentation_h
 
+#include "vtkImageData.h" // for GetTracedImage
 #include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
 #include "vtkSchlierenRepresentationModule.h" // for export macro
+#include "vtkSmartPointer.h"                  // for TracedImage
+
+#include <functional> // for SetRequest
 
 class vtkPolyData;
 class vtkSchlierenActor;
@@ -45,6 +51,22 @@ public:
   bool GetFinished();
   int GetReduction();
 
+  ///@{
+  /**
+   * Of a server that cannot draw: traces an image for its client, which has the camera and the size and fetches
+   * GetTracedImage() (null: there is none). `request`: direction, up, focal point, parallel scale, columns and rows,
+   * and one of vtkSchlierenActor::Occasions.
+   */
+  void TraceForClient(const double request[13]);
+  VTK_WRAPEXCLUDE vtkImageData* GetTracedImage() const { return this->TracedImage; }
+  ///@}
+
+  /**
+   * Of a client: what requests that of its server, and returns the image.
+   */
+  using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[13])>;
+  VTK_WRAPEXCLUDE void SetRequest(Request request);
+
   void SetVisibility(bool isVisible) override;
 
   int ProcessViewRequest(
@@ -67,10 +89,16 @@ private:
   void operator=(const vtkSchlierenRepresentation&) = delete;
 
   void PassTimeToBench();
+  void UseRequest();
+  /// A message where another flow is shown instead; one, until that has changed.
+  void TellIfHidden();
 
   vtkNew<vtkSchlierenActor> Actor;
+  Request RequestOfServer;
+  vtkSmartPointer<vtkImageData> TracedImage;
   vtkNew<vtkPolyData>
     Nothing; // to be delivered: only the image leaves this process, as part of the view
+  bool IsHidden = false;
   double Bounds[6];
 };
 

@@ -9,10 +9,12 @@
 #include "pqPipelineSource.h"
 #include "pqProgressManager.h"
 #include "pqProgressWidget.h"
+#include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
+#include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 
 #include <QCoreApplication>
@@ -90,6 +92,12 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
   {
     this->watch(source);
   }
+  QObject::connect(
+    model, &pqServerManagerModel::representationAdded, this, &pqImageProgress::watchBenchOf);
+  for (pqRepresentation* representation : model->findItems<pqRepresentation*>())
+  {
+    this->watchBenchOf(representation);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -105,6 +113,28 @@ void pqImageProgress::watch(pqPipelineSource* source)
   {
     this->Connection->Connect(
       filter, vtkCommand::ProgressEvent, this, SLOT(onProgress(vtkObject*)));
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::watchBenchOf(pqRepresentation* representation)
+{
+  vtkSMProperty* property = representation->getProxy()->GetProperty("SchlierenBench");
+  vtkSMProxy* bench = property ? vtkSMPropertyHelper(property).GetAsProxy() : nullptr;
+  auto* filter = bench ? vtkAlgorithm::SafeDownCast(bench->GetClientSideObject()) : nullptr;
+  if (filter)
+  {
+    this->Connection->Connect(
+      filter, vtkCommand::ProgressEvent, this, SLOT(onProgressOfView(vtkObject*)));
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::onProgressOfView(vtkObject* bench)
+{
+  if (!pqPictureRefiner::instance()->isAnimationStep())
+  {
+    this->letAbort(bench);
   }
 }
 
@@ -149,8 +179,17 @@ void pqImageProgress::abort()
 //------------------------------------------------------------------------------
 void pqImageProgress::onProgress(vtkObject* filter)
 {
+  if (pqPictureRefiner::instance()->isShort())
+  {
+    this->letAbort(filter);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqImageProgress::letAbort(vtkObject* filter)
+{
   pqProgressWidget* bar = progressBar();
-  if (!pqPictureRefiner::instance()->isShort() || this->Executing || !bar ||
+  if (this->Executing || !bar ||
     (this->SinceEvents.isValid() && this->SinceEvents.elapsed() < eventPeriod))
   {
     return;

@@ -9,6 +9,7 @@
 
 class pqPipelineSource;
 class pqProgressWidget;
+class pqRepresentation;
 class vtkAlgorithm;
 class vtkEventQtSlotConnect;
 class vtkObject;
@@ -24,14 +25,17 @@ public:
   ~pqImageProgress() override;
 
 protected:
-  /// While Apply waits: nothing but the abort button answers.
+  /// While Apply or a view waits: nothing but the abort button answers.
   bool eventFilter(QObject* receiver, QEvent* event) override;
 
 private Q_SLOTS:
   void onProgress(vtkObject* filter);
+  void onProgressOfView(vtkObject* bench);
 
 private:
+  void letAbort(vtkObject* filter);
   void watch(pqPipelineSource* source);
+  void watchBenchOf(pqRepresentation* representation);
   void show(const QString& what, int percent);
   void abort();
   void enableAbort(pqProgressWidget* bar, bool isEnabled);

@@ -55,8 +55,8 @@ bool isUnfinished(pqRepresentation* representation)
     std::strncmp(vtkSMPropertyHelper(bench, "Status").GetAsString(), "Preview", 7) == 0;
 }
 
-/// Whether the server draws it, or this program.
-bool isDrawn(pqView* view)
+/// Whether the images are traced by who draws the view: then updates of a stream improve them; else each drawing does.
+bool isTracedWhereDrawn(pqView* view)
 {
   auto* client = vtkPVRenderView::SafeDownCast(view->getProxy()->GetClientSideObject());
   return !view->getServer()->isRemote() || (client && client->GetRemoteRenderingAvailable());
@@ -86,6 +86,15 @@ pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
   {
     this->limit(representation);
   }
+}
+
+//------------------------------------------------------------------------------
+bool pqRepresentationRefiner::isDrawnIn(pqView* view, vtkSMProxy* bench)
+{
+  const QList<pqRepresentation*> shown = view->getRepresentations();
+  return std::any_of(shown.begin(), shown.end(),
+    [bench](pqRepresentation* representation)
+    { return isSchlieren(representation) && benchOf(representation) == bench; });
 }
 
 //------------------------------------------------------------------------------
@@ -126,7 +135,7 @@ void pqRepresentationRefiner::refineLater(pqView* view)
 {
   const QList<pqRepresentation*> shown = view->getRepresentations();
   // One timer for each view: streaming updates render, too.
-  if (isBeingTurned(view) || !isDrawn(view) || view->property("SchlierenIsRefined").toBool() ||
+  if (isBeingTurned(view) || view->property("SchlierenIsRefined").toBool() ||
     std::none_of(shown.begin(), shown.end(), isSchlieren))
   {
     return;
@@ -138,12 +147,20 @@ void pqRepresentationRefiner::refineLater(pqView* view)
 //------------------------------------------------------------------------------
 void pqRepresentationRefiner::refine(pqView* view)
 {
+  const QList<pqRepresentation*> shown = view->getRepresentations();
   if (!isBeingTurned(view) && !view->getServer()->isProcessingPending())
   {
-    vtkSMRenderViewProxy::SafeDownCast(view->getProxy())->StreamingUpdate(true);
+    auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
+    if (isTracedWhereDrawn(view))
+    {
+      proxy->StreamingUpdate(true);
+    }
+    else if (std::any_of(shown.begin(), shown.end(), isUnfinished))
+    {
+      proxy->StillRender();
+    }
   }
   view->setProperty("SchlierenIsRefined", false);
-  const QList<pqRepresentation*> shown = view->getRepresentations();
   if (std::any_of(shown.begin(), shown.end(), isUnfinished))
   {
     this->refineLater(view);

@@ -18,6 +18,9 @@ class pqRepresentationRefiner : public QObject
 public:
   explicit pqRepresentationRefiner(QObject* parent);
 
+  /// Whether a view draws data as Schlieren with the proxy of the filter inside of a representation.
+  static bool isDrawnIn(pqView* view, vtkSMProxy* bench);
+
   /// Shows what has changed of the proxy of the filter inside of a representation; of no effect for others.
   static void renderViewsOf(vtkSMProxy* bench);
 

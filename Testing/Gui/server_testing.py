@@ -8,14 +8,14 @@ import subprocess
 import sys
 
 
-def start_server():
+def start_server(*launcher):
     """A pvserver and its port, one that is free; skips the test where there is none."""
     pvserver = shutil.which("pvserver")
     if not pvserver:
         print("Skipped: there is no pvserver.")
         sys.exit(77)
     for port in range(11200, 11300):
-        server = subprocess.Popen([pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
+        server = subprocess.Popen([*launcher, pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         line = " "
         while line and not re.search("Accepting|rror|failed", line):
@@ -34,4 +34,17 @@ import os
 from paraview.simple import *
 Connect("localhost", {port})
 LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=globals())
+"""
+
+
+# Before connect(), where the server cannot draw: answers the box in which ParaView says so.
+DISMISS = """
+import inside_window
+def dismiss():
+    box = inside_window.QApplication.activeModalWidget()
+    if box and box.inherits("QMessageBox") and "display" in (box.windowTitle() + box.text()).lower():
+        box.accept()
+inside_window.BOXES = inside_window.QTimer()
+inside_window.BOXES.timeout.connect(dismiss)
+inside_window.BOXES.start(200)
 """

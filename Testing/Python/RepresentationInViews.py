@@ -163,6 +163,7 @@ bench.Density = ["POINTS", "rho"]
 assert agrees(pixels_of(view, SIZE), display, view) and len(errors) == 1
 
 # Surfaces have nothing that light could pass through.
+display.Visibility = 0
 empty = show(simple.Sphere(), view)
 empty.SchlierenBench.GetClientSideObject().AddObserver("ErrorEvent", note)
 simple.Render(view)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Data drawn as Schlieren beside a surface by two ranks, and by a server, look as they do in one process. Skipped
-without mpiexec, pvbatch and pvserver.
+"""Data drawn as Schlieren beside a surface by two ranks, by a server, by one that cannot draw and by one of two ranks
+that cannot, look as they do in one process. Skipped without mpiexec, pvbatch and pvserver.
 
 With arguments, the part that another process does: draw into a file, or be the client of a server and do so."""
 
@@ -12,6 +12,12 @@ import subprocess
 import sys
 
 PROGRAMS = ("mpiexec", "pvbatch", "pvpython", "pvserver")
+RANKS = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np"]
+
+
+def without_mpi():
+    """The environment without what tells MPI that a process belongs to others."""
+    return {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
 
 
 # Only those who do the work import ParaView: MPI does not let a process that uses it start others that do.
@@ -28,23 +34,36 @@ def draw(path, is_remote=False):
     surface.DiffuseColor = [1, 0, 0]
     simple.ResetCamera(view)
     view.GetActiveCamera().Azimuth(20)
+    if is_remote:
+        # Drawn once with another camera and size.
+        view.ViewSize = [60, 60]
+        simple.Render(view)
+        view.GetActiveCamera().Azimuth(30)
+        simple.Render(view)
+        view.GetActiveCamera().Azimuth(-30)
     simple.SaveScreenshot(path, view, ImageResolution=[120, 90])
     display.SchlierenBench.UpdatePropertyInformation()
     assert "sample" in display.SchlierenBench.Status, display.SchlierenBench.Status
     simple.Delete(view)
 
 
-def draw_with_server(path):
+def draw_with_server(path, *launcher):
     from paraview import servermanager, simple
     with socket.socket() as free:
         free.bind(("localhost", 0))
         port = free.getsockname()[1]
-    # It tries until this process listens, and ends when this process does.
-    server = subprocess.Popen(["pvserver", "--reverse-connection", "--client-host=localhost", f"--server-port={port}"])
+    # It tries until this process listens, and ends when this process does. With a launcher, it has no display.
+    environment = {name: value for name, value in without_mpi().items() if not launcher or name != "DISPLAY"}
+    server = subprocess.Popen(
+        [*launcher, "pvserver", "--reverse-connection", "--client-host=localhost", f"--server-port={port}"],
+        env=environment)
     try:
         simple.ReverseConnect(str(port))
         assert servermanager.ActiveConnection.IsRemote()
         simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=vars(simple))
+        view = simple.CreateRenderView()
+        assert view.GetClientSideObject().GetRemoteRenderingAvailable() != bool(launcher)
+        simple.Delete(view)
         draw(path, is_remote=True)
     except BaseException:
         server.kill()
@@ -64,23 +83,24 @@ def pixels(path):
 
 
 def compare():
-    # Without what tells MPI that a process belongs to others.
-    environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
-    ranks = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np"]
-    for launcher, mode, path in (([*ranks, "1", "pvbatch"], "draw", "1.png"),
-                                 ([*ranks, "2", "pvbatch"], "draw", "2.png"),
-                                 (["pvpython"], "server", "server.png")):
-        subprocess.run([*launcher, os.path.abspath(__file__), mode, path], env=environment, timeout=100,
-                       check=True)
+    environment = without_mpi()
+    for launcher, mode, path, *arguments in (
+            ([*RANKS, "1", "pvbatch"], "draw", "1.png"), ([*RANKS, "2", "pvbatch"], "draw", "2.png"),
+            (["pvpython"], "server", "server.png"), (["pvpython"], "server", "blind.png", "env"),
+            (["pvpython"], "server", "blind2.png", *RANKS, "2")):
+        done = subprocess.run([*launcher, os.path.abspath(__file__), mode, path, *arguments], env=environment,
+                              timeout=100, check=True, capture_output=True, text=True)
+        said = done.stdout + done.stderr
+        assert "ERR|" not in said and "remote rendering" not in said, said
     alone = pixels("1.png")
-    for path in ("2.png", "server.png"):
+    for path in ("2.png", "server.png", "blind.png", "blind2.png"):
         # Edges of surfaces may be smoothed by whatever composites the images.
         assert (abs(pixels(path) - alone).max(axis=1) > 1).mean() < 0.01, path
 
 
 # No exit from a process of MPI but at its end.
 if sys.argv[1:]:
-    {"draw": draw, "server": draw_with_server}[sys.argv[1]](sys.argv[2])
+    {"draw": draw, "server": draw_with_server}[sys.argv[1]](*sys.argv[2:])
 elif all(map(shutil.which, PROGRAMS)):
     compare()
 else:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns a flow in ParaView's window and measures how well its schlieren picture keeps up: see README.md."""
+"""Turns a flow in ParaView's window and measures how well its schlieren image keeps up, that of a filter beside it and
+that of the view itself: see README.md."""
 
 import os
 import sys
@@ -48,10 +49,14 @@ flow, bench, turned, shown = by_name("flow", "bench", "RenderView1", "RenderView
 mouse = turned.GetInteractor()
 pictures = []
 
+def rows_of_image(image_of):
+    return image_of.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
+
+image_of, whole_rows = bench, 512
+
 def note(*_):
-    rows = bench.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
-    pictures.append((time.perf_counter(), rows))
-shown.SMProxy.AddObserver("EndEvent", note)
+    pictures.append((time.perf_counter(), rows_of_image(image_of)))
+observed = shown.SMProxy.AddObserver("EndEvent", note)
 
 def mouse_event(event, x, y):
     width, height = mouse.GetSize()
@@ -82,10 +87,10 @@ def turn(what):
     blocked = []
     while True:
         blocked.append(process_events())
-        if any(rows == 512 for _, rows in pictures) and finished(bench):
+        if any(rows == whole_rows for _, rows in pictures) and finished(image_of):
             break
     ended = time.perf_counter()
-    whole = [when for when, rows in pictures if rows == 512]
+    whole = [when for when, rows in pictures if rows == whole_rows]
     rows = sorted(rows for _, rows in hurried)
     frames.sort()
     blocked.sort()
@@ -105,6 +110,28 @@ for display in "Outline", "Volume":
         bench.Quality = quality
         Render(shown)
         turn(f"{{display}}, {{quality}}")
+
+# The same data drawn as Schlieren in the view itself.
+shown.SMProxy.RemoveObserver(observed)
+Delete(shown)
+Delete(bench)
+layout = GetLayout(turned)
+layout.Collapse(2)
+layout.SplitHorizontal(0, 0.5)
+pause(1)
+display = GetDisplayProperties(flow, turned)
+image_of = display.SchlierenBench
+image_of.GladstoneDaleConstant = 1e-6
+display.SetRepresentationType("Schlieren")
+turned.SMProxy.AddObserver("EndEvent", note)
+Render(turned)
+whole_rows = turned.ViewSize[1]
+for quality in "Interactive", "Draft", "Publication":
+    image_of.Quality = quality
+    Render(turned)
+    until(lambda: finished(image_of) and rows_of_image(image_of) == whole_rows)
+    pause(1)
+    turn(f"{{turned.ViewSize[0]}} x {{whole_rows}}, {{quality}}")
 """
 
 user = Session()
