@@ -52,7 +52,7 @@ Triangles surfaceOf(vtkDataObject* bodies)
   }
 
   const double rounding = relativeRounding(surface.points);
-  std::vector<double> tolerances(surface.points.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> edges(surface.points.size(), std::numeric_limits<double>::infinity());
   for (std::size_t t = 0; t < surface.size(); ++t)
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -63,17 +63,13 @@ Triangles surfaceOf(vtkDataObject* bodies)
         const auto point = static_cast<std::size_t>(surface.corners[t][end]);
         if (edge > rounding * norm(surface.points[point]))
         {
-          tolerances[point] = std::min(tolerances[point], mergingPart * edge);
+          edges[point] = std::min(edges[point], edge);
         }
       }
     }
   }
-  for (std::size_t i = 0; i < tolerances.size(); ++i)
-  {
-    const double rounded = rounding * norm(surface.points[i]);
-    tolerances[i] = std::isfinite(tolerances[i]) ? std::max(tolerances[i], rounded) : rounded;
-  }
-  const std::vector<std::int32_t> merged = coincidentPoints(surface.points, tolerances);
+  const std::vector<std::int32_t> merged =
+    coincidentPoints(surface.points, mergingTolerances(surface.points, edges, rounding));
   std::vector<std::pair<Triangles::Corners, Triangles::Corners>>
     sorted; // to find those there twice
   for (Triangles::Corners corners : surface.corners)

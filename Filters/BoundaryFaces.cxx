@@ -94,7 +94,7 @@ Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
 /// Gives points that are one the same number.
 void mergePoints(Faces& faces, double rounding)
 {
-  std::vector<double> tolerances(faces.points.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> sizes(faces.points.size(), std::numeric_limits<double>::infinity());
   for (std::size_t face = 0; face < faces.size(); ++face)
   {
     const Sides sides = sidesOf(faces, face, rounding);
@@ -105,16 +105,12 @@ void mergePoints(Faces& faces, double rounding)
     }
     for (std::size_t i = faces.starts[face]; i < faces.starts[face + 1]; ++i)
     {
-      double& tolerance = tolerances[static_cast<std::size_t>(faces.corners[i])];
-      tolerance = std::min(tolerance, mergingPart * size);
+      double& smallest = sizes[static_cast<std::size_t>(faces.corners[i])];
+      smallest = std::min(smallest, size);
     }
   }
-  for (std::size_t i = 0; i < tolerances.size(); ++i)
-  {
-    const double rounded = rounding * norm(faces.points[i]);
-    tolerances[i] = std::isfinite(tolerances[i]) ? std::max(tolerances[i], rounded) : rounded;
-  }
-  const std::vector<std::int32_t> numbers = coincidentPoints(faces.points, tolerances);
+  const std::vector<std::int32_t> numbers =
+    coincidentPoints(faces.points, mergingTolerances(faces.points, sizes, rounding));
   for (std::int32_t& corner : faces.corners)
   {
     corner = numbers[static_cast<std::size_t>(corner)];

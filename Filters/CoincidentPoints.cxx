@@ -26,6 +26,19 @@ double relativeRounding(const std::vector<Point>& points)
   return 5e-7;
 }
 
+std::vector<double> mergingTolerances(
+  const std::vector<Point>& points, const std::vector<double>& sizes, double rounding)
+{
+  constexpr double part = 1e-3;
+  std::vector<double> tolerances(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double rounded = rounding * norm(points[i]);
+    tolerances[i] = std::isfinite(sizes[i]) ? std::max(part * sizes[i], rounded) : rounded;
+  }
+  return tolerances;
+}
+
 std::vector<std::int32_t> coincidentPoints(
   const std::vector<Point>& points, const std::vector<double>& tolerances)
 {

@@ -10,8 +10,10 @@
 namespace refractivity
 {
 
-/// Points of cells are one if they are closer than this part of the smallest edge or cell beside them.
-constexpr double mergingPart = 1e-3;
+/// How far apart points may be that are one: 1e-3 of the smallest edge or cell beside each (infinite: none), and at least
+/// what rounding may have moved them.
+std::vector<double> mergingTolerances(
+  const std::vector<Point>& points, const std::vector<double>& sizes, double rounding);
 
 /// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
 std::vector<std::int32_t> coincidentPoints(

@@ -171,13 +171,7 @@ void removePairsOfPlaces(vtkDataSet* data, CellFaces& places, std::vector<Curved
       }
     }
   }
-  const double rounding = relativeRounding(points);
-  std::vector<double> tolerances(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const double rounded = rounding * norm(points[i]);
-    tolerances[i] = std::isfinite(edges[i]) ? std::max(mergingPart * edges[i], rounded) : rounded;
-  }
+  const std::vector<double> tolerances = mergingTolerances(points, edges, relativeRounding(points));
   const std::vector<std::int32_t> merged = coincidentPoints(points, tolerances);
   removePairs(
     faces,

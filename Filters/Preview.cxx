@@ -17,13 +17,13 @@ int previewPixels(int pixels, int reduction)
 schlieren::View previewView(
   const schlieren::View& view, const schlieren::Frame& frame, int reduction)
 {
-  schlieren::View hurried = view;
-  hurried.width = previewPixels(view.width, reduction);
-  hurried.height = previewPixels(view.height, reduction);
-  const double larger = std::max(static_cast<double>(view.width) / hurried.width,
-    static_cast<double>(view.height) / hurried.height);
-  hurried.parallelScale = 0.5 * hurried.height * larger * frame.pixelSize;
-  return hurried;
+  schlieren::View preview = view;
+  preview.width = previewPixels(view.width, reduction);
+  preview.height = previewPixels(view.height, reduction);
+  const double larger = std::max(static_cast<double>(view.width) / preview.width,
+    static_cast<double>(view.height) / preview.height);
+  preview.parallelScale = 0.5 * preview.height * larger * frame.pixelSize;
+  return preview;
 }
 
 //------------------------------------------------------------------------------

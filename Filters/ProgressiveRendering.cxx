@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How vtkSchlierenFilter makes an image: at once, in slices of time, between updates (Refine), or of several instants.
+// How vtkSchlierenFilter makes an image: at once, time-sliced, between updates (Refine), or of several instants.
 #include "SchlierenFilterInternals.h"
 
 #include "ExposureSteps.h"

@@ -327,7 +327,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   double spacing[3] = { 1, 1, 1 };
   try
   {
-    // Where the image lies depends on the input's points: RequestData corrects what is told here
+    // Where the image lies depends on the input's points: RequestData corrects what is stated here
     // before the input has been produced.
     const FilterRanks& ranks = this->Inside->Ranks;
     if (vtkDataObject* input = ranks.GetInput(0, vtkDataObject::GetData(inputVector[0])))

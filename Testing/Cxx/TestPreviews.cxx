@@ -109,13 +109,13 @@ TEST(Preview, LiesWhereTheInformationSays)
       picture->GetOrigin(), picture->GetOrigin() + 2, info->Get(vtkDataObject::ORIGIN())));
     EXPECT_TRUE(std::equal(
       picture->GetSpacing(), picture->GetSpacing() + 2, info->Get(vtkDataObject::SPACING())));
-    const auto hurried = bordersOf(picture);
+    const auto preview = bordersOf(picture);
     for (std::size_t side = 0; side < whole.size(); side += 2)
     {
-      EXPECT_LE(hurried[side], whole[side] + 1e-12);                    // all of it,
-      EXPECT_GE(hurried[side], whole[side] - picture->GetSpacing()[0]); // and hardly more
-      EXPECT_GE(hurried[side + 1], whole[side + 1] - 1e-12);
-      EXPECT_LE(hurried[side + 1], whole[side + 1] + picture->GetSpacing()[0]);
+      EXPECT_LE(preview[side], whole[side] + 1e-12);                    // all of it,
+      EXPECT_GE(preview[side], whole[side] - picture->GetSpacing()[0]); // and hardly more
+      EXPECT_GE(preview[side + 1], whole[side + 1] - 1e-12);
+      EXPECT_LE(preview[side + 1], whole[side + 1] + picture->GetSpacing()[0]);
     }
   }
 }
@@ -132,15 +132,15 @@ TEST(Preview, HasOneRayPerPixelAndTheRestAsSet)
   filter->SetNoiseFilter(vtkSchlierenFilter::GAUSSIAN);
   const schlieren::Scene whole = sceneFrom(filter->GetSettings(), grid, pictures);
   filter->SetPreviewReduction(4);
-  const schlieren::Scene hurried = sceneFrom(filter->GetSettings(), grid, pictures);
-  EXPECT_EQ(hurried.view.width, 128);
-  EXPECT_EQ(hurried.samplesPerPixel, 1);
-  EXPECT_EQ(hurried.stepSize, interactiveStepSize());
+  const schlieren::Scene preview = sceneFrom(filter->GetSettings(), grid, pictures);
+  EXPECT_EQ(preview.view.width, 128);
+  EXPECT_EQ(preview.samplesPerPixel, 1);
+  EXPECT_EQ(preview.stepSize, interactiveStepSize());
   EXPECT_GT(interactiveStepSize(), whole.stepSize);
-  EXPECT_EQ(hurried.fringes.spacing, whole.fringes.spacing); // data units
-  EXPECT_EQ(hurried.noiseFilterRadius, whole.noiseFilterRadius / 4);
-  EXPECT_EQ(hurried.histogramSize, whole.histogramSize);
-  EXPECT_EQ(hurried.interpolation, whole.interpolation);
+  EXPECT_EQ(preview.fringes.spacing, whole.fringes.spacing); // data units
+  EXPECT_EQ(preview.noiseFilterRadius, whole.noiseFilterRadius / 4);
+  EXPECT_EQ(preview.histogramSize, whole.histogramSize);
+  EXPECT_EQ(preview.interpolation, whole.interpolation);
   filter->SetStepSize(3);
   EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).stepSize, 3);
 }
