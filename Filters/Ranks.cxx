@@ -547,7 +547,7 @@ bool FilterRanks::Meeting::CanStayInPieces(double mostCells) const
 //------------------------------------------------------------------------------
 bool FilterRanks::Meeting::AreTooFew(double mostCells) const
 {
-  if (!this->Of.Inside || !this->Of.AreRequestedInPieces() || !this->FindAbsent().empty())
+  if (!this->Of.Inside || this->Of.RequestedPart != Part::Piece || !this->FindAbsent().empty())
   {
     return false;
   }

@@ -56,7 +56,6 @@ public:
   /// pieces, all is requested where no more than `mostCells` are known to have been found too few: see SetTooFew().
   bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part = Part::All,
     double mostCells = 0);
-  bool AreRequestedInPieces() const { return this->RequestedPart == Part::Piece; }
 
   /// Requests the same of data alone.
   void RequestData(vtkInformation* inInfo, Part part, double mostCells) const;

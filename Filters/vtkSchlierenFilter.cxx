@@ -34,6 +34,11 @@ namespace
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
+FilterRanks::Part partFor(bool canUsePieces)
+{
+  return canUsePieces ? FilterRanks::Part::Piece : FilterRanks::Part::All;
+}
+
 /// Whether two array selections say the same.
 bool sameSelection(vtkInformation* a, vtkInformation* b)
 {
@@ -399,8 +404,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  const auto part = this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
-  if (this->Inside->Ranks.Request(this, inputVector, part, this->GatherLimit))
+  if (this->Inside->Ranks.Request(
+        this, inputVector, partFor(this->CanUsePieces()), this->GatherLimit))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
@@ -410,8 +415,7 @@ int vtkSchlierenFilter::RequestUpdateExtent(
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo)
 {
-  this->Inside->Ranks.RequestData(inInfo,
-    this->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All, this->GatherLimit);
+  this->Inside->Ranks.RequestData(inInfo, partFor(this->CanUsePieces()), this->GatherLimit);
 }
 
 //------------------------------------------------------------------------------
