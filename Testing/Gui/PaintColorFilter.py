@@ -3,11 +3,10 @@
 """Painting the colour filter, on itself and through the picture: the filter gets colour where the brush was
 or where the rays of the brushed pixels go, and the picture shows it without Apply."""
 
-import base64
 import os
 
 import numpy as np
-from views_testing import check_baseline, frame, load, png, simple, views, write_png
+from views_testing import check_baseline, frame, load, png, png_of_text, simple, views, write_png
 from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session
 
 WIDGET, PREVIEW = "ColorFilterImage", "ColorFilterImage/Preview"
@@ -127,12 +126,7 @@ def seen(name):
 
 
 def held(text):
-    head = "data:image/png;base64,"
-    assert text.startswith(head), text[:40]
-    path = os.path.join(FOLDER, "held.png")
-    with open(path, "wb") as file:
-        file.write(base64.b64decode(text[len(head):]))
-    return png(path)
+    return png_of_text(text)
 
 
 # Places of the filter's pixels, from -1 to 1.

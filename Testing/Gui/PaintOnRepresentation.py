@@ -4,7 +4,6 @@
 camera: where the rays of the brushed pixels meet the filter, it is painted, and the view shows it. With an argument,
 where a server that cannot draw makes the image; skipped without pvserver."""
 
-import base64
 import os
 import sys
 
@@ -13,7 +12,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 from server_testing import DISMISS, connect, start_server  # noqa: E402
-from views_testing import png  # noqa: E402
+from views_testing import png, png_of_text  # noqa: E402
 from window_testing import FOLDER, PANEL, Session  # noqa: E402
 
 DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
@@ -108,15 +107,6 @@ def shown(name):
     return png(os.path.join(FOLDER, name + ".png")).astype(int)
 
 
-def decoded(text):
-    head = "data:image/png;base64,"
-    assert text.startswith(head), text[:40]
-    path = os.path.join(FOLDER, "held.png")
-    with open(path, "wb") as file:
-        file.write(base64.b64decode(text[len(head):]))
-    return png(path)
-
-
 centres = (np.arange(SIDE) + 0.5) / SIDE * 2 - 1
 on_filter = np.stack(np.meshgrid(centres, centres), axis=-1)
 assert str(seen("wheel")["text"]) == str(seen("taken")["text"]) == ""
@@ -124,7 +114,7 @@ for kind, (x, y) in PLACES.items():
     kept = seen(kind)
     assert np.array_equal(kept["camera"], seen("before" + kind)["camera"]), "The view has turned."
     columns, rows = kept["size"]
-    picture = decoded(str(kept["text"]))
+    picture = png_of_text(str(kept["text"]))
     painted = (picture == COLOR).all(axis=2)
     assert painted.sum() > 100, kind
     changed = np.abs(shown(kind) - shown("before" + kind)).max(axis=2) > 20

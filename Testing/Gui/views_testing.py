@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the toolbar Schlieren share: pressing it, and looking at what it has made."""
 
+import base64
 import os
 import re
 import subprocess
@@ -230,6 +231,16 @@ def png(path):
     image = reader.GetOutput()
     columns, rows, _ = image.GetDimensions()
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, -1).astype(int)
+
+
+def png_of_text(text):
+    """The pixels of an image that a property has as text."""
+    head = "data:image/png;base64,"
+    assert text.startswith(head), text[:40]
+    path = os.path.join(FOLDER, "held.png")
+    with open(path, "wb") as file:
+        file.write(base64.b64decode(text[len(head):]))
+    return png(path)
 
 
 def values(proxy, without=()):
