@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AmrFaces.h"
 
-namespace refractivity
+namespace filters
 {
 
 bool AmrFaces::isInDomain(std::size_t level, const Counts& cell) const
@@ -123,4 +123,4 @@ std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
   return found->second;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -8,7 +8,7 @@
 #include <functional>
 #include <unordered_map>
 
-namespace refractivity
+namespace filters
 {
 
 /// What a cell of a level is.
@@ -69,4 +69,4 @@ private:
   std::unordered_map<std::uint64_t, std::int32_t> Points; // by their place on the finest level
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -348,4 +348,4 @@ AmrValues valuesOf(
   return result;
 }
 
-} // namespace refractivity
+} // namespace filters

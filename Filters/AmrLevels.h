@@ -11,7 +11,7 @@
 #include <vector>
 
 /// The blocks and levels of adaptive meshes whose cells hold the values.
-namespace refractivity
+namespace filters
 {
 
 using Counts = std::array<int, 3>;
@@ -191,4 +191,4 @@ void forValues(const BoxBins& covered, const AmrBlock& block, const Source& sour
     });
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace refractivity
+namespace filters
 {
 
 /// What five neighbouring cells, of edge 1 and with known means, say of the mean over an interval: the
@@ -244,4 +244,4 @@ inline void splineAxis(
   cells[axis] = static_cast<int>(count);
 }
 
-} // namespace refractivity
+} // namespace filters

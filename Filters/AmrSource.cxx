@@ -15,7 +15,7 @@
 #include <limits>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -564,4 +564,4 @@ void AmrSource::sampleWithFields(const schlieren::Lattice& lattice, double* refr
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -14,7 +14,7 @@
 
 class vtkDataObject;
 
-namespace refractivity
+namespace filters
 {
 
 /**
@@ -103,4 +103,4 @@ private:
   std::vector<std::unique_ptr<const AmrSource>> Fields; // each as if it were a refractivity
 };
 
-} // namespace refractivity
+} // namespace filters

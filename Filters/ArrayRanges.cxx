@@ -16,6 +16,9 @@
 #include <limits>
 #include <vector>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -90,3 +93,5 @@ void Teller::operator()(Array* array) const
 
 //------------------------------------------------------------------------------
 void tellRanges(vtkDataArray* array) { vtkArrayDispatch::Dispatch::Execute(array, Teller{}); }
+
+} // namespace filters

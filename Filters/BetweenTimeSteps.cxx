@@ -28,6 +28,9 @@
 #include <stdexcept>
 #include <string>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -287,3 +290,5 @@ vtkSmartPointer<vtkDataObject> betweenTimeSteps(
   return blocks && laterBlocks ? blendBlocks(blocks, laterBlocks, ratio)
                                : blendLeaves(earlier, later, ratio);
 }
+
+} // namespace filters

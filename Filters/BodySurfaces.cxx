@@ -17,7 +17,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -274,4 +274,4 @@ bool BodySurfaces::isInside(const Point& place) const
   return isInside[0] != 0;
 }
 
-} // namespace refractivity
+} // namespace filters

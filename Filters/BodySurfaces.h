@@ -8,7 +8,7 @@
 
 class vtkDataObject;
 
-namespace refractivity
+namespace filters
 {
 
 /// Bodies in the gas that are given by their surfaces (vtkPolyData, or a composite of them).
@@ -36,4 +36,4 @@ private:
   TriangleTree Tree;
 };
 
-} // namespace refractivity
+} // namespace filters

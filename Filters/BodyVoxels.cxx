@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -327,4 +327,4 @@ void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// A connected surface, in index coordinates of a grid whose points are 0 ... dimensions - 1.
@@ -37,4 +37,4 @@ bool isClosed(const Surface& surface);
 void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
   const std::function<void(int, int, int)>& mark);
 
-} // namespace refractivity
+} // namespace filters

@@ -21,7 +21,7 @@
 #include <limits>
 #include <tuple>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -385,4 +385,4 @@ std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
   return values;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -15,7 +15,7 @@
 
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// Whether a visible cell of any leaf holds a place. Called from several threads.
@@ -67,4 +67,4 @@ std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDa
 std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
   const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves);
 
-} // namespace refractivity
+} // namespace filters

@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -350,4 +350,4 @@ vtkSmartPointer<vtkDataArray> arrayOf(const std::vector<CellsAround>& around)
   return array;
 }
 
-} // namespace refractivity
+} // namespace filters

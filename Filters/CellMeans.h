@@ -16,7 +16,7 @@ class vtkDoubleArray;
 class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
 
-namespace refractivity
+namespace filters
 {
 
 /// Where a cell is, and how far it reaches: the means of x and of (x - middle)(x - middle) over it.
@@ -41,4 +41,4 @@ void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
 constexpr const char* cellsAroundName = "CellsAround";
 vtkSmartPointer<vtkDataArray> arrayOf(const std::vector<CellsAround>& around);
 
-} // namespace refractivity
+} // namespace filters

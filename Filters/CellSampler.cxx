@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -643,4 +643,4 @@ bool CellSampler::sample(
   return brick.countFound() == cells.points.size();
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// What the search for a lattice's points has found: the cells that hold some, and which. Four bytes a cell, and two
@@ -56,4 +56,4 @@ private:
   const CellTree& Tree;
 };
 
-} // namespace refractivity
+} // namespace filters

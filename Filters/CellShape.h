@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace refractivity
+namespace filters
 {
 
 /// How far curved cells may reach out of the box of their points, in parts of its lengths.
@@ -194,4 +194,4 @@ inline bool invert(const Vector columns[3], Vector inverse[3])
   return true;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -403,4 +403,4 @@ CellTree::Content CellTree::content(const Bounds& box) const
   return content;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -17,7 +17,7 @@
 class vtkDataSet;
 class vtkGenericCell;
 
-namespace refractivity
+namespace filters
 {
 
 /**
@@ -226,4 +226,4 @@ private:
   std::vector<std::vector<Range>> Ranges; // of the groups of each level
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -405,4 +405,4 @@ CellTree::Steps CellTree::stepsOf(const Bounds& box) const
   return result;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -15,6 +15,9 @@
 using vtkCellTypeUtilities = vtkCellTypes;
 #endif
 
+namespace filters
+{
+
 inline vtkDataArray* cellTypesOf(vtkUnstructuredGrid* mesh)
 {
 #if __has_include("vtkCellTypeUtilities.h")
@@ -23,5 +26,7 @@ inline vtkDataArray* cellTypesOf(vtkUnstructuredGrid* mesh)
   return mesh->GetCellTypesArray();
 #endif
 }
+
+} // namespace filters
 
 #endif

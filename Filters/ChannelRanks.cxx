@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -86,4 +86,4 @@ std::vector<std::vector<char>> ChannelRanks::Ask(std::vector<std::vector<char>> 
   return answers;
 }
 
-} // namespace refractivity
+} // namespace filters

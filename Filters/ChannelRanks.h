@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// Ranks that are asked through channels; the first one is this process.
@@ -39,4 +39,4 @@ private:
   std::vector<schlieren::Channel*> Channels;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 double relativeRounding(const std::vector<Point>& points)
@@ -83,4 +83,4 @@ std::vector<std::int32_t> coincidentPoints(
   return numbers;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// How far apart points may be that are one: 1e-3 of the smallest edge or cell beside each (infinite: none), and at least
@@ -22,4 +22,4 @@ std::vector<std::int32_t> coincidentPoints(
 /// How far rounding may have moved points: of single precision where all coordinates fit into it.
 double relativeRounding(const std::vector<Point>& points);
 
-} // namespace refractivity
+} // namespace filters

@@ -18,7 +18,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -262,4 +262,4 @@ void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkI
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// Adds the faces that only one of these cells of a leaf has, divided into parts: those of curved 3-D cells. Faces are
@@ -16,4 +16,4 @@ namespace refractivity
 void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& cells,
   State state, const std::function<bool(vtkIdType cell)>& isWanted, Faces& faces);
 
-} // namespace refractivity
+} // namespace filters

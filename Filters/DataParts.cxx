@@ -39,7 +39,7 @@
 #include <map>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -492,4 +492,4 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
   return whole;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -19,7 +19,7 @@ class vtkDataSet;
 class vtkIdList;
 class vtkUnstructuredGrid;
 
-namespace refractivity
+namespace filters
 {
 
 /// The position of a dataset in the tree of blocks. Parts of one dataset have the same one on all ranks.
@@ -137,4 +137,4 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts);
 vtkSmartPointer<vtkDataSet> joinedMesh(
   const std::vector<vtkDataSet*>& parts, const char* alsoTheSame = nullptr);
 
-} // namespace refractivity
+} // namespace filters

@@ -15,6 +15,9 @@
 #include <stdexcept>
 #include <utility>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -198,3 +201,5 @@ vtkSmartPointer<vtkDataObject> ExposureSteps::GetData(
       "Image makes them.");
   }
 }
+
+} // namespace filters

@@ -17,6 +17,9 @@ class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
 
+namespace filters
+{
+
 /// What an exposure of `length`, of so many instants, is in a request of that output for a time; none where the data do
 /// not change with time.
 TimeExposure exposureFor(vtkInformation* input, vtkInformation* output, double length, int samples);
@@ -71,3 +74,5 @@ private:
   bool IsThere = true;                                         // the data of Step
   vtkSmartPointer<vtkDataObject> Earlier[Ports], Later[Ports]; // Later: of Step
 };
+
+} // namespace filters

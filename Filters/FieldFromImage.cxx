@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cstring>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -79,3 +82,5 @@ void mergeMasks(vtkImageData* refractivity)
   }
   arrays->RemoveArray(transparentName);
 }
+
+} // namespace filters

@@ -6,6 +6,9 @@
 
 class vtkImageData;
 
+namespace filters
+{
+
 /// What an image with Refractivity says, as the tracer wants it.
 schlieren::Grid gridFrom(vtkImageData* image);
 
@@ -15,3 +18,5 @@ schlieren::Field fieldFrom(vtkImageData* refractivity);
 /// Makes one of an image's two masks, with the tracer's values. One that says gas everywhere is removed: it
 /// would only take memory, a fifth of what is held, and be read by the tracer.
 void mergeMasks(vtkImageData* refractivity);
+
+} // namespace filters

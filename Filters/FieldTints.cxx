@@ -28,11 +28,14 @@
 #include <utility>
 #include <variant>
 
+namespace filters
+{
+
 namespace
 {
 
-using refractivity::arrayName;
-using refractivity::maskName;
+using filters::arrayName;
+using filters::maskName;
 
 void requireFields(vtkRefractiveIndex* medium)
 {
@@ -42,7 +45,7 @@ void requireFields(vtkRefractiveIndex* medium)
       "ColorByField is on, but Fields is empty, so no field gives its colour. "
       "Name arrays in Fields, or switch ColorByField off.");
   }
-  refractivity::fieldMeanFrom(medium); // whether its lists belong together
+  filters::fieldMeanFrom(medium); // whether its lists belong together
 }
 
 /// Makes of a filter one that finds a single field, between 0 and 1, as if it were a refractivity.
@@ -104,7 +107,7 @@ void probe(vtkImageData* image, vtkImageData* grid)
 } // namespace
 
 std::vector<FieldValues> fieldValues(
-  vtkRefractiveIndex* medium, vtkDataObject* input, const refractivity::Source& ofMedium)
+  vtkRefractiveIndex* medium, vtkDataObject* input, const filters::Source& ofMedium)
 {
   requireFields(medium);
   std::vector<FieldValues> fields(medium->GetFields().size());
@@ -113,14 +116,14 @@ std::vector<FieldValues> fieldValues(
     vtkNew<vtkRefractiveIndex> reader;
     chooseField(reader, medium, number);
     FieldValues& field = fields[number];
-    field.source = refractivity::chooseSource(reader, input);
-    std::get<refractivity::FieldMean>(field.source.model).findRanges(field.source.leaves);
-    const std::vector<refractivity::Leaf> found = std::move(field.source.leaves);
+    field.source = filters::chooseSource(reader, input);
+    std::get<filters::FieldMean>(field.source.model).findRanges(field.source.leaves);
+    const std::vector<filters::Leaf> found = std::move(field.source.leaves);
     field.source.leaves.clear();
-    for (const refractivity::Leaf& leaf : ofMedium.leaves)
+    for (const filters::Leaf& leaf : ofMedium.leaves)
     {
       const auto same = std::find_if(found.begin(), found.end(),
-        [&](const refractivity::Leaf& other) { return other.input == leaf.input; });
+        [&](const filters::Leaf& other) { return other.input == leaf.input; });
       if (same != found.end())
       {
         field.source.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
@@ -139,7 +142,7 @@ std::vector<FieldValues> fieldValues(
 
 void bringToCells(FieldValues& field)
 {
-  for (refractivity::Leaf& leaf : field.source.leaves)
+  for (filters::Leaf& leaf : field.source.leaves)
   {
     if (leaf.ofCells)
     {
@@ -214,3 +217,5 @@ std::vector<std::array<float, 3>> fieldColors(const std::vector<double>& values,
   }
   return colors;
 }
+
+} // namespace filters

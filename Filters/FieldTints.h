@@ -14,6 +14,9 @@ class vtkDataObject;
 class vtkImageData;
 class vtkRefractiveIndex;
 
+namespace filters
+{
+
 /// What vtkSchlierenFilter needs to tint an image by the Fields of its medium. A field is what its transfer function
 /// makes of it, where the medium is made with these; else its place in its range. A user's mistake is thrown as
 /// std::runtime_error with a message for the user.
@@ -21,14 +24,14 @@ class vtkRefractiveIndex;
 /// One of the fields, as if it were a refractivity.
 struct FieldValues
 {
-  refractivity::Source
+  filters::Source
     source; // with the leaves of the medium, in their order; NaN where a leaf does not have the field
   std::vector<vtkSmartPointer<vtkDataArray>> made; // those of its arrays that are not the input's
 };
 
 /// The fields of `medium`, which takes `ofMedium` from `input`.
 std::vector<FieldValues> fieldValues(
-  vtkRefractiveIndex* medium, vtkDataObject* input, const refractivity::Source& ofMedium);
+  vtkRefractiveIndex* medium, vtkDataObject* input, const filters::Source& ofMedium);
 
 /// Makes values at points those of cells: their mean.
 void bringToCells(FieldValues& field);
@@ -43,3 +46,5 @@ std::vector<float> fieldGradients(
 /// is added.
 std::vector<std::array<float, 3>> fieldColors(
   const std::vector<double>& values, std::size_t fields);
+
+} // namespace filters

@@ -29,7 +29,7 @@
 #include <atomic>
 #include <stdexcept>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -439,4 +439,4 @@ void extrudeArrays(vtkImageData* image, int flat)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

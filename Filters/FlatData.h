@@ -9,7 +9,7 @@
 #include <array>
 
 /// Two-dimensional data: extruded by one data unit across their plane, half a unit to each side.
-namespace refractivity
+namespace filters
 {
 
 /// 0 to 3. vtkCellTypeUtilities::GetDimension makes a cell to ask it: for all cells of a mesh, that takes longer
@@ -45,4 +45,4 @@ void extrudeGrid(vtkImageData* grid, int flat);
 /// Repeats the values of one layer in the second one.
 void extrudeArrays(vtkImageData* image, int flat);
 
-} // namespace refractivity
+} // namespace filters

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
@@ -211,4 +211,4 @@ void GasBoundary::sample(const schlieren::Lattice& lattice, const unsigned char*
     distances);
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -14,7 +14,7 @@
 class vtkDataObject;
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// What stops light where the gas ends.
@@ -98,4 +98,4 @@ private:
   std::unique_ptr<BodySurfaces> Bodies;
 };
 
-} // namespace refractivity
+} // namespace filters

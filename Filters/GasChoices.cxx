@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -145,4 +145,4 @@ std::string noteOnGases(vtkRefractiveIndex* self)
   return notes;
 }
 
-} // namespace refractivity
+} // namespace filters

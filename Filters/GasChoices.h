@@ -10,7 +10,7 @@
 class vtkRefractiveIndex;
 
 /// Gases that a user has chosen by name.
-namespace refractivity
+namespace filters
 {
 
 /// Whether the name stands for a gas that is not of the table: "Custom" or nothing.
@@ -36,4 +36,4 @@ std::function<double(double wavelength)> dispersionOfGases(
 /// measured at the filter's wavelength. Mostly empty.
 std::string noteOnGases(vtkRefractiveIndex* self);
 
-} // namespace refractivity
+} // namespace filters

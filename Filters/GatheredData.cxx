@@ -27,7 +27,10 @@
 #include <stdexcept>
 #include <utility>
 
-using namespace refractivity;
+namespace filters
+{
+
+using namespace filters;
 
 namespace
 {
@@ -139,3 +142,5 @@ vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>
   }
   return composite;
 }
+
+} // namespace filters

@@ -11,6 +11,9 @@
 
 class vtkDataObject;
 
+namespace filters
+{
+
 /// What a rank sends of its data: points, cells, what hides them, and those arrays of points and cells that are named.
 /// Cells that are copies of other ranks' are left out, but in images, where they may touch. Throws std::runtime_error
 /// where VTK cannot send a type of data.
@@ -20,3 +23,5 @@ std::vector<char> packedData(vtkDataObject* data, const std::vector<std::string>
 /// mesh, become one again, with points that are the same to the last bit merged; different blocks stay as they are.
 /// Null where there is nothing. Throws std::runtime_error where it is unreadable.
 vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>& ofRanks);
+
+} // namespace filters

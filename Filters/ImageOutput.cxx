@@ -27,6 +27,9 @@
 #include <sstream>
 #include <string>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -258,3 +261,5 @@ void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
   tellRanges(rays);
   output->GetPointData()->SetScalars(rays);
 }
+
+} // namespace filters

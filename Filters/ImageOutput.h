@@ -13,6 +13,9 @@ struct Image;
 struct MediumStatistics;
 } // namespace schlieren
 
+namespace filters
+{
+
 /// Makes bounds infinite that say nothing of this image: of the displacement, if light from its middle might leave it;
 /// of what skipping changes, if that might be as much as the largest deflection.
 void dropIdleBounds(schlieren::Image& image);
@@ -50,3 +53,5 @@ void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity)
 /// Makes `output` the histogram: a point at the centre of each bin, at its deflection along u and v, with the
 /// array Rays. Empty where there is none.
 void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram);
+
+} // namespace filters

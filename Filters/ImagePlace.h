@@ -7,6 +7,9 @@
 
 #include <algorithm>
 
+namespace filters
+{
+
 /// Whether the points of two images with the same indices are at the same places, to the last bit.
 inline bool haveSamePlace(vtkImageData* a, vtkImageData* b)
 {
@@ -15,3 +18,5 @@ inline bool haveSamePlace(vtkImageData* a, vtkImageData* b)
     std::equal(a->GetSpacing(), a->GetSpacing() + 3, b->GetSpacing()) &&
     std::equal(direction, direction + 9, b->GetDirectionMatrix()->GetData());
 }
+
+} // namespace filters

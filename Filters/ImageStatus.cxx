@@ -6,6 +6,9 @@
 
 #include <cstdio>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -78,3 +81,5 @@ std::string statusInWords(
   }
   return words + deviceInWords(image) + ", " + accuracyInWords(image);
 }
+
+} // namespace filters

@@ -10,7 +10,12 @@ struct Image;
 struct Scene;
 } // namespace schlieren
 
+namespace filters
+{
+
 /// An image in words that fit in a line: its samples, the speed and the device, and how exact its rays are.
 /// `raysPerSecond`: 0 where it is not known.
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond);
+
+} // namespace filters

@@ -20,6 +20,9 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+namespace filters
+{
+
 namespace
 {
 
@@ -118,3 +121,5 @@ std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTim
   }
   return description;
 }
+
+} // namespace filters

@@ -9,6 +9,9 @@
 class vtkAlgorithm;
 class vtkDataObject;
 
+namespace filters
+{
+
 /// The newest time of everything that the input of a port comes from; 0 where there is none.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
 
@@ -19,3 +22,5 @@ std::vector<vtkDataObject*> leavesOf(vtkDataObject* data);
 /// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the
 /// dataset's own time, which is a new one whenever a filter upstream hands the same arrays on.
 std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime);
+
+} // namespace filters

@@ -15,7 +15,7 @@
 #include <mutex>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -134,4 +134,4 @@ std::string warningOfInvertedCells(const CellTree& cells)
     "are used as they are. Look for them with the filter Mesh Quality.";
 }
 
-} // namespace refractivity
+} // namespace filters

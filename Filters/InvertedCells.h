@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace refractivity
+namespace filters
 {
 
 /// What the user should hear of cells that are inside out, where the mesh is folded or points are in a wrong order: in a
@@ -14,4 +14,4 @@ namespace refractivity
 /// the shapes in one, may well be left-handed as a whole.) Empty where there are none.
 std::string warningOfInvertedCells(const CellTree& cells);
 
-} // namespace refractivity
+} // namespace filters

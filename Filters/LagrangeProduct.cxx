@@ -6,7 +6,7 @@
 #include "vtkLagrangeHexahedron.h"
 #include "vtkLagrangeQuadrilateral.h"
 
-namespace refractivity
+namespace filters
 {
 
 bool LagrangeProduct::set(vtkGenericCell* cell)
@@ -120,4 +120,4 @@ void LagrangeProduct::weights(const double place[3], double* weights)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -10,7 +10,7 @@
 
 class vtkGenericCell;
 
-namespace refractivity
+namespace filters
 {
 
 /// What is interpolated in Lagrange hexahedra and quadrilaterals: products of polynomials of Lagrange along each axis,
@@ -34,4 +34,4 @@ private:
   std::array<std::vector<double>, 3> Basis, Slopes;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -12,6 +12,9 @@
 #include <cstring>
 #include <vector>
 
+namespace filters
+{
+
 //------------------------------------------------------------------------------
 bool LastImage::IsThere() const { return this->Picture->GetNumberOfPoints() > 0; }
 
@@ -80,3 +83,5 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
   }
   this->Picture->ShallowCopy(output); // the next slice will want the same
 }
+
+} // namespace filters

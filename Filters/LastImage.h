@@ -5,6 +5,9 @@
 #include "vtkImageData.h"
 #include "vtkNew.h"
 
+namespace filters
+{
+
 /// The image that was shown last, for as long as there is nothing better.
 class LastImage
 {
@@ -22,3 +25,5 @@ public:
 private:
   vtkNew<vtkImageData> Picture;
 };
+
+} // namespace filters

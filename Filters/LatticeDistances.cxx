@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -190,4 +190,4 @@ void LatticeDistances::add(const std::array<Point, 3>& corners, std::int32_t num
   }
 }
 
-} // namespace refractivity
+} // namespace filters

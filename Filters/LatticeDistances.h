@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// The points of a lattice in coordinates in which its spacings are 1 and its first point is 0.
@@ -66,4 +66,4 @@ private:
   std::vector<std::int32_t> Nearest;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -523,4 +523,4 @@ void LatticeSampling::run(const unsigned char* isInCell, const std::vector<unsig
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// What the points of one lattice are, and how far from where the gas ends; see GasBoundary::sample().
@@ -105,4 +105,4 @@ private:
   std::vector<unsigned char> Marked;   // to become walls
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 LatticesOfMesh::Key LatticesOfMesh::keyOf(const schlieren::Lattice& lattice, bool hasDistances)
@@ -79,4 +79,4 @@ std::size_t LatticesOfMesh::bytes() const
   return this->Bytes;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -14,7 +14,7 @@
 #include <mutex>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// What a mesh alone decides on the points of a lattice.
@@ -62,4 +62,4 @@ private:
   std::uint64_t Step = 0;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace refractivity
+namespace filters
 {
 
 vtkSmartPointer<vtkDataSet> hideMasked(const Leaf& leaf, const Mask& mask)
@@ -50,4 +50,4 @@ vtkSmartPointer<vtkDataSet> hideMasked(const Leaf& leaf, const Mask& mask)
   return copy;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -7,7 +7,7 @@
 #include "vtkSmartPointer.h"
 
 /// Data whose arrays say where there is no gas.
-namespace refractivity
+namespace filters
 {
 
 /// An array, and which of its values say so.
@@ -29,4 +29,4 @@ struct Mask
 /// belong to points. Where the values belong to cells and the mask to points, cells with any such point.
 vtkSmartPointer<vtkDataSet> hideMasked(const Leaf& leaf, const Mask& mask);
 
-} // namespace refractivity
+} // namespace filters

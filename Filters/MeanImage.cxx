@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <utility>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -106,3 +109,5 @@ schlieren::Image MeanImage::Take()
   this->Images = 0;
   return std::exchange(this->Mean, {});
 }
+
+} // namespace filters

@@ -4,6 +4,9 @@
 
 #include "Schlieren.h"
 
+namespace filters
+{
+
 /// The mean of images of the same size: what a film has summed up of all of them. The mean of equal images is that
 /// image, to the last bit.
 class MeanImage
@@ -16,3 +19,5 @@ private:
   schlieren::Image Mean;
   int Images = 0;
 };
+
+} // namespace filters

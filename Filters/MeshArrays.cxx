@@ -24,7 +24,7 @@
 
 #include <array>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -216,4 +216,4 @@ void MeshArrays::copyCells()
   this->Points64 = this->OwnCells.data();
 }
 
-} // namespace refractivity
+} // namespace filters

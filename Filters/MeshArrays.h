@@ -12,7 +12,7 @@
 class vtkDataSet;
 class vtkUnsignedCharArray;
 
-namespace refractivity
+namespace filters
 {
 
 /// What is done with cells that are copies of another rank's (DUPLICATECELL).
@@ -251,4 +251,4 @@ private:
   std::vector<vtkTypeInt64> OwnOffsets, OwnCells;
 };
 
-} // namespace refractivity
+} // namespace filters

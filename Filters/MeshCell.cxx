@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -387,4 +387,4 @@ double MeshCell::valueAt(const double x[3], const double coordinates[3], const d
   return sum;
 }
 
-} // namespace refractivity
+} // namespace filters

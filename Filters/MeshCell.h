@@ -14,7 +14,7 @@
 
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// One cell at a time, for one thread: where in it a point lies, and what its points' values are there.
@@ -74,4 +74,4 @@ private:
   std::vector<double> Weights, Derivatives;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -25,7 +25,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -307,4 +307,4 @@ Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progre
   return faces;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -14,7 +14,7 @@
 
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// What a value is made of: those at points of a leaf, with weights. One with the weight 1, but for points that are
@@ -71,4 +71,4 @@ struct Faces
 Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
   Copies copies = Copies::Used);
 
-} // namespace refractivity
+} // namespace filters

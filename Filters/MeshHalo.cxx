@@ -28,7 +28,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -285,4 +285,4 @@ vtkSmartPointer<vtkDataSet> withCopies(
   return joined ? joined : own;
 }
 
-} // namespace refractivity
+} // namespace filters

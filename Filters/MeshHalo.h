@@ -19,7 +19,7 @@ class vtkDataSet;
 class vtkStructuredGrid;
 class vtkUnstructuredGrid;
 
-namespace refractivity
+namespace filters
 {
 
 /// Whether all datasets of an input are unstructured meshes or curvilinear grids, and some of them have volume.
@@ -82,4 +82,4 @@ vtkSmartPointer<vtkDataSet> cellsWithin(vtkStructuredGrid* grid, const Outline::
 vtkSmartPointer<vtkDataSet> withCopies(
   vtkDataSet* mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& others);
 
-} // namespace refractivity
+} // namespace filters

@@ -26,7 +26,7 @@
 #include <cstring>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -236,4 +236,4 @@ void addBodies(Hash& hash, vtkDataObject* bodies)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

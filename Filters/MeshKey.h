@@ -8,7 +8,7 @@
 class vtkDataObject;
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// A hash of the numbers that it is given, in their order. Meshes are known by such hashes, since readers make new
@@ -45,4 +45,4 @@ void addGas(Hash& hash, vtkDataSet* data);
 /// The surfaces of bodies; may be null.
 void addBodies(Hash& hash, vtkDataObject* bodies);
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -72,7 +72,7 @@ Faces MeshPiece::faces() const
 
 std::vector<double> MeshPiece::valuesAt(const Faces& faces) const
 {
-  return refractivity::valuesAt(faces.firstShares, faces.shares, pointersTo(this->Leaves));
+  return filters::valuesAt(faces.firstShares, faces.shares, pointersTo(this->Leaves));
 }
 
 bool MeshPiece::meets(const schlieren::Box& box) const
@@ -126,4 +126,4 @@ MeshPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
   return samples;
 }
 
-} // namespace refractivity
+} // namespace filters

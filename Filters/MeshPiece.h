@@ -16,7 +16,7 @@
 
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// Whether two boxes have a point in common.
@@ -68,4 +68,4 @@ private:
   CellSampler Values;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -20,7 +20,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -331,4 +331,4 @@ void MeshSampler::cover(int piece, const Places& places, unsigned char* outside)
     { outside[to] = places.cells[from] == Places::noCell ? outside[to] : 0; });
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@ class vtkDataSet;
 class vtkImageData;
 class vtkUnsignedCharArray;
 
-namespace refractivity
+namespace filters
 {
 
 /// The cells that hold a grid's points: 16 bytes for each point.
@@ -76,4 +76,4 @@ private:
   std::vector<std::uint32_t> Sorted; // cells of each piece, in their order
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -15,7 +15,7 @@
 #include <mutex>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -156,4 +156,4 @@ vtkSmartPointer<vtkUnsignedCharArray> outsideOf(const std::vector<vtkDataSet*>& 
   return outside;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -13,7 +13,7 @@
 
 class vtkDoubleArray;
 
-namespace refractivity
+namespace filters
 {
 
 /// Where a grid's points lie in a mesh, kept from one conversion to the next: time steps and fields change
@@ -46,4 +46,4 @@ vtkSmartPointer<vtkUnsignedCharArray> outsideOf(const std::vector<vtkDataSet*>& 
   vtkImageData* grid, int flatAxis, MeshSearch& search, const Progress& progress,
   vtkUnsignedCharArray* valid);
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -225,4 +225,4 @@ void MeshSource::sampleFields(
   }
 }
 
-} // namespace refractivity
+} // namespace filters

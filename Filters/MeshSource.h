@@ -20,7 +20,7 @@
 class vtkDataObject;
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// What of a MeshSource depends on the mesh alone, and not on its values: it is kept from one time step to the next.
@@ -106,4 +106,4 @@ private:
   std::vector<std::unique_ptr<const FieldOfMesh>> Fields;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -308,4 +308,4 @@ std::vector<unsigned char> findOuter(
   return Finder(surface, tree, rounding, axes).find();
 }
 
-} // namespace refractivity
+} // namespace filters

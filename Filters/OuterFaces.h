@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /**
@@ -28,4 +28,4 @@ namespace refractivity
 std::vector<unsigned char> findOuter(
   const Triangles& surface, const TriangleTree& tree, double rounding, std::size_t axes = 3);
 
-} // namespace refractivity
+} // namespace filters

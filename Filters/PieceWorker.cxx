@@ -20,7 +20,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -177,7 +177,7 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
   put(static_cast<std::uint64_t>(this->Parts.size()), answer);
   for (const Part& part : this->Parts)
   {
-    const refractivity::Outline& outline = this->Outlines.emplace_back(outlineOf(part.data));
+    const filters::Outline& outline = this->Outlines.emplace_back(outlineOf(part.data));
     putAll(part.slot, answer);
     put(outline.isGrid, answer);
     put(hasCellValues(part.data), answer);
@@ -192,9 +192,9 @@ void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
   while (!request.IsAtEnd())
   {
     const auto number = request.Get<std::uint64_t>();
-    const auto extent = request.Get<refractivity::Outline::Extent>();
+    const auto extent = request.Get<filters::Outline::Extent>();
     const Part& part = this->Parts.at(number);
-    const refractivity::Outline& outline = this->Outlines.at(number);
+    const filters::Outline& outline = this->Outlines.at(number);
     std::vector<vtkIdType> points;
     for (const std::uint32_t point : request.GetAll<std::vector<std::uint32_t>>())
     {
@@ -283,4 +283,4 @@ const MeshPiece& PieceWorker::PieceOf(Reader& request) const
   return *this->Piece;
 }
 
-} // namespace refractivity
+} // namespace filters

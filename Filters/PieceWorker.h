@@ -14,7 +14,7 @@
 class vtkDataObject;
 class vtkRefractiveIndex;
 
-namespace refractivity
+namespace filters
 {
 
 /// Answers what a PiecesSource, on rank 0, asks a rank about its piece of the data.
@@ -72,8 +72,8 @@ private:
   vtkRefractiveIndex* Self;
   vtkDataObject* Data = nullptr;
   std::vector<Part> Parts;
-  std::vector<refractivity::Outline> Outlines; // of them
-  std::string Lacks;                           // what to say where the data have not the arrays
+  std::vector<filters::Outline> Outlines; // of them
+  std::string Lacks;                      // what to say where the data have not the arrays
   std::unique_ptr<MeshPiece> Piece;
   std::uint64_t Number = 0; // of the piece
 };
@@ -81,4 +81,4 @@ private:
 /// A message that asks for something, as yet without what.
 std::vector<char> pieceRequest(PieceWorker::Kind kind);
 
-} // namespace refractivity
+} // namespace filters

@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -487,4 +487,4 @@ void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivit
   this->Boundary->sample(lattice, samples.found.data(), places, distances);
 }
 
-} // namespace refractivity
+} // namespace filters

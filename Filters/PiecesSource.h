@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// The ranks, each with a PieceWorker; rank 0 is the first.
@@ -94,4 +94,4 @@ private:
   mutable std::map<LatticeKey, MeshPiece::Samples> Samples;
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -41,4 +41,4 @@ std::vector<LocateInCell> functionsToLocate()
   return functions;
 }
 
-} // namespace refractivity
+} // namespace filters

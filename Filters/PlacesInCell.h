@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /**
@@ -42,4 +42,4 @@ using LocateInCell = void (*)(const NormalCell& cell, int count, CellPoints& poi
 /// For the instructions that this processor has, slower ones first.
 std::vector<LocateInCell> functionsToLocate();
 
-} // namespace refractivity
+} // namespace filters

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <iterator>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -64,4 +64,4 @@ std::vector<FitPoints> functionsToFit()
   return functions;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /**
@@ -71,4 +71,4 @@ using FitPoints = void (*)(PointFit& fit);
 /// For the instructions that this processor has, slower ones first.
 std::vector<FitPoints> functionsToFit();
 
-} // namespace refractivity
+} // namespace filters

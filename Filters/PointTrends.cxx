@@ -14,7 +14,7 @@
 #include <numeric>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -500,4 +500,4 @@ std::size_t PointNeighbours::bytes() const
     this->IsCellUsed.size();
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /**
@@ -54,4 +54,4 @@ private:
   std::vector<unsigned char> IsCellUsed; // of structured grids
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -172,4 +172,4 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
   return cut;
 }
 
-} // namespace refractivity
+} // namespace filters

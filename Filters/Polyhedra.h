@@ -6,7 +6,7 @@
 
 class vtkDataSet;
 
-namespace refractivity
+namespace filters
 {
 
 /// The mesh with its polyhedra (vtkPolyhedron) cut into tetrahedra and its prisms with five or six sides into wedges, or
@@ -20,4 +20,4 @@ namespace refractivity
 /// them, up to a third of their volume, with values that are not linear where the data are.
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* mesh);
 
-} // namespace refractivity
+} // namespace filters

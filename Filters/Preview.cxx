@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace filters
+{
+
 //------------------------------------------------------------------------------
 int previewPixels(int pixels, int reduction)
 {
@@ -48,3 +51,5 @@ void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int red
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
   scene.noiseFilterRadius /= reduction;
 }
+
+} // namespace filters

@@ -4,6 +4,9 @@
 
 #include "Schlieren.h"
 
+namespace filters
+{
+
 /// For a window to show while things move: an image that lies where the whole one does, with fewer pixels and
 /// one ray for each. `reduction`: pixels of the whole image, along each axis, that one of it stands for.
 
@@ -21,3 +24,5 @@ int reductionAtFirst(const schlieren::View& view);
 /// Makes of a whole image's scene that of the preview. What counts in pixels keeps its size in data
 /// units; but a background whose period is left to the filter stays coarse enough to be seen.
 void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction);
+
+} // namespace filters

@@ -19,6 +19,8 @@
 #include <stdexcept>
 #include <utility>
 
+using namespace filters;
+
 namespace
 {
 

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <string>
 
+namespace filters
+{
+
 using Filter = vtkSchlierenFilter;
 
 #define SETTING(name, ...)                                                                      \
@@ -45,3 +48,5 @@ double interactiveStepSize()
     [](const QualitySetting& each) { return std::string(each.Property) == "StepSize"; });
   return setting->Values[Filter::INTERACTIVE];
 }
+
+} // namespace filters

@@ -6,6 +6,9 @@
 
 struct AccuracySettings;
 
+namespace filters
+{
+
 /// A property that the presets of Quality set.
 struct QualitySetting
 {
@@ -20,3 +23,5 @@ extern const std::array<QualitySetting, 11> qualitySettings;
 
 /// StepSize of the fastest preset.
 double interactiveStepSize();
+
+} // namespace filters

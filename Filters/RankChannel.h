@@ -26,6 +26,9 @@
 #include <utility>
 #include <vector>
 
+namespace filters
+{
+
 namespace ranks
 {
 
@@ -263,3 +266,5 @@ private:
 };
 
 } // namespace ranks
+
+} // namespace filters

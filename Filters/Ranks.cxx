@@ -31,6 +31,9 @@
 #include <stdexcept>
 #include <utility>
 
+namespace filters
+{
+
 using namespace ranks;
 
 namespace
@@ -346,7 +349,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   {
     hello.inputs[0] = holdingsOf(this->Own->data);
     hello.inputs[1] = holdingsOf(this->Own->bodies);
-    hello.areMeshes = refractivity::areMeshes(this->Own->data) ? 1 : 0;
+    hello.areMeshes = filters::areMeshes(this->Own->data) ? 1 : 0;
   }
   channel.send(messageOf(hello));
   while (!this->HasMet)
@@ -529,7 +532,7 @@ std::vector<Holdings> FilterRanks::Others::HoldingsOf(int input, vtkDataObject* 
 //------------------------------------------------------------------------------
 bool FilterRanks::Meeting::CanStayInPieces(double mostCells) const
 {
-  bool areAll = refractivity::areMeshes(this->Own->data);
+  bool areAll = filters::areMeshes(this->Own->data);
   for (const auto& channel : this->Of.Inside->Channels)
   {
     areAll = areAll && channel->Guest->areMeshes != 0;
@@ -600,3 +603,5 @@ vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
   }
   return gatheredData(parts);
 }
+
+} // namespace filters

@@ -20,6 +20,9 @@ class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
 
+namespace filters
+{
+
 /// False on the other MPI processes of ParaView where there are several: rank 0 makes what there is one of, the
 /// others leave it empty.
 bool isRank0();
@@ -151,3 +154,5 @@ private:
   std::string Problem;                        // of Compared
   vtkSmartPointer<vtkDataObject> Gathered[2]; // likewise; null: rank 0 has all of it
 };
+
+} // namespace filters

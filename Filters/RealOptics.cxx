@@ -12,6 +12,9 @@
 #include <limits>
 #include <stdexcept>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -183,3 +186,5 @@ double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Fra
   return settings.FringeSpacing == 0 ? frame.pixelSize * settings.ImageSize[1] / fringesInImage
                                      : settings.FringeSpacing;
 }
+
+} // namespace filters

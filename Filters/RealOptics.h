@@ -9,6 +9,9 @@
 struct OpticsSettings;
 struct SchlierenSettings;
 
+namespace filters
+{
+
 /// What of a scene follows from mirrors, sources and beams that one can buy. A user's mistake is thrown as
 /// std::runtime_error with a message for the user.
 
@@ -40,3 +43,5 @@ schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schli
 /// The spacing of finite fringes, data units: from the angle of the beams, as it is given, or that of ten
 /// fringes in the image.
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame);
+
+} // namespace filters

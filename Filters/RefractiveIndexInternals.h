@@ -16,7 +16,7 @@
 #include <vector>
 
 // What vtkRefractiveIndex keeps between updates, and what its files share.
-namespace refractivity
+namespace filters
 {
 
 struct GridPlan
@@ -49,4 +49,4 @@ std::string noGas(const Source& source);
 /// Appends a sentence.
 void addText(std::string& text, const std::string& more);
 
-} // namespace refractivity
+} // namespace filters

@@ -6,7 +6,7 @@
 
 #include "vtkPiecewiseFunction.h"
 
-using namespace refractivity;
+using namespace filters;
 
 namespace
 {

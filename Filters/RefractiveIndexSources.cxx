@@ -23,7 +23,7 @@
 #include <stdexcept>
 #include <utility>
 
-using namespace refractivity;
+using namespace filters;
 
 namespace
 {
@@ -33,7 +33,7 @@ bool isZero(int count) { return count == 0; }
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSMPTools::Config refractivity::threadsOfLoops(vtkRefractiveIndex* self)
+vtkSMPTools::Config filters::threadsOfLoops(vtkRefractiveIndex* self)
 {
   const int given = self->GetNumberOfThreads();
   const int limit =
@@ -42,7 +42,7 @@ vtkSMPTools::Config refractivity::threadsOfLoops(vtkRefractiveIndex* self)
 }
 
 //------------------------------------------------------------------------------
-std::string refractivity::noGas(const Source& source)
+std::string filters::noGas(const Source& source)
 {
   return "There is no valid value in the " + source.label +
     " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
@@ -50,7 +50,7 @@ std::string refractivity::noGas(const Source& source)
 }
 
 //------------------------------------------------------------------------------
-void refractivity::addText(std::string& text, const std::string& more)
+void filters::addText(std::string& text, const std::string& more)
 {
   text += (text.empty() || more.empty() ? "" : " ") + more;
 }
@@ -105,7 +105,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       fields = fieldValues(this, input, source);
     }
     progress.reach(0.02);
-    const auto outside = static_cast<refractivity::Outside>(this->Outside);
+    const auto outside = static_cast<filters::Outside>(this->Outside);
     const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat);
     if (std::optional<AmrLevels> levels = findLevels(source.leaves))
     {
@@ -253,7 +253,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
       [&]
       {
         made = std::make_shared<PiecesSource>(this->Pieces, bodies,
-          static_cast<refractivity::Outside>(this->Outside),
+          static_cast<filters::Outside>(this->Outside),
           WorkProgress(
             [this](double done)
             {

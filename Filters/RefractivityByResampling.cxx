@@ -27,7 +27,7 @@
 #include <string>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -453,4 +453,4 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   return tally;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@
 #include <string>
 
 /// The refractivity of everything that is not one image: resampled to a grid.
-namespace refractivity
+namespace filters
 {
 
 /// The grid that covers the 3-D cells (of flat data: the 2-D cells).
@@ -61,4 +61,4 @@ std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
 Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
   bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output);
 
-} // namespace refractivity
+} // namespace filters

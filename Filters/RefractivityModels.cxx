@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -383,4 +383,4 @@ std::string warningFrom(const Model& model, const Tally& tally)
     model);
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -17,7 +17,7 @@ class vtkRefractiveIndex;
 ///   refractivity(values)  N; NaN where there can be no such gas
 ///   isDoubtful(values)    whether the user should hear of it
 ///   warning(share)        what the user should hear, where the share is text such as "12 %"
-namespace refractivity
+namespace filters
 {
 
 /// Of the only array. Kept apart from the others because it can be fast.
@@ -88,4 +88,4 @@ struct Tally
 /// What to warn the user of; empty where nothing is doubtful.
 std::string warningFrom(const Model& model, const Tally& tally);
 
-} // namespace refractivity
+} // namespace filters

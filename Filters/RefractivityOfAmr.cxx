@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -270,4 +270,4 @@ Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtk
   return tally;
 }
 
-} // namespace refractivity
+} // namespace filters

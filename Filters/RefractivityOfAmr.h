@@ -20,7 +20,7 @@
 /// difference of the squared edges, and so print the borders of the levels into a picture.
 ///
 /// Hidden cells and NaN are solid and never interpolated from; cells under refined ones are not solid.
-namespace refractivity
+namespace filters
 {
 
 struct Amr
@@ -44,4 +44,4 @@ void gridOf(const Amr& amr, vtkImageData* structure);
 /// Fills `output` as planned. N is formed in the cells of the input, before anything is interpolated.
 Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtkImageData* output);
 
-} // namespace refractivity
+} // namespace filters

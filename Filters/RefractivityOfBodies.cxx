@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -218,4 +218,4 @@ std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
   return isMet ? "" : bodiesAreOutside;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -11,7 +11,7 @@ class vtkImageData;
 class vtkPolyData;
 
 /// Bodies in the gas, given as surfaces.
-namespace refractivity
+namespace filters
 {
 
 /// What to warn of where they are outside of the data.
@@ -27,4 +27,4 @@ std::string placeBodies(vtkDataObject* bodies, vtkImageData* output);
 /// The polygons of `bodies` as triangles, whose points are finite. Throws as placeBodies() does.
 vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies);
 
-} // namespace refractivity
+} // namespace filters

@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -222,4 +222,4 @@ Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* out
   return tally;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -5,7 +5,7 @@
 #include "RefractivitySource.h"
 
 /// The refractivity of an image, which keeps its own grid: nothing is interpolated.
-namespace refractivity
+namespace filters
 {
 
 /// Makes `structure` the grid of the image's points, or of the centres of its cells; of a flat image, two
@@ -15,4 +15,4 @@ void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure);
 /// Fills `output` from source.image.
 Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* output);
 
-} // namespace refractivity
+} // namespace filters

@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -93,4 +93,4 @@ void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output)
   output->GetPointData()->AddArray(outside);
 }
 
-} // namespace refractivity
+} // namespace filters

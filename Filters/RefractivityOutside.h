@@ -13,7 +13,7 @@ class vtkImageData;
 class vtkUnsignedCharArray;
 
 /// The places that have no gas and still let light pass, see vtkRefractiveIndex::OutsideBlocksLight.
-namespace refractivity
+namespace filters
 {
 
 /// Which points of a grid lie in the box of no leaf, where leaves fill their boxes. One without length
@@ -27,4 +27,4 @@ vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image);
 /// Adds those of them that are masked to `output`.
 void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output);
 
-} // namespace refractivity
+} // namespace filters

@@ -19,7 +19,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -359,4 +359,4 @@ bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -18,7 +18,7 @@ class vtkRefractiveIndex;
 
 /// The stages of vtkRefractiveIndex. A user's mistake is thrown as std::runtime_error, with a message
 /// that says the problem, why it is one and what to do.
-namespace refractivity
+namespace filters
 {
 
 // The point arrays of the output, which are also understood where an input has them.
@@ -70,4 +70,4 @@ std::string choicesOfArrays(vtkRefractiveIndex* self);
 /// they are there already, say otherwise.
 bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image);
 
-} // namespace refractivity
+} // namespace filters

@@ -18,7 +18,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -253,4 +253,4 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   return tally;
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -10,7 +10,7 @@
 class vtkUnsignedCharArray;
 
 /// From arrays' values to refractivity and to the mask that says which of them are valid.
-namespace refractivity
+namespace filters
 {
 
 constexpr unsigned char hiddenCellBits =
@@ -33,4 +33,4 @@ vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, bool doublePrecision);
 
-} // namespace refractivity
+} // namespace filters

@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -146,3 +149,5 @@ std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
 {
   return RgbPictureReader().read(property, text);
 }
+
+} // namespace filters

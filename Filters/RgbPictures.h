@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+namespace filters
+{
+
 /// A picture that is decoded once, as long as it is asked for again and again.
 class RgbPictureReader
 {
@@ -28,3 +31,5 @@ private:
 /// was given.
 std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
   const std::string& property, const std::string& text);
+
+} // namespace filters

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -119,4 +119,4 @@ std::array<int, 2> SamplingBox::cellsOf(
   return { from, static_cast<int>(std::clamp(end, from + 1., static_cast<double>(count))) };
 }
 
-} // namespace refractivity
+} // namespace filters

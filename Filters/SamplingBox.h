@@ -6,7 +6,7 @@
 
 class vtkImageData;
 
-namespace refractivity
+namespace filters
 {
 
 /// The part of the domain that becomes a grid: a box in the data's coordinates. Along an axis whose second number is not
@@ -44,4 +44,4 @@ private:
   std::array<double, 6> bounds;
 };
 
-} // namespace refractivity
+} // namespace filters

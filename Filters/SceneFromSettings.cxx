@@ -17,6 +17,9 @@
 #include <stdexcept>
 #include <string>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -221,6 +224,8 @@ void addObjects(
   }
   if (scene.fringes.whiteLight)
   {
-    scene.fringes.dispersion = refractivity::dispersionOfGases(medium, scene.wavelength);
+    scene.fringes.dispersion = filters::dispersionOfGases(medium, scene.wavelength);
   }
 }
+
+} // namespace filters

@@ -4,11 +4,15 @@
 
 #include "Schlieren.h"
 
-class RgbPictureReader;
 class vtkPiecewiseFunction;
 class vtkRefractiveIndex;
 struct ResourceSettings;
 struct SchlierenSettings;
+
+namespace filters
+{
+
+class RgbPictureReader;
 
 /// What the settings say, as the tracer wants it. Checked is only what is converted here: the rest the tracer does.
 /// Throws std::runtime_error with a message for the user.
@@ -27,3 +31,5 @@ schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::G
 
 /// Threads to use: those given, or else VTK_SMP_MAX_THREADS; 0: coresOfProcess().
 int threadsFrom(const ResourceSettings& resources);
+
+} // namespace filters

@@ -31,8 +31,8 @@ struct vtkSchlierenFilter::Internals
   class WithWorkers
   {
   public:
-    WithWorkers(
-      Internals& internals, vtkRefractiveIndex* medium, const FilterRanks::Meeting& meeting)
+    WithWorkers(Internals& internals, vtkRefractiveIndex* medium,
+      const filters::FilterRanks::Meeting& meeting)
       : Of(internals)
       , Medium(medium)
     {
@@ -52,10 +52,10 @@ struct vtkSchlierenFilter::Internals
     vtkRefractiveIndex* Medium;
   };
 
-  FilterRanks Ranks;
-  TimeSlicedImage Pictures;
-  LastImage Shown[2]; // at each output
-  RgbPictureReader RgbPictures;
+  filters::FilterRanks Ranks;
+  filters::TimeSlicedImage Pictures;
+  filters::LastImage Shown[2]; // at each output
+  filters::RgbPictureReader RgbPictures;
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // what a source was divided into
 
@@ -63,7 +63,7 @@ struct vtkSchlierenFilter::Internals
   {
     if (!this->Refractivity->Source)
     {
-      return fieldFrom(this->Refractivity->Image);
+      return filters::fieldFrom(this->Refractivity->Image);
     }
     schlieren::Field field;
     field.source = this->Refractivity->Source;
@@ -94,13 +94,13 @@ struct vtkSchlierenFilter::Internals
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
 
-  SensitivityLock KLock;
-  SensitivityLock AmbientLock;
+  filters::SensitivityLock KLock;
+  filters::SensitivityLock AmbientLock;
   bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // of the last update; unset for data without time steps
 
-  TimeExposure Exposure;   // of the last request
-  std::size_t Instant = 0; // of these, the one that is being made
+  filters::TimeExposure Exposure; // of the last request
+  std::size_t Instant = 0;        // of these, the one that is being made
   // The image of its first instant, whose k and surroundings, and place, are those of all others.
   std::optional<schlieren::Image> FirstInstant;
 
@@ -127,9 +127,14 @@ struct vtkSchlierenFilter::Internals
   }
 };
 
+namespace filters
+{
+
 /// Share of the progress bar that belongs to finding the refractivity.
 inline constexpr double mediumShare = 0.2;
 
 /// Everything of the inputs that the refractivity depends on.
 std::vector<double> describeInputs(
   vtkAlgorithm* filter, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies);
+
+} // namespace filters

@@ -11,6 +11,8 @@
 #include <string>
 #include <type_traits>
 
+using namespace filters;
+
 namespace
 {
 

@@ -9,6 +9,9 @@
 #include <tuple>
 #include <type_traits>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -102,3 +105,5 @@ std::optional<double> SensitivityLock::GetKept() const
   const bool isFound = this->FoundAt && this->Last && isSame(*this->FoundAt, *this->Last);
   return isFound ? std::nullopt : this->K;
 }
+
+} // namespace filters

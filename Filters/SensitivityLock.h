@@ -7,6 +7,9 @@
 
 struct SchlierenSettings;
 
+namespace filters
+{
+
 /// What a number that is found for an image belongs to.
 struct ImageCircumstances
 {
@@ -44,3 +47,5 @@ private:
   std::optional<ImageCircumstances> Origin;  // FoundAt, or else the first image with K
   std::optional<ImageCircumstances> Last;
 };
+
+} // namespace filters

@@ -51,7 +51,7 @@ RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataOb
   std::ostringstream settings;
   settings.precision(std::numeric_limits<double>::max_digits10);
   medium->PrintSettings(settings, vtkIndent());
-  settings << refractivity::choicesOfArrays(medium);
+  settings << filters::choicesOfArrays(medium);
   return { data, bodies, std::move(inputs), settings.str(), hasFields };
 }
 

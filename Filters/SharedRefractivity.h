@@ -19,7 +19,7 @@ namespace schlieren
 {
 class SharedMedia;
 }
-namespace refractivity
+namespace filters
 {
 struct KeptMesh;
 }
@@ -33,9 +33,9 @@ struct MadeRefractivity
   vtkNew<vtkImageData> Image;
   std::shared_ptr<const schlieren::MediumSource> Source; ///< instead of Image, of meshes
   vtkMTimeType SourceTime = 0;
-  std::shared_ptr<refractivity::KeptMesh> Mesh; ///< of Source
-  std::string Grid;                             ///< of Image, in words
-  std::string Warning;                          ///< for whoever uses it
+  std::shared_ptr<filters::KeptMesh> Mesh; ///< of Source
+  std::string Grid;                        ///< of Image, in words
+  std::string Warning;                     ///< for whoever uses it
 };
 
 /// What it is made from: equal keys mean equal refractivity.

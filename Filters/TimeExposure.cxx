@@ -6,6 +6,9 @@
 #include <iterator>
 #include <sstream>
 
+namespace filters
+{
+
 //------------------------------------------------------------------------------
 TimeExposure::TimeExposure(const std::vector<double>& steps, double first, double last, double time,
   double length, int samples)
@@ -65,3 +68,5 @@ std::string TimeExposure::GetWords() const
         << this->End;
   return words.str();
 }
+
+} // namespace filters

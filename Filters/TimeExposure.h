@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+namespace filters
+{
+
 /// An image that is the mean over an interval of time, as a camera's shutter makes it: which data it takes, and when.
 /// The interval lies around the time of the image, so that what moves is where a short exposure shows it, and as much
 /// of it before as after. It ends where the data do. The instants are the middles of equal parts of it.
@@ -37,3 +40,5 @@ public:
   double Time = 0; ///< of the image
   double Begin = 0, End = 0;
 };
+
+} // namespace filters

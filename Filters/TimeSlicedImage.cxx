@@ -8,6 +8,9 @@
 #include <chrono>
 #include <optional>
 
+namespace filters
+{
+
 namespace
 {
 
@@ -94,3 +97,5 @@ std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& im
   }
   return news;
 }
+
+} // namespace filters

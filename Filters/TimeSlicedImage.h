@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+namespace filters
+{
+
 /// Makes the images of a filter one after the other, each as a whole or time-sliced.
 class TimeSlicedImage
 {
@@ -46,3 +49,5 @@ private:
   double RaysPerSecond = 0;    // when rays were traced last
   std::int64_t WarnedOf[3] = { 0, 0, 0 };
 };
+
+} // namespace filters

@@ -18,7 +18,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace refractivity
+namespace filters
 {
 
 namespace
@@ -168,4 +168,4 @@ void FieldMean::findRanges(const std::vector<Leaf>& leaves)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -8,7 +8,7 @@
 class vtkPiecewiseFunction;
 
 /// Several fields, each through its range and a curve, to one refractivity (Brownlee et al. 2011, sec. 8).
-namespace refractivity
+namespace filters
 {
 
 struct Leaf;
@@ -49,4 +49,4 @@ struct FieldMean
   void findRanges(const std::vector<Leaf>& leaves);
 };
 
-} // namespace refractivity
+} // namespace filters

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace refractivity
+namespace filters
 {
 
 std::vector<EdgeOfTriangle> edgesOf(const Triangles& surface)
@@ -277,4 +277,4 @@ bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box&
   return !isApart(surface.normal(triangle));
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// A surface. Points of which triangles make use are finite.
@@ -136,4 +136,4 @@ void TriangleTree::forTrianglesAt(const schlieren::Box& box, const Visit& visit)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

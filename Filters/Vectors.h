@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace refractivity
+namespace filters
 {
 
 using Vector = std::array<double, 3>;
@@ -35,4 +35,4 @@ inline Point unit(const Point& a)
   return length > 0 ? (1 / length) * a : Point{ 0, 0, 0 };
 }
 
-} // namespace refractivity
+} // namespace filters

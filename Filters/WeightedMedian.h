@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace refractivity
+namespace filters
 {
 
 /// Of values, each with its weight; NaN where there are none.
@@ -31,4 +31,4 @@ inline double weightedMedian(std::vector<std::pair<double, double>> parts)
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -9,7 +9,7 @@
 #include <functional>
 #include <utility>
 
-namespace refractivity
+namespace filters
 {
 
 /// Reports how much is done, 0 to 1, in the thread that began the work. False cancels it.
@@ -77,4 +77,4 @@ void forParts(vtkIdType count, const WorkProgress& progress, const Work& work)
   }
 }
 
-} // namespace refractivity
+} // namespace filters

@@ -30,7 +30,7 @@
 #include <stdexcept>
 #include <utility>
 
-using namespace refractivity;
+using namespace filters;
 
 vtkStandardNewMacro(vtkRefractiveIndex);
 
@@ -384,7 +384,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   }
   FilterRanks::Meeting meeting(*this->Ranks,
     FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
-      vtkDataObject::GetData(inputVector[BODIES]), refractivity::arraysOf(this) });
+      vtkDataObject::GetData(inputVector[BODIES]), filters::arraysOf(this) });
   if (!isRank0())
   {
     meeting.Serve(this->NumberOfThreads);

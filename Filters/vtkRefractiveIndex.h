@@ -53,7 +53,6 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
-class FilterRanks;
 class vtkPiecewiseFunction;
 
 namespace schlieren
@@ -62,14 +61,15 @@ class Channel;
 class MediumSource;
 } // namespace schlieren
 
-namespace refractivity
+namespace filters
 {
+class FilterRanks;
 struct GridPlan;
 struct KeptMesh;
 struct MeshSearch;
 class ChannelRanks;
 struct Source;
-} // namespace refractivity
+} // namespace filters
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
 {
@@ -505,8 +505,8 @@ public:
    * What the last MakeSource() keeps of its mesh for the next one. Filters of the same data can have one together;
    * GetMeshBuilds() then counts for all of them.
    */
-  VTK_WRAPEXCLUDE std::shared_ptr<refractivity::KeptMesh> GetMesh() const { return this->Mesh; }
-  VTK_WRAPEXCLUDE void SetMesh(std::shared_ptr<refractivity::KeptMesh> mesh);
+  VTK_WRAPEXCLUDE std::shared_ptr<filters::KeptMesh> GetMesh() const { return this->Mesh; }
+  VTK_WRAPEXCLUDE void SetMesh(std::shared_ptr<filters::KeptMesh> mesh);
 
   /**
    * Prints all properties that decide what is made of an input, the choice of arrays apart.
@@ -577,21 +577,21 @@ private:
   vtkMTimeType FailedAt = 0;
 
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
-  const refractivity::GridPlan& PlanGrid(const refractivity::Source& source, vtkDataObject* input);
+  const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
 
-  std::shared_ptr<refractivity::GridPlan> Plan;
-  std::shared_ptr<refractivity::KeptMesh> Mesh;
+  std::shared_ptr<filters::GridPlan> Plan;
+  std::shared_ptr<filters::KeptMesh> Mesh;
   /// Frees it, or leaves it to other filters that have it.
   void LeaveMesh();
-  std::shared_ptr<refractivity::MeshSearch> Search;
+  std::shared_ptr<filters::MeshSearch> Search;
   bool IsSearchShared = false; // by another filter, whose it is
 
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;
-  std::string NewNoteOnGases(const refractivity::Source& source);
+  std::string NewNoteOnGases(const filters::Source& source);
 
-  std::shared_ptr<FilterRanks> Ranks;
-  std::shared_ptr<refractivity::ChannelRanks> Pieces;
+  std::shared_ptr<filters::FilterRanks> Ranks;
+  std::shared_ptr<filters::ChannelRanks> Pieces;
   bool HasPieces = false;
 
   int IndexModel = GLADSTONE_DALE;

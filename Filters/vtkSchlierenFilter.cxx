@@ -26,6 +26,8 @@
 #include <stdexcept>
 #include <utility>
 
+using namespace filters;
+
 vtkStandardNewMacro(vtkSchlierenFilter);
 
 namespace
@@ -92,7 +94,7 @@ void tellPlaces(vtkInformationVector* outputs)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<double> describeInputs(
+std::vector<double> filters::describeInputs(
   vtkAlgorithm* filter, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies)
 {
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
@@ -182,7 +184,7 @@ int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 void vtkSchlierenFilter::PassToMedium()
 {
   // Otherwise another wavelength would make the same refractivity once more.
-  if (refractivity::usesWavelength(this->Medium))
+  if (filters::usesWavelength(this->Medium))
   {
     this->Medium->SetWavelength(this->Wavelength);
   }
@@ -440,7 +442,7 @@ int vtkSchlierenFilter::RequestData(
   {
     return 1;
   }
-  steps.Meet(refractivity::arraysOf(this->Medium));
+  steps.Meet(filters::arraysOf(this->Medium));
   if (!isRank0())
   {
     const auto serve = [&]()

@@ -63,10 +63,14 @@
 #include <string>   // for std::string
 #include <vector>   // for std::vector
 
-class ExposureSteps;
 class vtkPiecewiseFunction;
-struct ImageCircumstances;
 struct MadeRefractivity;
+
+namespace filters
+{
+class ExposureSteps;
+struct ImageCircumstances;
+} // namespace filters
 
 namespace schlieren
 {
@@ -945,10 +949,10 @@ private:
   /// none, or none counts.
   std::optional<double> KeptK();
   std::optional<double> KeptAmbient();
-  ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
+  filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
   schlieren::Image Begin(bool isHurried, double seconds, const schlieren::Monitor& monitor);
   /// Makes the image of an exposure over time. False if aborted.
-  bool Expose(ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
+  bool Expose(filters::ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
   /// Hands what was found for the last image that was begun to the locks.
   void KeepFound(const schlieren::Image& image);
   /// Reports progress of what is being made, or of an instant of it.

@@ -20,8 +20,8 @@
 namespace
 {
 
-using refractivity::GasBoundary;
-using refractivity::Point;
+using filters::GasBoundary;
+using filters::Point;
 
 vtkSmartPointer<vtkDataSet> sphereMesh()
 {
@@ -57,7 +57,7 @@ void findBoundary(benchmark::State& state)
   const auto mesh = sphereMesh();
   for (auto _ : state)
   {
-    const GasBoundary boundary({ mesh }, nullptr, refractivity::Outside::Auto, {});
+    const GasBoundary boundary({ mesh }, nullptr, filters::Outside::Auto, {});
     benchmark::DoNotOptimize(&boundary);
   }
 }
@@ -66,7 +66,7 @@ void findBoundary(benchmark::State& state)
 void sampleBricks(benchmark::State& state)
 {
   static const auto mesh = sphereMesh();
-  static const GasBoundary boundary({ mesh }, nullptr, refractivity::Outside::Auto, {});
+  static const GasBoundary boundary({ mesh }, nullptr, filters::Outside::Auto, {});
   const auto points = static_cast<int>(state.range(0));
   const double h = 1e-3 * static_cast<double>(state.range(1));
   struct Brick
@@ -79,7 +79,7 @@ void sampleBricks(benchmark::State& state)
   std::uniform_real_distribution<double> any(-1, 1);
   for (Brick& brick : bricks)
   {
-    const Point middle = refractivity::unit(Point{ any(random), any(random), any(random) });
+    const Point middle = filters::unit(Point{ any(random), any(random), any(random) });
     brick.lattice = { middle, { h, h, h }, { points, points, points } };
     for (double& first : brick.lattice.first)
     {
@@ -93,7 +93,7 @@ void sampleBricks(benchmark::State& state)
         {
           const Point& first = brick.lattice.first;
           const Point x{ first[0] + i * h, first[1] + j * h, first[2] + k * h };
-          brick.isInCell.push_back(refractivity::norm(x) > 1 ? 1 : 0);
+          brick.isInCell.push_back(filters::norm(x) > 1 ? 1 : 0);
         }
       }
     }

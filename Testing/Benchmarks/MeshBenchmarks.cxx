@@ -38,7 +38,7 @@ namespace
 {
 
 using Mesh = vtkSmartPointer<vtkDataSet>;
-using Reconstruction = refractivity::CellTree::Reconstruction;
+using Reconstruction = filters::CellTree::Reconstruction;
 
 vtkSmartPointer<vtkImageData> cube(int points)
 {
@@ -309,10 +309,10 @@ schlieren::Lattice brickOf(const schlieren::Box& box)
 }
 
 /// Leaves of an octree, as a view needs them that looks along z at |x|, |y| < column: as fine as the cells.
-void addBricks(const refractivity::CellTree& tree, const schlieren::Box& box, double column,
+void addBricks(const filters::CellTree& tree, const schlieren::Box& box, double column,
   double finest, std::vector<schlieren::Lattice>& bricks)
 {
-  const refractivity::CellTree::Content content = tree.content({ box.low, box.high });
+  const filters::CellTree::Content content = tree.content({ box.low, box.high });
   if (content.lowest > content.highest)
   {
     return;
@@ -357,14 +357,11 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
   }
   mesh->GetPointData()->Initialize();
   mesh->GetPointData()->SetScalars(values);
-  std::unique_ptr<refractivity::CellTree> tree;
+  std::unique_ptr<filters::CellTree> tree;
   std::vector<schlieren::Lattice> all;
   std::vector<std::size_t> found;
   const auto build = [&]
-  {
-    tree =
-      std::make_unique<refractivity::CellTree>(std::vector<vtkDataSet*>{ mesh }, reconstruction);
-  };
+  { tree = std::make_unique<filters::CellTree>(std::vector<vtkDataSet*>{ mesh }, reconstruction); };
   const auto ask = [&]
   {
     all.clear();
@@ -372,7 +369,7 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
   };
   const auto sampleSome = [&](vtkIdType begin, vtkIdType end)
   {
-    const refractivity::CellSampler sampler(*tree);
+    const filters::CellSampler sampler(*tree);
     std::vector<double> numbers;
     std::vector<unsigned char> isFound;
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)

@@ -14,8 +14,8 @@
 #include "vtkStructuredGrid.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
-using refractivity::CellSampler;
-using refractivity::CellTree;
+using filters::CellSampler;
+using filters::CellTree;
 using schlieren::Lattice;
 
 namespace
@@ -50,7 +50,7 @@ Found eachCell(const std::vector<vtkDataSet*>& blocks, const Lattice& lattice)
   for (std::size_t i = 0; i < static_cast<std::size_t>(lattice.size()); ++i)
   {
     const Vec x = pointOf(lattice, i);
-    refractivity::MeshCell cell(-1);
+    filters::MeshCell cell(-1);
     double value = 0;
     float least = HUGE_VALF;
     for (vtkDataSet* block : blocks)
@@ -222,7 +222,7 @@ TEST(CellSampler, PolyhedraAreCutIntoTetrahedra)
     mesh->InsertNextCell(VTK_POLYHEDRON, stream);
   }
   setN(mesh, linear);
-  const auto cutMesh = refractivity::withoutPolyhedra(mesh);
+  const auto cutMesh = filters::withoutPolyhedra(mesh);
   EXPECT_LT(errorOf(sampled({ cutMesh }, unitLattice(19)), unitLattice(19)), 1e-15);
 }
 
@@ -463,14 +463,14 @@ TEST(CellSampler, CurvedCellsOfOrder3AreExact)
 // Each point is itself, whatever is computed along with it.
 TEST(CellSampler, AllInstructionsGiveTheSame)
 {
-  refractivity::NormalCell cell{ refractivity::CellShape::Hexahedron, false, true,
+  filters::NormalCell cell{ filters::CellShape::Hexahedron, false, true,
     { { 0.1, -0.2, 0.15, 0.05 }, { 0.2, 0.1, 0.1, -0.1 }, { -0.1, 0.1, 0.05, 0.2 } },
     { 1, 2, 3, 4, 5, 6, 7, 8 },
     { { 2, 1, 1, 2, 1, 3, 1, 2 }, { 3, 2, 1, 1, 2, 1, 2, 1 }, { 1, 3, 2, 2, 1, 1, 1, 3 } },
     { { -2, 0, 0, 1, 0, 0, 0, 0 }, { 9, 0, 1, 1, 0, 0, 0, 0 } } };
-  const auto all = refractivity::functionsToLocate();
+  const auto all = filters::functionsToLocate();
   ASSERT_GE(all.size(), 1u);
-  const auto setPoints = [](refractivity::CellPoints& points, int first, int count)
+  const auto setPoints = [](filters::CellPoints& points, int first, int count)
   {
     for (int i = 0; i < count; ++i)
     {
@@ -480,13 +480,13 @@ TEST(CellSampler, AllInstructionsGiveTheSame)
       }
     }
   };
-  refractivity::CellPoints expected;
+  filters::CellPoints expected;
   setPoints(expected, 0, 100);
   all[0](cell, 93, expected);
   int inside = 0;
   for (const auto locate : all)
   {
-    refractivity::CellPoints together, alone;
+    filters::CellPoints together, alone;
     setPoints(together, 0, 100);
     locate(cell, 93, together);
     for (int i = 0; i < 93; ++i)
@@ -518,7 +518,7 @@ TEST(CellSampler, SamplesAgainWhatItHasFound)
     const auto size = static_cast<std::size_t>(lattice.size());
     const CellTree first({ mesh });
     Found found{ std::vector<double>(size, -1), std::vector<unsigned char>(size, 9) };
-    refractivity::CellsOfLattice cells;
+    filters::CellsOfLattice cells;
     CellSampler(first).sample(lattice, found.values.data(), found.found.data(), &cells);
     EXPECT_EQ(static_cast<std::ptrdiff_t>(cells.points.size()),
       std::count(found.found.begin(), found.found.end(), 1));

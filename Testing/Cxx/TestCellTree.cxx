@@ -11,7 +11,7 @@
 
 #include <random>
 
-using refractivity::CellTree;
+using filters::CellTree;
 
 namespace
 {

@@ -11,8 +11,8 @@
 
 #include <random>
 
-using refractivity::Faces;
-using refractivity::LagrangeProduct;
+using filters::Faces;
+using filters::LagrangeProduct;
 
 namespace
 {
@@ -62,7 +62,7 @@ Mesh withOwnPoints(vtkUnstructuredGrid* mesh)
 Faces facesOf(vtkDataSet* mesh)
 {
   mesh->GetPointData()->SetActiveScalars("N");
-  return refractivity::facesOf({ mesh }, refractivity::WorkProgress());
+  return filters::facesOf({ mesh }, filters::WorkProgress());
 }
 
 /// How far a place is from the faces of the unit cube.
@@ -208,8 +208,8 @@ TEST(CurvedCells, PartsOfTrianglesCoverThem)
     ASSERT_EQ(faces.starts[face + 1] - faces.starts[face], 3u);
     const auto corner = [&](std::size_t i)
     { return faces.points[static_cast<std::size_t>(faces.corners[faces.starts[face] + i])]; };
-    using refractivity::operator-;
-    area += 0.5 * refractivity::norm(cross(corner(1) - corner(0), corner(2) - corner(0)));
+    using filters::operator-;
+    area += 0.5 * filters::norm(cross(corner(1) - corner(0), corner(2) - corner(0)));
   }
   EXPECT_NEAR(area, 1.5 + std::sqrt(3.) / 2, 1e-12);
 }

@@ -29,8 +29,8 @@
 #include <random>
 #include <thread>
 
-using refractivity::GasBoundary;
-using refractivity::Outside;
+using filters::GasBoundary;
+using filters::Outside;
 using schlieren::Lattice;
 using schlieren::Place;
 
@@ -178,9 +178,9 @@ public:
     }
     return false;
   }
-  refractivity::CellTest test() const
+  filters::CellTest test() const
   {
-    return [this](const refractivity::Point& x) { return this->hold(x); };
+    return [this](const filters::Point& x) { return this->hold(x); };
   }
 
 private:
@@ -204,7 +204,7 @@ Areas areasOf(const GasBoundary& boundary)
   Areas areas;
   for (std::size_t t = 0; t < boundary.surface().size(); ++t)
   {
-    const double area = 0.5 * refractivity::norm(boundary.surface().normal(t));
+    const double area = 0.5 * filters::norm(boundary.surface().normal(t));
     (boundary.isWall(t) ? areas.wall : areas.window) += area;
   }
   return areas;

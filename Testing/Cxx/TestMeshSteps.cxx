@@ -368,7 +368,7 @@ TEST(MeshSteps, NothingOfAnEarlierStepIsKept)
       [&]
       {
         const auto first = make(1);
-        for (vtkDataObject* leaf : leavesOf(first))
+        for (vtkDataObject* leaf : filters::leavesOf(first))
         {
           earlier.emplace_back(vtkPointSet::SafeDownCast(leaf)->GetPoints());
         }
@@ -456,9 +456,9 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
       mesh->GetPointData()->SetActiveScalars("N");
       return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
     };
-    using refractivity::WorkProgress;
+    using filters::WorkProgress;
     const schlieren::Lattice lattice{ { -0.2, 0.1, 0.1 }, { 0.07, 0.06, 0.05 }, { 20, 20, 20 } };
-    const auto check = [&](refractivity::MeshSource& source, double time)
+    const auto check = [&](filters::MeshSource& source, double time)
     {
       source.addField(leavesAt(time));
       source.addField(leavesAt(time + 1));
@@ -488,10 +488,10 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
       EXPECT_EQ(range.lowest, content.lowest);
       EXPECT_EQ(range.highest, content.highest);
     };
-    refractivity::MeshSource first(leavesAt(0), nullptr, refractivity::Outside::Auto,
-      refractivity::CellTree::Reconstruction::Smooth, WorkProgress());
+    filters::MeshSource first(leavesAt(0), nullptr, filters::Outside::Auto,
+      filters::CellTree::Reconstruction::Smooth, WorkProgress());
     check(first, 0);
-    refractivity::MeshSource second(leavesAt(3), first.mesh(), WorkProgress());
+    filters::MeshSource second(leavesAt(3), first.mesh(), WorkProgress());
     check(second, 3);
   }
 }
@@ -507,7 +507,7 @@ TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreAskedFor)
     mesh->GetPointData()->SetActiveScalars("N");
     return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
   };
-  const auto sample = [](const refractivity::MeshSource& source, double at, bool hasDistances)
+  const auto sample = [](const filters::MeshSource& source, double at, bool hasDistances)
   {
     const schlieren::Lattice lattice{ { at, at, at }, { 0.03, 0.03, 0.03 }, { 20, 20, 20 } };
     std::vector<double> values(20 * 20 * 20);
@@ -515,16 +515,16 @@ TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreAskedFor)
     std::vector<float> distances(values.size());
     source.sample(lattice, values.data(), places.data(), hasDistances ? distances.data() : nullptr);
   };
-  using refractivity::WorkProgress;
-  const refractivity::MeshSource first(leavesAt(0), nullptr, refractivity::Outside::Auto,
-    refractivity::CellTree::Reconstruction::Smooth, WorkProgress());
+  using filters::WorkProgress;
+  const filters::MeshSource first(leavesAt(0), nullptr, filters::Outside::Auto,
+    filters::CellTree::Reconstruction::Smooth, WorkProgress());
   sample(first, 0.1, false);
   EXPECT_EQ(first.mesh().lattices, nullptr);
-  refractivity::SourceMesh mesh = first.mesh();
+  filters::SourceMesh mesh = first.mesh();
   std::vector<std::size_t> bytes;
   for (int step = 1; step < 9; ++step)
   {
-    const refractivity::MeshSource next(leavesAt(step), mesh, WorkProgress());
+    const filters::MeshSource next(leavesAt(step), mesh, WorkProgress());
     mesh = next.mesh();
     sample(next, 0.1, true);
     sample(next, step < 4 ? 0.2 : 0.2 + step, false); // from then on a new one with each step

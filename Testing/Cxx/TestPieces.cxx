@@ -301,7 +301,7 @@ TEST(Pieces, AreSampledAsOneMesh)
 
 TEST(Pieces, AreOfMeshesWithVolume)
 {
-  using refractivity::areMeshes;
+  using filters::areMeshes;
   EXPECT_TRUE(areMeshes(nullptr));
   EXPECT_TRUE(areMeshes(vtkSmartPointer<vtkUnstructuredGrid>::New()));
   EXPECT_TRUE(areMeshes(wholeMesh()));

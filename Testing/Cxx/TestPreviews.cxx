@@ -11,6 +11,8 @@
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+using namespace filters;
+
 namespace
 {
 

@@ -14,13 +14,13 @@
 
 #include <random>
 
-using refractivity::CellSampler;
-using refractivity::CellTree;
+using filters::CellSampler;
+using filters::CellTree;
 using schlieren::Lattice;
-using Reconstruction = refractivity::CellTree::Reconstruction;
-using refractivity::operator+;
-using refractivity::operator-;
-using refractivity::operator*;
+using Reconstruction = filters::CellTree::Reconstruction;
+using filters::operator+;
+using filters::operator-;
+using filters::operator*;
 
 namespace
 {
@@ -169,10 +169,9 @@ void setMeans(vtkDataSet* data, const ScalarField& field, int depth = 1)
   ofPoints->SetNumberOfValues(data->GetNumberOfPoints());
   data->GetPointData()->SetScalars(ofPoints);
   data->GetCellData()->SetScalars(ofCells);
-  std::vector<refractivity::CellsAround> around;
-  refractivity::setMeansAroundPoints(
-    refractivity::MeshArrays(data), ofCells, valid, ofPoints, &around);
-  data->GetPointData()->AddArray(refractivity::arrayOf(around));
+  std::vector<filters::CellsAround> around;
+  filters::setMeansAroundPoints(filters::MeshArrays(data), ofCells, valid, ofPoints, &around);
+  data->GetPointData()->AddArray(filters::arrayOf(around));
 }
 
 struct Found
@@ -446,10 +445,10 @@ TEST(Reconstruction, IsTheSameForAnyNumberOfThreads)
 // All instructions that this processor has; each point by itself, whatever the others are.
 TEST(Reconstruction, FitsOfPointsAreQuadratic)
 {
-  using refractivity::PointFit;
+  using filters::PointFit;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> one(-1, 1);
-  for (const refractivity::FitPoints fitPoints : refractivity::functionsToFit())
+  for (const filters::FitPoints fitPoints : filters::functionsToFit())
   {
     for (const double stretch : { 1., 1e-3 })
     {
@@ -513,7 +512,7 @@ TEST(CellMeans, ABallIsSmooth)
     const Errors smooth = errorsOf(mesh, Reconstruction::Smooth, ball, 60);
     EXPECT_LT(smooth.deflection, 1e-3);
     EXPECT_LT(smooth.divergence, 1e-2);
-    mesh->GetPointData()->RemoveArray(refractivity::cellsAroundName);
+    mesh->GetPointData()->RemoveArray(filters::cellsAroundName);
     const Errors averaged = errorsOf(mesh, Reconstruction::Smooth, ball, 60);
     EXPECT_GT(averaged.deflection, 6e-3); // what there is to gain
     EXPECT_GT(averaged.divergence, 3e-2);
@@ -683,11 +682,11 @@ TEST(CellMeans, MomentsOfPolyhedraAreThoseOfTheSameCells)
       }
       asPolyhedra->InsertNextCell(VTK_POLYHEDRON, faces);
     }
-    const refractivity::MeshArrays arrays(mesh);
+    const filters::MeshArrays arrays(mesh);
     for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
     {
-      const auto right = refractivity::momentsOf(arrays, i);
-      const auto made = refractivity::momentsOfPolyhedron(asPolyhedra, i);
+      const auto right = filters::momentsOf(arrays, i);
+      const auto made = filters::momentsOfPolyhedron(asPolyhedra, i);
       for (std::size_t n = 0; n < 3; ++n)
       {
         EXPECT_NEAR(made.middle[n], right.middle[n], 1e-12) << kind.name;

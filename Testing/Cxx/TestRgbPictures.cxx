@@ -10,6 +10,8 @@
 #include <fstream>
 #include <stdexcept>
 
+using namespace filters;
+
 namespace
 {
 

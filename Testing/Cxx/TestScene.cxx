@@ -11,6 +11,8 @@
 
 #include <limits>
 
+using namespace filters;
+
 namespace
 {
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <string>
 
+using namespace filters;
+
 TEST(Status, SaysWhatIsKnownOfAPicture)
 {
   schlieren::Image image;
