@@ -107,6 +107,7 @@ private:
     std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has asked for
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
+    bool isWrong = false;       ///< its error is too large beside those of others along a ray
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
     std::int32_t brick = 0;
@@ -145,13 +146,15 @@ private:
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
     std::vector<typename BrickMaker<Real>::Request> requests; ///< of the tasks that are begun
-    std::vector<Brick<Real>> bricks;                          ///< likewise
+    std::vector<std::int32_t> boxes; ///< likewise; the nodes that are divided, or -1
+    std::vector<Brick<Real>> bricks; ///< likewise
     std::int64_t bricksDone = 0;
   };
   class View;
 
   /// Of a node that is divided.
   std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
+  Brick<Real> makeBrick(std::size_t request) const;
   void makeRoots();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
