@@ -3,12 +3,16 @@
 #include "PictureDisplay.h"
 
 #include "vtkDataObject.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionProxy.h"
 #include "vtkSchlierenFilter.h"
 
+#include <algorithm>
 #include <string>
 
 namespace
@@ -107,6 +111,37 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
     vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode").Set(-1);
     colors->UpdateVTKObjects();
   }
+}
+
+//------------------------------------------------------------------------------
+bool PictureDisplay::fill(vtkSMRenderViewProxy* view, vtkSMSourceProxy* filter)
+{
+  vtkPVDataInformation* image = filter->GetDataInformation(0);
+  const int* extent = image->GetExtent();
+  const double* bounds = image->GetBounds();
+  if (image->GetNumberOfPoints() < 1 || extent[0] == extent[1] || extent[2] == extent[3])
+  {
+    return false;
+  }
+  double focus[3] = { 0, 0, 0 };
+  double half[2]; // pixels are around points
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double points = extent[2 * axis + 1] - extent[2 * axis] + 1;
+    focus[axis] = 0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]);
+    half[axis] =
+      0.5 * (bounds[2 * axis + 1] - bounds[2 * axis]) * points / (points - 1);
+  }
+  const auto window = vtkSMPropertyHelper(view, "ViewSize").GetIntArray();
+  const double scale = std::max(half[1], half[0] * window[1] / std::max(1, window[0]));
+  const double position[3] = { focus[0], focus[1], 10 * scale };
+  const double up[3] = { 0, 1, 0 };
+  vtkSMPropertyHelper(view, "CameraFocalPoint").Set(focus, 3);
+  vtkSMPropertyHelper(view, "CameraPosition").Set(position, 3);
+  vtkSMPropertyHelper(view, "CameraViewUp").Set(up, 3);
+  vtkSMPropertyHelper(view, "CameraParallelScale").Set(scale);
+  view->UpdateVTKObjects();
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,8 @@
 #pragma once
 
 class vtkSMProxy;
+class vtkSMRenderViewProxy;
+class vtkSMSourceProxy;
 
 namespace PictureDisplay
 {
@@ -12,6 +14,9 @@ namespace PictureDisplay
 /// Shows what the filter's cutoff makes: Intensity in grey, from 0 to 1, of a shadowgraph to 2, with a
 /// colour map that no other picture shares; or Color as it is.
 void apply(vtkSMProxy* representation, vtkSMProxy* filter);
+
+/// Fills a flat view with the image that the filter has made; false where there is none.
+bool fill(vtkSMRenderViewProxy* view, vtkSMSourceProxy* filter);
 
 /// Whether it is shown as apply() does it for some cutoff, that is, nobody has chosen something else.
 bool isApplied(vtkSMProxy* representation);

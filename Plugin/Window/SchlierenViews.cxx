@@ -3,17 +3,17 @@
 #include "SchlierenViews.h"
 
 #include "CameraLink.h"
-#include "CameraOfView.h"
 #include "FlowOfPort.h"
 #include "PictureDisplay.h"
 #include "SchlierenFilters.h"
 #include "UndoStep.h"
 #include "VolumeDisplay.h"
-#include "pqPictureCameras.h"
 #include "pqPictureRefiner.h"
+#include "pqRepresentationRefiner.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
+#include "pqDataRepresentation.h"
 #include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
@@ -22,13 +22,15 @@
 #include "pqServerManagerModel.h"
 #include "pqServerResource.h"
 #include "pqUndoStack.h"
-#include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMProxyClipboard.h"
+#include "vtkSMPropertyIterator.h"
+#include "vtkSMProxyListDomain.h"
 #include "vtkSMRenderViewProxy.h"
+#include "vtkSMRepresentationProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
@@ -69,25 +71,14 @@ std::array<int, 2> sizeOf(pqView* view)
     std::max(1, int(std::lround(widget->height() * pixels))) };
 }
 
-/// Pixels of a picture that fills the view, within what is quick to trace and worth looking at.
-std::array<int, 2> pictureSizeFor(pqView* view)
-{
-  constexpr double most = 1024;
-  constexpr int least = 64;
-  const std::array<int, 2> size = sizeOf(view);
-  const double share = std::min(1.0, most / std::max(size[0], size[1]));
-  return { std::max(least, int(std::lround(share * size[0]))),
-    std::max(least, int(std::lround(share * size[1]))) };
-}
-
-/// Makes a view one for pictures.
+/// Makes a view one for the image of a filter.
 void flatten(vtkSMProxy* view)
 {
   setInt(view, "InteractionMode", vtkPVRenderView::INTERACTION_MODE_2D);
   setInt(view, "CameraParallelProjection", 1);
   setInt(view, "OrientationAxesVisibility", 0);
   setInt(view, "CenterAxesVisibility", 0);
-  setInt(view, "UseFXAA", 0); // it would smear the picture's own edges
+  setInt(view, "UseFXAA", 0); // it would smear the image's own edges
   setInt(view, "UseColorPaletteForBackground", 0);
   const double darkGrey[3] = { 0.2, 0.2, 0.2 };
   vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);
@@ -107,11 +98,65 @@ QString problemOfServer(pqServer* server)
     "Plugins, and load Schlieren.so under Remote Plugins.";
 }
 
-/// Makes the pictures of one flow and everything around them.
+/// The proxy of the filter inside of a representation.
+vtkSMProxy* benchOf(vtkSMProxy* representation)
+{
+  return vtkSMPropertyHelper(representation, "SchlierenBench").GetAsProxy();
+}
+
+/// The representation in a view that draws this flow as Schlieren; null where none does.
+vtkSMProxy* drawnAsSchlieren(pqOutputPort* flow, pqView* view)
+{
+  pqDataRepresentation* shown = view ? flow->getRepresentation(view) : nullptr;
+  return shown && pqRepresentationRefiner::isSchlieren(shown) ? shown->getProxy() : nullptr;
+}
+
+/// Copies what is set on a Schlieren filter, or on one inside of a representation, but for the flow, the camera and the
+/// size.
+void copySettings(vtkSMProxy* from, vtkSMProxy* to)
+{
+  auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(to->NewPropertyIterator());
+  for (; !properties->IsAtEnd(); properties->Next())
+  {
+    const char* name = properties->GetKey();
+    vtkSMProperty* property = properties->GetProperty();
+    vtkSMProperty* pattern = from->GetProperty(name);
+    if (!pattern || property->GetInformationOnly() || property->GetIsInternal() ||
+      std::strcmp(name, "Input") == 0)
+    {
+      continue;
+    }
+    if (property->FindDomain<vtkSMProxyListDomain>())
+    {
+      // Each has a curve of its own.
+      vtkSMProxy* curve = vtkSMPropertyHelper(property).GetAsProxy();
+      curve->Copy(vtkSMPropertyHelper(pattern).GetAsProxy());
+      curve->UpdateVTKObjects();
+      continue;
+    }
+    property->Copy(pattern);
+  }
+}
+
+/// Renders a view once as it is when its image is complete.
+void renderCompletely(pqRenderView* view, vtkSMProxy* representation)
+{
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMPropertyHelper slice(representation, "SchlierenTimeSlice");
+  const double before = slice.GetAsDouble();
+  slice.Set(0.);
+  representation->UpdateVTKObjects();
+  view->forceRender();
+  slice.Set(before);
+  representation->UpdateVTKObjects();
+}
+
+/// Makes the views of one flow and everything around them.
 class Builder
 {
 public:
-  explicit Builder(pqOutputPort* flow, pqPipelineSource* pattern)
+  /// `pattern`: what has the settings that are to be used; null: they are chosen for the flow.
+  explicit Builder(pqOutputPort* flow, vtkSMProxy* pattern)
     : Flow(flow)
     , Pattern(pattern)
     , Server(flow->getServer())
@@ -122,71 +167,95 @@ public:
   SchlierenViews::Result add(Arrangement arrangement)
   {
     this->findScene();
-    std::vector<pqRenderView*> views;
     switch (arrangement)
     {
       case Arrangement::OnePicture:
-        views = this->addViews(1);
-        this->addPicture(views[0], "Schlieren", [](vtkSMProxy*) {});
+        this->addViews(1);
+        this->addImage(0, [](vtkSMProxy*) {});
         break;
       case Arrangement::ThreePictures:
-        views = this->addViews(3);
-        this->resample();
-        this->addPicture(views[0], "KnifeEdge",
-          [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::KNIFE_EDGE); });
-        this->addPicture(views[1], "Shadowgraph",
-          [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::SHADOWGRAPH); });
-        this->addPicture(views[2], "Interferogram",
-          [](vtkSMProxy* filter) { setInt(filter, "Cutoff", Filter::INTERFEROGRAM); });
+        this->addViews(3);
+        this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::KNIFE_EDGE); });
+        this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::SHADOWGRAPH); });
+        this->addImage(
+          2, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
-        views = this->addViews(2);
-        if (!isImage(this->Flow))
-        {
-          this->resample();
-        }
-        this->compare(views);
+        this->addViews(2);
+        this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::STRAIGHT); });
+        this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::REFRACTED); });
         break;
     }
-    pqPipelineSource* picture = this->Pictures[0];
-    if (this->Medium && !isImage(this->Flow))
+    this->useCameraOfScene();
+    if (arrangement == Arrangement::Comparison)
     {
-      showAsVolume(this->Medium, this->Scene, this->MediumDefaults, picture->getProxy(), picture);
+      this->useOneK();
     }
     else
     {
-      pqPipelineSource* model = this->Medium ? this->Medium->getSource() : picture;
-      showAsVolume(this->Flow, this->Scene, this->Defaults, model->getProxy(), picture);
+      this->Views[0]->forceRender(); // which finds the ambient refractivity
     }
-    pqActiveObjects::instance().setActiveView(views[0]);
-    pqActiveObjects::instance().setActiveSource(this->Pictures[0]);
-    if (arrangement == Arrangement::Comparison)
+    showAsVolume(this->Flow, this->Scene, this->Defaults, benchOf(this->Images[0]));
+    pqActiveObjects::instance().setActiveView(this->Views[0]);
+    pqActiveObjects::instance().setActivePort(this->Flow);
+    for (pqRenderView* view : this->Views)
     {
-      linkCameras(views[0], views[1]);
+      linkCameras(this->Scene, view);
     }
     if (this->Pattern)
     {
-      return { true, true, "Set as '" + this->Pattern->getSMName() + "' is." };
+      return { true, true, "Set as the selected one is." };
     }
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
-  /// Shows the image of a filter that is there already.
-  void add(pqPipelineSource* source)
+  /// Shows the image of a filter in a view of its own, where it fills it.
+  void show(pqPipelineSource* filter)
   {
     this->findScene();
-    pqRenderView* view = this->addViews(1).front();
-    this->showPicture(view, source);
+    this->addViews(1);
+    pqRenderView* view = this->Views[0];
+    vtkSMRenderViewProxy* window = view->getRenderViewProxy();
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
+      flatten(window);
+    }
+    const pqPictureRefiner::ShortUpdates shortly;
+    vtkSMProxy* representation = this->Controller->Show(filter->getSourceProxy(), 0, window);
+    if (representation)
+    {
+      // ParaView shows the outline of data that are not there yet.
+      vtkSMPropertyHelper type(representation, "Representation");
+      if (std::strcmp(type.GetAsString(), "Outline") == 0)
+      {
+        SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
+        type.Set("Slice");
+        representation->UpdateVTKObjects();
+      }
+      PictureDisplay::apply(representation, filter->getProxy());
+    }
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
+      PictureDisplay::fill(window, filter->getSourceProxy());
+    }
+    const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window, window)]()
+    {
+      if (vtkSMProxy* again = id.get())
+      {
+        flatten(again);
+        setCamera();
+      }
+    };
+    addUndoStep([]() {}, redo);
     pqActiveObjects::instance().setActiveView(view);
   }
 
-  /// Shows everything, and brings all pictures to the set quality.
   void render()
   {
     this->Scene->render();
-    for (pqPipelineSource* picture : this->Pictures)
+    for (pqRenderView* view : this->Views)
     {
-      pqPictureRefiner::instance()->refine(picture->getProxy(), pqPictureRefiner::Pace::Thorough);
+      view->render();
     }
   }
 
@@ -211,9 +280,9 @@ private:
     }
   }
 
-  /// Empty 2-D views beside the 3-D view: one to its right; two there, one over the other; or three,
+  /// Empty views beside the 3-D view: one to its right; two there, one over the other; or three,
   /// with which it makes a square.
-  std::vector<pqRenderView*> addViews(int number)
+  void addViews(int number)
   {
     // A script may have made a view without a place.
     if (!vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy()))
@@ -238,18 +307,11 @@ private:
     // ParaView's toolbar shows the axes of a view that becomes active after one without: in the middle of making
     // it, which traces would not survive.
     pqActiveObjects::instance().setActiveView(this->Scene);
-    std::vector<pqRenderView*> views;
     for (const int cell : cells)
     {
-      views.push_back(this->addView(layout, cell));
-    }
-    for (pqRenderView* view : views)
-    {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", view->getProxy());
-      flatten(view->getProxy());
+      this->Views.push_back(this->addView(layout, cell));
     }
     this->keepInSight(before, sizeOf(this->Scene));
-    return views;
   }
 
   pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell)
@@ -268,7 +330,7 @@ private:
     if (factor > 1)
     {
       vtkSMRenderViewProxy* proxy = this->Scene->getRenderViewProxy();
-      const auto stepForward = cameraSetter(proxy);
+      const auto stepForward = cameraSetter(proxy, proxy);
       const auto focus = vtkSMPropertyHelper(proxy, "CameraFocalPoint").GetDoubleArray();
       auto position = vtkSMPropertyHelper(proxy, "CameraPosition").GetDoubleArray();
       for (int axis = 0; axis < 3; ++axis)
@@ -282,160 +344,81 @@ private:
         scale.Set(factor * scale.GetAsDouble());
         proxy->UpdateVTKObjects();
       }
-      addUndoStep(stepForward, cameraSetter(proxy));
+      addUndoStep(stepForward, cameraSetter(proxy, proxy));
     }
   }
 
-  /// `label`: what the pipeline browser calls it, with a number.
-  pqPipelineSource* addFilter(const char* name, const char* label, pqOutputPort* input,
-    const std::function<void(vtkSMProxy*)>& set)
+  /// Draws the flow as Schlieren in a view.
+  void addImage(std::size_t view, const std::function<void(vtkSMProxy*)>& set)
   {
-    vtkSMSessionProxyManager* proxies = this->Server->proxyManager();
-    vtkSmartPointer<vtkSMProxy> filter;
-    filter.TakeReference(proxies->NewProxy("filters", name));
-    this->Controller->PreInitializeProxy(filter);
-    vtkSMPropertyHelper(filter, "Input")
-      .Set(input->getSource()->getProxy(), static_cast<unsigned int>(input->getPortNumber()));
-    this->Controller->PostInitializeProxy(filter);
-    this->Controller->RegisterPipelineProxy(
-      filter, proxies->GetUniqueProxyName("sources", label).c_str());
+    vtkSMProxy* shown = this->Controller->Show(this->Flow->getSourceProxy(),
+      this->Flow->getPortNumber(), this->Views[view]->getRenderViewProxy());
+    vtkSMProxy* bench = benchOf(shown);
+    vtkSMRepresentationProxy::SetRepresentationType(shown, "Schlieren");
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", bench);
+    if (this->Pattern)
     {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
-      set(filter);
-      filter->UpdateVTKObjects();
+      copySettings(this->Pattern, bench);
     }
-    return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
-      filter.GetPointer());
+    else
+    {
+      setFlowDefaults(bench, this->Defaults);
+    }
+    set(bench);
+    bench->UpdateVTKObjects();
+    this->Images.push_back(shown);
   }
 
-  /// Sets what a Schlieren or RefractiveIndex filter needs to know of the flow.
-  void setMedium(vtkSMProxy* filter)
+  /// Lets the new views see what the 3-D view does, with no axes over the image's middle.
+  void useCameraOfScene()
   {
-    if (!this->Pattern)
+    for (pqRenderView* view : this->Views)
     {
-      setFlowDefaults(filter, this->Defaults);
+      vtkSMProxy* proxy = view->getProxy();
+      const auto setView = [id = ProxyById(proxy),
+                             setCamera = cameraSetter(this->Scene->getRenderViewProxy(), proxy)]()
+      {
+        if (vtkSMProxy* again = id.get())
+        {
+          setInt(again, "CenterAxesVisibility", 0);
+          setCamera();
+        }
+      };
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+      setView();
+      addUndoStep([]() {}, setView);
+    }
+  }
+
+  /// Gives all images the automatic k of the last one.
+  void useOneK()
+  {
+    vtkSMProxy* bench = benchOf(this->Images.back());
+    const int cutoff = vtkSMPropertyHelper(bench, "Cutoff").GetAsInt();
+    if (!Filter::CutoffHasK(cutoff) || vtkSMPropertyHelper(bench, "KFromOptics").GetAsInt() != 0 ||
+      vtkSMPropertyHelper(bench, "AutoKScale").GetAsInt() == 0)
+    {
       return;
     }
-    vtkSMPropertyHelper input(filter, "Input");
-    vtkSMProxy* flow = input.GetAsProxy();
-    const unsigned int port = input.GetOutputPort();
-    vtkSMProxy* pattern = this->Pattern->getProxy();
-    // Pasting makes curves of its own, for filters of the same kind only.
-    vtkNew<vtkSMProxyClipboard> clipboard;
-    clipboard->Copy(pattern);
-    if (!clipboard->CanPaste(filter) || !clipboard->Paste(filter))
+    renderCompletely(this->Views.back(), this->Images.back());
+    bench->UpdatePropertyInformation(bench->GetProperty("KScaleUsed"));
+    const double k = vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
+    for (vtkSMProxy* image : this->Images)
     {
-      filter->Copy(pattern);
-    }
-    input.Set(flow, port);
-  }
-
-  /// Puts one RefractiveIndex between the flow and all pictures.
-  void resample()
-  {
-    if (this->Defaults.indexModel != FlowDefaults::Refractivity || !isImage(this->Flow))
-    {
-      pqPipelineSource* index = this->addFilter("RefractiveIndex", "RefractiveIndex", this->Flow,
-        [this](vtkSMProxy* filter) { this->setMedium(filter); });
-      vtkSMSourceProxy::SafeDownCast(index->getProxy())->UpdatePipeline();
-      this->Medium = index->getOutputPort(0);
-      this->MediumDefaults = flowDefaults(arraysOfFlow(this->Medium));
-    }
-  }
-
-  /// A filter that looks as the 3-D view does, and its picture in a 2-D view.
-  pqPipelineSource* addPicture(
-    pqRenderView* view, const char* label, const std::function<void(vtkSMProxy*)>& set)
-  {
-    const auto setAll = [&](vtkSMProxy* filter)
-    {
-      this->setMedium(filter);
-      if (this->Medium)
-      {
-        setFlowDefaults(filter, this->MediumDefaults);
-      }
-      const std::array<int, 2> size = pictureSizeFor(view);
-      vtkSMPropertyHelper(filter, "ImageSize").Set(size.data(), 2);
-      set(filter);
-    };
-    pqPipelineSource* source =
-      this->addFilter("Schlieren", label, this->Medium ? this->Medium : this->Flow, setAll);
-    follow(source->getProxy(), this->Scene);
-    this->showPicture(view, source);
-    return source;
-  }
-
-  /// Fills a 2-D view with the image of a filter.
-  void showPicture(pqRenderView* view, pqPipelineSource* source)
-  {
-    vtkSMRenderViewProxy* window = view->getRenderViewProxy();
-    const pqPictureRefiner::ShortUpdates shortly;
-    vtkSMProxy* representation =
-      this->Controller->Show(vtkSMSourceProxy::SafeDownCast(source->getProxy()), 0, window);
-    if (representation)
-    {
-      // ParaView shows the outline of data that are not there yet.
-      vtkSMPropertyHelper type(representation, "Representation");
-      if (std::strcmp(type.GetAsString(), "Outline") == 0)
-      {
-        SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
-        type.Set("Slice");
-        representation->UpdateVTKObjects();
-      }
-      PictureDisplay::apply(representation, source->getProxy());
-    }
-    {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
-      pqPictureCameras::fit(view, source);
-    }
-    const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window)]()
-    {
-      if (vtkSMProxy* again = id.get())
-      {
-        flatten(again);
-        setCamera();
-      }
-    };
-    addUndoStep([]() {}, redo);
-    this->Pictures.push_back(source);
-  }
-
-  /// The same light straight and bent, at one sensitivity.
-  void compare(const std::vector<pqRenderView*>& views)
-  {
-    pqPipelineSource* straight = this->addPicture(views[0], "StraightRays",
-      [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::STRAIGHT); });
-    pqPipelineSource* bent = this->addPicture(views[1], "RefractedRays",
-      [](vtkSMProxy* filter) { setInt(filter, "PathModel", Filter::REFRACTED); });
-    vtkSMProxy* filter = bent->getProxy();
-    const int cutoff = vtkSMPropertyHelper(filter, "Cutoff").GetAsInt();
-    if (Filter::CutoffHasK(cutoff) && vtkSMPropertyHelper(filter, "KFromOptics").GetAsInt() == 0 &&
-      vtkSMPropertyHelper(filter, "AutoKScale").GetAsInt() != 0)
-    {
-      vtkSMSourceProxy::SafeDownCast(filter)->UpdatePipeline();
-      const std::array<double, 2> k =
-        rangeOfArray(bent->getOutputPort(0), vtkDataObject::FIELD, "KScale");
-      for (pqPipelineSource* picture : { straight, bent })
-      {
-        if (k[0] <= k[1])
-        {
-          SM_SCOPED_TRACE(PropertiesModified).arg("proxy", picture->getProxy());
-          setInt(picture->getProxy(), "AutoKScale", 0);
-          vtkSMPropertyHelper(picture->getProxy(), "KScale").Set(k[0]);
-          picture->getProxy()->UpdateVTKObjects();
-        }
-      }
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(image));
+      setInt(benchOf(image), "AutoKScale", 0);
+      vtkSMPropertyHelper(benchOf(image), "KScale").Set(k);
+      benchOf(image)->UpdateVTKObjects();
     }
   }
 
   pqOutputPort* Flow;
-  pqPipelineSource* Pattern; ///< a Schlieren filter whose settings are to be used, or null
+  vtkSMProxy* Pattern;
   pqServer* Server;
   FlowDefaults Defaults;
   pqRenderView* Scene = nullptr;
-  std::vector<pqPipelineSource*> Pictures;
-  pqOutputPort* Medium = nullptr; ///< the flow's refractivity, where pictures share it
-  FlowDefaults MediumDefaults;
+  std::vector<pqRenderView*> Views; ///< new ones
+  std::vector<vtkSMProxy*> Images;  ///< representations in them
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> Controller;
 };
 
@@ -450,22 +433,23 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   {
     return { false, true, missing };
   }
-  pqPipelineSource* pattern = schlierenFilterOf(flow ? flow->getSource() : nullptr);
-  if (pattern)
+  pqPipelineSource* selected = schlierenFilterOf(flow ? flow->getSource() : nullptr);
+  if (selected)
   {
-    const auto inputs = qobject_cast<pqPipelineFilter*>(pattern)->getInputs("Input");
+    const auto inputs = qobject_cast<pqPipelineFilter*>(selected)->getInputs("Input");
     flow = inputs.empty() ? nullptr : inputs.front();
   }
   const QString problem =
-    pattern && !isApplied(pattern) ? notApplied(pattern) : problemOfFlow(flow);
+    selected && !isApplied(selected) ? notApplied(selected) : problemOfFlow(flow);
   if (!problem.isEmpty())
   {
     return { false, true, problem };
   }
+  vtkSMProxy* drawn = drawnAsSchlieren(flow, pqActiveObjects::instance().activeView());
+  vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;
   QApplication::setOverrideCursor(Qt::WaitCursor);
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
-  static const char* const names[] = { "Add Schlieren View", "Add Three Pictures",
-    "Compare Light" };
+  static const char* const names[] = { "Add Schlieren View", "Add Three Images", "Compare Light" };
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   Builder builder(flow, pattern);
   const Result result = builder.add(arrangement);
@@ -480,6 +464,6 @@ void SchlierenViews::show(pqPipelineSource* filter)
   const auto inputs = qobject_cast<pqPipelineFilter*>(filter)->getInputs("Input");
   if (!inputs.empty())
   {
-    Builder(inputs.front(), filter).add(filter);
+    Builder(inputs.front(), nullptr).show(filter);
   }
 }

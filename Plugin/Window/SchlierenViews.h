@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pictures of the selected flow beside its 3-D view, made in one step.
+// The selected flow drawn as Schlieren beside its 3-D view, in one step.
 #pragma once
 
 #include <QString>
@@ -14,8 +14,8 @@ namespace SchlierenViews
 enum class Arrangement
 {
   OnePicture,
-  ThreePictures, ///< knife edge, shadowgraph and interferogram of one medium
-  Comparison     ///< straight and bent light, with linked cameras
+  ThreePictures, ///< knife edge, shadowgraph and interferogram
+  Comparison     ///< straight and bent light, at one k
 };
 
 /// What was made of the data, or, where nothing could be made, why.
@@ -26,11 +26,12 @@ struct Result
   QString message;
 };
 
-/// Makes filters, views and what they show: one undo step. Where a Schlieren filter or what is made from
-/// its picture is selected, it is that filter's flow and settings that are used.
+/// Makes views whose cameras are linked with that of the 3-D view, and what they show: one undo step. Where a Schlieren
+/// filter or what is made from its image is selected, it is that filter's flow and settings that are used; where the
+/// active view draws the flow as Schlieren, those settings.
 Result add(Arrangement arrangement);
 
-/// Shows the image of a Schlieren filter as add() does, in a view of its own beside the 3-D view.
+/// Shows the image of a Schlieren filter in a flat view of its own beside the 3-D view, in grey.
 void show(pqPipelineSource* filter);
 
 } // namespace SchlierenViews

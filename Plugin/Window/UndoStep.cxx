@@ -71,18 +71,18 @@ vtkSMProxy* ProxyById::get() const
 }
 
 //------------------------------------------------------------------------------
-std::function<void()> cameraSetter(vtkSMRenderViewProxy* view)
+std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to)
 {
   static const char* const names[] = { "CameraPosition", "CameraFocalPoint", "CameraViewUp",
-    "CameraViewAngle", "CameraParallelScale" };
-  view->SynchronizeCameraProperties();
+    "CameraViewAngle", "CameraParallelScale", "CenterOfRotation" };
+  from->SynchronizeCameraProperties();
   std::vector<std::pair<std::string, std::vector<double>>> camera;
   for (const char* name : names)
   {
-    camera.emplace_back(name, vtkSMPropertyHelper(view, name).GetDoubleArray());
+    camera.emplace_back(name, vtkSMPropertyHelper(from, name).GetDoubleArray());
   }
-  const int isParallel = vtkSMPropertyHelper(view, "CameraParallelProjection").GetAsInt();
-  return [camera, isParallel, id = ProxyById(view)]()
+  const int isParallel = vtkSMPropertyHelper(from, "CameraParallelProjection").GetAsInt();
+  return [camera, isParallel, id = ProxyById(to)]()
   {
     if (vtkSMProxy* proxy = id.get())
     {

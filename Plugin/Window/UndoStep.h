@@ -27,5 +27,5 @@ private:
   vtkTypeUInt32 Id;
 };
 
-/// The camera that a view has, to be set again.
-std::function<void()> cameraSetter(vtkSMRenderViewProxy* view);
+/// The camera that a view has, to be set in a view.
+std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to);

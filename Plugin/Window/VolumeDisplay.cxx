@@ -7,11 +7,11 @@
 
 #include "pqDataRepresentation.h"
 #include "pqOutputPort.h"
-#include "pqPipelineSource.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -32,12 +32,14 @@ namespace
 
 /// The array's value where its refractivity is that of the surroundings; NaN where that takes several
 /// arrays to know.
-double ambientValue(vtkSMProxy* model, pqOutputPort* picture)
+double ambientValue(vtkSMProxy* model)
 {
-  const std::array<double, 2> ambient =
-    rangeOfArray(picture, vtkDataObject::FIELD, "AmbientRefractivity");
-  if (ambient[0] <= ambient[1])
+  vtkPVArrayInformation* array =
+    vtkSMSourceProxy::SafeDownCast(model)->GetDataInformation(0)->GetArrayInformation(
+      "AmbientRefractivity", vtkDataObject::FIELD);
+  if (array)
   {
+    const double* ambient = array->GetComponentFiniteRange(0);
     const char* gas = vtkSMPropertyHelper(model, "Gas").GetAsString();
     switch (vtkSMPropertyHelper(model, "IndexModel").GetAsInt())
     {
@@ -96,18 +98,13 @@ void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double 
 } // namespace
 
 //------------------------------------------------------------------------------
-bool isImage(pqOutputPort* port)
+void showAsVolume(
+  pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults, vtkSMProxy* bench)
 {
-  return port->getDataInformation()->DataSetTypeIsA("vtkImageData");
-}
-
-//------------------------------------------------------------------------------
-void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults,
-  vtkSMProxy* model, pqPipelineSource* picture)
-{
+  const bool isImage = flow->getDataInformation()->DataSetTypeIsA("vtkImageData");
   const int* extent = flow->getDataInformation()->GetExtent();
   const bool isFlat = extent[0] == extent[1] || extent[2] == extent[3] || extent[4] == extent[5];
-  if (!isImage(flow) || isFlat || defaults.arrays.empty())
+  if (!isImage || isFlat || defaults.arrays.empty())
   {
     return;
   }
@@ -138,8 +135,7 @@ void showAsVolume(pqOutputPort* flow, pqRenderView* view, const FlowDefaults& de
     vtkSMProxy* opacity = vtkSMPropertyHelper(shown, "ScalarOpacityFunction").GetAsProxy();
     if (opacity)
     {
-      setOpacity(
-        opacity, range, withinRange(ambientValue(model, picture->getOutputPort(0)), range));
+      setOpacity(opacity, range, withinRange(ambientValue(bench), range));
     }
   }
   vtkSMRepresentationProxy::SetRepresentationType(shown, "Volume");

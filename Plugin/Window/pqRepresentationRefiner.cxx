@@ -30,9 +30,7 @@ constexpr int pauseMilliseconds = 1;
 
 bool isSchlieren(pqRepresentation* representation)
 {
-  vtkSMProxy* proxy = representation->getProxy();
-  return representation->isVisible() && proxy->GetProperty("SchlierenFinished") &&
-    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Schlieren") == 0;
+  return pqRepresentationRefiner::isSchlieren(representation);
 }
 
 vtkSMProxy* benchOf(pqRepresentation* representation)
@@ -86,6 +84,14 @@ pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
   {
     this->limit(representation);
   }
+}
+
+//------------------------------------------------------------------------------
+bool pqRepresentationRefiner::isSchlieren(pqRepresentation* representation)
+{
+  vtkSMProxy* proxy = representation->getProxy();
+  return representation->isVisible() && proxy->GetProperty("SchlierenFinished") &&
+    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Schlieren") == 0;
 }
 
 //------------------------------------------------------------------------------

@@ -18,6 +18,9 @@ class pqRepresentationRefiner : public QObject
 public:
   explicit pqRepresentationRefiner(QObject* parent);
 
+  /// Whether a representation is visible and draws its data as Schlieren.
+  static bool isSchlieren(pqRepresentation* representation);
+
   /// Whether a view draws data as Schlieren with the proxy of the filter inside of a representation.
   static bool isDrawnIn(pqView* view, vtkSMProxy* bench);
 

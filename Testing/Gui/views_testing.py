@@ -132,6 +132,33 @@ def shown(bench, view):
     return simple.servermanager._getPyProxy(found) if found else None  # pylint: disable=protected-access
 
 
+def drawn(flow, view):
+    """How the view draws the flow as Schlieren."""
+    display = shown(flow, view)
+    assert display.Representation == "Schlieren" and display.Visibility == 1
+    return display
+
+
+def check_linked(state, scene, *others):
+    """The views have the camera of the 3-D view, and keep it, because each is linked with it in a state file."""
+    for view in others:
+        for name in ("CameraPosition", "CameraFocalPoint", "CameraViewUp", "CameraViewAngle", "CameraParallelScale",
+                     "CameraParallelProjection"):
+            mine, its = view.GetPropertyValue(name), scene.GetPropertyValue(name)
+            assert np.allclose(mine, its), (name, mine, its)
+    with open(os.path.join(FOLDER, state), encoding="utf-8") as file:
+        links = re.findall("<CameraLink name=.*?</CameraLink>", file.read(), re.DOTALL)
+    pairs = [set(re.findall(r'id="(\d+)"', link)) for link in links]
+    assert len(pairs) >= len(others) and all(len(pair) == 2 for pair in pairs), links
+    assert len(set.union(*pairs)) == 1 + len(pairs), "Views without a link"
+
+
+def frame_view(view, scale):
+    """Parallel light, an image that is 2 * scale high, and nothing else in it: no window's size matters then."""
+    view.CameraParallelProjection, view.CameraParallelScale = 1, scale
+    view.OrientationAxesVisibility = 0
+
+
 def check_display(representation, white=1):
     """Intensity in grey between fixed ends, without a legend and with its own colours."""
     assert representation.Visibility == 1
