@@ -13,10 +13,9 @@ sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "
 
 from server_testing import DISMISS, connect, start_server  # noqa: E402
 from views_testing import png, png_of_text  # noqa: E402
-from window_testing import FOLDER, PANEL, Session  # noqa: E402
+from window_testing import BENCH, DISPLAY, FOLDER, Session  # noqa: E402
 
-DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
-WIDGET = DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget/ColorFilterImage"
+WIDGET = BENCH + "/ColorFilterImage"
 SIDE, K, COLOR, BRUSH = 256, 300, (10, 200, 30), 6
 PLACES = {"parallel": (0.62, 0.42), "perspective": (0.45, 0.6)}
 is_remote = len(sys.argv) > 1

@@ -12,11 +12,9 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 from plugin_testing import Schlieren, picture, simple  # noqa: E402
-from window_testing import FOLDER, PANEL, Session  # noqa: E402
+from window_testing import BENCH, DISPLAY, FOLDER, Session  # noqa: E402
 
 SETTINGS = ("Cutoff", "AutoKScale", "KScale", "CutoffOffset", "KnifeEdgeAngle")
-DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
-BENCH = DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget"
 PLANE = BENCH + "/SchlierenCutoff/Plane"
 SAVE = """
 import inside_window

@@ -6,10 +6,9 @@ another setting begins anew."""
 import os
 
 from views_testing import FOLDER
-from window_testing import PANEL, Session
+from window_testing import DISPLAY, Session
 
 REPORT = os.path.join(FOLDER, "report.txt")
-DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
 
 user = Session()
 user.python("""

@@ -1,119 +1,72 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Three pictures of one medium in one click; the light that a cutoff makes is shown in what suits it, and
-following is switched off and on."""
+"""Three images of one flow in one click, which has one medium: what is chosen in the panel changes the image of the
+active view alone, each turns with all others, and all is undone and traced."""
 
 import numpy as np
-from views_testing import (OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_camera,
-                           check_display, check_picture_view, filters, frame, load, picture, play_trace,
-                           shown, simple, values, views)
-from plugin_testing import Schlieren
+from views_testing import (OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_linked, drawn, frame_view,
+                           load, play_trace, simple, values, views)
+from representation_testing import GREY_LEVEL, filter_like, pixels_of
+from window_testing import BENCH
 
-user = ViewsSession()
+SIZE = [240, 180]
+CUTOFFS = ("Knife Edge", "Shadowgraph", "Interferogram")
+
+user = ViewsSession(BENCH)
 user.press("ThreePictures")
+user.python("""
+settle_views()
+assert len(displays()) == 3
+assert sum(information(display.SchlierenBench, "MediumBuilds") for display in displays()) == 1, "A medium for each view"
+""")
 user.save_state("three.pvsm")
 
-# The first picture, of the knife edge, is selected.
+# The view with the knife edge is active.
 user.choose("Cutoff/ComboBox", "Color Filter")
-user.apply()
 user.save_state("colored.pvsm")
-user.choose("Cutoff/ComboBox", "Shadowgraph")
-user.apply()
-user.save_state("shadow.pvsm")
-user.undo()
 user.undo()
 user.save_state("grey.pvsm")
 
-user.check_button("Follow", "checked", "true")
-user.press("Follow")
-user.check_button("Follow", "checked", "false")
-user.save_state("still.pvsm")
-user.undo()
-user.check_button("Follow", "checked", "true")
-user.press("Follow")
-user.press("Follow")
-user.check_button("Follow", "checked", "true")
-user.save_state("following.pvsm")
-user.undo()
+# Turned in the one that was made last: all turn.
+user.drag_view(4, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))
+user.python("settle_views()")
+user.save_state("turned.pvsm")
 user.undo()
 user.undo()
 user.save_state("undone.pvsm")
 user.play(OPEN_JET + TRACE_FIRST_STEP)
 
 
-def pictures():
-    """The filters in the order in which they are made."""
-    found = filters()
-    assert len(found) == 3
-    return {name: found[name] for name in ("KnifeEdge1", "Shadowgraph1", "Interferogram1")}
-
-
-def check_session():
-    benches = pictures()
+def check_session(state, cutoffs=CUTOFFS):
+    load(state)
     cells = views()
     assert [cell for cell, _ in cells] == [3, 4, 5, 6]
     scene, (left, top, right) = cells[0][1], [cells[i][1] for i in (1, 2, 3)]
-    medium = benches["KnifeEdge1"].Input
-    assert medium.GetXMLName() == "RefractiveIndex" and medium.Density == ["POINTS", "rho"]
-    assert medium.Input == simple.FindSource("jet")
-    for (name, bench), cutoff, view, white in zip(
-            benches.items(), ("Knife Edge", "Shadowgraph", "Interferogram"), (top, left, right),
-            (1, 2, 1)):
-        assert bench.Input == medium, f"{name} has a medium of its own"
-        assert bench.IndexModel == "Refractivity" and bench.Cutoff == cutoff
-        assert bench.FollowedView == "RenderView1" or bench.FollowedView.startswith("RenderView")
-        check_camera(bench, scene)
-        check_display(shown(bench, view), white)
-        check_picture_view(view, bench)
-    volume = simple.GetRepresentation(simple.FindSource("jet"), scene)
-    assert volume.Representation == "Volume"
-    return benches, [values(bench) for bench in benches.values()]
+    shown = [drawn(simple.FindSource("jet"), view) for view in (top, left, right)]
+    for display, cutoff in zip(shown, cutoffs):
+        assert display.SchlierenBench.Cutoff == cutoff and display.SchlierenBench.Density == ["POINTS", "rho"]
+    check_linked(state, scene, top, left, right)
+    assert simple.GetRepresentation(simple.FindSource("jet"), scene).Representation == "Volume"
+    return shown, (top, left, right), [values(display.SchlierenBench) for display in shown]
 
 
-load("three.pvsm")
-benches, made = check_session()
-
-# The medium in between makes no difference to pictures that a script makes straight from the flow.
-for bench in benches.values():
-    by_script = Schlieren(
-        Input=simple.FindSource("jet"), Density=["POINTS", "rho"], Cutoff=bench.Cutoff,
-        **{name: bench.GetPropertyValue(name)
-           for name in ("ImageSize", "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale")})
-    assert np.abs(picture(bench, "Intensity") - picture(by_script, "Intensity")).max() < 1e-4
-    assert np.ptp(picture(bench, "Intensity")) > 0.1
-    simple.Delete(by_script)
-
-# Knife edge, shadowgraph and interferogram side by side.
-(_, left), (_, top), (_, right) = views()[1:]
-for bench, view in zip(benches.values(), (top, left, right)):
-    frame(bench, view, [240, 180], 0.015)
-check_baseline([top, left, right], "WindowThreePictures.png", [240, 180])
+shown, in_views, made = check_session("three.pvsm")
+direction = in_views[0].GetActiveCamera().GetDirectionOfProjection()
+for display, view in zip(shown, in_views):
+    frame_view(view, 0.015)
+    seen = pixels_of(view, SIZE)
+    assert np.ptp(seen) > 25, display.SchlierenBench.Cutoff
+    assert np.abs(seen - filter_like(display, view, SIZE)).max() <= GREY_LEVEL
+check_baseline(list(in_views), "WindowThreePictures.png", SIZE)
 
 play_trace("traced.pvsm", OPEN_JET)
-load("traced.pvsm")
-assert check_session()[1] == made
+assert check_session("traced.pvsm")[2] == made
 
-# The colours of one picture change and those of the others do not.
-for state, array, white in (("colored", "Color", 1), ("shadow", "Intensity", 2),
-                            ("grey", "Intensity", 1)):
-    load(state + ".pvsm")
-    benches = pictures()
-    (_, left), (_, top), (_, right) = views()[1:]
-    display = shown(benches["KnifeEdge1"], top)
-    if array == "Color":
-        assert list(display.ColorArrayName)[:2] == ["POINTS", "Color"] and display.MapScalars == 0
-    else:
-        check_display(display, white)
-    check_display(shown(benches["Shadowgraph1"], left), 2)
-    check_display(shown(benches["Interferogram1"], right), 1)
-    for bench, view in zip(benches.values(), (top, left, right)):
-        assert not [name for name in simple.GetRepresentations() if "ScalarBar" in name[0]]
+check_session("colored.pvsm", ("Color Filter",) + CUTOFFS[1:])
+assert check_session("grey.pvsm")[2] == made
 
-load("still.pvsm")
-benches = pictures()
-assert benches["KnifeEdge1"].FollowedView == "" and benches["Shadowgraph1"].FollowedView != ""
-load("following.pvsm")
-assert filters()["KnifeEdge1"].FollowedView == filters()["Shadowgraph1"].FollowedView != ""
+turned = check_session("turned.pvsm")[1][2].GetActiveCamera().GetDirectionOfProjection()
+assert np.dot(turned, direction) < 0.9, turned
 
 load("undone.pvsm")
 assert list(simple.GetSources().values()) == [simple.FindSource("jet")] and len(views()) == 1

@@ -77,6 +77,23 @@ def settle(*filters):
     until(whole)
 
 
+def displays():
+    """What draws data as Schlieren."""
+    return [display for display in simple.GetRepresentations().values()
+            if getattr(display, "Representation", "") == "Schlieren" and display.Visibility == 1]
+
+
+def settle_views():
+    """Until all that is drawn as Schlieren is complete and nothing changes it any more."""
+    def whole():
+        benches = [display.SchlierenBench for display in displays()]
+        return all(finished(bench) and information(bench, "PictureCount") > 0
+                   and not information(bench, "Status").startswith("Preview") for bench in benches)
+    until(whole)
+    pause(0.5)
+    until(whole)
+
+
 def save(name, source, *views):
     """Keeps the picture that a filter has, as it is, its properties and the cameras of views."""
     here = source.GetClientSideObject()

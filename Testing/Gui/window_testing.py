@@ -15,11 +15,17 @@ VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidge
 PROPERTIES = (PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents"
               "/PropertiesFrame/ProxyPanel")
 
+# Of data that the active view shows: how, and of those drawn as Schlieren the settings of the image.
+DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
+BENCH = DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget"
+
 
 class Session:
-    """What the user does, step by step; play() does it, and checks what it should have led to."""
+    """What the user does, step by step; play() does it, and checks what it should have led to. Widgets are named below
+    `properties`."""
 
-    def __init__(self):
+    def __init__(self, properties=PROPERTIES):
+        self.properties = properties
         self.lines = []
         self.scripts = 0
 
@@ -29,17 +35,17 @@ class Session:
 
     def check(self, widget, name, value):
         """The widget, named below the properties, has this Qt property."""
-        self.check_at(f"{PROPERTIES}/{widget}", name, value)
+        self.check_at(f"{self.properties}/{widget}", name, value)
 
     def check_at(self, widget, name, value):
         self.lines.append(f"<pqcheck object={quoteattr(widget)} "
                           f"property={quoteattr(name)} arguments={quoteattr(str(value))}/>")
 
     def click(self, widget):
-        self.event(f"{PROPERTIES}/{widget}", "activate")
+        self.event(f"{self.properties}/{widget}", "activate")
 
     def choose(self, widget, text):
-        self.event(f"{PROPERTIES}/{widget}", "set_string", text)
+        self.event(f"{self.properties}/{widget}", "set_string", text)
 
     def type(self, widget, text):
         """Types into a line and presses Return."""
@@ -49,9 +55,9 @@ class Session:
     def key(self, widget, name):
         """Presses a key where the widget has the focus."""
         if name.startswith("Shift"):
-            self.event(f"{PROPERTIES}/{widget}", "keyEvent", {"ShiftLeft": "6:16777234:33554432::0:1"}[name])
+            self.event(f"{self.properties}/{widget}", "keyEvent", {"ShiftLeft": "6:16777234:33554432::0:1"}[name])
             return
-        self.event(f"{PROPERTIES}/{widget}", "key",
+        self.event(f"{self.properties}/{widget}", "key",
                    {"Space": "32", "Return": "16777220", "Left": "16777234", "Up": "16777235",
                     "Right": "16777236", "Down": "16777237", "Home": "16777232",
                     "Minus": "45"}[name])
@@ -61,7 +67,7 @@ class Session:
         events = ["mousePress"] + ["mouseMove"] * (len(places) - 1) + ["mouseRelease"]
         buttons = ["1,1"] + ["0,1"] * (len(places) - 1) + ["1,0"]
         for event, button, (x, y) in zip(events, buttons, places + places[-1:]):
-            self.event(f"{PROPERTIES}/{widget}", event, f"{button},{modifiers},{x},{y}")
+            self.event(f"{self.properties}/{widget}", event, f"{button},{modifiers},{x},{y}")
 
     def apply(self):
         self.event(PANEL + "/Accept", "activate")
