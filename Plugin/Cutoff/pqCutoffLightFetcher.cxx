@@ -103,7 +103,7 @@ void pqCutoffLightFetcher::fetch()
   {
     return;
   }
-  if (pqPictureRefiner::instance()->isAnimationStep())
+  if (pqPictureRefiner::instance()->isPlaying())
   {
     this->Timer.start();
     return;

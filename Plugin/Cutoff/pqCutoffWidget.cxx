@@ -210,10 +210,7 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
 //------------------------------------------------------------------------------
 void pqCutoffWidget::dragged()
 {
-  // A source with a size lies along the edge and is seen by the rays, which then are traced again.
-  const bool raysAreHeld = valueOf(this->proxy(), "SourceShape") == Filter::POINT;
-  this->Edit->show(this->changes(),
-    raysAreHeld ? pqPictureRefiner::Pace::Shading : pqPictureRefiner::Pace::Hurried);
+  this->Edit->show(this->changes());
   this->showNumbers();
 }
 

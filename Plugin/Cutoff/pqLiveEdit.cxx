@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqLiveEdit.h"
 
+#include "pqPictureRefiner.h"
 #include "pqSMAdaptor.h"
 #include "pqUndoStack.h"
 
@@ -37,7 +38,7 @@ void pqLiveEdit::push(const QMap<QString, QVariant>& values)
 }
 
 //------------------------------------------------------------------------------
-void pqLiveEdit::show(const QMap<QString, QVariant>& values, Pace pace)
+void pqLiveEdit::show(const QMap<QString, QVariant>& values)
 {
   if (!this->Filter)
   {
@@ -56,8 +57,7 @@ void pqLiveEdit::show(const QMap<QString, QVariant>& values, Pace pace)
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Now);
   }
-  this->ShowsShading = pace == Pace::Shading;
-  pqPictureRefiner::instance()->refine(this->Filter, pace);
+  pqPictureRefiner::instance()->refine(this->Filter);
 }
 
 //------------------------------------------------------------------------------
@@ -77,8 +77,7 @@ void pqLiveEdit::finish()
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Filter);
     this->push(this->Now);
   }
-  pqPictureRefiner::instance()->refine(
-    this->Filter, this->ShowsShading ? Pace::Shading : Pace::Thorough);
+  pqPictureRefiner::instance()->refine(this->Filter);
 }
 
 //------------------------------------------------------------------------------
@@ -88,7 +87,6 @@ void pqLiveEdit::cancel()
   {
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Before);
-    pqPictureRefiner::instance()->refine(
-      this->Filter, this->ShowsShading ? Pace::Shading : Pace::Thorough);
+    pqPictureRefiner::instance()->refine(this->Filter);
   }
 }

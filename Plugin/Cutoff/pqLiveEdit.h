@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pqPictureRefiner.h"
-
 #include "vtkWeakPointer.h"
 
 #include <QMap>
@@ -12,20 +10,18 @@
 
 class vtkSMProxy;
 
-/// Changes properties of a filter while the mouse is down, in the picture too, as one step that can be undone
+/// Changes properties of a filter while the mouse is down, in the image too, as one step that can be undone
 /// and one entry of a trace. Nothing else that waits for Apply is touched.
 class pqLiveEdit
 {
 public:
-  using Pace = pqPictureRefiner::Pace;
-
   pqLiveEdit(vtkSMProxy* filter, const QString& label);
 
   /// Whether the filter is known to have made a picture (PictureCount): until then properties wait for Apply.
   static bool isPossible(vtkSMProxy* filter);
 
   /// Values of these properties, which are shown.
-  void show(const QMap<QString, QVariant>& values, Pace pace);
+  void show(const QMap<QString, QVariant>& values);
 
   /// Keeps the last values.
   void finish();
@@ -38,6 +34,5 @@ private:
 
   vtkWeakPointer<vtkSMProxy> Filter;
   QString Label;
-  bool ShowsShading = false;
   QMap<QString, QVariant> Before, Now;
 };

@@ -52,7 +52,7 @@ bool shows(pqView* view, vtkSMProxy* filter)
     source ? source->getRepresentations(picturePort, view) : QList<pqDataRepresentation*>();
   return std::any_of(pictures.begin(), pictures.end(),
            [](pqDataRepresentation* picture) { return picture->isVisible(); }) ||
-    pqRepresentationRefiner::isDrawnIn(view, filter);
+    pqRepresentationRefiner::benchesIn(view).contains(filter);
 }
 
 /// Where the plane of an image lies in a view: that of the filter's output is z = 0; that of a representation goes through
@@ -249,7 +249,7 @@ void pqPicturePainter::brush(vtkRenderWindowInteractor* interactor)
 {
   QPointF position;
   vtkRenderer* renderer = renderViewOf(this->Pressed)->GetRenderer();
-  const ImagePlane plane = pqRepresentationRefiner::isDrawnIn(this->Pressed, this->Filter)
+  const ImagePlane plane = pqRepresentationRefiner::benchesIn(this->Pressed).contains(this->Filter)
     ? ImagePlane::ofRepresentation(renderer)
     : ImagePlane();
   if (!placeUnder(interactor->GetEventPosition(), renderer, plane, position))

@@ -303,7 +303,7 @@ void pqPictureWidget::showStroke()
   if (this->Edit)
   {
     const QString name = this->proxy()->GetPropertyName(this->property());
-    this->Edit->show({ { name, picture } }, pqPictureRefiner::Pace::Shading);
+    this->Edit->show({ { name, picture } });
   }
   else
   {

@@ -33,7 +33,7 @@ QMap<QString, QVariant> valuesOf(const BenchPreset& preset)
 void applyPreset(vtkSMProxy* filter, const BenchPreset& preset)
 {
   pqLiveEdit edit(filter, QObject::tr("Bench: %1").arg(preset.name));
-  edit.show(valuesOf(preset), pqLiveEdit::Pace::Thorough);
+  edit.show(valuesOf(preset));
   edit.finish();
   for (const PresetSetting& setting : preset.settings)
   {

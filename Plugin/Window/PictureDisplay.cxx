@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PictureDisplay.h"
 
+#include "pqUndoStack.h"
+#include "pqView.h"
 #include "vtkDataObject.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMRenderViewProxy.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionProxy.h"
 #include "vtkSchlierenFilter.h"
+
+#include <QVariant>
 
 #include <algorithm>
 #include <string>
@@ -19,6 +22,9 @@ namespace
 {
 
 using Filter = vtkSchlierenFilter;
+
+/// A property of a view whose image is still to come.
+constexpr const char* isToBeFilled = "SchlierenIsToBeFilled";
 
 int valueOf(vtkSMProxy* proxy, const char* name)
 {
@@ -114,14 +120,18 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 }
 
 //------------------------------------------------------------------------------
-bool PictureDisplay::fill(vtkSMRenderViewProxy* view, vtkSMSourceProxy* filter)
+void PictureDisplay::fill(pqView* view, vtkSMSourceProxy* filter)
 {
+  vtkSMProxy* proxy = view->getProxy();
   vtkPVDataInformation* image = filter->GetDataInformation(0);
   const int* extent = image->GetExtent();
   const double* bounds = image->GetBounds();
-  if (image->GetNumberOfPoints() < 1 || extent[0] == extent[1] || extent[2] == extent[3])
+  const bool hasImage =
+    image->GetNumberOfPoints() > 0 && extent[0] < extent[1] && extent[2] < extent[3];
+  view->setProperty(isToBeFilled, !hasImage);
+  if (!hasImage)
   {
-    return false;
+    return;
   }
   double focus[3] = { 0, 0, 0 };
   double half[2]; // pixels are around points
@@ -132,16 +142,25 @@ bool PictureDisplay::fill(vtkSMRenderViewProxy* view, vtkSMSourceProxy* filter)
     half[axis] =
       0.5 * (bounds[2 * axis + 1] - bounds[2 * axis]) * points / (points - 1);
   }
-  const auto window = vtkSMPropertyHelper(view, "ViewSize").GetIntArray();
+  const auto window = vtkSMPropertyHelper(proxy, "ViewSize").GetIntArray();
   const double scale = std::max(half[1], half[0] * window[1] / std::max(1, window[0]));
   const double position[3] = { focus[0], focus[1], 10 * scale };
   const double up[3] = { 0, 1, 0 };
-  vtkSMPropertyHelper(view, "CameraFocalPoint").Set(focus, 3);
-  vtkSMPropertyHelper(view, "CameraPosition").Set(position, 3);
-  vtkSMPropertyHelper(view, "CameraViewUp").Set(up, 3);
-  vtkSMPropertyHelper(view, "CameraParallelScale").Set(scale);
-  view->UpdateVTKObjects();
-  return true;
+  vtkSMPropertyHelper(proxy, "CameraFocalPoint").Set(focus, 3);
+  vtkSMPropertyHelper(proxy, "CameraPosition").Set(position, 3);
+  vtkSMPropertyHelper(proxy, "CameraViewUp").Set(up, 3);
+  vtkSMPropertyHelper(proxy, "CameraParallelScale").Set(scale);
+  proxy->UpdateVTKObjects();
+}
+
+//------------------------------------------------------------------------------
+void PictureDisplay::fillOnce(pqView* view, vtkSMSourceProxy* filter)
+{
+  if (view->property(isToBeFilled).toBool())
+  {
+    SCOPED_UNDO_EXCLUDE();
+    PictureDisplay::fill(view, filter);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -4,8 +4,8 @@
 // How the picture of a Schlieren filter is to be seen: in grey as on film, or in its own colours.
 #pragma once
 
+class pqView;
 class vtkSMProxy;
-class vtkSMRenderViewProxy;
 class vtkSMSourceProxy;
 
 namespace PictureDisplay
@@ -15,8 +15,10 @@ namespace PictureDisplay
 /// colour map that no other picture shares; or Color as it is.
 void apply(vtkSMProxy* representation, vtkSMProxy* filter);
 
-/// Fills a flat view with the image that the filter has made; false where there is none.
-bool fill(vtkSMRenderViewProxy* view, vtkSMSourceProxy* filter);
+/// Fills a flat view with the image that the filter has made; with the next one that fillOnce() is called for, where
+/// there is none.
+void fill(pqView* view, vtkSMSourceProxy* filter);
+void fillOnce(pqView* view, vtkSMSourceProxy* filter);
 
 /// Whether it is shown as apply() does it for some cutoff, that is, nobody has chosen something else.
 bool isApplied(vtkSMProxy* representation);

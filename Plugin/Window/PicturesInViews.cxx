@@ -6,14 +6,12 @@
 #include "pqDataRepresentation.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
-#include "pqRenderView.h"
 #include "pqServerManagerModel.h"
+#include "pqView.h"
 
 #include "vtkPVRenderView.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
-#include "vtkSMViewLayoutProxy.h"
-#include "vtkSMViewProxy.h"
 
 #include <QSet>
 #include <QWidget>
@@ -58,7 +56,7 @@ bool picturesInViews::isSchlieren(pqPipelineSource* source)
 {
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
   return name && std::strcmp(name, "Schlieren") == 0 &&
-    source->getProxy()->GetProperty("FollowedView");
+    source->getProxy()->GetProperty("PictureCount");
 }
 
 //------------------------------------------------------------------------------
@@ -104,39 +102,4 @@ bool picturesInViews::isFlat(pqView* view)
 {
   return vtkSMPropertyHelper(view->getProxy(), "InteractionMode", true).GetAsInt() ==
     vtkPVRenderView::INTERACTION_MODE_2D;
-}
-
-//------------------------------------------------------------------------------
-QString picturesInViews::followedName(pqPipelineSource* filter)
-{
-  return QString::fromUtf8(vtkSMPropertyHelper(filter->getProxy(), "FollowedView").GetAsString());
-}
-
-//------------------------------------------------------------------------------
-pqRenderView* picturesInViews::followed(pqPipelineSource* filter)
-{
-  const QString name = followedName(filter);
-  if (name.isEmpty())
-  {
-    return nullptr;
-  }
-  const QList<pqView*> shown = showing(filter);
-  pqRenderView* found = nullptr;
-  for (pqRenderView* view : model()->findItems<pqRenderView*>(filter->getServer()))
-  {
-    // A flat view of the picture itself would be moved by what it moves.
-    if (view->getSMName() != name || (isFlat(view) && shown.contains(view)))
-    {
-      continue;
-    }
-    auto* layout = vtkSMViewLayoutProxy::FindLayout(view->getViewProxy());
-    const auto isBeside = [layout](pqView* other)
-    { return vtkSMViewLayoutProxy::FindLayout(other->getViewProxy()) == layout; };
-    if (std::any_of(shown.begin(), shown.end(), isBeside))
-    {
-      return view;
-    }
-    found = found ? found : view;
-  }
-  return found;
 }

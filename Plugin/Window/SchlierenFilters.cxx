@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SchlierenFilters.h"
 
-#include "CameraOfView.h"
 #include "PicturesInViews.h"
 
 #include "pqActiveObjects.h"
@@ -13,9 +12,7 @@
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
-#include "vtkSMPropertyHelper.h"
-#include "vtkSMRenderViewProxy.h"
-#include "vtkSMTrace.h"
+#include "vtkSMProxy.h"
 #include "vtkSMViewLayoutProxy.h"
 
 //------------------------------------------------------------------------------
@@ -43,17 +40,9 @@ pqRenderView* sceneView(pqServer* server)
 {
   pqView* active = pqActiveObjects::instance().activeView();
   auto* scene = qobject_cast<pqRenderView*>(active);
-  if (scene && scene->getServer() == server)
+  if (scene && scene->getServer() == server && picturesInViews::picturesIn(scene).empty())
   {
-    const QList<pqPipelineSource*> pictures = picturesInViews::picturesIn(scene);
-    if (pictures.empty())
-    {
-      return scene;
-    }
-    if (pqRenderView* followed = picturesInViews::followed(pictures.front()))
-    {
-      return followed;
-    }
+    return scene;
   }
   vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
   for (pqRenderView* view :
@@ -66,17 +55,4 @@ pqRenderView* sceneView(pqServer* server)
     }
   }
   return nullptr;
-}
-
-//------------------------------------------------------------------------------
-void follow(vtkSMProxy* filter, pqRenderView* view)
-{
-  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
-  const QByteArray name = view ? view->getSMName().toUtf8() : QByteArray();
-  vtkSMPropertyHelper(filter, "FollowedView").Set(name.constData());
-  if (view)
-  {
-    takeCameraOfView(filter, view->getRenderViewProxy());
-  }
-  filter->UpdateVTKObjects();
 }

@@ -7,15 +7,9 @@
 class pqPipelineSource;
 class pqRenderView;
 class pqServer;
-class vtkSMProxy;
 
-/// The Schlieren filter whose picture this is made from: itself, or one upstream; null where there is none.
+/// The Schlieren filter whose image this is made from: itself, or one upstream; null where there is none.
 pqPipelineSource* schlierenFilterOf(pqPipelineSource* source);
 
-/// The 3-D view that is meant: the active one; the one that the active picture follows; another one that
-/// is seen beside them. Null where all show pictures.
+/// The 3-D view that is meant: the active one, or another one beside it. Null where all show images of filters.
 pqRenderView* sceneView(pqServer* server);
-
-/// Lets the filter follow the view from now on, or, where it is null, none. Pushed, traced; not an undo
-/// set of its own.
-void follow(vtkSMProxy* filter, pqRenderView* view);

@@ -236,7 +236,7 @@ public:
     }
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
-      PictureDisplay::fill(window, filter->getSourceProxy());
+      PictureDisplay::fill(view, filter->getSourceProxy());
     }
     const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window, window)]()
     {

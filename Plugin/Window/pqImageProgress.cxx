@@ -132,7 +132,7 @@ void pqImageProgress::watchBenchOf(pqRepresentation* representation)
 //------------------------------------------------------------------------------
 void pqImageProgress::onProgressOfView(vtkObject* bench)
 {
-  if (!pqPictureRefiner::instance()->isAnimationStep())
+  if (!pqPictureRefiner::instance()->isPlaying())
   {
     this->letAbort(bench);
   }

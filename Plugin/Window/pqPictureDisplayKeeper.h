@@ -12,8 +12,8 @@ class vtkObject;
 class vtkPVXMLElement;
 class vtkSMProxyLocator;
 
-/// Keeps pictures displayed as their filters' cutoffs want it, whoever changes a cutoff: grey, twice as
-/// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else. Views of pictures get
+/// Keeps images displayed as their filters' cutoffs want it, whoever changes a cutoff: grey, twice as
+/// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else. Views of images get
 /// their FXAA back from state files: ParaView itself takes that of its settings then.
 class pqPictureDisplayKeeper : public QObject
 {

@@ -4,6 +4,7 @@
 
 #include "PicturesInViews.h"
 #include "pqPictureRefiner.h"
+#include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -57,6 +58,12 @@ void place(QPushButton* button, const QLabel* label)
   button->move(label->x(), label->y() - button->height() - margin);
 }
 
+QString statusOf(vtkSMProxy* filter)
+{
+  filter->UpdatePropertyInformation(filter->GetProperty("Status"));
+  return QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
+}
+
 bool isStopped(pqPipelineSource* filter)
 {
   return pqPictureRefiner::instance()->isStopped(filter->getProxy());
@@ -107,6 +114,14 @@ void pqPictureStatus::watch(pqView* item)
   {
     const auto update = [this, view]() { this->show(view); };
     QObject::connect(view, &pqView::updateDataEvent, this, update);
+    QObject::connect(view, &pqView::endRender, this,
+      [update, view]()
+      {
+        if (!pqRepresentationRefiner::benchesIn(view).isEmpty())
+        {
+          update();
+        }
+      });
     QObject::connect(view, &pqView::representationVisibilityChanged, this, update);
     QObject::connect(view, &pqView::representationRemoved, this, update);
   }
@@ -125,13 +140,15 @@ void pqPictureStatus::show(pqRenderView* view)
   {
     for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
     {
-      vtkSMProxy* proxy = filter->getProxy();
-      proxy->UpdatePropertyInformation(proxy->GetProperty("Status"));
-      const QString status = QString::fromUtf8(vtkSMPropertyHelper(proxy, "Status").GetAsString());
+      const QString status = statusOf(filter->getProxy());
       lines << (isStopped(filter) ? "Stopped. " + status : status);
     }
-    lines.removeAll(QString());
   }
+  for (vtkSMProxy* bench : pqRepresentationRefiner::benchesIn(view))
+  {
+    lines << statusOf(bench);
+  }
+  lines.removeAll(QString());
   QLabel* label = labelOf(widget);
   if (!label && !lines.isEmpty())
   {

@@ -8,7 +8,8 @@ class QLabel;
 class pqRenderView;
 class pqView;
 
-/// Writes into 2-D views, at the lower left, how far the pictures are that they show: the filters' Status.
+/// Writes at the lower left of views how complete the images are that they show: the Status of filters and of those
+/// inside of representations.
 /// Below *Continue*, where the user has stopped one. Not part of what is saved.
 class pqPictureStatus : public QObject
 {

@@ -95,12 +95,25 @@ bool pqRepresentationRefiner::isSchlieren(pqRepresentation* representation)
 }
 
 //------------------------------------------------------------------------------
-bool pqRepresentationRefiner::isDrawnIn(pqView* view, vtkSMProxy* bench)
+QList<vtkSMProxy*> pqRepresentationRefiner::benchesIn(pqView* view)
 {
-  const QList<pqRepresentation*> shown = view->getRepresentations();
-  return std::any_of(shown.begin(), shown.end(),
-    [bench](pqRepresentation* representation)
-    { return isSchlieren(representation) && benchOf(representation) == bench; });
+  QList<vtkSMProxy*> benches;
+  for (pqRepresentation* representation : view->getRepresentations())
+  {
+    if (isSchlieren(representation))
+    {
+      benches << benchOf(representation);
+    }
+  }
+  return benches;
+}
+
+//------------------------------------------------------------------------------
+bool pqRepresentationRefiner::isAnyBeingTurned()
+{
+  const QList<pqRenderView*> views =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>();
+  return std::any_of(views.begin(), views.end(), isBeingTurned);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QList>
 #include <QObject>
 
 class pqRepresentation;
@@ -21,8 +22,11 @@ public:
   /// Whether a representation is visible and draws its data as Schlieren.
   static bool isSchlieren(pqRepresentation* representation);
 
-  /// Whether a view draws data as Schlieren with the proxy of the filter inside of a representation.
-  static bool isDrawnIn(pqView* view, vtkSMProxy* bench);
+  /// The proxies of the filters inside of the representations that a view draws as Schlieren.
+  static QList<vtkSMProxy*> benchesIn(pqView* view);
+
+  /// Whether the user turns or moves what a render view shows.
+  static bool isAnyBeingTurned();
 
   /// Shows what has changed of the proxy of the filter inside of a representation; of no effect for others.
   static void renderViewsOf(vtkSMProxy* bench);

@@ -6,11 +6,9 @@
 #include <QToolBar>
 
 #include "SchlierenViews.h"
-#include "vtkNew.h"
 
 class QAction;
 class QMessageBox;
-class vtkEventQtSlotConnect;
 
 /// The toolbar Schlieren, and the menu of the same name with the same actions.
 class pqSchlierenToolBar : public QToolBar
@@ -22,15 +20,12 @@ public:
   ~pqSchlierenToolBar() override;
 
 private Q_SLOTS:
-  /// Enables and checks what fits the selected source.
+  /// Enables what fits the selected source.
   void updateActions();
-  void watchSource();
-  void setFollowing(bool isFollowing);
 
 private:
   QAction* addArrangement(const char* name, const QString& text, const QString& hint,
     SchlierenViews::Arrangement arrangement);
-  void addToolAction(QAction* action, const char* name, const QString& hint);
   void addMenu();
 
   /// Moves to the last row of toolbars, where there is room, unless the user has placed it before.
@@ -38,7 +33,5 @@ private:
   void tell(const SchlierenViews::Result& result);
 
   QList<QAction*> Arrangements;
-  QAction* Follow;
   QPointer<QMessageBox> Message;
-  vtkNew<vtkEventQtSlotConnect> Events;
 };

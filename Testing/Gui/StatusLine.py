@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The line at the lower left of a picture's view: what the picture is made of, as the filter tells it; inside
+"""The line at the lower left of a view: what its image is made of, as the filter or the representation says; inside
 the view however narrow that is, and gone where it does not belong."""
 
 import os
@@ -14,18 +14,18 @@ with open(REPORT, "w", encoding="utf-8"):
 user = ViewsSession()
 user.press("OnePicture")
 
-# What is asked is asked within the window. Its frames are numbered as the views were made.
-STEPS = f"""
+# What is checked is checked within the window. Its frames are numbered as the views were made.
+HELPERS = f"""
 import re
-bench, scene, flat = by_name("Schlieren1", "RenderView1", "RenderView2")
-view = widget("Frame.2", "Viewport")
+RAYS = "[0-9.]+ (million )?rays/s on (CPU .[0-9]+ threads?.|CUDA), "
 def line(frame=2):
     return widget(f"Frame.{{frame}}", "Viewport", "SchlierenStatus")
 def is_shown(frame=2):
     return line(frame) is not None and line(frame).isVisible()
-def check_place():
+def check_place(frame=2):
     "In the corner, with as much room on the left as below, and inside the view."
-    left, top, width, height = line().geometry().getRect()
+    view = widget(f"Frame.{{frame}}", "Viewport")
+    left, top, width, height = line(frame).geometry().getRect()
     below = view.height() - top - height
     assert 0 < left == below < 20, (left, below)
     assert top >= 0 and left + width <= view.width() - left, (top, left, width)
@@ -34,62 +34,92 @@ def report(text):
     with open({REPORT!r}, "a") as file:
         file.write(text + "\\n")
 """
-user.python(STEPS + """
-until(lambda: finished(bench) and is_shown() and line().text() == information(bench, "Status"))
-told = line().text()
-rays = "[0-9.]+ (million )?rays/s on (CPU .[0-9]+ threads?.|CUDA), "
-assert re.match("[0-9]+ samples? per pixel, " + rays, told), told
-assert not is_shown(1), "There is a line in the 3-D view"
+user.python(HELPERS + """
+scene, drawn = by_name("RenderView1", "RenderView2")
+(display,) = displays()
+bench = display.SchlierenBench
+settle_views()
+until(lambda: is_shown() and line().text() == information(bench, "Status"))
+assert re.match("[0-9]+ samples? per pixel, " + RAYS, line().text()), line().text()
+assert not is_shown(1), "There is a line beside the volume"
 check_place()
 report("finished")
 
-# A picture that is still becoming better tells how far it is.
+# Turned, the image is refined anew, and the line says how complete it is.
 bench.SamplesPerPixel = 4000
 scene.CameraPosition = [0.2, 0.1, scene.CameraPosition[2]]
 Render(scene)
 until(lambda: re.match("[0-9]+ of 4000 samples per pixel, ", line().text()))
+bench.SamplesPerPixel = 3
+Render(drawn)
+until(lambda: line().text().startswith("3 samples per pixel, "))
+report("refined")
+
+Hide(display.Input, drawn)
+until(lambda: not is_shown())
+Show(display.Input, drawn)
+Render(drawn)
+until(is_shown)
+display.SetRepresentationType("Outline")
+Render(drawn)
+until(lambda: not is_shown())
+report("hidden")
+""")
+
+user.choose_filter("Schlieren")
+user.apply()
+user.python(HELPERS + """
+bench, flat = by_name("Schlieren1", "RenderView3")
+view = widget("Frame.3", "Viewport")
+until(lambda: finished(bench) and is_shown(3) and line(3).text() == information(bench, "Status"))
+assert re.match("[0-9]+ samples? per pixel, " + RAYS, line(3).text()), line(3).text()
+bench.SamplesPerPixel = 4000
+Render(flat)
+until(lambda: re.match("[0-9]+ of 4000 samples per pixel, ", line(3).text()))
 assert not finished(bench)
 bench.SamplesPerPixel = 3
 Render(flat)
-until(lambda: finished(bench) and line().text() == information(bench, "Status"))
-assert line().text().startswith("3 samples per pixel, "), line().text()
-report("refined")
+until(lambda: finished(bench) and line(3).text() == information(bench, "Status"))
+assert line(3).text().startswith("3 samples per pixel, "), line(3).text()
+report("filter")
 
 # In a narrow view it has more lines.
-wide, low = check_place()
 layout = GetLayout(flat)
-layout.SetSplitFraction(0, 0.8)
+split = (layout.GetViewLocation(flat.SMProxy) - 1) // 2
+layout.SetSplitFraction(split, 0.3)
+until(lambda: is_shown(3))
+pause(0.5)
+wide, low = check_place(3)
+layout.SetSplitFraction(split, 0.75)
 until(lambda: view.width() < 0.6 * wide)
-narrow, high = check_place()
+narrow, high = check_place(3)
 assert narrow < wide and high > 1.5 * low, (wide, low, narrow, high)
-layout.SetSplitFraction(0, 0.97)
-until(lambda: view.width() < narrow and not is_shown())
-layout.SetSplitFraction(0, 0.5)
-until(lambda: view.width() > wide and is_shown())
-assert check_place() == (wide, low)
+layout.SetSplitFraction(split, 0.97)
+until(lambda: view.width() < narrow and not is_shown(3))
+layout.SetSplitFraction(split, 0.3)
+until(lambda: view.width() > wide and is_shown(3))
+assert check_place(3) == (wide, low)
 report("narrow")
 
 Hide(bench, flat)
-until(lambda: not is_shown())
+until(lambda: not is_shown(3))
 Show(bench, flat)
-until(is_shown)
-check_place()
-report("hidden")
-
+until(lambda: is_shown(3))
+check_place(3)
 flat.InteractionMode = "3D"
 Render(flat)
-until(lambda: not is_shown())
+until(lambda: not is_shown(3))
 flat.InteractionMode = "2D"
 Render(flat)
-until(is_shown)
+until(lambda: is_shown(3))
 report("3-D")
 
 Delete(bench)
-until(lambda: not is_shown())
+until(lambda: not is_shown(3))
 report("deleted")
 """)
 user.play(INSIDE + OPEN_JET)
 
 with open(REPORT, encoding="utf-8") as file:
     steps = file.read().split("\n")
-assert steps == ["finished", "refined", "narrow", "hidden", "3-D", "deleted", ""], steps
+assert steps == ["finished", "refined", "hidden", "filter", "narrow", "3-D", "deleted", ""], steps

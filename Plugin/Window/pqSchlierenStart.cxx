@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqSchlierenStart.h"
+
+#include "pqApplyHooks.h"
+#include "pqImageProgress.h"
+#include "pqPictureDisplayKeeper.h"
+#include "pqPictureStatus.h"
+#include "pqRepresentationRefiner.h"
+
+#include "pqApplicationCore.h"
+#include "pqPipelineSource.h"
+#include "pqServerManagerModel.h"
+
+#include <QPointer>
+
+//------------------------------------------------------------------------------
+pqSchlierenStart::pqSchlierenStart() = default;
+
+//------------------------------------------------------------------------------
+pqSchlierenStart::~pqSchlierenStart() = default;
+
+//------------------------------------------------------------------------------
+void pqSchlierenStart::startup()
+{
+  // A plugin that is loaded again starts another one.
+  static QPointer<pqSchlierenStart> first;
+  if (first || !pqApplicationCore::instance())
+  {
+    return;
+  }
+  first = this;
+  new pqPictureStatus(this);
+  new pqPictureDisplayKeeper(this);
+  new pqRepresentationRefiner(this);
+  new pqImageProgress(this);
+  // ParaView's window may come after its plugins.
+  auto* hooks = new pqApplyHooks(this);
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::sourceAdded, hooks, [hooks](pqPipelineSource*) { hooks->setUp(); });
+}
