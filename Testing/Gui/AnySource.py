@@ -1,14 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The toolbar with whatever is selected: nothing, what cannot be used, blocks of meshes without a 3-D view,
-a picture."""
+a view that draws as Schlieren, a filter."""
 
 import numpy as np
-from views_testing import (MESH, SOURCE, ViewsSession, check_camera, check_display, check_picture_view,
-                           filters, load, picture, shown, simple, views)
+from views_testing import MESH, ViewsSession, check_linked, drawn, filters, load, simple, views
+from representation_testing import pixels_of
+from window_testing import BENCH, PROPERTIES
 
 user = ViewsSession()
-for button in ("OnePicture", "ThreePictures", "Comparison", "Follow"):
+for button in ("OnePicture", "ThreePictures", "Comparison"):
     user.check_button(button, "enabled", "false")
 
 user.python('SetActiveSource(Sphere(registrationName="ball"))')
@@ -65,52 +66,55 @@ Delete(GetActiveView())
 user.press("OnePicture")
 user.save_state("blocks.pvsm")
 
-# With the picture selected, another one with its settings, from the menu.
+# In that view, another one with its settings, from the menu.
+user.properties = BENCH
 user.choose("Cutoff/ComboBox", "Shadowgraph")
-user.apply()
 user.python("""
-FindSource("Schlieren1").GradedFilter.Points = [0, 0.25, 0.5, 0, 1, 0.75, 0.5, 0]
+(display,) = displays()
+display.SchlierenBench.GradedFilter.Points = [0, 0.25, 0.5, 0, 1, 0.75, 0.5, 0]
 """)
 user.menu("menuSchlieren", "actionOnePicture")
 user.save_state("two.pvsm")
 user.choose("Cutoff/ComboBox", "Circular")
-user.apply()
 user.save_state("different.pvsm")
-user.play(f"""
-import os, sys
-sys.path.insert(0, {SOURCE!r} + "/Testing/Gui")
-""")
+
+# With a filter selected, its flow and its settings.
+user.choose_filter("Schlieren")
+user.properties = PROPERTIES
+user.choose("Cutoff/ComboBox", "Color Filter")
+user.apply()
+user.press("OnePicture")
+user.save_state("filter.pvsm")
+user.play("")
 
 load("nothing.pvsm")
 assert not filters() and len(simple.GetRenderViews()) == 1
 
 load("blocks.pvsm")
-((_, scene), (_, flat)) = views()
-(bench,) = filters().values()
-assert bench.Input == simple.FindSource("blocks") and bench.Density == ["POINTS", "rho"]
-assert simple.GetRepresentation(bench.Input, scene).Visibility == 1
-check_camera(bench, scene)
-check_display(shown(bench, flat))
-check_picture_view(flat, bench)
-assert np.ptp(picture(bench, "Intensity")) > 0.2
+((_, scene), (_, view)) = views()
+blocks = simple.FindSource("blocks")
+assert drawn(blocks, view).SchlierenBench.Density == ["POINTS", "rho"] and not filters()
+assert simple.GetRepresentation(blocks, scene).Visibility == 1
+check_linked("blocks.pvsm", scene, view)
+assert np.ptp(pixels_of(view, (120, 90))) > 50
 
 load("two.pvsm")
-first, second = filters().values()
-((_, scene),) = [(cell, view) for cell, view in views() if view.InteractionMode == "3D"]
-assert [cell for cell, _ in views()] == [2, 3, 4] and first.FollowedView == second.FollowedView
-assert first.Cutoff == second.Cutoff == "Shadowgraph" and first.Input == second.Input
-assert list(first.GradedFilter.Points) == list(second.GradedFilter.Points)
-assert first.GradedFilter.Points[1] == 0.25
-assert first.GradedFilter.SMProxy != second.GradedFilter.SMProxy, "A curve of both"
-for bench in (first, second):
-    (view,) = [view for _, view in views() if shown(bench, view)]
-    check_camera(bench, scene)
-    check_display(shown(bench, view), 2)
-    check_picture_view(view, bench)
+((left, scene), (top, first), (bottom, second)) = views()
+assert (left, top, bottom) == (1, 5, 6)
+check_linked("two.pvsm", scene, first, second)
+benches = [drawn(simple.FindSource("blocks"), view).SchlierenBench for view in (first, second)]
+for bench in benches:
+    assert bench.Cutoff == "Shadowgraph" and bench.GradedFilter.Points[1] == 0.25
+assert benches[0].GradedFilter.SMProxy != benches[1].GradedFilter.SMProxy, "A curve of both"
 
 load("different.pvsm")
-first, second = filters().values()
-assert (first.Cutoff, second.Cutoff) == ("Shadowgraph", "Circular")
-for bench, white in ((first, 2), (second, 1)):
-    (display,) = [shown(bench, view) for _, view in views() if shown(bench, view)]
-    check_display(display, white)
+assert [drawn(simple.FindSource("blocks"), view).SchlierenBench.Cutoff for _, view in views()[1:]] == [
+    "Shadowgraph", "Circular"]
+
+load("filter.pvsm")
+(bench,) = filters().values()
+assert bench.Input == simple.FindSource("blocks") and len(views()) == 5
+cutoffs = [drawn(bench.Input, view).SchlierenBench.Cutoff for _, view in views()
+           if view.SMProxy.FindRepresentation(bench.Input.SMProxy, 0)
+           and simple.GetRepresentation(bench.Input, view).Representation == "Schlieren"]
+assert len(cutoffs) == 3 and all(name in cutoffs for name in ("Circular", "Color Filter", "Shadowgraph")), cutoffs

@@ -4,8 +4,8 @@
 
 import os
 
-from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession, filters, load, views
-from window_testing import PROPERTIES
+from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession, drawn, load, simple, views
+from window_testing import BENCH
 
 REPORT = os.path.join(FOLDER, "report.txt")
 with open(REPORT, "w", encoding="utf-8"):
@@ -13,13 +13,12 @@ with open(REPORT, "w", encoding="utf-8"):
 PLANE = "SchlierenCutoff/Plane"
 SIDE, TOP = 280, 50  # pixels: of the plane; of what is free of other handles
 
-user = ViewsSession()
+user = ViewsSession(BENCH)
 user.python("""
-assert not FindSource("Schlieren1")
+assert not displays()
 press_key(Qt.Key.Key_L, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
-until(lambda: FindSource("Schlieren1"))
-until(lambda: finished(FindSource("Schlieren1")))
-pause(0.3)
+until(displays)
+settle_views()
 """)
 user.save_state("added.pvsm")
 user.check(PLANE, "enabled", "true")
@@ -27,15 +26,16 @@ user.size_plane(SIDE)
 
 # What a drag changes before it is given up, and what there is then.
 LOOK = f"""
-bench, = by_name("Schlieren1")
-def picture():
+(display,) = displays()
+bench = display.SchlierenBench
+def intensity():
     image = bench.GetClientSideObject().GetOutputDataObject(0)
     return np.array(vtk_to_numpy(image.GetPointData().GetArray("Intensity")))
 def path(name):
     return os.path.join(FOLDER, name + ".npy")
 def same():
     kept = np.load(path("before"))
-    return finished(bench) and len(picture()) == len(kept) and np.abs(picture() - kept).max() < 1e-6
+    return finished(bench) and len(intensity()) == len(kept) and np.abs(intensity() - kept).max() < 1e-6
 def check_given_up(text):
     until(same)
     assert bench.CutoffOffset == 0 and bench.AutoKScale == 1 and bench.KnifeEdgeAngle == 0
@@ -45,12 +45,12 @@ def check_given_up(text):
 
 
 def mouse(event, buttons, x, y):
-    user.event(f"{PROPERTIES}/{PLANE}", event, f"{buttons},0,{x},{y}")
+    user.event(f"{BENCH}/{PLANE}", event, f"{buttons},0,{x},{y}")
 
 
 # The edge is a line up through the middle.
 x, y = 20 + SIDE // 2, TOP
-user.python(LOOK + "np.save(path('before'), picture())\n"
+user.python(LOOK + "np.save(path('before'), intensity())\n"
             "widget('propertiesPanel', 'SchlierenCutoff', 'Plane').setFocus()")
 mouse("mousePress", "1,1", x, y)
 mouse("mouseMove", "0,1", x + 20, y)
@@ -85,9 +85,8 @@ assert steps == ["dragged", "released", "key", ""], steps
 
 for state in ("added", "given_up"):
     load(state + ".pvsm")
-    (_, scene), (_, flat) = views()
-    bench, = filters().values()
-    assert flat.InteractionMode == "2D" and scene.InteractionMode == "3D" and bench.FollowedView
+    _, (_, view) = views()
+    bench = drawn(simple.FindSource("jet"), view).SchlierenBench
     assert bench.CutoffOffset == 0 and bench.AutoKScale == 1
 load("undone.pvsm")
-assert not filters() and len(views()) == 1
+assert len(views()) == 1

@@ -13,7 +13,8 @@ with open(REPORT, "w", encoding="utf-8"):
     pass
 
 user = ViewsSession()
-user.press("OnePicture")
+user.choose_filter("Schlieren")
+user.apply()
 
 
 def check_label(name, text):
@@ -54,7 +55,6 @@ user.check("Sensitivity/Note", "text",
 # The centre of the image: none, three numbers, none again.
 user.python("""
 bench = FindSource("Schlieren1")
-bench.FollowedView = ""
 bench.FocalPoint = []
 Render()
 settle(bench)

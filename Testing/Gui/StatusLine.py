@@ -14,7 +14,7 @@ with open(REPORT, "w", encoding="utf-8"):
 user = ViewsSession()
 user.press("OnePicture")
 
-# What is checked is checked within the window. Its frames are numbered as the views were made.
+# What is checked is checked within the window. Its frames have the numbers of their cells in the layout.
 HELPERS = f"""
 import re
 RAYS = "[0-9.]+ (million )?rays/s on (CPU .[0-9]+ threads?.|CUDA), "
@@ -70,52 +70,52 @@ user.choose_filter("Schlieren")
 user.apply()
 user.python(HELPERS + """
 bench, flat = by_name("Schlieren1", "RenderView3")
-view = widget("Frame.3", "Viewport")
-until(lambda: finished(bench) and is_shown(3) and line(3).text() == information(bench, "Status"))
-assert re.match("[0-9]+ samples? per pixel, " + RAYS, line(3).text()), line(3).text()
+view = widget("Frame.6", "Viewport")
+until(lambda: finished(bench) and is_shown(6) and line(6).text() == information(bench, "Status"))
+assert re.match("[0-9]+ samples? per pixel, " + RAYS, line(6).text()), line(6).text()
 bench.SamplesPerPixel = 4000
 Render(flat)
-until(lambda: re.match("[0-9]+ of 4000 samples per pixel, ", line(3).text()))
+until(lambda: re.match("[0-9]+ of 4000 samples per pixel, ", line(6).text()))
 assert not finished(bench)
 bench.SamplesPerPixel = 3
 Render(flat)
-until(lambda: finished(bench) and line(3).text() == information(bench, "Status"))
-assert line(3).text().startswith("3 samples per pixel, "), line(3).text()
+until(lambda: finished(bench) and line(6).text() == information(bench, "Status"))
+assert line(6).text().startswith("3 samples per pixel, "), line(6).text()
 report("filter")
 
 # In a narrow view it has more lines.
 layout = GetLayout(flat)
 split = (layout.GetViewLocation(flat.SMProxy) - 1) // 2
 layout.SetSplitFraction(split, 0.3)
-until(lambda: is_shown(3))
+until(lambda: is_shown(6))
 pause(0.5)
-wide, low = check_place(3)
+wide, low = check_place(6)
 layout.SetSplitFraction(split, 0.75)
 until(lambda: view.width() < 0.6 * wide)
-narrow, high = check_place(3)
+narrow, high = check_place(6)
 assert narrow < wide and high > 1.5 * low, (wide, low, narrow, high)
 layout.SetSplitFraction(split, 0.97)
-until(lambda: view.width() < narrow and not is_shown(3))
+until(lambda: view.width() < narrow and not is_shown(6))
 layout.SetSplitFraction(split, 0.3)
-until(lambda: view.width() > wide and is_shown(3))
-assert check_place(3) == (wide, low)
+until(lambda: view.width() > wide and is_shown(6))
+assert check_place(6) == (wide, low)
 report("narrow")
 
 Hide(bench, flat)
-until(lambda: not is_shown(3))
+until(lambda: not is_shown(6))
 Show(bench, flat)
-until(lambda: is_shown(3))
-check_place(3)
+until(lambda: is_shown(6))
+check_place(6)
 flat.InteractionMode = "3D"
 Render(flat)
-until(lambda: not is_shown(3))
+until(lambda: not is_shown(6))
 flat.InteractionMode = "2D"
 Render(flat)
-until(lambda: is_shown(3))
+until(lambda: is_shown(6))
 report("3-D")
 
 Delete(bench)
-until(lambda: not is_shown(3))
+until(lambda: not is_shown(6))
 report("deleted")
 """)
 user.play(INSIDE + OPEN_JET)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A flow in a 3-D view, and pictures beside it that follow its camera."""
+"""A flow in a 3-D view, and the images of filters beside it."""
 
 import os
 
@@ -9,7 +9,7 @@ from window_testing import FOLDER
 
 SIZE = 96
 
-# The script that sets it up: "bench" in RenderView2 and "shadows" in RenderView3 follow RenderView1.
+# The script that sets it up: "flow" in RenderView1, "bench" in RenderView2 and "shadows" in RenderView3.
 SCENE = f"""
 import os, sys
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Gui"))
@@ -27,7 +27,7 @@ for place, (name, cutoff) in enumerate((("bench", "Knife Edge"), ("shadows", "Sh
     AssignViewToLayout(view, layout, 2 if place == 0 else 6)
     SetActiveSource(flow)
     bench = Schlieren(Input=flow, registrationName=name, ImageSize={[SIZE, SIZE]}, Cutoff=cutoff,
-                      GladstoneDaleConstant=1e-6, Quality="Draft", FollowedView="RenderView1")
+                      GladstoneDaleConstant=1e-6, Quality="Draft")
     shown = Show(bench, view)
     shown.SetRepresentationType("Slice")
     ColorBy(shown, ("POINTS", "Intensity"))
@@ -39,19 +39,14 @@ SetActiveSource(benches["bench"])
 """
 
 
-def scripted(simple, schlieren, camera, name="bench"):
-    """The picture that a script makes of what a saved camera sees, by a filter of its own."""
-    position, focus = camera["position0"], camera["focal_point0"]
-    direction = (focus - position) / np.linalg.norm(focus - position)
-    # The middle of the data, at 0, has the same size in both.
-    scale = (camera["parallel_scale0"] if camera["parallel0"]
-             else -position @ direction * np.tan(np.radians(camera["angle0"]) / 2))
+def scripted(simple, schlieren, kept, name="bench"):
+    """A script's own filter with the view of one whose image was saved."""
     flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
     flow.UpdatePipeline()
     return schlieren(Input=flow, ImageSize=[SIZE, SIZE], GladstoneDaleConstant=1e-6, Quality="Draft",
                      Cutoff={"bench": "Knife Edge", "shadows": "Shadowgraph"}[name],
-                     ViewDirection=list(direction), ViewUp=list(camera["view_up0"]),
-                     FocalPoint=list(focus), ParallelScale=float(scale))
+                     ViewDirection=list(kept["direction"]), ViewUp=list(kept["up"]),
+                     FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]))
 
 
 def saved(name):

@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is saved is complete: a screenshot and data in the middle of a refinement, of a filter and of a flow drawn as
+Schlieren, and an animation of the camera with which the view of the latter is linked."""
+
+import os
+
+import numpy as np
+from views_testing import ViewsSession, png, simple
+from filter_testing import SCENE
+from plugin_testing import Schlieren, picture
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from window_testing import FOLDER
+
+SIZE = [300, 200]
+HELPERS = f"""
+bench, turned, shown, drawn = by_name("bench", "RenderView1", "RenderView2", "RenderView4")
+def screenshot(view, name):
+    SaveScreenshot(os.path.join(FOLDER, name), view, ImageResolution={SIZE})
+"""
+
+user = ViewsSession()
+user.press("OnePicture")
+
+# Of a filter.
+user.python(HELPERS + """
+bench.SamplesPerPixel = 400
+Render(shown)
+until(lambda: not finished(bench), 20)
+screenshot(shown, "unfinished.png")
+assert finished(bench)
+screenshot(shown, "finished.png")
+bench.KnifeEdgeAngle, bench.ParallelScale = 30, 13
+Render(shown)
+until(lambda: not finished(bench), 20)
+SaveData(os.path.join(FOLDER, "unfinished.vti"), bench, PointDataArrays=["Intensity"])
+""")
+
+# Of a flow that is drawn.
+user.python(HELPERS + """
+(display,) = displays()
+display.SchlierenBench.SamplesPerPixel = 400
+Render(drawn)
+until(lambda: " of 400 " in information(display.SchlierenBench, "Status"), 20)
+screenshot(drawn, "undrawn.png")
+settle_views()
+screenshot(drawn, "drawn.png")
+""")
+
+# Around it in an animation.
+user.python(HELPERS + f"""
+(display,) = displays()
+display.SchlierenBench.SamplesPerPixel = 2
+scene = GetAnimationScene()
+scene.PlayMode = "Sequence"
+scene.NumberOfFrames = 3
+track = GetCameraTrack(view=turned)
+track.Mode = "Path-based"
+first = CameraKeyFrame(
+    KeyTime=0, PositionPathPoints=[60, 0, 0, 0, 30, 60, -60, 20, 0, 0, 0, -60], ClosedPositionPath=1,
+    FocalPathPoints=[0, 0, 0], ViewUp=[0, 1, 0])
+track.KeyFrames = [first, CameraKeyFrame(KeyTime=1)]
+SaveAnimation(os.path.join(FOLDER, "orbit.png"), drawn, FrameWindow=[0, 2], ImageResolution={SIZE})
+for frame in range(3):
+    scene.AnimationTime = frame / 2
+    assert np.allclose(drawn.GetActiveCamera().GetPosition(), turned.GetActiveCamera().GetPosition())
+    screenshot(drawn, f"reference{{frame}}.png")
+""")
+user.play(SCENE + """
+SetActiveView(turned)
+SetActiveSource(flow)
+""")
+
+
+def image(name):
+    values = png(os.path.join(FOLDER, name))
+    assert values.std() > 10, name
+    return values
+
+
+assert np.array_equal(image("unfinished.png"), image("finished.png"))
+assert np.array_equal(image("undrawn.png"), image("drawn.png"))
+frames = [image(f"orbit.{frame:04}.png") for frame in range(3)]
+for frame, values in enumerate(frames):
+    assert np.array_equal(values, image(f"reference{frame}.png")), frame
+assert not np.array_equal(frames[0], frames[1]) and not np.array_equal(frames[1], frames[2])
+
+flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+flow.UpdatePipeline()
+expected = picture(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Draft",
+                             SamplesPerPixel=400, KnifeEdgeAngle=30, ParallelScale=13), "Intensity")
+saved = simple.XMLImageDataReader(FileName=os.path.join(FOLDER, "unfinished.vti"))
+saved.UpdatePipeline()
+data = saved.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")
+assert np.abs(vtk_to_numpy(data) - expected.ravel()).max() < 1e-5
