@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """What is saved is complete: a screenshot and data in the middle of a refinement, of a filter and of a flow drawn as
-Schlieren, and an animation of the camera with which the view of the latter is linked."""
+Schlieren, and an animation of the latter's camera."""
 
 import os
 
@@ -54,7 +54,7 @@ display.SchlierenBench.SamplesPerPixel = 2
 scene = GetAnimationScene()
 scene.PlayMode = "Sequence"
 scene.NumberOfFrames = 3
-track = GetCameraTrack(view=turned)
+track = GetCameraTrack(view=drawn)
 track.Mode = "Path-based"
 first = CameraKeyFrame(
     KeyTime=0, PositionPathPoints=[60, 0, 0, 0, 30, 60, -60, 20, 0, 0, 0, -60], ClosedPositionPath=1,
@@ -63,6 +63,7 @@ track.KeyFrames = [first, CameraKeyFrame(KeyTime=1)]
 SaveAnimation(os.path.join(FOLDER, "orbit.png"), drawn, FrameWindow=[0, 2], ImageResolution={SIZE})
 for frame in range(3):
     scene.AnimationTime = frame / 2
+    Render(drawn)
     assert np.allclose(drawn.GetActiveCamera().GetPosition(), turned.GetActiveCamera().GetPosition())
     screenshot(drawn, f"reference{{frame}}.png")
 """)
