@@ -8,6 +8,7 @@
 #include "vtkPVDataInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionProxy.h"
@@ -15,7 +16,6 @@
 
 #include <QVariant>
 
-#include <algorithm>
 #include <string>
 
 namespace
@@ -29,43 +29,6 @@ constexpr const char* isToBeFilled = "SchlierenIsToBeFilled";
 int valueOf(vtkSMProxy* proxy, const char* name)
 {
   return vtkSMPropertyHelper(proxy, name).GetAsInt();
-}
-
-bool hasColors(vtkSMProxy* filter)
-{
-  return valueOf(filter, "ColorByField") != 0 ||
-    Filter::CutoffHasColor(valueOf(filter, "Cutoff"), valueOf(filter, "WhiteLight") != 0,
-      valueOf(filter, "BackgroundPattern"));
-}
-
-double white(vtkSMProxy* filter)
-{
-  return Filter::CutoffHasScreen(valueOf(filter, "Cutoff")) ? 2 : 1;
-}
-
-std::string shownArray(vtkSMProxy* representation)
-{
-  const char* name =
-    vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
-  return name ? name : "";
-}
-
-/// What is white, where the colour map goes from 0 up to one of the values of white(); else 0.
-double shownWhite(vtkSMProxy* representation)
-{
-  vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
-  if (!colors)
-  {
-    return 0;
-  }
-  // Nodes of four values; the first is the place.
-  const auto nodes = vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray();
-  if (nodes.size() < 8 || nodes.front() != 0)
-  {
-    return 0;
-  }
-  const double last = nodes[nodes.size() - 4];
-  return last == 1 || last == 2 ? last : 0;
 }
 
 void setValue(vtkSMProxy* proxy, const char* name, int value)
@@ -99,7 +62,7 @@ void setMapScalars(vtkSMProxy* representation, int value)
 //------------------------------------------------------------------------------
 void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
-  const bool isColored = hasColors(filter);
+  const bool isColored = white(filter) == 0;
   setValue(representation, "UseSeparateColorMap", 1);
   setMapScalars(representation, isColored ? 0 : 1);
   if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
@@ -122,35 +85,14 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 //------------------------------------------------------------------------------
 void PictureDisplay::fill(pqView* view, vtkSMSourceProxy* filter)
 {
-  vtkSMProxy* proxy = view->getProxy();
-  vtkPVDataInformation* image = filter->GetDataInformation(0);
-  const int* extent = image->GetExtent();
-  const double* bounds = image->GetBounds();
-  const bool hasImage =
-    image->GetNumberOfPoints() > 0 && extent[0] < extent[1] && extent[2] < extent[3];
+  const bool hasImage = filter->GetDataInformation(0)->GetNumberOfPoints() > 0;
   view->setProperty(isToBeFilled, !hasImage);
-  if (!hasImage)
+  if (hasImage)
   {
-    return;
+    auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
+    SM_SCOPED_TRACE(CallMethod).arg(proxy).arg("ResetCamera").arg(true);
+    proxy->ResetCamera(true);
   }
-  double focus[3] = { 0, 0, 0 };
-  double half[2]; // pixels are around points
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const double points = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    focus[axis] = 0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]);
-    half[axis] =
-      0.5 * (bounds[2 * axis + 1] - bounds[2 * axis]) * points / (points - 1);
-  }
-  const auto window = vtkSMPropertyHelper(proxy, "ViewSize").GetIntArray();
-  const double scale = std::max(half[1], half[0] * window[1] / std::max(1, window[0]));
-  const double position[3] = { focus[0], focus[1], 10 * scale };
-  const double up[3] = { 0, 1, 0 };
-  vtkSMPropertyHelper(proxy, "CameraFocalPoint").Set(focus, 3);
-  vtkSMPropertyHelper(proxy, "CameraPosition").Set(position, 3);
-  vtkSMPropertyHelper(proxy, "CameraViewUp").Set(up, 3);
-  vtkSMPropertyHelper(proxy, "CameraParallelScale").Set(scale);
-  proxy->UpdateVTKObjects();
 }
 
 //------------------------------------------------------------------------------
@@ -164,25 +106,26 @@ void PictureDisplay::fillOnce(pqView* view, vtkSMSourceProxy* filter)
 }
 
 //------------------------------------------------------------------------------
+double PictureDisplay::white(vtkSMProxy* filter)
+{
+  const int cutoff = valueOf(filter, "Cutoff");
+  const bool isColored = valueOf(filter, "ColorByField") != 0 ||
+    Filter::CutoffHasColor(
+      cutoff, valueOf(filter, "WhiteLight") != 0, valueOf(filter, "BackgroundPattern"));
+  return isColored ? 0 : Filter::CutoffHasScreen(cutoff) ? 2 : 1;
+}
+
+//------------------------------------------------------------------------------
 bool PictureDisplay::isApplied(vtkSMProxy* representation)
 {
   if (!representation->GetProperty("ColorArrayName") ||
-    !representation->GetProperty("MapScalars") ||
     !representation->GetProperty("UseSeparateColorMap"))
   {
     return false;
   }
-  const std::string array = shownArray(representation);
-  const bool isMapped = valueOf(representation, "MapScalars") != 0;
-  return (array == "Color" && !isMapped) ||
-    (array == "Intensity" && isMapped && valueOf(representation, "UseSeparateColorMap") != 0 &&
-      shownWhite(representation) > 0);
-}
-
-//------------------------------------------------------------------------------
-bool PictureDisplay::suits(vtkSMProxy* representation, vtkSMProxy* filter)
-{
-  return hasColors(filter)
-    ? shownArray(representation) == "Color"
-    : shownArray(representation) == "Intensity" && shownWhite(representation) == white(filter);
+  const char* name =
+    vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
+  const std::string array = name ? name : "";
+  return valueOf(representation, "UseSeparateColorMap") != 0 &&
+    (array == "Color" || array == "Intensity");
 }

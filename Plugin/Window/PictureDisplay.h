@@ -20,10 +20,10 @@ void apply(vtkSMProxy* representation, vtkSMProxy* filter);
 void fill(pqView* view, vtkSMSourceProxy* filter);
 void fillOnce(pqView* view, vtkSMSourceProxy* filter);
 
-/// Whether it is shown as apply() does it for some cutoff, that is, nobody has chosen something else.
-bool isApplied(vtkSMProxy* representation);
+/// What apply() chooses by the filter's cutoff: what is white; 0: the image has its own colours.
+double white(vtkSMProxy* filter);
 
-/// Whether it is shown as apply() does it for the filter's cutoff.
-bool suits(vtkSMProxy* representation, vtkSMProxy* filter);
+/// Whether it is shown by one of the arrays that apply() chooses, with colours of its own.
+bool isApplied(vtkSMProxy* representation);
 
 } // namespace PictureDisplay

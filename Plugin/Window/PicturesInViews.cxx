@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PicturesInViews.h"
 
+#include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
 #include "pqOutputPort.h"
-#include "pqPipelineSource.h"
+#include "pqPipelineFilter.h"
+#include "pqRenderView.h"
 #include "pqServerManagerModel.h"
-#include "pqView.h"
 
 #include "vtkPVRenderView.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMViewLayoutProxy.h"
 
 #include <QSet>
 #include <QWidget>
@@ -57,6 +59,43 @@ bool picturesInViews::isSchlieren(pqPipelineSource* source)
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
   return name && std::strcmp(name, "Schlieren") == 0 &&
     source->getProxy()->GetProperty("PictureCount");
+}
+
+//------------------------------------------------------------------------------
+pqPipelineSource* picturesInViews::filterOf(pqPipelineSource* source)
+{
+  if (!source || isSchlieren(source))
+  {
+    return source;
+  }
+  auto* filter = qobject_cast<pqPipelineFilter*>(source);
+  for (pqOutputPort* input : filter ? filter->getAllInputs() : QList<pqOutputPort*>())
+  {
+    if (pqPipelineSource* found = filterOf(input->getSource()))
+    {
+      return found;
+    }
+  }
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
+pqRenderView* picturesInViews::scene(pqServer* server)
+{
+  QList<pqRenderView*> views = model()->findItems<pqRenderView*>(server);
+  auto* active = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  if (active && views.removeOne(active))
+  {
+    views.prepend(active);
+  }
+  vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
+  const auto isMeant = [active, layout](pqRenderView* view)
+  {
+    return picturesIn(view).empty() &&
+      (view == active || (layout && layout->ContainsView(view->getProxy())));
+  };
+  const auto found = std::find_if(views.begin(), views.end(), isMeant);
+  return found == views.end() ? nullptr : *found;
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,8 @@
 #include <QList>
 
 class pqPipelineSource;
+class pqRenderView;
+class pqServer;
 class pqView;
 
 /// Which views show the images of which filters.
@@ -12,6 +14,12 @@ namespace picturesInViews
 {
 
 bool isSchlieren(pqPipelineSource* source);
+
+/// The Schlieren filter whose image this is made from: itself, or one upstream; null where there is none.
+pqPipelineSource* filterOf(pqPipelineSource* source);
+
+/// The 3-D view that is meant: the active one, or another one beside it. Null where all show images of filters.
+pqRenderView* scene(pqServer* server);
 
 /// All filters that make images, of all servers.
 QList<pqPipelineSource*> filters();

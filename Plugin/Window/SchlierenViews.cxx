@@ -5,7 +5,7 @@
 #include "CameraLink.h"
 #include "FlowOfPort.h"
 #include "PictureDisplay.h"
-#include "SchlierenFilters.h"
+#include "PicturesInViews.h"
 #include "UndoStep.h"
 #include "VolumeDisplay.h"
 #include "pqPictureRefiner.h"
@@ -234,10 +234,7 @@ public:
       }
       PictureDisplay::apply(representation, filter->getProxy());
     }
-    {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
-      PictureDisplay::fill(view, filter->getSourceProxy());
-    }
+    PictureDisplay::fill(view, filter->getSourceProxy());
     const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window, window)]()
     {
       if (vtkSMProxy* again = id.get())
@@ -263,7 +260,7 @@ private:
   /// The 3-D view, one that shows the flow where there was none.
   void findScene()
   {
-    this->Scene = sceneView(this->Server);
+    this->Scene = picturesInViews::scene(this->Server);
     if (!this->Scene)
     {
       auto* builder = pqApplicationCore::instance()->getObjectBuilder();
@@ -433,7 +430,7 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   {
     return { false, true, missing };
   }
-  pqPipelineSource* selected = schlierenFilterOf(flow ? flow->getSource() : nullptr);
+  pqPipelineSource* selected = picturesInViews::filterOf(flow ? flow->getSource() : nullptr);
   if (selected)
   {
     const auto inputs = qobject_cast<pqPipelineFilter*>(selected)->getInputs("Input");

@@ -9,9 +9,9 @@
 #include "pqDataRepresentation.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
+#include "pqRenderView.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
-#include "pqView.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
@@ -21,29 +21,16 @@
 #include "vtkSMProxyLocator.h"
 #include "vtkSMTrace.h"
 
+#include <QVariant>
+
 #include <cstring>
 #include <sstream>
 
 namespace
 {
 
-/// Sets a property to the value that is kept in a proxy's part of a state file.
-void setFromState(vtkSMProxy* proxy, const char* name, vtkPVXMLElement* state)
-{
-  for (unsigned int i = 0; i < state->GetNumberOfNestedElements(); ++i)
-  {
-    vtkPVXMLElement* property = state->GetNestedElement(i);
-    vtkPVXMLElement* element = property->FindNestedElementByName("Element");
-    const char* itsName = property->GetAttribute("name");
-    int value = 0;
-    if (element && itsName && std::strcmp(itsName, name) == 0 &&
-      element->GetScalarAttribute("value", &value))
-    {
-      vtkSMPropertyHelper(proxy, name).Set(value);
-      proxy->UpdateVTKObjects();
-    }
-  }
-}
+/// A property of a source: PictureDisplay::white() of its cutoff so far.
+constexpr const char* lastWhite = "SchlierenWhite";
 
 } // namespace
 
@@ -69,6 +56,7 @@ void pqPictureDisplayKeeper::watch(pqPipelineSource* source)
 {
   if (picturesInViews::isSchlieren(source))
   {
+    source->setProperty(lastWhite, PictureDisplay::white(source->getProxy()));
     this->Events->Connect(
       source->getProxy(), vtkCommand::UpdateEvent, this, SLOT(onFilterChanged(vtkObject*)));
   }
@@ -80,15 +68,16 @@ void pqPictureDisplayKeeper::onFilterChanged(vtkObject* filter)
   auto* proxy = static_cast<vtkSMProxy*>(filter);
   auto* source =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(proxy);
-  pqOutputPort* picture = source ? source->getOutputPort(0) : nullptr;
-  if (!picture)
+  const double white = PictureDisplay::white(proxy);
+  if (!source || source->property(lastWhite).toDouble() == white)
   {
     return;
   }
-  for (pqDataRepresentation* shown : picture->getRepresentations(nullptr))
+  source->setProperty(lastWhite, white);
+  for (pqDataRepresentation* shown : source->getOutputPort(0)->getRepresentations(nullptr))
   {
     vtkSMProxy* representation = shown->getProxy();
-    if (PictureDisplay::isApplied(representation) && !PictureDisplay::suits(representation, proxy))
+    if (PictureDisplay::isApplied(representation))
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
       PictureDisplay::apply(representation, proxy);
@@ -105,17 +94,24 @@ void pqPictureDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLoca
   for (unsigned int i = 0; i < state->GetNumberOfNestedElements(); ++i)
   {
     vtkPVXMLElement* element = state->GetNestedElement(i);
-    const char* group = element->GetAttribute("group");
     vtkTypeUInt32 id = 0;
     std::istringstream(element->GetAttributeOrDefault("id", "0")) >> id;
-    vtkSMProxy* proxy =
-      group && std::strcmp(group, "views") == 0 ? locator->LocateProxy(id) : nullptr;
-    auto* view = model->findItem<pqView*>(proxy);
-    if (view && picturesInViews::isFlat(view) && !picturesInViews::picturesIn(view).isEmpty())
+    auto* view = model->findItem<pqRenderView*>(
+      element->GetAttribute("group") ? locator->LocateProxy(id) : nullptr);
+    for (unsigned int j = 0; view && j < element->GetNumberOfNestedElements(); ++j)
     {
-      SCOPED_UNDO_EXCLUDE();
-      setFromState(proxy, "UseFXAA", element);
-      view->render();
+      vtkPVXMLElement* property = element->GetNestedElement(j);
+      vtkPVXMLElement* value = property->FindNestedElementByName("Element");
+      int isOn = 0;
+      if (value && value->GetScalarAttribute("value", &isOn) &&
+        std::strcmp(property->GetAttributeOrDefault("name", ""), "UseFXAA") == 0 &&
+        !picturesInViews::picturesIn(view).isEmpty())
+      {
+        SCOPED_UNDO_EXCLUDE();
+        vtkSMPropertyHelper(view->getProxy(), "UseFXAA").Set(isOn);
+        view->getProxy()->UpdateVTKObjects();
+        view->render();
+      }
     }
   }
 }

@@ -98,12 +98,6 @@ bool isFinished(vtkSMSourceProxy* filter)
   return vtkSMPropertyHelper(filter, "Finished").GetAsInt() != 0;
 }
 
-bool isLeft(vtkSMSourceProxy* filter)
-{
-  filter->UpdatePropertyInformation(filter->GetProperty("Stopped"));
-  return vtkSMPropertyHelper(filter, "Stopped").GetAsInt() != 0;
-}
-
 int percentDone(vtkSMSourceProxy* filter)
 {
   filter->UpdatePropertyInformation(filter->GetProperty("PercentDone"));
@@ -187,8 +181,8 @@ pqPictureRefiner* pqPictureRefiner::instance()
 void pqPictureRefiner::watch(pqView* view)
 {
   // Before ParaView looks whether there is anything to update.
-  this->Connection->Connect(view->getProxy(), vtkCommand::StartEvent, this,
-    SLOT(onStartRender(vtkObject*)), nullptr, 1);
+  this->Connection->Connect(
+    view->getProxy(), vtkCommand::StartEvent, this, SLOT(onStartRender(vtkObject*)), nullptr, 1);
   this->Connection->Connect(
     view->getProxy(), vtkCommand::EndEvent, this, SLOT(onEndRender(vtkObject*)));
 }
@@ -209,7 +203,6 @@ void pqPictureRefiner::watchAnimation(pqProxy* item)
 //------------------------------------------------------------------------------
 void pqPictureRefiner::forget(pqPipelineSource* source)
 {
-  this->Stopped.remove(source->getProxy());
   this->Jobs.erase(std::remove_if(this->Jobs.begin(), this->Jobs.end(),
                      [source](const Job& job) { return job.Filter == source->getProxy(); }),
     this->Jobs.end());
@@ -225,7 +218,6 @@ void pqPictureRefiner::refine(vtkSMProxy* proxy)
     pqRepresentationRefiner::renderViewsOf(proxy);
     return;
   }
-  this->setStopped(filter, false);
   if (!this->hasJob(filter))
   {
     Job job{ filter };
@@ -276,7 +268,8 @@ void pqPictureRefiner::takeTurn()
   source = sourceOf(job.Filter); // rendering may have been its end
   if (source && (!isUnfinished || (!job.IsAnnounced && job.ShownCount >= 0)))
   {
-    job.IsAnnounced = true; // what panels say of the image is nearly right from the first samples on
+    job.IsAnnounced =
+      true; // what panels say of the image is nearly right from the first samples on
     Q_EMIT source->dataUpdated(source);
   }
   if (source && isUnfinished && !this->hasJob(job.Filter))
@@ -367,22 +360,6 @@ void pqPictureRefiner::report()
 }
 
 //------------------------------------------------------------------------------
-bool pqPictureRefiner::isStopped(vtkSMProxy* filter) const
-{
-  return this->Stopped.contains(filter);
-}
-
-//------------------------------------------------------------------------------
-void pqPictureRefiner::setStopped(vtkSMProxy* filter, bool isStopped)
-{
-  if (this->Stopped.contains(filter) != isStopped)
-  {
-    isStopped ? void(this->Stopped.insert(filter)) : void(this->Stopped.remove(filter));
-    Q_EMIT this->stoppedChanged(filter);
-  }
-}
-
-//------------------------------------------------------------------------------
 void pqPictureRefiner::stop()
 {
   if (this->IsBusy || this->isShort())
@@ -415,10 +392,6 @@ void pqPictureRefiner::stop()
       setTimeLimit(filter, 0);
       this->show(filter, views);
     }
-    if (sourceOf(filter) && isLeft(filter))
-    {
-      this->setStopped(filter, true);
-    }
     if (pqPipelineSource* still = sourceOf(filter))
     {
       Q_EMIT still->dataUpdated(still);
@@ -426,24 +399,6 @@ void pqPictureRefiner::stop()
   }
   this->report();
   this->wakeUp();
-}
-
-//------------------------------------------------------------------------------
-void pqPictureRefiner::resume(vtkSMProxy* proxy)
-{
-  auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
-  pqPipelineSource* source = sourceOf(filter);
-  if (!source || !this->isStopped(filter))
-  {
-    return;
-  }
-  this->setStopped(filter, false);
-  const ShortUpdates shortly;
-  requestMore(filter);
-  for (pqView* view : picturesInViews::showing(source))
-  {
-    view->forceRender();
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -497,7 +452,6 @@ void pqPictureRefiner::unlimit()
       this->refine(filter);
     }
     setTimeLimit(filter, 0);
-    this->setStopped(filter, isLeft(filter));
   }
   this->Limited.clear();
 }

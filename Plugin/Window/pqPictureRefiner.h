@@ -10,7 +10,6 @@
 #include <QList>
 #include <QObject>
 #include <QPointer>
-#include <QSet>
 #include <QTimer>
 
 class pqPipelineSource;
@@ -40,12 +39,8 @@ public:
   /// (UpdateVTKObjects), in all views that show it.
   void refine(vtkSMProxy* filter);
 
-  /// Leaves all images as they are that are being refined.
+  /// Leaves all images as they are that are being refined, until something else changes them.
   void stop();
-
-  /// Whether a filter's image has been left unfinished by the user, and continuing it.
-  bool isStopped(vtkSMProxy* filter) const;
-  void resume(vtkSMProxy* filter);
 
   /// Whether there are ShortUpdates.
   bool isShort() const { return this->NumberOfShortUpdates > 0; }
@@ -70,9 +65,6 @@ Q_SIGNALS:
 
   /// What is being refined for some time now, and how much of it is there; nothing any more: empty.
   void progressed(const QString& what, int percent);
-
-  /// isStopped() has changed.
-  void stoppedChanged(vtkSMProxy* filter);
 
 private Q_SLOTS:
   void takeTurn();
@@ -103,7 +95,6 @@ private:
   void limit(vtkSMSourceProxy* filter);
   void unlimit();
   void report();
-  void setStopped(vtkSMProxy* filter, bool isStopped);
   void show(vtkSMSourceProxy* filter, const QList<QPointer<pqView>>& views);
   bool hasJob(vtkSMSourceProxy* filter) const;
 
@@ -113,7 +104,6 @@ private:
   bool IsPlaying = false;
   QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view renders, and by ShortUpdates
   int NumberOfShortUpdates = 0;
-  QSet<vtkSMProxy*> Stopped;
   QElapsedTimer SinceReport; // valid while something is reported
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

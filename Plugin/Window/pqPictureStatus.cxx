@@ -3,7 +3,6 @@
 #include "pqPictureStatus.h"
 
 #include "PicturesInViews.h"
-#include "pqPictureRefiner.h"
 #include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
@@ -18,7 +17,6 @@
 #include <QCoreApplication>
 #include <QEvent>
 #include <QLabel>
-#include <QPushButton>
 
 #include <algorithm>
 
@@ -26,7 +24,6 @@ namespace
 {
 
 const QString labelName = "SchlierenStatus";
-const QString buttonName = "SchlierenContinue";
 constexpr int margin = 6; // pixels
 
 /// At the lower left, where there is room for it: for each word, and not over most of an image.
@@ -46,27 +43,14 @@ QLabel* labelOf(QWidget* view)
   return view->findChild<QLabel*>(labelName, Qt::FindDirectChildrenOnly);
 }
 
-QPushButton* buttonOf(QWidget* view)
-{
-  return view->findChild<QPushButton*>(buttonName, Qt::FindDirectChildrenOnly);
-}
-
-/// Above the line.
-void place(QPushButton* button, const QLabel* label)
-{
-  button->resize(button->sizeHint());
-  button->move(label->x(), label->y() - button->height() - margin);
-}
-
 QString statusOf(vtkSMProxy* filter)
 {
-  filter->UpdatePropertyInformation(filter->GetProperty("Status"));
-  return QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
-}
-
-bool isStopped(pqPipelineSource* filter)
-{
-  return pqPictureRefiner::instance()->isStopped(filter->getProxy());
+  for (const char* name : { "Status", "Stopped" })
+  {
+    filter->UpdatePropertyInformation(filter->GetProperty(name));
+  }
+  const QString status = QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
+  return vtkSMPropertyHelper(filter, "Stopped").GetAsInt() != 0 ? "Stopped. " + status : status;
 }
 
 } // namespace
@@ -89,18 +73,6 @@ pqPictureStatus::pqPictureStatus(QObject* parentObject)
         view->disconnect(this);
       }
     });
-  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::stoppedChanged, this,
-    [this, model](vtkSMProxy* filter)
-    {
-      auto* source = model->findItem<pqPipelineSource*>(filter);
-      for (pqView* view : source ? picturesInViews::showing(source) : QList<pqView*>())
-      {
-        if (auto* flat = qobject_cast<pqRenderView*>(view))
-        {
-          this->show(flat);
-        }
-      }
-    });
   for (pqView* view : model->findItems<pqView*>())
   {
     this->watch(view);
@@ -113,15 +85,7 @@ void pqPictureStatus::watch(pqView* item)
   if (auto* view = qobject_cast<pqRenderView*>(item))
   {
     const auto update = [this, view]() { this->show(view); };
-    QObject::connect(view, &pqView::updateDataEvent, this, update);
-    QObject::connect(view, &pqView::endRender, this,
-      [update, view]()
-      {
-        if (!pqRepresentationRefiner::benchesIn(view).isEmpty())
-        {
-          update();
-        }
-      });
+    QObject::connect(view, &pqView::endRender, this, update);
     QObject::connect(view, &pqView::representationVisibilityChanged, this, update);
     QObject::connect(view, &pqView::representationRemoved, this, update);
   }
@@ -140,8 +104,7 @@ void pqPictureStatus::show(pqRenderView* view)
   {
     for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
     {
-      const QString status = statusOf(filter->getProxy());
-      lines << (isStopped(filter) ? "Stopped. " + status : status);
+      lines << statusOf(filter->getProxy());
     }
   }
   for (vtkSMProxy* bench : pqRepresentationRefiner::benchesIn(view))
@@ -164,35 +127,6 @@ void pqPictureStatus::show(pqRenderView* view)
   {
     label->setText(lines.join('\n'));
     place(label, widget);
-    this->showButton(view, label);
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqPictureStatus::showButton(pqRenderView* view, const QLabel* label)
-{
-  const QList<pqPipelineSource*> filters = picturesInViews::picturesIn(view);
-  const bool isWanted =
-    picturesInViews::isFlat(view) && std::any_of(filters.begin(), filters.end(), isStopped);
-  QPushButton* button = buttonOf(view->widget());
-  if (!button && isWanted)
-  {
-    button = new QPushButton("Continue", view->widget());
-    button->setObjectName(buttonName);
-    button->setToolTip("Go on with the image that has been stopped");
-    QObject::connect(button, &QPushButton::clicked, this,
-      [view]()
-      {
-        for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
-        {
-          pqPictureRefiner::instance()->resume(filter->getProxy());
-        }
-      });
-  }
-  if (button)
-  {
-    place(button, label);
-    button->setVisible(isWanted);
   }
 }
 
@@ -204,10 +138,6 @@ bool pqPictureStatus::eventFilter(QObject* object, QEvent* event)
   if (label)
   {
     place(label, widget);
-    if (QPushButton* button = buttonOf(widget))
-    {
-      place(button, label);
-    }
   }
   return QObject::eventFilter(object, event);
 }

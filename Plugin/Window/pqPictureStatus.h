@@ -4,13 +4,11 @@
 
 #include <QObject>
 
-class QLabel;
 class pqRenderView;
 class pqView;
 
 /// Writes at the lower left of views how complete the images are that they show: the Status of filters and of those
-/// inside of representations.
-/// Below *Continue*, where the user has stopped one. Not part of what is saved.
+/// inside of representations. Not part of what is saved.
 class pqPictureStatus : public QObject
 {
   Q_OBJECT
@@ -25,5 +23,4 @@ protected:
 private:
   void watch(pqView* view);
   void show(pqRenderView* view);
-  void showButton(pqRenderView* view, const QLabel* label);
 };

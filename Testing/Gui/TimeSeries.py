@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A flow that changes with time: the image of one click goes with it when the animation is played, stepped and saved,
-and is each time the whole one of a script, at one k."""
+"""A flow that changes with time: the view of one click goes with it when the animation is played, stepped and saved,
+and has each time the complete image of a script, at one k."""
 
 import json
 import os
 
 import numpy as np
-from views_testing import FOLDER, ViewsSession, filters, load, png, simple, views
+from views_testing import FOLDER, INSIDE, ViewsSession, drawn, load, png, simple, views
 from plugin_testing import Schlieren
 from series_testing import write_series
-from window_testing import PANEL
-from follow_testing import saved
+from filter_testing import saved
+from window_testing import BENCH, PANEL
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 TIMES = [0, 0.1, 0.3, 0.7]
@@ -28,10 +28,18 @@ def blob(x, y, z, time):
 
 
 FIND = """
-bench, shown = FindSource("Schlieren1"), FindView("RenderView2")
+shown = FindView("RenderView2")
+(display,) = displays()
+bench = display.SchlierenBench
 """
 SETTLE = FIND + """
-settle(bench)
+settle_views()
+def save(name):
+    image = bench.GetClientSideObject().GetOutputDataObject(0)
+    camera = shown.GetActiveCamera()
+    np.savez(os.path.join(FOLDER, name), intensity=vtk_to_numpy(image.GetPointData().GetArray("Intensity")),
+             dimensions=image.GetDimensions(), direction=camera.GetDirectionOfProjection(), up=camera.GetViewUp(),
+             focus=camera.GetFocalPoint(), scale=camera.GetParallelScale(), k=information(bench, "KScaleUsed"))
 """
 # What is shown from here on goes into a log.
 NOTE = f"""
@@ -54,7 +62,7 @@ def begin(name):
 
 write_series(SERIES, TIMES, 25, blob)
 open(LOG, "w", encoding="utf-8").close()
-user = ViewsSession()
+user = ViewsSession(BENCH)
 
 
 def vcr(name):
@@ -65,7 +73,7 @@ def vcr(name):
 user.press("OnePicture")
 user.python(SETTLE + NOTE + begin("played"))
 vcr("Play")
-user.python(SETTLE + "save('played', bench)\n" + begin("stepped"))
+user.python(SETTLE + "save('played')\n" + begin("stepped"))
 user.check_at(PANEL + "/Accept", "enabled", "false")
 user.check("LockK/ComboBox", "currentText", "Over Time")
 user.python(FIND + f"""
@@ -75,37 +83,36 @@ with open({NOTES!r}, "w") as file:
 """)
 user.save_state("played.pvsm")
 vcr("FirstFrame")
-user.python(SETTLE + "save('first', bench)\n")
+user.python(SETTLE + "save('first')\n")
 vcr("NextFrame")
-user.python(SETTLE + "save('next', bench)\n")
+user.python(SETTLE + "save('next')\n")
 
 # Played and saved from the middle of a refinement.
-BEGIN = FIND + f"""
-bench.ImageSize, bench.SamplesPerPixel = {SIZE}, 400
-turned = FindView("RenderView1")
-turned.CameraPosition = [1 + turned.CameraPosition[2] / 3, 0.5, turned.CameraPosition[2]]
-Render(turned)
-until(lambda: not finished(bench), 20)
+BEGIN = FIND + """
+bench.SamplesPerPixel = 400
+scene = FindView("RenderView1")
+scene.CameraPosition = [1 + scene.CameraPosition[2] / 3, 0.5, scene.CameraPosition[2]]
+Render(scene)
+until(lambda: " of 400 " in information(bench, "Status"), 20)
 bench.SamplesPerPixel = 16
 """
 user.python(BEGIN + begin("again") + "GetAnimationScene().GoToFirst()")
 vcr("Play")
-user.python(SETTLE + "save('again', bench)\n" + begin("begun"))
+user.python(SETTLE + "save('again')\n" + begin("begun"))
 user.python(BEGIN + begin("saved") + f"""
-shown.CameraParallelScale = bench.ParallelScale
+shown.OrientationAxesVisibility = 0
 SaveAnimation(os.path.join(FOLDER, "saved.png"), shown, FrameWindow=[0, 3], ImageResolution={SIZE})
-""" + SETTLE + "save('saved', bench)\n")
+""" + begin("over") + SETTLE + "save('saved')\n")
 user.save_state("saved.pvsm")
 
-user.play(f"""
-import sys
-sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+user.play(INSIDE + f"""
 from paraview.simple import *
 flow = OpenDataFile({SERIES!r}, registrationName="flow")
 flow.UpdatePipeline()
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 view = GetActiveViewOrCreate("RenderView")
 Show(flow, view)
+view.CameraParallelProjection = 1
 view.ResetCamera()
 SetActiveSource(flow)
 """)
@@ -114,29 +121,26 @@ made = {}
 SAMPLES = {name: {"SamplesPerPixel": 16} for name in ("again", "saved")}
 
 
-def scripted(name, time):
-    """The image of a script, as a kept one is set and at its k, at a time: intensity and optical path."""
+def scripted(name, time, size=None):
+    """The image of a script's filter, with the camera and the k of a kept one, at a time: intensity and optical path."""
     kept = saved(name)
-    k = float(kept["k"])
-    size = [int(pixels) for pixels in kept["dimensions"][:2]]
-    key = (time, k, *size, *kept["direction"], float(kept["scale"]))
+    size = size or [int(pixels) for pixels in kept["dimensions"][:2]]
+    key = (time, float(kept["k"]), *size, *kept["direction"], float(kept["scale"]))
     if key not in made:
         flow.UpdatePipeline(time)
         bench = Schlieren(
             Input=flow, Density=["POINTS", "rho"], ImageSize=size, ViewDirection=list(kept["direction"]),
             ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
-            AutoKScale=0, KScale=k, **SAMPLES.get(name, {}))
+            AutoKScale=0, KScale=float(kept["k"]), **SAMPLES.get(name, {}))
         bench.UpdatePipeline(time)
         arrays = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData()
-        made[key] = [vtk_to_numpy(arrays.GetArray(name)).copy()
-                     for name in ("Intensity", "OpticalPathDifference")]
+        made[key] = [vtk_to_numpy(arrays.GetArray(array)).copy() for array in ("Intensity", "OpticalPathDifference")]
         simple.Delete(bench)
     return made[key]
 
 
 for name, time in (("played", TIMES[-1]), ("first", TIMES[0]), ("next", TIMES[1]), ("again", TIMES[-1]),
                    ("saved", TIMES[-1])):
-    assert saved(name)["reduction"] == 1 and saved(name)["limit"] == 0
     expected, _ = scripted(name, time)
     assert np.ptp(expected) > 0.5
     assert np.abs(saved(name)["intensity"] - expected).max() < 1e-5, (name, time)
@@ -161,47 +165,45 @@ for time in (TIMES[0], TIMES[-1]):
     assert np.isclose(k, kept["k"], rtol=1e-9) == (time == TIMES[0]), (time, k, kept["k"])
 assert np.abs(scripted("played", 0)[0] - scripted("played", 0.7)[0]).max() > 0.5
 
-# Each time has been shown, in this order, and each time the whole picture of that time.
+# Each time has been shown, in this order, with all pixels and at one k: those that are saved, and those that take no
+# longer than the window may be busy, in the end as a script makes them.
 for name in ("played", "again", "saved"):
     with open(LOG, encoding="utf-8") as file:
         part = file.read().split(f"= {name}\n")[1].split("=")[0]
     log = [json.loads(line) for line in part.splitlines()]
-    rows = saved(name)["dimensions"][1]
-    assert sorted({row["time"] for row in log}) == TIMES
+    size = SIZE if name == "saved" else [int(pixels) for pixels in saved(name)["dimensions"][:2]]
     assert [row["time"] for row in log] == sorted(row["time"] for row in log), log
-    for row in log:
-        path = scripted(name, row["time"])[1]
-        assert row["finished"] == 1 and row["rows"] == rows, row
-        assert np.isclose(row["least"], path.min(), rtol=1e-6), (row, path.min())
-    assert len({row["least"] for row in log}) == len(TIMES)
-    assert {row["k"] for row in log} == {float(saved(name)["k"])}, log
+    assert {row["rows"] for row in log} == {size[1]} and len({row["k"] for row in log}) == 1, log
+    last = {row["time"]: row for row in log}
+    assert sorted(last) == TIMES
+    for time, row in last.items():
+        least = scripted(name, time, size)[1].min()
+        assert np.isclose(row["least"], least, rtol=5e-3 if name == "again" else 1e-6), (name, row, least)
+        assert row["finished"] == 1 or name == "again", (name, row)
 
-# The saved frames are these pictures, pixel by pixel; not at the rim, where the view sees half of each.
+# The saved frames are these images, pixel by pixel.
 for step, time in enumerate(TIMES):
     frame = png(os.path.join(FOLDER, f"saved.{step:04}.png"))[..., 0] / 255
-    intensity = scripted("saved", time)[0].reshape(SIZE[::-1])
-    difference = np.abs(frame - np.clip(intensity, 0, 1))[2:-2, 2:-2]
+    intensity = scripted("saved", time, SIZE)[0].reshape(SIZE[::-1])
+    difference = np.abs(frame - np.clip(intensity, 0, 1))
     assert difference.max() < 1.5 / 255, (time, difference.max())
 
 # A script that loads the state saves the same frames.
 load("saved.pvsm")
-(bench,) = filters().values()
+(_, (_, view)) = views()
+(flow,) = simple.GetSources().values()
+bench = drawn(flow, view).SchlierenBench
 assert bench.LockK == "Over Time"
-(_, flat), = [pair for pair in views() if pair[1].InteractionMode == "2D"]
-flat.UseFXAA = 0  # ParaView brings it back with a state
-simple.SaveAnimation(os.path.join(FOLDER, "script.png"), flat, FrameWindow=[0, 3], ImageResolution=SIZE)
+simple.SaveAnimation(os.path.join(FOLDER, "script.png"), view, FrameWindow=[0, 3], ImageResolution=SIZE)
 for step in range(len(TIMES)):
     difference = png(os.path.join(FOLDER, f"script.{step:04}.png")) - png(os.path.join(FOLDER, f"saved.{step:04}.png"))
-    assert np.abs(difference)[2:-2, 2:-2].max() <= 1, (step, np.abs(difference).max())
+    assert np.abs(difference).max() <= 1, (step, np.abs(difference).max())
 
-load("played.pvsm")
-(_, scene), _ = views()
-(bench,) = filters().values()
-bench.UpdatePipeline(TIMES[-1])
-intensity = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")
-assert np.abs(vtk_to_numpy(intensity) - saved("played")["intensity"]).max() < 1e-5
 # The air around the blob is clear, though not a value is above its density.
-volume = simple.GetRepresentation(bench.Input, scene)
+load("played.pvsm")
+((_, scene), _) = views()
+(flow,) = simple.GetSources().values()
+volume = simple.GetRepresentation(flow, scene)
 assert volume.Representation == "Volume"
 points = np.reshape(volume.ScalarOpacityFunction.Points, (-1, 4))
 assert np.allclose(points[:, :2], [[AIR - 0.1, 0.5], [AIR, 0]], atol=2e-3), points
