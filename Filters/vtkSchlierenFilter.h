@@ -881,9 +881,7 @@ public:
 
   ///@{
   /**
-   * The name of the render view whose camera ParaView's window makes this image's view follow, or empty
-   * (the default). The filter itself does nothing with it; the window sets ViewDirection, ViewUp,
-   * FocalPoint and ParallelScale.
+   * Of no effect, for existing scripts and state files. Empty by default.
    */
   void SetFollowedView(const char* name) { this->FollowedView = name ? name : ""; }
   const char* GetFollowedView() const { return this->FollowedView.c_str(); }

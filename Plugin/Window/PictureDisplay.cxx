@@ -2,19 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PictureDisplay.h"
 
-#include "pqUndoStack.h"
-#include "pqView.h"
 #include "vtkDataObject.h"
-#include "vtkPVDataInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMRenderViewProxy.h"
-#include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionProxy.h"
 #include "vtkSchlierenFilter.h"
-
-#include <QVariant>
 
 #include <string>
 
@@ -22,9 +15,6 @@ namespace
 {
 
 using Filter = vtkSchlierenFilter;
-
-/// A property of a view whose image is still to come.
-constexpr const char* isToBeFilled = "SchlierenIsToBeFilled";
 
 int valueOf(vtkSMProxy* proxy, const char* name)
 {
@@ -79,29 +69,6 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", colors);
     vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode").Set(-1);
     colors->UpdateVTKObjects();
-  }
-}
-
-//------------------------------------------------------------------------------
-void PictureDisplay::fill(pqView* view, vtkSMSourceProxy* filter)
-{
-  const bool hasImage = filter->GetDataInformation(0)->GetNumberOfPoints() > 0;
-  view->setProperty(isToBeFilled, !hasImage);
-  if (hasImage)
-  {
-    auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
-    SM_SCOPED_TRACE(CallMethod).arg(proxy).arg("ResetCamera").arg(true);
-    proxy->ResetCamera(true);
-  }
-}
-
-//------------------------------------------------------------------------------
-void PictureDisplay::fillOnce(pqView* view, vtkSMSourceProxy* filter)
-{
-  if (view->property(isToBeFilled).toBool())
-  {
-    SCOPED_UNDO_EXCLUDE();
-    PictureDisplay::fill(view, filter);
   }
 }
 

@@ -4,9 +4,7 @@
 // How the picture of a Schlieren filter is to be seen: in grey as on film, or in its own colours.
 #pragma once
 
-class pqView;
 class vtkSMProxy;
-class vtkSMSourceProxy;
 
 namespace PictureDisplay
 {
@@ -14,11 +12,6 @@ namespace PictureDisplay
 /// Shows what the filter's cutoff makes: Intensity in grey, from 0 to 1, of a shadowgraph to 2, with a
 /// colour map that no other picture shares; or Color as it is.
 void apply(vtkSMProxy* representation, vtkSMProxy* filter);
-
-/// Fills a flat view with the image that the filter has made; with the next one that fillOnce() is called for, where
-/// there is none.
-void fill(pqView* view, vtkSMSourceProxy* filter);
-void fillOnce(pqView* view, vtkSMSourceProxy* filter);
 
 /// What apply() chooses by the filter's cutoff: what is white; 0: the image has its own colours.
 double white(vtkSMProxy* filter);

@@ -27,7 +27,8 @@ namespace
 pqServerManagerModel* model() { return pqApplicationCore::instance()->getServerManagerModel(); }
 
 /// Adds the views of a source and of all that is made from it.
-void addViews(pqPipelineSource* source, QSet<pqPipelineSource*>& seen, QList<pqView*>& views)
+void addViews(
+  pqPipelineSource* source, QSet<pqPipelineSource*>& seen, QList<QPointer<pqView>>& views)
 {
   if (seen.contains(source))
   {
@@ -109,10 +110,10 @@ QList<pqPipelineSource*> picturesInViews::filters()
 }
 
 //------------------------------------------------------------------------------
-QList<pqView*> picturesInViews::showing(pqPipelineSource* filter)
+QList<QPointer<pqView>> picturesInViews::showing(pqPipelineSource* filter)
 {
   QSet<pqPipelineSource*> seen;
-  QList<pqView*> views;
+  QList<QPointer<pqView>> views;
   addViews(filter, seen, views);
   return views;
 }

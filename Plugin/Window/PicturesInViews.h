@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QList>
+#include <QPointer>
 
 class pqPipelineSource;
 class pqRenderView;
@@ -25,7 +26,7 @@ pqRenderView* scene(pqServer* server);
 QList<pqPipelineSource*> filters();
 
 /// The visible views that show something of a filter, or something made from it.
-QList<pqView*> showing(pqPipelineSource* filter);
+QList<QPointer<pqView>> showing(pqPipelineSource* filter);
 
 /// The filters whose images are visible in a view.
 QList<pqPipelineSource*> picturesIn(pqView* view);

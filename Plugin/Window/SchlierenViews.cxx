@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SchlierenViews.h"
 
-#include "CameraLink.h"
 #include "FlowOfPort.h"
 #include "PictureDisplay.h"
 #include "PicturesInViews.h"
@@ -19,7 +18,6 @@
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
-#include "pqServerManagerModel.h"
 #include "pqServerResource.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
@@ -234,7 +232,10 @@ public:
       }
       PictureDisplay::apply(representation, filter->getProxy());
     }
-    PictureDisplay::fill(view, filter->getSourceProxy());
+    {
+      SM_SCOPED_TRACE(CallMethod).arg(window).arg("ResetCamera").arg(true);
+      window->ResetCamera(true); // which fills the view
+    }
     const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window, window)]()
     {
       if (vtkSMProxy* again = id.get())

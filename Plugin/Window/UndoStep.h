@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What ParaView's undo stack leaves out.
+// What ParaView's undo stack leaves out: cameras, and links between them.
 #pragma once
 
 #include "vtkSMSession.h"
@@ -9,6 +9,7 @@
 
 #include <functional>
 
+class pqRenderView;
 class vtkSMProxy;
 class vtkSMRenderViewProxy;
 
@@ -29,3 +30,7 @@ private:
 
 /// The camera that a view has, to be set in a view.
 std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to);
+
+/// Links the cameras of two views, as Tools > Add Camera Link does. Unlike that it can be undone, as the last
+/// part of the undo set that is being made.
+void linkCameras(pqRenderView* first, pqRenderView* second);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPictureRefiner.h"
 
-#include "PictureDisplay.h"
 #include "PicturesInViews.h"
 #include "pqRepresentationRefiner.h"
 
@@ -127,16 +126,6 @@ struct Captured : vtkPVView
 bool isCaptured(pqView* view)
 {
   return Captured::is(vtkPVView::SafeDownCast(view->getProxy()->GetClientSideObject()));
-}
-
-QList<QPointer<pqView>> viewsOf(pqPipelineSource* source)
-{
-  QList<QPointer<pqView>> views;
-  for (pqView* view : picturesInViews::showing(source))
-  {
-    views << view;
-  }
-  return views;
 }
 
 } // namespace
@@ -289,7 +278,7 @@ bool pqPictureRefiner::takeTurn(Job& job)
   {
     return false;
   }
-  const QList<QPointer<pqView>> views = viewsOf(source);
+  const QList<QPointer<pqView>> views = picturesInViews::showing(source);
   if (views.isEmpty())
   {
     return false;
@@ -324,7 +313,6 @@ void pqPictureRefiner::show(vtkSMSourceProxy* filter, const QList<QPointer<pqVie
   {
     if (view)
     {
-      PictureDisplay::fillOnce(view, filter);
       view->forceRender();
     }
   }
@@ -378,7 +366,7 @@ void pqPictureRefiner::stop()
     }
     {
       const QuietWindow quiet(source);
-      const QList<QPointer<pqView>> views = viewsOf(source);
+      const QList<QPointer<pqView>> views = picturesInViews::showing(source);
       // What is there is made the filter's output, so that rendering does not request more.
       setTimeLimit(filter, 0.01);
       if (!views.isEmpty())

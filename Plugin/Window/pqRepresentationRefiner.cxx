@@ -28,10 +28,7 @@ namespace
 constexpr double timeSlice = 0.04;
 constexpr int pauseMilliseconds = 1;
 
-bool isSchlieren(pqRepresentation* representation)
-{
-  return pqRepresentationRefiner::isSchlieren(representation);
-}
+constexpr auto isSchlieren = &pqRepresentationRefiner::isSchlieren;
 
 vtkSMProxy* benchOf(pqRepresentation* representation)
 {
