@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns a flow in ParaView's window and measures how well its schlieren image keeps up, that of a filter beside it and
+"""Turns a flow in ParaView's window and measures how well its schlieren image keeps up, that of a linked view beside it and
 that of the view itself: see README.md."""
 
 import os
@@ -31,31 +31,28 @@ layout = GetLayout(turned)
 layout.SplitHorizontal(0, 0.5)
 view = CreateView("RenderView", UseFXAA=0, OrientationAxesVisibility=0, CenterAxesVisibility=0)
 AssignViewToLayout(view, layout, 2)
+display = Show(flow, view)
+display.SchlierenBench.GladstoneDaleConstant = 1e-6
+display.SetRepresentationType("Schlieren")
+AddCameraLink(turned, view, "turned")
 SetActiveSource(flow)
-bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[512, 512],
-                  GladstoneDaleConstant=1e-6, FollowedView="RenderView1")
-shown = Show(bench, view)
-shown.SetRepresentationType("Slice")
-ColorBy(shown, ("POINTS", "Intensity"))
-view.InteractionMode = "2D"
-ResetCamera(view)
 Render(view)
 """
 
 TURN = f"""
 import math
 import time
-flow, bench, turned, shown = by_name("flow", "bench", "RenderView1", "RenderView2")
+flow, turned, shown = by_name("flow", "RenderView1", "RenderView2")
 mouse = turned.GetInteractor()
-pictures = []
+images = []
 
 def rows_of_image(image_of):
     return image_of.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
 
-image_of, whole_rows = bench, 512
+image_of = GetDisplayProperties(flow, shown).SchlierenBench
 
 def note(*_):
-    pictures.append((time.perf_counter(), rows_of_image(image_of)))
+    images.append((time.perf_counter(), rows_of_image(image_of)))
 observed = shown.SMProxy.AddObserver("EndEvent", note)
 
 def mouse_event(event, x, y):
@@ -66,7 +63,7 @@ def mouse_event(event, x, y):
 def turn(what):
     "A circle with the mouse, sixty movements a second as far as there is time."
     mouse_event("LeftButtonPressEvent", 0.7, 0.5)
-    pictures.clear()
+    images.clear()
     begin = last = time.perf_counter()
     frames = []
     while last < begin + {SECONDS}:
@@ -80,41 +77,48 @@ def turn(what):
                 break
             time.sleep(1e-3)
     seconds = time.perf_counter() - begin
-    hurried = list(pictures)
-    pictures.clear()
+    previews = list(images)
+    images.clear()
     mouse_event("LeftButtonReleaseEvent", 0.5, 0.5)
     released = time.perf_counter()
     blocked = []
     while True:
         blocked.append(process_events())
-        if any(rows == whole_rows for _, rows in pictures) and finished(image_of):
+        if any(rows == whole_rows for _, rows in images) and finished(image_of):
             break
     ended = time.perf_counter()
-    whole = [when for when, rows in pictures if rows == whole_rows]
-    rows = sorted(rows for _, rows in hurried)
+    whole = [when for when, rows in images if rows == whole_rows]
+    rows = sorted(rows for _, rows in previews)
     frames.sort()
     blocked.sort()
     with open({REPORT!r}, "a") as file:
         file.write(
-            f"{{what:24}} {{len(hurried) / seconds:6.1f}} pictures/s of {{rows[len(rows) // 2]}} rows, "
+            f"{{what:24}} {{len(previews) / seconds:6.1f}} images/s of {{rows[len(rows) // 2]}} rows, "
             f"{{len(frames) / seconds:5.1f}} frames/s of the 3-D view, {{1e3 * frames[len(frames) // 2]:.0f}} ms "
-            f"each; first whole picture {{1e3 * (whole[0] - released):.0f}} ms after release, "
-            f"last after {{ended - released:.2f}} s in {{len(whole)}} pictures; blocked "
+            f"each; first complete image {{1e3 * (whole[0] - released):.0f}} ms after release, "
+            f"last after {{ended - released:.2f}} s in {{len(whole)}} images; blocked "
             f"{{1e3 * blocked[-1]:.0f}} ms at most, then {{1e3 * blocked[-2]:.0f}}\\n")
     pause(1)
+
+def turn_with(view):
+    global whole_rows
+    whole_rows = view.ViewSize[1]
+    for quality in "Interactive", "Draft", "Publication":
+        image_of.Quality = quality
+        Render(view)
+        until(lambda: finished(image_of) and rows_of_image(image_of) == whole_rows)
+        pause(1)
+        turn(f"{{GetDisplayProperties(flow, turned).Representation}}, {{view.ViewSize[0]}} x {{whole_rows}}, {{quality}}")
 
 for display in "Outline", "Volume":
     GetDisplayProperties(flow, turned).SetRepresentationType(display)
     Render(turned)
-    for quality in "Interactive", "Draft", "Publication":
-        bench.Quality = quality
-        Render(shown)
-        turn(f"{{display}}, {{quality}}")
+    turn_with(shown)
 
 # The same data drawn as Schlieren in the view itself.
 shown.SMProxy.RemoveObserver(observed)
+RemoveCameraLink("turned")
 Delete(shown)
-Delete(bench)
 layout = GetLayout(turned)
 layout.Collapse(2)
 layout.SplitHorizontal(0, 0.5)
@@ -124,14 +128,7 @@ image_of = display.SchlierenBench
 image_of.GladstoneDaleConstant = 1e-6
 display.SetRepresentationType("Schlieren")
 turned.SMProxy.AddObserver("EndEvent", note)
-Render(turned)
-whole_rows = turned.ViewSize[1]
-for quality in "Interactive", "Draft", "Publication":
-    image_of.Quality = quality
-    Render(turned)
-    until(lambda: finished(image_of) and rows_of_image(image_of) == whole_rows)
-    pause(1)
-    turn(f"{{turned.ViewSize[0]}} x {{whole_rows}}, {{quality}}")
+turn_with(turned)
 """
 
 user = Session()
