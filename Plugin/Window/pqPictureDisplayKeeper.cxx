@@ -96,8 +96,8 @@ void pqPictureDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLoca
     vtkPVXMLElement* element = state->GetNestedElement(i);
     vtkTypeUInt32 id = 0;
     std::istringstream(element->GetAttributeOrDefault("id", "0")) >> id;
-    auto* view = model->findItem<pqRenderView*>(
-      element->GetAttribute("group") ? locator->LocateProxy(id) : nullptr);
+    const bool isView = std::strcmp(element->GetAttributeOrDefault("group", ""), "views") == 0;
+    auto* view = model->findItem<pqRenderView*>(isView ? locator->LocateProxy(id) : nullptr);
     for (unsigned int j = 0; view && j < element->GetNumberOfNestedElements(); ++j)
     {
       vtkPVXMLElement* property = element->GetNestedElement(j);

@@ -25,6 +25,22 @@ user.save_state("undone.pvsm")
 user.redo()
 user.save_state("redone.pvsm")
 
+# The display suits the cutoff, unless somebody has chosen another one.
+for state, cutoff in (("colored", "Color Filter"), ("shadow", "Shadowgraph")):
+    user.choose("Cutoff/ComboBox", cutoff)
+    user.apply()
+    user.save_state(state + ".pvsm")
+user.undo()
+user.save_state("colored_again.pvsm")
+user.undo()
+user.save_state("grey_again.pvsm")
+user.python("ColorBy(GetDisplayProperties(FindSource('Schlieren1'), FindView('RenderView2')), ('POINTS', 'DeflectionMagnitude'))")
+user.choose("Cutoff/ComboBox", "Shadowgraph")
+user.apply()
+user.save_state("chosen.pvsm")
+user.choose("Cutoff/ComboBox", "Knife Edge")
+user.apply()
+
 # Two minutes and more on two cores.
 user.choose("Quality/ComboBox", "Reference")
 user.python("""
@@ -101,3 +117,13 @@ for state in ("redone.pvsm", "traced.pvsm"):
     again, same = check(state)
     assert again == made, [(name, made[name], again[name]) for name in made if made[name] != again[name]]
     assert np.abs(same - intensity).max() < 1e-5
+
+for state, array, white in (("colored", "Color", 0), ("shadow", "Intensity", 2), ("colored_again", "Color", 0),
+                            ("grey_again", "Intensity", 1), ("chosen", "DeflectionMagnitude", 0)):
+    load(state + ".pvsm")
+    (bench,), (_, (_, flat)) = filters().values(), views()
+    if white:
+        check_display(shown(bench, flat), white)
+    else:
+        assert list(shown(bench, flat).ColorArrayName)[:2] == ["POINTS", array], state
+        assert array != "Color" or shown(bench, flat).MapScalars == 0
