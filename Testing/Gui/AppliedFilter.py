@@ -34,7 +34,7 @@ user.undo()
 user.save_state("colored_again.pvsm")
 user.undo()
 user.save_state("grey_again.pvsm")
-user.python("ColorBy(GetDisplayProperties(FindSource('Schlieren1'), FindView('RenderView2')), ('POINTS', 'DeflectionMagnitude'))")
+user.python("ColorBy(GetDisplayProperties(FindSource('Schlieren1'), FindView('RenderView2')), ('POINTS', 'OpticalPathDifference'))")
 user.choose("Cutoff/ComboBox", "Shadowgraph")
 user.apply()
 user.save_state("chosen.pvsm")
@@ -119,7 +119,7 @@ for state in ("redone.pvsm", "traced.pvsm"):
     assert np.abs(same - intensity).max() < 1e-5
 
 for state, array, white in (("colored", "Color", 0), ("shadow", "Intensity", 2), ("colored_again", "Color", 0),
-                            ("grey_again", "Intensity", 1), ("chosen", "DeflectionMagnitude", 0)):
+                            ("grey_again", "Intensity", 1), ("chosen", "OpticalPathDifference", 0)):
     load(state + ".pvsm")
     (bench,), (_, (_, flat)) = filters().values(), views()
     if white:
