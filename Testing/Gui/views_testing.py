@@ -172,28 +172,6 @@ def check_display(representation, white=1):
         simple.LocateView(representation).SMProxy)
 
 
-def check_picture_view(view, bench):
-    """A flat view that the picture fills from edge to edge."""
-    assert view.InteractionMode == "2D" and view.CameraParallelProjection == 1
-    assert view.OrientationAxesVisibility == 0 and view.CenterAxesVisibility == 0
-    assert np.ptp(view.Background) == 0 and view.UseColorPaletteForBackground == 0
-    bench.UpdatePipeline()
-    low, high = np.reshape(bench.GetDataInformation().GetBounds(), (3, 2))[:2].T
-    assert np.allclose(view.CameraFocalPoint[:2], (low + high) / 2, atol=1e-6 * (high - low)[0])
-    assert np.isclose(view.CameraParallelScale, (high - low)[1] / 2, rtol=0.02)
-
-
-def check_camera(bench, view):
-    """The filter looks as the 3-D view's camera does; an independent calculation."""
-    eye, focus = np.array(view.CameraPosition), np.array(view.CameraFocalPoint)
-    distance = np.linalg.norm(focus - eye)
-    assert np.allclose(bench.ViewDirection, (focus - eye) / distance, atol=1e-9)
-    assert np.allclose(bench.FocalPoint, focus) and np.allclose(bench.ViewUp, view.CameraViewUp)
-    half = (view.CameraParallelScale if view.CameraParallelProjection
-            else distance * np.tan(np.radians(view.CameraViewAngle) / 2))
-    assert np.isclose(bench.ParallelScale, half)
-
-
 def screenshot(view, name, size):
     """RGB, rows x columns, lowest row first."""
     path = os.path.join(FOLDER, name)
