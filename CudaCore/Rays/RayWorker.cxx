@@ -3,6 +3,7 @@
 #include "Rays/RayWorker.h"
 
 #include "Device/Parallel.h"
+#include "Rays/DistributedRays.h"
 #include "Rays/TeamMessages.h"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ struct RayWorker::Arrays
   }
 
   /// Makes the task's pointers point to the arrays. False where one is not there.
-  template <class Real>
-  bool bind(TilesMessage<Real>& request) const
+  template <class Request>
+  bool bind(Request& request) const
   {
     bool isComplete = true;
     forArrays(request.task,
@@ -110,6 +111,29 @@ struct RayWorker::Arrays
     channel.send(std::move(answer));
     return true;
   }
+
+  /// Takes rays through the leaves that are here.
+  template <class Real>
+  bool advance(const std::vector<char>& message, Channel& channel, int threads) const
+  {
+    AdvanceMessage<Real> request;
+    if (!read(message, request) || !bind(request))
+    {
+      return false;
+    }
+    const auto fields = static_cast<std::size_t>(request.task.gradients.count);
+    const auto count = static_cast<std::size_t>(request.head.rays);
+    TravellingRays<Real> rays;
+    const std::size_t end = rays.read(message, sizeof(request), count, fields);
+    if (end != message.size())
+    {
+      return false;
+    }
+    const AdvancedRays<Real> advanced =
+      advanceRays(request.task, request.pass, std::move(rays), threads);
+    channel.send(advanced.toMessage(request.head.number));
+    return true;
+  }
 };
 
 RayWorker::RayWorker()
@@ -134,26 +158,34 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
     return;
   }
   TilesHead request;
-  if (!read(message, request) || request.kind != Tiles)
+  if (!read(message, request) || (request.kind != Tiles && request.kind != Advance))
   {
     return;
   }
-  RaysMessage lacking;
-  lacking.kind = Lacking;
-  lacking.number = request.number;
-  lacking.tiles = request.tiles;
+  const bool isSingle = request.bytesOfReal == sizeof(float);
   bool isTraced = false;
   try
   {
-    isTraced = request.bytesOfReal == sizeof(float)
-      ? arrays_->trace<float>(message, channel, threads)
-      : arrays_->trace<double>(message, channel, threads);
+    if (request.kind == Tiles)
+    {
+      isTraced = isSingle ? arrays_->trace<float>(message, channel, threads)
+                          : arrays_->trace<double>(message, channel, threads);
+    }
+    else
+    {
+      isTraced = isSingle ? arrays_->advance<float>(message, channel, threads)
+                          : arrays_->advance<double>(message, channel, threads);
+    }
   }
-  catch (const std::exception&) // there is no memory: others trace them
+  catch (const std::exception&) // there is no memory
   {
   }
   if (!isTraced)
   {
+    RaysMessage lacking;
+    lacking.kind = Lacking;
+    lacking.number = request.number;
+    lacking.tiles = request.tiles;
     channel.send(messageOf(lacking));
   }
 }

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Rays through a medium of which each process has a part. A process takes a ray as far as its own leaves reach, then
+// hands on the ray's state (SuspendedRay), and the process that has the next leaf resumes. The arithmetic is that of a
+// ray that is traced alone by one process, to the last bit.
+#pragma once
+
+#include "Rays/TeamMessages.h"
+#include "Rays/Tracer.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Rays that have come to a process, and what each has gathered so far.
+template <class Real>
+struct TravellingRays
+{
+  std::vector<SuspendedRay<Real>> rays;
+  std::vector<float> gathered; ///< ray by ray
+
+  std::size_t size() const { return rays.size(); }
+
+  /// A ray that has not entered the grid yet.
+  void begin(std::int64_t ray, std::int32_t leaf, std::size_t fields)
+  {
+    SuspendedRay<Real> state{};
+    state.ray = ray;
+    state.leaf = -1;
+    state.next = leaf;
+    rays.push_back(state);
+    gathered.resize(gathered.size() + fields, 0.f);
+  }
+
+  void add(const SuspendedRay<Real>& ray, const float* ofRay, std::size_t fields)
+  {
+    rays.push_back(ray);
+    gathered.insert(gathered.end(), ofRay, ofRay + fields);
+  }
+
+  /// The last ones, so many at most.
+  TravellingRays takeBack(std::size_t most, std::size_t fields)
+  {
+    const auto left = static_cast<std::ptrdiff_t>(rays.size() - std::min(most, rays.size()));
+    const auto gatheredLeft = left * static_cast<std::ptrdiff_t>(fields);
+    TravellingRays taken{ { rays.begin() + left, rays.end() },
+      { gathered.begin() + gatheredLeft, gathered.end() } };
+    rays.resize(static_cast<std::size_t>(left));
+    gathered.resize(static_cast<std::size_t>(gatheredLeft));
+    return taken;
+  }
+
+  void write(std::vector<char>& message) const
+  {
+    const auto append = [&](const auto& values)
+    {
+      const char* first = reinterpret_cast<const char*>(values.data());
+      message.insert(message.end(), first, first + values.size() * sizeof(values[0]));
+    };
+    append(rays);
+    append(gathered);
+  }
+
+  /// From a message, behind its first bytes. Where they end; 0 where there are too few.
+  std::size_t read(
+    const std::vector<char>& message, std::size_t at, std::size_t count, std::size_t fields)
+  {
+    const std::size_t ofRays = count * sizeof(SuspendedRay<Real>);
+    const std::size_t ofGathered = count * fields * sizeof(float);
+    if (at > message.size() || count > message.size() || message.size() - at < ofRays + ofGathered)
+    {
+      return 0;
+    }
+    rays.resize(count);
+    gathered.resize(count * fields);
+    std::memcpy(rays.data(), message.data() + at, ofRays);
+    if (ofGathered > 0)
+    {
+      std::memcpy(gathered.data(), message.data() + at + ofRays, ofGathered);
+    }
+    return at + ofRays + ofGathered;
+  }
+};
+
+/// The beginning of a message with rays for a worker; see TilesMessage. The rays follow.
+template <class Real>
+struct AdvanceMessage
+{
+  struct Head : TilesHead
+  {
+    std::int64_t rays = 0;
+  };
+  Head head{};
+  Pass pass{};
+  RayTask<Real> task{}; ///< its pointers mean nothing
+  std::array<std::uint64_t, arraysOfTask> versions{};
+  std::array<std::int64_t, arraysOfTask> offsets{};
+};
+static_assert(std::is_trivially_copyable_v<AdvanceMessage<float>>);
+static_assert(std::is_trivially_copyable_v<AdvanceMessage<double>>);
+static_assert(std::is_trivially_copyable_v<SuspendedRay<float>>);
+
+struct EndedRay
+{
+  std::int64_t ray;
+  RayExit exit;
+};
+
+/// The beginning of a worker's answer, behind which come the ended rays, what they have gathered, and the suspended ones.
+struct AdvancedMessage
+{
+  std::uint32_t kind = RayWorker::Advanced;
+  std::uint32_t fields = 0;
+  std::uint64_t number = 0;
+  std::uint64_t ended = 0, suspended = 0;
+  double worstDrift = 0;
+};
+
+/// What has become of rays on one process.
+template <class Real>
+struct AdvancedRays
+{
+  std::vector<EndedRay> ended;
+  std::vector<float> gathered;    ///< by these
+  TravellingRays<Real> suspended; ///< that have come to other processes' leaves
+  double worstDrift = 0;
+
+  std::vector<char> toMessage(std::uint64_t number) const;
+  bool fromMessage(const std::vector<char>& message, std::size_t fields);
+};
+
+/// Takes rays as far as the medium is here.
+template <class Real>
+AdvancedRays<Real> advanceRays(
+  const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads);
+
+/// Whether rays can be suspended: with integrators that look at the medium only in the middle of their steps.
+bool canSuspend(const KernelChoice& kernel);
+
+} // namespace schlieren
