@@ -5,6 +5,7 @@
 #include "Device/Parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 
 namespace schlieren
@@ -72,6 +73,12 @@ void append(const std::vector<Value>& values, std::vector<char>& message)
 }
 
 } // namespace
+
+std::uint64_t newNumber()
+{
+  static std::atomic<std::uint64_t> last{ 0 };
+  return ++last;
+}
 
 bool canSuspend(const KernelChoice& kernel)
 {

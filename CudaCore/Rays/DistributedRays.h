@@ -6,6 +6,7 @@
 // ray that is traced alone by one process, to the last bit.
 #pragma once
 
+#include "Medium/PartOfTree.h"
 #include "Rays/TeamMessages.h"
 #include "Rays/Tracer.h"
 
@@ -85,13 +86,31 @@ struct TravellingRays
   }
 };
 
-/// The beginning of a message with rays for a worker; see TilesMessage. The rays follow.
+/// The beginning of a message with bricks of a tree for a worker, as DeliveredBricks has them, or with segments to be
+/// summed up in these.
+struct BricksMessage
+{
+  std::uint32_t kind = RayWorker::PutBricks; ///< or SumUp
+  std::uint32_t bytesOfReal = 0;
+  std::uint64_t number =
+    0; ///< of the message: with bricks of this tree, 0 the first; of what is requested
+  std::uint64_t tree = 0;
+  BrickLayout layout{};
+};
+
+/// A number that no other call returns.
+std::uint64_t newNumber();
+
+/// The beginning of a message with rays for a worker; see TilesMessage. The rays follow. The samples and maps are those of
+/// the tree that the worker has been given.
 template <class Real>
 struct AdvanceMessage
 {
   struct Head : TilesHead
   {
     std::int64_t rays = 0;
+    std::uint64_t tree = 0;
+    std::int64_t firstSample = 0; ///< from the first of all to where the task's pointers point
   };
   Head head{};
   Pass pass{};
@@ -109,10 +128,10 @@ struct EndedRay
   RayExit exit;
 };
 
-/// The beginning of a worker's answer, behind which come the ended rays, what they have gathered, and the suspended ones.
+/// The beginning of a worker's answer to SumUp, behind which the sums come, and to Advance, behind which come the ended rays, what they have gathered, and the suspended ones.
 struct AdvancedMessage
 {
-  std::uint32_t kind = RayWorker::Advanced;
+  std::uint32_t kind = RayWorker::Advanced; ///< or Sums
   std::uint32_t fields = 0;
   std::uint64_t number = 0;
   std::uint64_t ended = 0, suspended = 0;

@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/DistributedTracer.h"
 
-#include "Medium/MediumParts.h"
 #include "Rays/DistributedRays.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstring>
-#include <map>
-#include <optional>
-#include <string>
 #include <thread>
 #include <utility>
 
@@ -32,53 +27,28 @@ constexpr int givenAtOnce = 3;
 /// pause to wait for.
 constexpr std::int64_t raysPerPart = 4096;
 
-std::uint64_t newVersion()
-{
-  static std::atomic<std::uint64_t> last{ 0 };
-  return ++last;
-}
-
-[[noreturn]] void throwAbsent(std::size_t worker)
-{
-  throw Error("Rank " + std::to_string(worker + 1) +
-    " does not answer, or has not enough memory for its part of the medium, which no other rank "
-    "has. "
-    "See what that rank has reported, or use a medium that all ranks have.");
-}
-
 } // namespace
 
 template <class Real>
 struct DistributedTracer<Real>::State
 {
-  const Medium<Real>& medium;
-  std::optional<MediumParts<Real>> parts;
-  std::vector<Leaf<Real>> leaves; ///< as this process has them
-  std::uint64_t version = 0;      ///< of the parts
+  const MediumTree<Real>& tree;
+  const BrickChannels& owners;
+  const std::uint64_t version = newNumber(); ///< of the tree's structure
   Traffic traffic{};
 
   struct Worker
   {
-    bool hasPart = false;
+    bool hasTree = false;
     int given = 0; ///< messages that it has not answered
   };
-  std::map<Channel*, Worker> workers;
+  std::vector<Worker> workers;
 
-  explicit State(const Medium<Real>& ofMedium)
-    : medium(ofMedium)
+  State(const Medium<Real>& medium, const BrickChannels& ofTree)
+    : tree(*medium.tree)
+    , owners(ofTree)
+    , workers(ofTree.channels().size())
   {
-  }
-
-  void divide(std::size_t count)
-  {
-    const auto wanted = static_cast<std::int32_t>(count);
-    if (!parts || parts->count() != wanted)
-    {
-      parts.emplace(*medium.tree, wanted);
-      leaves = parts->leavesInTree(0);
-      version = newVersion();
-      workers.clear();
-    }
   }
 
   template <class Values>
@@ -91,28 +61,20 @@ struct DistributedTracer<Real>::State
     {
       std::memcpy(message.data() + sizeof(head), values.data(), bytes);
     }
-    traffic.bytesOfMedium += static_cast<std::int64_t>(message.size());
     channel.send(std::move(message));
   }
 
-  void sendPart(Channel& channel, std::int32_t owner)
+  void sendStructure(Channel& channel, std::int32_t owner)
   {
-    const std::int64_t before = traffic.bytesOfMedium;
-    const typename MediumParts<Real>::Part part = parts->part(owner);
-    sendArray(channel, 0, part.samples);
-    sendArray(channel, 2, part.leaves);
-    sendArray(channel, 3, medium.tree->roots());
-    sendArray(channel, 4, medium.tree->children());
-    sendArray(channel, 5, part.gasDistances);
-    sendArray(channel, 7, part.gradients);
-    sendArray(channel, 8, part.gradientBricks);
-    traffic.largestPart = std::max(traffic.largestPart, traffic.bytesOfMedium - before);
+    sendArray(channel, 2, tree.leavesOf(owner));
+    sendArray(channel, 3, tree.roots());
+    sendArray(channel, 4, tree.children());
   }
 };
 
 template <class Real>
-DistributedTracer<Real>::DistributedTracer(const Medium<Real>& medium)
-  : state_(std::make_unique<State>(medium))
+DistributedTracer<Real>::DistributedTracer(const Medium<Real>& medium, const BrickChannels& owners)
+  : state_(std::make_unique<State>(medium, owners))
 {
 }
 
@@ -126,34 +88,31 @@ const typename DistributedTracer<Real>::Traffic& DistributedTracer<Real>::traffi
 }
 
 template <class Real>
-bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
-  const std::vector<Channel*>& workers, TracedPass& traced, int threads, const Monitor& monitor)
+bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
+  int threads, const Monitor& monitor)
 {
   State& state = *state_;
+  const std::vector<Channel*>& workers = state.owners.channels();
   const std::size_t count = workers.size() + 1;
-  state.divide(count);
   const auto fields = static_cast<std::size_t>(task.gradients.count);
 
   AdvanceMessage<Real> message;
   message.head.kind = RayWorker::Advance;
   message.head.bytesOfReal = sizeof(Real);
-  message.head.number = newVersion();
+  message.head.number = newNumber();
+  message.head.tree = state.owners.tree();
+  message.head.firstSample = task.medium.samples - state.tree.samples().data();
   message.pass = pass;
   message.task = task;
-  const MediumTree<Real>& tree = *state.medium.tree;
-  const std::array<const void*, arraysOfTask> arrays{ tree.samples().data(), nullptr,
-    tree.leaves().data(), tree.roots().data(), tree.children().data(), tree.gasDistances().data(),
-    nullptr, tree.gradientValues().data(), tree.gradientBricks().data() };
+  const std::array<const void*, arraysOfTask> arrays{ nullptr, nullptr, task.medium.leaves,
+    task.medium.finder.roots, task.medium.finder.children };
   forArrays(message.task,
     [&](std::size_t n, auto*& pointer)
     {
-      using Value = std::remove_reference_t<decltype(*pointer)>;
-      message.offsets[n] = pointer != nullptr ? pointer - static_cast<Value*>(arrays[n]) : nowhere;
+      message.offsets[n] = arrays[n] != nullptr ? 0 : nowhere;
       message.versions[n] = state.version;
       pointer = nullptr;
     });
-  RayTask<Real> ownTask = task;
-  ownTask.medium.leaves = state.leaves.data();
 
   const std::size_t raysAtOnce = std::max<std::size_t>(
     1, (largestMessage - sizeof(message)) / (sizeof(SuspendedRay<Real>) + fields * sizeof(float)));
@@ -169,6 +128,13 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
         gathered, fields, traced.gathered.data() + static_cast<std::size_t>(ray) * fields);
     }
   };
+  // -1: all have it.
+  const auto ownerOf = [&](std::int32_t leaf) -> std::int32_t
+  {
+    const Leaf<Real>& here = task.medium.leaves[leaf];
+    const bool hasSamples = here.brick != 0 || here.map >= 0;
+    return !here.isResident() ? ~here.brick : (hasSamples ? 0 : -1);
+  };
   const auto take = [&](std::size_t from, const AdvancedRays<Real>& advanced)
   {
     for (std::size_t n = 0; n < advanced.ended.size(); ++n)
@@ -181,7 +147,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     for (std::size_t n = 0; n < advanced.suspended.size(); ++n)
     {
       const SuspendedRay<Real>& ray = advanced.suspended.rays[n];
-      const std::int32_t owner = state.parts->ownerOf(ray.next);
+      const std::int32_t owner = ownerOf(ray.next);
       if (owner < 0 || owner == static_cast<std::int32_t>(from))
       {
         throw Error(
@@ -200,14 +166,14 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
         (ofTile.firstRow - pass.firstRow + n / ofTile.columns) * pass.columns + ofTile.firstColumn -
         pass.firstColumn + n % ofTile.columns;
       RayBatch<Real, 1> batch{};
-      const Entry entry = meetGrid(ownTask, pass, ray, batch, 0);
+      const Entry entry = meetGrid(task, pass, ray, batch, 0);
       if (batch.fate[0] != RayFate::Left)
       {
-        put(ray, leaveGrid(ownTask, batch, 0, entry), nullptr);
+        put(ray, leaveGrid(task, batch, 0, entry), nullptr);
         continue;
       }
-      const std::int32_t leaf = ownTask.medium.finder.at(startOf(batch, 0));
-      const std::int32_t owner = state.parts->ownerOf(leaf);
+      const std::int32_t leaf = task.medium.finder.at(startOf(batch, 0));
+      const std::int32_t owner = ownerOf(leaf);
       const std::int64_t part = owner >= 0 ? owner : tile % static_cast<std::int64_t>(count);
       waiting[static_cast<std::size_t>(part)].begin(ray, leaf, fields);
       ++traced.crossed;
@@ -228,17 +194,16 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
         if (read(answer, lacking) && lacking.kind == RayWorker::Lacking &&
           lacking.number == message.head.number)
         {
-          throwAbsent(n);
+          throwAbsentOwner(static_cast<std::int32_t>(n + 1));
         }
         continue; // of a trace that has failed
       }
       AdvancedRays<Real> advanced;
       if (!advanced.fromMessage(answer, fields))
       {
-        state.workers[&channel].hasPart = false;
-        throwAbsent(n);
+        throwAbsentOwner(static_cast<std::int32_t>(n + 1));
       }
-      --state.workers[&channel].given;
+      --state.workers[n].given;
       ++state.traffic.messages;
       state.traffic.bytes += static_cast<std::int64_t>(answer.size());
       take(n + 1, advanced);
@@ -246,21 +211,21 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     }
     if (!channel.isOpen())
     {
-      throwAbsent(n);
+      throwAbsentOwner(static_cast<std::int32_t>(n + 1));
     }
     return hasReceived;
   };
   const auto give = [&](std::size_t n)
   {
     Channel& channel = *workers[n];
-    typename State::Worker& worker = state.workers[&channel];
+    typename State::Worker& worker = state.workers[n];
     while (waiting[n + 1].size() > 0 &&
       (worker.given == 0 || (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce)))
     {
-      if (!worker.hasPart)
+      if (!worker.hasTree)
       {
-        state.sendPart(channel, static_cast<std::int32_t>(n + 1));
-        worker.hasPart = true;
+        state.sendStructure(channel, static_cast<std::int32_t>(n + 1));
+        worker.hasTree = true;
       }
       const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce, fields);
       message.head.rays = static_cast<std::int64_t>(rays.size());
@@ -273,9 +238,9 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       channel.send(std::move(request));
     }
   };
-  for (Channel* channel : workers)
+  for (typename State::Worker& worker : state.workers)
   {
-    state.workers[channel].given = 0; // by a trace that has failed
+    worker.given = 0; // by a trace that has failed
   }
 
   TileQueue tiles = traced.tilesLeft(pass);
@@ -296,7 +261,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     }
     if (waiting[0].size() > 0)
     {
-      take(0, advanceRays(ownTask, pass, waiting[0].takeBack(raysAtOnce, fields), threads));
+      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce, fields), threads));
       isIdle = false;
     }
     if (underWay == 0 && (isStopped || tiles.left().count() == 0))

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -37,6 +38,66 @@ struct RayWorker::Arrays
   }
 
   /// Makes the task's pointers point to the arrays. False where one is not there.
+  /// What it has of a tree that is divided.
+  std::uint64_t tree = 0; ///< 0: nothing, or not all of it
+  std::uint64_t puts = 0; ///< messages with bricks of it
+  std::optional<PartOfTree<float>> singles;
+  std::optional<PartOfTree<double>> doubles;
+
+  template <class Real>
+  std::optional<PartOfTree<Real>>& part()
+  {
+    if constexpr (std::is_same_v<Real, float>)
+    {
+      return singles;
+    }
+    else
+    {
+      return doubles;
+    }
+  }
+
+  template <class Real>
+  void put(const BricksMessage& head, const std::vector<char>& message)
+  {
+    const bool isFirst = head.number == 0;
+    if (isFirst)
+    {
+      singles.reset();
+      doubles.reset();
+      part<Real>().emplace(head.layout);
+    }
+    const bool isNext = isFirst || (tree == head.tree && puts == head.number);
+    tree = 0; // where there is no memory
+    if (isNext && part<Real>() &&
+      part<Real>()->put(message.data() + sizeof(head), message.size() - sizeof(head)))
+    {
+      tree = head.tree;
+      puts = head.number + 1;
+    }
+  }
+
+  template <class Real>
+  bool sumUp(
+    const BricksMessage& head, const std::vector<char>& message, Channel& channel, int threads)
+  {
+    std::vector<LeafSegment> segments((message.size() - sizeof(head)) / sizeof(LeafSegment));
+    std::vector<LeafSums> sums;
+    std::memcpy(
+      segments.data(), message.data() + sizeof(head), segments.size() * sizeof(LeafSegment));
+    if (tree != head.tree || !part<Real>() || !part<Real>()->sumUp(segments, sums, threads))
+    {
+      return false;
+    }
+    AdvancedMessage answer;
+    answer.kind = Sums;
+    answer.number = head.number;
+    std::vector<char> bytes = messageOf(answer, sums.size() * sizeof(LeafSums));
+    std::memcpy(bytes.data() + sizeof(answer), sums.data(), sums.size() * sizeof(LeafSums));
+    channel.send(std::move(bytes));
+    return true;
+  }
+
   template <class Request>
   bool bind(Request& request) const
   {
@@ -114,12 +175,19 @@ struct RayWorker::Arrays
 
   /// Takes rays through the leaves that are here.
   template <class Real>
-  bool advance(const std::vector<char>& message, Channel& channel, int threads) const
+  bool advance(const std::vector<char>& message, Channel& channel, int threads)
   {
     AdvanceMessage<Real> request;
-    if (!read(message, request) || !bind(request))
+    if (!read(message, request) || !bind(request) ||
+      (request.head.tree != tree && request.head.tree != 0))
     {
       return false;
+    }
+    const std::optional<PartOfTree<Real>>& own = part<Real>();
+    if (own)
+    {
+      request.task.medium.samples = own->samples().data() + request.head.firstSample;
+      request.task.medium.gasDistances = own->gasDistances().data() + request.head.firstSample;
     }
     const auto fields = static_cast<std::size_t>(request.task.gradients.count);
     const auto count = static_cast<std::size_t>(request.head.rays);
@@ -158,15 +226,30 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
     return;
   }
   TilesHead request;
-  if (!read(message, request) || (request.kind != Tiles && request.kind != Advance))
+  BricksMessage ofBricks;
+  const bool isOfBricks =
+    read(message, ofBricks) && (ofBricks.kind == PutBricks || ofBricks.kind == SumUp);
+  if (!isOfBricks &&
+    (!read(message, request) || (request.kind != Tiles && request.kind != Advance)))
   {
     return;
   }
-  const bool isSingle = request.bytesOfReal == sizeof(float);
+  const bool isSingle = (isOfBricks ? ofBricks.bytesOfReal : request.bytesOfReal) == sizeof(float);
   bool isTraced = false;
   try
   {
-    if (request.kind == Tiles)
+    if (isOfBricks && ofBricks.kind == PutBricks)
+    {
+      isSingle ? arrays_->put<float>(ofBricks, message) : arrays_->put<double>(ofBricks, message);
+      return;
+    }
+    if (isOfBricks)
+    {
+      request.number = ofBricks.number;
+      isTraced = isSingle ? arrays_->sumUp<float>(ofBricks, message, channel, threads)
+                          : arrays_->sumUp<double>(ofBricks, message, channel, threads);
+    }
+    else if (request.kind == Tiles)
     {
       isTraced = isSingle ? arrays_->trace<float>(message, channel, threads)
                           : arrays_->trace<double>(message, channel, threads);
@@ -180,7 +263,7 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
   catch (const std::exception&) // there is no memory
   {
   }
-  if (!isTraced)
+  if (!isTraced && kindOf(message) != PutBricks)
   {
     RaysMessage lacking;
     lacking.kind = Lacking;

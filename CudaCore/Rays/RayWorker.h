@@ -26,7 +26,10 @@ public:
     Rays,        ///< from a worker: of tiles
     Lacking,     ///< from a worker: it has not the arrays that it needs, or no memory
     Advance,     ///< to a worker: rays that come to its part of the medium
-    Advanced     ///< from a worker: these rays
+    Advanced,    ///< from a worker: these rays
+    PutBricks,   ///< to a worker: of a tree
+    SumUp,       ///< to a worker: segments in these
+    Sums         ///< from a worker: of these
   };
   static std::uint32_t kindOf(const std::vector<char>& message);
 

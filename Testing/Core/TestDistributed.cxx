@@ -4,8 +4,6 @@
 // alone.
 #include "AnalyticSources.h"
 #include "Fields.h"
-#include "Medium/MediumParts.h"
-#include "Rays/DistributedRays.h"
 #include "Rays/DistributedTracer.h"
 #include "TreeRays.h"
 #include "WorkerThread.h"
@@ -14,6 +12,8 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -43,17 +43,16 @@ struct Setting
   PathModel path = PathModel::Refracted;
   Interpolation interpolation = Interpolation::Quadratic;
   double tolerance = 0.01;
-  int fields = 0;
+  std::size_t memory = std::size_t{ 1 } << 30;
 };
 
 template <class Real>
 struct Traced
 {
-  explicit Traced(const Setting& setting)
+  explicit Traced(const Setting& setting, const std::shared_ptr<BrickOwners>& owners = nullptr)
     : field(fieldOf(setting.source))
-    , medium(buildTree<Real>(field, settingsOf(setting)))
+    , medium(buildTree<Real>(field, settingsOf(setting, owners)))
   {
-    field.gradients.count = setting.fields;
     View view;
     view.viewDirection = setting.direction;
     view.width = static_cast<int>(width);
@@ -62,14 +61,14 @@ struct Traced
     refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.005 }, {});
     RaySettings rays;
     rays.kernel = { setting.path, Integrator::Leapfrog, setting.interpolation };
-    task = makeTask<Real>(medium, nullptr, medium.gradientsOf(field), light, rays);
-    alone.resize(pass, setting.fields);
-    EXPECT_TRUE(traceOnCpu(task, pass, alone, 2, {}, Simd::None));
+    task = makeTask<Real>(medium, nullptr, FieldGradientsView{}, light, rays);
   }
 
-  static TreeSettings settingsOf(const Setting& setting)
+  static TreeSettings settingsOf(const Setting& setting, const std::shared_ptr<BrickOwners>& owners)
   {
     TreeSettings settings;
+    settings.owners = owners;
+    settings.memory = setting.memory;
     settings.tolerance = setting.tolerance;
     settings.interpolation = setting.interpolation;
     return settings;
@@ -79,10 +78,17 @@ struct Traced
   Medium<Real> medium;
   RayTask<Real> task{};
   const Pass pass{ 0, 0, width, height, { 0.25, -0.125 } };
-  TracedPass alone;
+
+  void traceAlone(TracedPass& traced) const
+  {
+    traced.resize(pass, 0);
+    EXPECT_TRUE(traceOnCpu(task, pass, traced, 2, {}, Simd::None));
+  }
 
   std::int64_t count(RayFate fate) const
   {
+    TracedPass alone;
+    traceAlone(alone);
     return std::count_if(alone.exits.begin(), alone.exits.end(),
       [fate](const RayExit& exit) { return exit.fate == fate; });
   }
@@ -96,84 +102,117 @@ void expectSameRays(const TracedPass& a, const TracedPass& b)
     EXPECT_EQ(std::memcmp(&a.exits[n], &b.exits[n], sizeof(RayExit)), 0)
       << n << ": " << a.exits[n].deflection[0] << " " << b.exits[n].deflection[0];
   }
-  EXPECT_EQ(a.gathered, b.gathered);
   EXPECT_EQ(a.crossed, b.crossed);
   EXPECT_EQ(a.worstDrift, b.worstDrift);
 }
 
+/// Workers, and a tree that they have parts of.
+template <class Real>
+struct Team
+{
+  Team(const Setting& setting, std::size_t count, Worker::Fault fault = Worker::Fault::None,
+    int after = 0)
+  {
+    while (workers.size() < count)
+    {
+      workers.push_back(std::make_unique<Worker>(fault, after));
+      channels.push_back(workers.back()->channel());
+    }
+    owners = std::make_shared<BrickChannels>(channels);
+    traced.emplace(setting, owners);
+  }
+
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::vector<Channel*> channels;
+  std::shared_ptr<BrickChannels> owners;
+  std::optional<Traced<Real>> traced;
+
+  const MediumTree<Real>& tree() const { return *traced->medium.tree; }
+};
+
 /// To the last bit, for several numbers of processes. Returns how often rays have gone on in another part, per ray.
 template <class Real>
-double expectSame(const Traced<Real>& traced, int fields = 0)
+double expectSame(const Setting& setting, const Traced<Real>& alone)
 {
+  TracedPass expected;
+  alone.traceAlone(expected);
   double perRay = 0;
   for (const std::size_t count : { 0u, 1u, 2u, 6u })
   {
     SCOPED_TRACE(count);
-    std::vector<std::unique_ptr<Worker>> workers;
-    std::vector<Channel*> channels;
-    while (workers.size() < count)
-    {
-      workers.push_back(std::make_unique<Worker>());
-      channels.push_back(workers.back()->channel());
-    }
-    DistributedTracer<Real> tracer(traced.medium);
+    const Team<Real> team(setting, count);
+    const auto ofTeam = team.tree().statistics(), ofOne = alone.medium.tree->statistics();
+    EXPECT_EQ(ofTeam.bricks, ofOne.bricks);
+    EXPECT_EQ(ofTeam.largestDeflection, ofOne.largestDeflection);
+    EXPECT_EQ(ofTeam.estimatedError, ofOne.estimatedError);
+    DistributedTracer<Real> tracer(team.traced->medium, *team.owners);
     TracedPass rays;
-    rays.resize(traced.pass, fields);
-    EXPECT_TRUE(tracer.trace(traced.task, traced.pass, channels, rays, 2, {}));
-    expectSameRays(rays, traced.alone);
+    rays.resize(team.traced->pass, 0);
+    EXPECT_TRUE(tracer.trace(team.traced->task, team.traced->pass, rays, 2, {}));
+    expectSameRays(rays, expected);
     perRay = static_cast<double>(tracer.traffic().states) / static_cast<double>(rays.crossed);
   }
   return perRay;
 }
-
-TEST(MediumParts, HaveEachLeafOnceAndAsManyBytes)
+template <class Real = float>
+double expectSame(const Setting& setting)
 {
-  const Traced<float> traced({ std::make_shared<BallsSource>(threeBalls(3e-4)) });
-  const MediumTree<float>& tree = *traced.medium.tree;
-  const auto perBrick = static_cast<std::size_t>(tree.samplesPerBrick());
+  return expectSame(setting, Traced<Real>(setting));
+}
+
+TEST(DistributedTree, HasEachBrickOnce)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-4)) };
+  const Traced<float> alone(setting);
   constexpr std::int32_t count = 5;
-  const MediumParts<float> parts(tree, count);
-  std::size_t bricks = 0, least = tree.leaves().size(), most = 0;
-  std::int32_t last = 0;
-  for (std::size_t n = 0; n < tree.leaves().size(); ++n)
-  {
-    const std::int32_t owner = parts.ownerOf(static_cast<std::int32_t>(n));
-    EXPECT_EQ(owner == MediumParts<float>::everywhere, tree.leaves()[n].brick == 0);
-    EXPECT_GE(owner < 0 ? last : owner, last) << "no longer in the order of leaves";
-    last = std::max(last, owner);
-  }
+  const Team<float> team(setting, count - 1);
+  const MediumTree<float>& tree = team.tree();
+  const std::size_t leaves = tree.leaves().size();
+  ASSERT_EQ(leaves, alone.medium.tree->leaves().size());
+  std::vector<std::size_t> bricks(count, 0);
+  std::vector<std::set<std::int32_t>> numbers(count);
   for (std::int32_t owner = 0; owner < count; ++owner)
   {
-    const MediumParts<float>::Part part = parts.part(owner);
-    std::size_t own = 0;
-    for (std::size_t n = 0; n < part.leaves.size(); ++n)
+    const std::vector<Leaf<float>> here = tree.leavesOf(owner);
+    for (std::size_t n = 0; n < leaves; ++n)
     {
-      const Leaf<float>& here = part.leaves[n];
-      const Leaf<float>& leaf = tree.leaves()[n];
-      const bool isOwn = parts.ownerOf(static_cast<std::int32_t>(n)) == owner;
-      EXPECT_EQ(here.isResident(), isOwn || leaf.brick == 0);
-      EXPECT_EQ(here.perIndex, leaf.perIndex);
-      if (isOwn)
+      const Leaf<float>& leaf = alone.medium.tree->leaves()[n];
+      const std::int32_t of = tree.ownerOf(static_cast<std::int32_t>(n));
+      EXPECT_EQ(here[n].isResident(), of == owner || leaf.brick == 0);
+      EXPECT_EQ(here[n].perIndex, leaf.perIndex);
+      if (!here[n].isResident())
       {
-        ++own;
-        EXPECT_TRUE(
-          std::equal(part.samples.begin() + here.brick * static_cast<std::ptrdiff_t>(perBrick),
-            part.samples.begin() + (here.brick + 1) * static_cast<std::ptrdiff_t>(perBrick),
-            tree.samples().begin() + leaf.brick * static_cast<std::ptrdiff_t>(perBrick)));
+        EXPECT_EQ(~here[n].brick, of);
       }
-      else if (!here.isResident())
+      else if (here[n].brick > 0)
       {
-        EXPECT_EQ(~here.brick, parts.ownerOf(static_cast<std::int32_t>(n)));
+        ++bricks[static_cast<std::size_t>(owner)];
+        EXPECT_TRUE(numbers[static_cast<std::size_t>(owner)].insert(here[n].brick).second);
       }
     }
-    EXPECT_LE(part.samples.size(), (own + 2) * perBrick);
-    bricks += own;
-    least = std::min(least, own);
-    most = std::max(most, own);
   }
-  EXPECT_EQ(bricks, static_cast<std::size_t>(traced.medium.tree->statistics().bricks));
-  EXPECT_GT(least, 10u);
-  EXPECT_LE(most - least, 1u);
+  const auto all = static_cast<std::size_t>(tree.statistics().bricks);
+  EXPECT_EQ(std::accumulate(bricks.begin(), bricks.end(), std::size_t{ 0 }), all);
+  EXPECT_LT(
+    *std::max_element(bricks.begin(), bricks.end()), 1.35 * static_cast<double>(all) / count);
+  EXPECT_LT(
+    tree.samples().size(), 1.35 * static_cast<double>(alone.medium.tree->samples().size()) / count);
+}
+
+// A limit of memory is that of each process.
+TEST(DistributedTree, IsFinerWhereMoreProcessesHaveIt)
+{
+  Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-4)) };
+  setting.tolerance = 1e-4;
+  setting.memory = std::size_t{ 2 } << 20;
+  const Traced<float> alone(setting);
+  const Team<float> team(setting, 3);
+  const auto ofTeam = team.tree().statistics(), ofOne = alone.medium.tree->statistics();
+  EXPECT_LT(ofOne.bytes, 2 << 20);
+  EXPECT_GT(ofTeam.bytes, 3 * ofOne.bytes);
+  EXPECT_LT(ofTeam.bytes, 8 << 20);
+  EXPECT_LT(ofTeam.estimatedError, ofOne.estimatedError);
+  EXPECT_LT(team.tree().samples().size() * sizeof(float), 1.35 * (2 << 20));
 }
 
 TEST(Distributed, IsTheSameToTheLastBitThroughManyParts)
@@ -183,23 +222,12 @@ TEST(Distributed, IsTheSameToTheLastBitThroughManyParts)
   {
     SCOPED_TRACE(name(interpolation));
     setting.interpolation = interpolation;
-    EXPECT_GT(expectSame(Traced<float>(setting)), 1.5);
+    EXPECT_GT(expectSame<float>(setting), 1.5);
   }
   setting.interpolation = Interpolation::Quadratic;
-  EXPECT_GT(expectSame(Traced<double>(setting)), 1.5);
+  EXPECT_GT(expectSame<double>(setting), 1.5);
   setting.path = PathModel::Straight;
-  EXPECT_GT(expectSame(Traced<float>(setting)), 1.5);
-}
-
-TEST(Distributed, TakesAlongWhatRaysGather)
-{
-  Setting setting{ std::make_shared<SourceWithFields>(
-    std::make_shared<BallsSource>(threeBalls(3e-4)),
-    std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3), ballField({ -0.2, 0.3, 0 }, 0.1) }) };
-  setting.fields = 2;
-  const Traced<float> traced(setting);
-  EXPECT_GT(*std::max_element(traced.alone.gathered.begin(), traced.alone.gathered.end()), 0.1f);
-  expectSame(traced, 2);
+  EXPECT_GT(expectSame<float>(setting), 1.5);
 }
 
 // Along the sides of leaves, where rounding decides which leaf a step is in.
@@ -211,18 +239,19 @@ TEST(Distributed, IsTheSameAlongTheSidesOfLeaves)
   {
     setting.direction = direction;
     setting.path = PathModel::Refracted;
-    expectSame(Traced<float>(setting));
+    expectSame<float>(setting);
     setting.path = PathModel::Straight;
-    expectSame(Traced<float>(setting));
+    expectSame<float>(setting);
   }
 }
 
 TEST(Distributed, FollowsRaysThatComeBack)
 {
-  const Traced<float> traced({ std::make_shared<GlassSource>() });
-  EXPECT_GT(traced.count(RayFate::Turned) + traced.count(RayFate::Trapped), 0);
-  EXPECT_GT(traced.count(RayFate::Left), 0);
-  EXPECT_GT(expectSame(traced), 1.5);
+  const Setting setting{ std::make_shared<GlassSource>() };
+  const Traced<float> alone(setting);
+  EXPECT_GT(alone.count(RayFate::Turned), 0);
+  EXPECT_GT(alone.count(RayFate::Left), 0);
+  EXPECT_GT(expectSame(setting, alone), 1.5);
 }
 
 TEST(Distributed, EndsRaysInWalls)
@@ -232,49 +261,59 @@ TEST(Distributed, EndsRaysInWalls)
   for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
   {
     setting.path = path;
-    const Traced<float> traced(setting);
-    EXPECT_GT(traced.count(RayFate::Blocked), 100);
-    EXPECT_GT(traced.count(RayFate::Left), 100);
-    expectSame(traced);
+    const Traced<float> alone(setting);
+    EXPECT_GT(alone.count(RayFate::Blocked), 100);
+    EXPECT_GT(alone.count(RayFate::Left), 100);
+    expectSame(setting, alone);
   }
 }
 
 TEST(Distributed, ResumesAfterPauses)
 {
-  const Traced<float> traced({ std::make_shared<BallsSource>(threeBalls(3e-2)) });
-  Worker one, other;
-  DistributedTracer<float> tracer(traced.medium);
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  TracedPass expected;
+  Traced<float>(setting).traceAlone(expected);
+  const Team<float> team(setting, 2);
+  DistributedTracer<float> tracer(team.traced->medium, *team.owners);
   TracedPass rays;
-  rays.resize(traced.pass, 0);
-  const Monitor atOnce{ {}, {}, [] { return true; } };
-  const Pass pass = traced.pass;
+  const Pass pass = team.traced->pass;
+  rays.resize(pass, 0);
+  std::int64_t questions = 0;
+  const Monitor often{ {}, {}, [&] { return ++questions % 3 == 0; } };
+  constexpr int most = 1000;
   int calls = 1;
-  while (!tracer.trace(traced.task, pass, { one.channel(), other.channel() }, rays, 1, atOnce) &&
-    calls < 1000)
+  while (!tracer.trace(team.traced->task, pass, rays, 1, often) && calls < most)
   {
     ++calls;
   }
-  expectSameRays(rays, traced.alone);
-  EXPECT_LT(calls, 1000);
+  EXPECT_LT(calls, most);
+  expectSameRays(rays, expected);
 }
 
 TEST(Distributed, SaysWhichRankDoesNotAnswer)
 {
-  const Traced<float> traced({ std::make_shared<BallsSource>(threeBalls(3e-2)) });
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
   for (const Worker::Fault fault : { Worker::Fault::Leaves, Worker::Fault::LosesEverything })
   {
-    Worker good, faulty(fault, 2);
-    DistributedTracer<float> tracer(traced.medium);
-    TracedPass rays;
-    rays.resize(traced.pass, 0);
-    try
+    for (const int after : { 0, 3, 12 }) // before there is a tree, while it is made, and later
     {
-      tracer.trace(traced.task, traced.pass, { good.channel(), faulty.channel() }, rays, 1, {});
-      FAIL() << "no error";
-    }
-    catch (const Error& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("Rank 2"), std::string::npos) << error.what();
+      SCOPED_TRACE(testing::Message() << static_cast<int>(fault) << " after " << after);
+      try
+      {
+        const Team<float> team(setting, 1, fault, after);
+        DistributedTracer<float> tracer(team.traced->medium, *team.owners);
+        for (int again = 0; again < 100; ++again)
+        {
+          TracedPass rays;
+          rays.resize(team.traced->pass, 0);
+          tracer.trace(team.traced->task, team.traced->pass, rays, 1, {});
+        }
+        FAIL() << "no error";
+      }
+      catch (const Error& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("Rank 1 "), std::string::npos) << error.what();
+      }
     }
   }
 }
