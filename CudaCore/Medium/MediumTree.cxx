@@ -393,6 +393,8 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.voxels =
     statistics_.bricks * brickEdge * brickEdge * (shape() == BrickShape::Layer ? 1 : brickEdge);
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
+  statistics_.processes = std::max(1, static_cast<int>(owned_.size()));
+  statistics_.isMemoryShort = work_.isMemoryShort;
   const double deflection = work_.largest, gathered = work_.gathered;
   statistics_.largestDeflection = deflection;
   statistics_.deflectionError = error;

@@ -114,11 +114,11 @@ private:
     std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has asked for
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
+    std::int16_t owner = 0;     ///< of its brick and map; 0 where there are none
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
     std::int32_t brick = 0; ///< its number at its owner, as that of the map
     std::int32_t map = -1;
-    std::int32_t owner = 0; ///< of both; 0 where there are none
     BrickFacts facts{};
   };
   /// Of the bricks that another process has.
@@ -163,6 +163,7 @@ private:
       std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
     bool hasForgotten = false;                 ///< what the view does not need
     bool hasBegunAnew = false;
+    bool isMemoryShort = false;
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;

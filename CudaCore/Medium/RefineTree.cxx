@@ -247,6 +247,7 @@ bool MediumTree<Real>::plan(const View& view)
 template <class Real>
 void MediumTree<Real>::chooseWhatFits(std::size_t available)
 {
+  work_.isMemoryShort = true;
   std::vector<Task>& tasks = work_.tasks;
   const auto levelOf = [&](const Task& task)
   { return nodes_[static_cast<std::size_t>(task.node)].place.level; };
@@ -485,7 +486,8 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int3
   node.kind = brick.kind;
   node.offset = brick.offset;
   node.facts = brick.facts;
-  node.owner = brick.samples.empty() && brick.gasDistances.empty() ? 0 : owner;
+  node.owner =
+    static_cast<std::int16_t>(brick.samples.empty() && brick.gasDistances.empty() ? 0 : owner);
   if (node.owner == 0)
   {
     node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
@@ -528,7 +530,7 @@ void MediumTree<Real>::removeSamples(Node& node)
     owned_[static_cast<std::size_t>(node.owner)].samples.free.push_back(node.brick);
   }
   node.brick = 0;
-  node.owner = node.map < 0 ? 0 : node.owner;
+  node.owner = node.map < 0 ? std::int16_t{ 0 } : node.owner;
 }
 
 template <class Real>
@@ -543,7 +545,7 @@ void MediumTree<Real>::removeMap(Node& node)
     owned_[static_cast<std::size_t>(node.owner)].maps.free.push_back(node.map);
   }
   node.map = -1;
-  node.owner = node.brick == 0 ? 0 : node.owner;
+  node.owner = node.brick == 0 ? std::int16_t{ 0 } : node.owner;
 }
 
 /// Takes a node's samples from it.

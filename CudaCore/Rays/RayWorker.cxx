@@ -33,6 +33,12 @@ struct RayWorker::Arrays
     ArrayMessage head;
     if (read(message, head) && head.array < arraysOfTask)
     {
+      if (head.array == samplesOfTask) // of another medium
+      {
+        tree = 0;
+        singles.reset();
+        doubles.reset();
+      }
       cached[head.array] = { head.version, std::move(message) };
     }
   }
@@ -63,6 +69,7 @@ struct RayWorker::Arrays
     const bool isFirst = head.number == 0;
     if (isFirst)
     {
+      cached = {};
       singles.reset();
       doubles.reset();
       part<Real>().emplace(head.layout);

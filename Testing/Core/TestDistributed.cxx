@@ -5,6 +5,7 @@
 #include "AnalyticSources.h"
 #include "Fields.h"
 #include "Rays/DistributedTracer.h"
+#include "SameImage.h"
 #include "TreeRays.h"
 #include "WorkerThread.h"
 
@@ -16,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -257,7 +259,7 @@ TEST(Distributed, FollowsRaysThatComeBack)
 TEST(Distributed, EndsRaysInWalls)
 {
   Setting setting{ std::make_shared<SphereSource>(2) };
-  setting.tolerance = 0.1;
+  setting.tolerance = 0.5;
   for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
   {
     setting.path = path;
@@ -316,6 +318,146 @@ TEST(Distributed, SaysWhichRankDoesNotAnswer)
       }
     }
   }
+}
+
+Scene sceneOf(DistributedMedium distribution)
+{
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.view.width = static_cast<int>(width);
+  scene.view.height = static_cast<int>(height);
+  scene.view.viewDirection = { 0.3, -0.5, -0.8 };
+  scene.cutoff = Cutoff::KnifeEdge;
+  scene.samplesPerPixel = 2;
+  scene.threads = 1;
+  scene.distributedMedium = distribution;
+  return scene;
+}
+
+/// Of two images: of the largest deflection, the mean and the largest difference.
+std::pair<double, double> differenceOf(const Image& a, const Image& b)
+{
+  EXPECT_EQ(a.deflection.size(), b.deflection.size());
+  double largest = 0, worst = 0, sum = 0;
+  for (std::size_t n = 0; n < a.deflection.size(); ++n)
+  {
+    const double difference =
+      std::abs(static_cast<double>(a.deflection[n]) - static_cast<double>(b.deflection[n]));
+    largest = std::max(largest, std::abs(static_cast<double>(a.deflection[n])));
+    worst = std::max(worst, difference);
+    sum += difference;
+  }
+  return { sum / static_cast<double>(a.deflection.size()) / largest, worst / largest };
+}
+
+struct BenchOfTeam
+{
+  explicit BenchOfTeam(std::size_t count)
+  {
+    while (workers.size() < count)
+    {
+      workers.push_back(std::make_unique<Worker>());
+      channels.push_back(workers.back()->channel());
+    }
+    bench.setWorkers(channels);
+  }
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::vector<Channel*> channels;
+  Bench bench;
+};
+
+// Side by side, rays are rounded differently, and now and then one takes a step in another leaf.
+TEST(DistributedImage, IsThatOfOneProcess)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  for (const PathModel path : { PathModel::Refracted, PathModel::Straight, PathModel::Auto })
+  {
+    Scene scene = sceneOf(DistributedMedium::On);
+    scene.pathModel = path;
+    const Image alone = Bench().render(field, scene);
+    EXPECT_EQ(alone.medium.processes, 1);
+    BenchOfTeam team(3);
+    const Image image = team.bench.render(field, scene);
+    EXPECT_EQ(image.medium.processes, 4);
+    EXPECT_EQ(image.medium.bricks, alone.medium.bricks);
+    EXPECT_EQ(image.raysTraced, alone.raysTraced);
+    EXPECT_EQ(image.blockedFraction, alone.blockedFraction);
+    const auto [mean, worst] = differenceOf(alone, image);
+    EXPECT_LT(mean, 2e-6);
+    EXPECT_LT(worst, 3e-3);
+    // Another view, with pauses.
+    scene.view.viewDirection = { -0.1, 0.2, -1 };
+    const Image other = Bench().render(field, scene);
+    const Monitor atOnce{ {}, {}, [] { return true; } };
+    Image paused = team.bench.render(field, scene, atOnce);
+    int calls = 1;
+    for (; !paused.finished && calls < 10000; ++calls)
+    {
+      paused = team.bench.resume(atOnce);
+    }
+    EXPECT_GT(calls, 2);
+    EXPECT_EQ(paused.medium.processes, 4);
+    EXPECT_LT(differenceOf(other, paused).first, 2e-6);
+  }
+}
+
+TEST(DistributedImage, IsDistributedWhereThatIsWorthIt)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  Scene scene = sceneOf(DistributedMedium::Auto);
+  scene.mediumTolerance = 1e-3;
+  BenchOfTeam team(3);
+  const Image enough = team.bench.render(field, scene);
+  EXPECT_EQ(enough.medium.processes, 1);
+  EXPECT_FALSE(enough.medium.isMemoryShort);
+  scene.mediumMemory = static_cast<std::size_t>(enough.medium.bytes / 2);
+  const Image alone = Bench().render(field, scene);
+  EXPECT_TRUE(alone.medium.isMemoryShort);
+  const Image image = team.bench.render(field, scene);
+  EXPECT_EQ(image.medium.processes, 4);
+  EXPECT_FALSE(image.medium.isMemoryShort);
+  EXPECT_EQ(image.medium.bricks, enough.medium.bricks);
+  EXPECT_LT(differenceOf(enough, image).first, 2e-6);
+  scene.distributedMedium = DistributedMedium::Off;
+  expectSameImage(team.bench.render(field, scene), alone);
+}
+
+TEST(DistributedImage, IsThatOfAllProcessesWhereMediaCannotBeDistributed)
+{
+  const Scene scene = sceneOf(DistributedMedium::On);
+  BenchOfTeam team(2);
+  Scene adaptive = scene;
+  adaptive.integrator = Integrator::Adaptive;
+  adaptive.pathModel = PathModel::Refracted;
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  expectSameImage(team.bench.render(field, adaptive), Bench().render(field, adaptive));
+  const auto withFields = std::make_shared<SourceWithFields>(
+    field.source, std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3) });
+  Field tinted = fieldOf(withFields);
+  tinted.gradients.count = 1;
+  Scene colored = scene;
+  colored.fieldColors = { { 1, 0, 0 } };
+  expectSameImage(team.bench.render(tinted, colored), Bench().render(tinted, colored));
+  const BlobWithHole flow;
+  expectSameImage(team.bench.render(flow.field, scene), Bench().render(flow.field, scene));
+}
+
+TEST(DistributedImage, IsMadeAnewAfterAFault)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  const Scene scene = sceneOf(DistributedMedium::On);
+  const auto media = std::make_shared<SharedMedia>();
+  Worker good, faulty(Worker::Fault::LosesEverything, 8);
+  Bench bench;
+  bench.setMedia(media);
+  bench.setWorkers({ good.channel(), faulty.channel() });
+  EXPECT_THROW(bench.render(field, scene), Error);
+  Worker another;
+  bench.setWorkers({ good.channel(), another.channel() });
+  const Image image = bench.render(field, scene);
+  EXPECT_EQ(image.medium.processes, 3);
+  EXPECT_EQ(media->count(), 0);
+  EXPECT_LT(differenceOf(Bench().render(field, scene), image).first, 2e-6);
 }
 
 } // namespace
