@@ -16,73 +16,53 @@
 namespace schlieren
 {
 
-/// Rays that have come to a process, and what each has gathered so far.
+/// Rays that have come to a process.
 template <class Real>
 struct TravellingRays
 {
   std::vector<SuspendedRay<Real>> rays;
-  std::vector<float> gathered; ///< ray by ray
 
   std::size_t size() const { return rays.size(); }
 
   /// A ray that has not entered the grid yet.
-  void begin(std::int64_t ray, std::int32_t leaf, std::size_t fields)
+  void begin(std::int64_t ray, std::int32_t leaf)
   {
     SuspendedRay<Real> state{};
     state.ray = ray;
     state.leaf = -1;
     state.next = leaf;
     rays.push_back(state);
-    gathered.resize(gathered.size() + fields, 0.f);
-  }
-
-  void add(const SuspendedRay<Real>& ray, const float* ofRay, std::size_t fields)
-  {
-    rays.push_back(ray);
-    gathered.insert(gathered.end(), ofRay, ofRay + fields);
   }
 
   /// The last ones, so many at most.
-  TravellingRays takeBack(std::size_t most, std::size_t fields)
+  TravellingRays takeBack(std::size_t most)
   {
     const auto left = static_cast<std::ptrdiff_t>(rays.size() - std::min(most, rays.size()));
-    const auto gatheredLeft = left * static_cast<std::ptrdiff_t>(fields);
-    TravellingRays taken{ { rays.begin() + left, rays.end() },
-      { gathered.begin() + gatheredLeft, gathered.end() } };
+    TravellingRays taken{ { rays.begin() + left, rays.end() } };
     rays.resize(static_cast<std::size_t>(left));
-    gathered.resize(static_cast<std::size_t>(gatheredLeft));
     return taken;
   }
 
   void write(std::vector<char>& message) const
   {
-    const auto append = [&](const auto& values)
-    {
-      const char* first = reinterpret_cast<const char*>(values.data());
-      message.insert(message.end(), first, first + values.size() * sizeof(values[0]));
-    };
-    append(rays);
-    append(gathered);
+    const char* first = reinterpret_cast<const char*>(rays.data());
+    message.insert(message.end(), first, first + rays.size() * sizeof(SuspendedRay<Real>));
   }
 
   /// From a message, behind its first bytes. Where they end; 0 where there are too few.
-  std::size_t read(
-    const std::vector<char>& message, std::size_t at, std::size_t count, std::size_t fields)
+  std::size_t read(const std::vector<char>& message, std::size_t at, std::size_t count)
   {
-    const std::size_t ofRays = count * sizeof(SuspendedRay<Real>);
-    const std::size_t ofGathered = count * fields * sizeof(float);
-    if (at > message.size() || count > message.size() || message.size() - at < ofRays + ofGathered)
+    const std::size_t bytes = count * sizeof(SuspendedRay<Real>);
+    if (at > message.size() || count > message.size() || message.size() - at < bytes)
     {
       return 0;
     }
     rays.resize(count);
-    gathered.resize(count * fields);
-    std::memcpy(rays.data(), message.data() + at, ofRays);
-    if (ofGathered > 0)
+    if (bytes > 0)
     {
-      std::memcpy(gathered.data(), message.data() + at + ofRays, ofGathered);
+      std::memcpy(rays.data(), message.data() + at, bytes);
     }
-    return at + ofRays + ofGathered;
+    return at + bytes;
   }
 };
 
@@ -128,11 +108,10 @@ struct EndedRay
   RayExit exit;
 };
 
-/// The beginning of a worker's answer to SumUp, behind which the sums come, and to Advance, behind which come the ended rays, what they have gathered, and the suspended ones.
+/// The beginning of a worker's answer to SumUp, behind which the sums come, and to Advance, behind which come the ended rays and the suspended ones.
 struct AdvancedMessage
 {
   std::uint32_t kind = RayWorker::Advanced; ///< or Sums
-  std::uint32_t fields = 0;
   std::uint64_t number = 0;
   std::uint64_t ended = 0, suspended = 0;
   double worstDrift = 0;
@@ -143,12 +122,11 @@ template <class Real>
 struct AdvancedRays
 {
   std::vector<EndedRay> ended;
-  std::vector<float> gathered;    ///< by these
   TravellingRays<Real> suspended; ///< that have come to other processes' leaves
   double worstDrift = 0;
 
   std::vector<char> toMessage(std::uint64_t number) const;
-  bool fromMessage(const std::vector<char>& message, std::size_t fields);
+  bool fromMessage(const std::vector<char>& message);
 };
 
 /// Takes rays as far as the medium is here.

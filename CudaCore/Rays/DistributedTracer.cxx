@@ -94,7 +94,6 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   State& state = *state_;
   const std::vector<Channel*>& workers = state.owners.channels();
   const std::size_t count = workers.size() + 1;
-  const auto fields = static_cast<std::size_t>(task.gradients.count);
 
   AdvanceMessage<Real> message;
   message.head.kind = RayWorker::Advance;
@@ -114,20 +113,11 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       pointer = nullptr;
     });
 
-  const std::size_t raysAtOnce = std::max<std::size_t>(
-    1, (largestMessage - sizeof(message)) / (sizeof(SuspendedRay<Real>) + fields * sizeof(float)));
+  constexpr std::size_t raysAtOnce =
+    (largestMessage - sizeof(message)) / sizeof(SuspendedRay<Real>);
   std::vector<TravellingRays<Real>> waiting(count); // for a part
   std::int64_t underWay = 0;
 
-  const auto put = [&](std::int64_t ray, const RayExit& exit, const float* gathered)
-  {
-    traced.exits[static_cast<std::size_t>(ray)] = exit;
-    if (gathered != nullptr)
-    {
-      std::copy_n(
-        gathered, fields, traced.gathered.data() + static_cast<std::size_t>(ray) * fields);
-    }
-  };
   // -1: all have it.
   const auto ownerOf = [&](std::int32_t leaf) -> std::int32_t
   {
@@ -137,24 +127,21 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   };
   const auto take = [&](std::size_t from, const AdvancedRays<Real>& advanced)
   {
-    for (std::size_t n = 0; n < advanced.ended.size(); ++n)
+    for (const EndedRay& one : advanced.ended)
     {
-      const EndedRay& one = advanced.ended[n];
-      put(one.ray, one.exit, advanced.gathered.data() + n * fields);
+      traced.exits[static_cast<std::size_t>(one.ray)] = one.exit;
     }
     underWay -= static_cast<std::int64_t>(advanced.ended.size());
     traced.worstDrift = std::max(traced.worstDrift, advanced.worstDrift);
-    for (std::size_t n = 0; n < advanced.suspended.size(); ++n)
+    for (const SuspendedRay<Real>& ray : advanced.suspended.rays)
     {
-      const SuspendedRay<Real>& ray = advanced.suspended.rays[n];
       const std::int32_t owner = ownerOf(ray.next);
       if (owner < 0 || owner == static_cast<std::int32_t>(from))
       {
         throw Error(
           "A ray has been handed on to nobody: ranks disagree about the medium. Update again.");
       }
-      waiting[static_cast<std::size_t>(owner)].add(
-        ray, advanced.suspended.gathered.data() + n * fields, fields);
+      waiting[static_cast<std::size_t>(owner)].rays.push_back(ray);
     }
   };
   const auto begin = [&](std::int64_t tile)
@@ -169,13 +156,13 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       const Entry entry = meetGrid(task, pass, ray, batch, 0);
       if (batch.fate[0] != RayFate::Left)
       {
-        put(ray, leaveGrid(task, batch, 0, entry), nullptr);
+        traced.exits[static_cast<std::size_t>(ray)] = leaveGrid(task, batch, 0, entry);
         continue;
       }
       const std::int32_t leaf = task.medium.finder.at(startOf(batch, 0));
       const std::int32_t owner = ownerOf(leaf);
       const std::int64_t part = owner >= 0 ? owner : tile % static_cast<std::int64_t>(count);
-      waiting[static_cast<std::size_t>(part)].begin(ray, leaf, fields);
+      waiting[static_cast<std::size_t>(part)].begin(ray, leaf);
       ++traced.crossed;
       ++underWay;
     }
@@ -199,7 +186,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
         continue; // of a trace that has failed
       }
       AdvancedRays<Real> advanced;
-      if (!advanced.fromMessage(answer, fields))
+      if (!advanced.fromMessage(answer))
       {
         throwAbsentOwner(static_cast<std::int32_t>(n + 1));
       }
@@ -227,7 +214,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
         state.sendStructure(channel, static_cast<std::int32_t>(n + 1));
         worker.hasTree = true;
       }
-      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce, fields);
+      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce);
       message.head.rays = static_cast<std::int64_t>(rays.size());
       std::vector<char> request = messageOf(message);
       rays.write(request);
@@ -261,7 +248,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     }
     if (waiting[0].size() > 0)
     {
-      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce, fields), threads));
+      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce), threads));
       isIdle = false;
     }
     if (underWay == 0 && (isStopped || tiles.left().count() == 0))

@@ -196,11 +196,9 @@ struct RayWorker::Arrays
       request.task.medium.samples = own->samples().data() + request.head.firstSample;
       request.task.medium.gasDistances = own->gasDistances().data() + request.head.firstSample;
     }
-    const auto fields = static_cast<std::size_t>(request.task.gradients.count);
-    const auto count = static_cast<std::size_t>(request.head.rays);
     TravellingRays<Real> rays;
-    const std::size_t end = rays.read(message, sizeof(request), count, fields);
-    if (end != message.size())
+    const auto count = static_cast<std::size_t>(request.head.rays);
+    if (rays.read(message, sizeof(request), count) != message.size())
     {
       return false;
     }

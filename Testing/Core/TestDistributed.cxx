@@ -45,6 +45,7 @@ struct Setting
   PathModel path = PathModel::Refracted;
   Interpolation interpolation = Interpolation::Quadratic;
   double tolerance = 0.01;
+  double finest = 0.005; ///< voxels that the view asks for
   std::size_t memory = std::size_t{ 1 } << 30;
 };
 
@@ -60,7 +61,7 @@ struct Traced
     view.width = static_cast<int>(width);
     view.height = static_cast<int>(height);
     const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
-    refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.005 }, {});
+    refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, setting.finest }, {});
     RaySettings rays;
     rays.kernel = { setting.path, Integrator::Leapfrog, setting.interpolation };
     task = makeTask<Real>(medium, nullptr, FieldGradientsView{}, light, rays);
@@ -260,6 +261,7 @@ TEST(Distributed, EndsRaysInWalls)
 {
   Setting setting{ std::make_shared<SphereSource>(2) };
   setting.tolerance = 0.5;
+  setting.finest = 0.04;
   for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
   {
     setting.path = path;
