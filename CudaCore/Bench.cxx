@@ -455,6 +455,8 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   {
     inUse.reset();
     held.team.reset();
+    held.distributed.reset();
+    held.owners.reset();
     held.shared = makeMedium<Real>(field, scene, nullptr);
     held.changesSeen = noChange;
     inUse.emplace(*held.shared);

@@ -26,6 +26,10 @@ void BrickChannels::begin(const BrickLayout& layout, std::size_t bytesOfReal)
   bytesOfReal_ = static_cast<std::uint32_t>(bytesOfReal);
   tree_ = newNumber();
   puts_.assign(channels_.size(), 0);
+  for (std::int32_t owner = 1; owner < count(); ++owner)
+  {
+    put(owner, DeliveredBricks<float>{}.toBytes()); // no bricks: the same of doubles
+  }
 }
 
 void BrickChannels::put(std::int32_t owner, const std::vector<char>& bricks)

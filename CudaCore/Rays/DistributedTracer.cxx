@@ -177,12 +177,6 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       AdvancedMessage head;
       if (!read(answer, head) || head.number != message.head.number)
       {
-        RaysMessage lacking;
-        if (read(answer, lacking) && lacking.kind == RayWorker::Lacking &&
-          lacking.number == message.head.number)
-        {
-          throwAbsentOwner(static_cast<std::int32_t>(n + 1));
-        }
         continue; // of a trace that has failed
       }
       AdvancedRays<Real> advanced;

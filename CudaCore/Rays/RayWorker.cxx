@@ -43,7 +43,6 @@ struct RayWorker::Arrays
     }
   }
 
-  /// Makes the task's pointers point to the arrays. False where one is not there.
   /// What it has of a tree that is divided.
   std::uint64_t tree = 0; ///< 0: nothing, or not all of it
   std::uint64_t puts = 0; ///< messages with bricks of it
@@ -105,6 +104,7 @@ struct RayWorker::Arrays
     return true;
   }
 
+  /// Makes the task's pointers point to the arrays. False where one is not there.
   template <class Request>
   bool bind(Request& request) const
   {
@@ -185,17 +185,13 @@ struct RayWorker::Arrays
   bool advance(const std::vector<char>& message, Channel& channel, int threads)
   {
     AdvanceMessage<Real> request;
-    if (!read(message, request) || !bind(request) ||
-      (request.head.tree != tree && request.head.tree != 0))
+    const std::optional<PartOfTree<Real>>& own = part<Real>();
+    if (!read(message, request) || !bind(request) || request.head.tree != tree || !own)
     {
       return false;
     }
-    const std::optional<PartOfTree<Real>>& own = part<Real>();
-    if (own)
-    {
-      request.task.medium.samples = own->samples().data() + request.head.firstSample;
-      request.task.medium.gasDistances = own->gasDistances().data() + request.head.firstSample;
-    }
+    request.task.medium.samples = own->samples().data() + request.head.firstSample;
+    request.task.medium.gasDistances = own->gasDistances().data() + request.head.firstSample;
     TravellingRays<Real> rays;
     const auto count = static_cast<std::size_t>(request.head.rays);
     if (rays.read(message, sizeof(request), count) != message.size())

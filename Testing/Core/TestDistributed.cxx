@@ -444,6 +444,19 @@ TEST(DistributedImage, IsThatOfAllProcessesWhereMediaCannotBeDistributed)
   expectSameImage(team.bench.render(flow.field, scene), Bench().render(flow.field, scene));
 }
 
+TEST(DistributedImage, MayHaveFewerBricksThanProcesses)
+{
+  const Field field =
+    fieldOf(std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.5, 1e-4 } }, 1, 1));
+  Scene scene = sceneOf(DistributedMedium::On);
+  scene.mediumTolerance = 1;
+  BenchOfTeam team(80);
+  const Image image = team.bench.render(field, scene);
+  EXPECT_EQ(image.medium.processes, 81);
+  EXPECT_LT(image.medium.bricks, 80);
+  EXPECT_LT(differenceOf(Bench().render(field, scene), image).first, 2e-6);
+}
+
 TEST(DistributedImage, IsMadeAnewAfterAFault)
 {
   const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
