@@ -19,7 +19,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace filters
 {
@@ -91,8 +93,8 @@ Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
   return sides;
 }
 
-/// Gives points that are one the same number.
-void mergePoints(Faces& faces, double rounding)
+/// Gives points that are one the same number. Returns the numbers of the corners before.
+std::vector<std::int32_t> mergePoints(Faces& faces, double rounding)
 {
   std::vector<double> sizes(faces.points.size(), std::numeric_limits<double>::infinity());
   for (std::size_t face = 0; face < faces.size(); ++face)
@@ -111,10 +113,12 @@ void mergePoints(Faces& faces, double rounding)
   }
   const std::vector<std::int32_t> numbers =
     coincidentPoints(faces.points, mergingTolerances(faces.points, sizes, rounding));
+  const std::vector<std::int32_t> before = faces.corners;
   for (std::int32_t& corner : faces.corners)
   {
     corner = numbers[static_cast<std::size_t>(corner)];
   }
+  return before;
 }
 
 /// The corners of a face without those that have fallen on their neighbours; empty if it has no area.
@@ -143,8 +147,30 @@ struct Kept
   bool isPart; // of a larger face: one place tells whether it is covered
 };
 
+/// A face, seen from its cell.
+Kept keptOf(const Faces& faces, std::size_t face, double rounding, bool hidesBehind)
+{
+  const Sides sides = sidesOf(faces, face, rounding);
+  std::vector<std::int32_t> corners = distinctCorners(faces, face);
+  Point area{ 0, 0, 0 };
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const auto at = [&](std::size_t corner) -> const Point&
+    { return faces.points[static_cast<std::size_t>(corners[corner % corners.size()])]; };
+    area = area + cross(at(i) - sides.middle, at(i + 1) - sides.middle);
+  }
+  if (dot(area, sides.outward) > 0)
+  {
+    std::reverse(corners.begin(), corners.end());
+  }
+  return { std::move(corners), sides, hidesBehind, faces.areParts[face] != 0 };
+}
+
+/// Two visible cells have it, one on each side.
+using Pair = std::array<std::size_t, 2>;
+
 /// Takes away what belongs to two visible cells.
-std::vector<Kept> withoutPairs(const Faces& faces, double rounding)
+std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<Pair>& pairs)
 {
   struct Key
   {
@@ -196,24 +222,80 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding)
     if (isVisible[0] != isVisible[1])
     {
       const int side = isVisible[0] ? 0 : 1;
-      const Sides sides = sidesOf(faces, owner[side], rounding);
-      std::vector<std::int32_t> corners = distinctCorners(faces, owner[side]);
-      Point area{ 0, 0, 0 };
-      for (std::size_t i = 0; i < corners.size(); ++i)
-      {
-        const auto at = [&](std::size_t corner) -> const Point&
-        { return faces.points[static_cast<std::size_t>(corners[corner % corners.size()])]; };
-        area = area + cross(at(i) - sides.middle, at(i + 1) - sides.middle);
-      }
-      if (dot(area, sides.outward) > 0)
-      {
-        std::reverse(corners.begin(), corners.end());
-      }
-      kept.push_back({ std::move(corners), sides, hides || isHidden[1 - side],
-        faces.areParts[owner[side]] != 0 });
+      kept.push_back(keptOf(faces, owner[side], rounding, hides || isHidden[1 - side]));
+    }
+    else if (isVisible[0])
+    {
+      pairs.push_back({ owner[0], owner[1] });
     }
   }
   return kept;
+}
+
+/// Of pairs of faces, those of one dataset that do not have the same points, only such at the same places.
+CutFaces cutsOf(
+  const Faces& faces, const std::vector<std::int32_t>& before, std::vector<Pair>& pairs)
+{
+  CutFaces cuts;
+  const auto isCut = [&](const Pair& pair)
+  {
+    CutFaces cut;
+    bool areOthers = false;
+    for (std::size_t i = faces.starts[pair[0]]; i < faces.starts[pair[0] + 1]; ++i)
+    {
+      const auto begin = faces.corners.begin();
+      const auto first = begin + static_cast<std::ptrdiff_t>(faces.starts[pair[1]]);
+      const auto end = begin + static_cast<std::ptrdiff_t>(faces.starts[pair[1] + 1]);
+      const auto found = std::find(first, end, faces.corners[i]);
+      if (found == end)
+      {
+        return false;
+      }
+      const std::int32_t points[2] = { before[i], before[static_cast<std::size_t>(found - begin)] };
+      areOthers = areOthers || points[0] != points[1];
+      const Share* of[2];
+      for (int side = 0; side < 2; ++side)
+      {
+        const auto point = static_cast<std::size_t>(points[side]);
+        if (faces.firstShares[point + 1] != faces.firstShares[point] + 1)
+        {
+          return false; // on a curved cell
+        }
+        of[side] = &faces.shares[faces.firstShares[point]];
+        cut.shares.push_back(*of[side]);
+      }
+      if (of[0]->leaf != of[1]->leaf)
+      {
+        return false;
+      }
+      cut.places.push_back(faces.corners[i]);
+    }
+    if (areOthers)
+    {
+      cuts.shares.insert(cuts.shares.end(), cut.shares.begin(), cut.shares.end());
+      cuts.places.insert(cuts.places.end(), cut.places.begin(), cut.places.end());
+      cuts.starts.push_back(cuts.places.size());
+    }
+    return areOthers;
+  };
+  pairs.erase(
+    std::remove_if(pairs.begin(), pairs.end(), [&](const Pair& pair) { return !isCut(pair); }),
+    pairs.end());
+  cuts.firstShares.resize(cuts.shares.size() + 1);
+  std::iota(cuts.firstShares.begin(), cuts.firstShares.end(), std::size_t{ 0 });
+  for (const Pair& pair : pairs)
+  {
+    Point area{ 0, 0, 0 };
+    const std::size_t begin = faces.starts[pair[0]], count = faces.starts[pair[0] + 1] - begin;
+    const auto at = [&](std::size_t i) -> const Point&
+    { return faces.points[static_cast<std::size_t>(faces.corners[begin + i % count])]; };
+    for (std::size_t i = 1; i + 1 < count; ++i)
+    {
+      area = area + 0.5 * cross(at(i) - at(0), at(i + 1) - at(0));
+    }
+    cuts.areas.push_back(norm(area));
+  }
+  return cuts;
 }
 
 /// Takes away what has cells on both sides.
@@ -330,15 +412,12 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
 
 } // namespace
 
-BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
-  const WorkProgress& progress, Extent extent)
+namespace
 {
-  return boundaryOf(facesOf(leaves, progress.part(0, 0.7)),
-    isInCell ? testInParallel(isInCell, progress.part(0.8, 0.9)) : nullptr, progress, extent);
-}
 
-BoundaryFaces boundaryOf(
-  Faces faces, const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
+/// `leaves`: null where their values are elsewhere.
+BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>* leaves,
+  const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
 {
   if (extent == Extent::Layer)
   {
@@ -346,17 +425,50 @@ BoundaryFaces boundaryOf(
   }
   progress.reach(0.7);
   const double rounding = relativeRounding(faces.points);
-  mergePoints(faces, rounding);
-  std::vector<Kept> kept = withoutPairs(faces, rounding);
+  const std::vector<std::int32_t> before = mergePoints(faces, rounding);
+  std::vector<Pair> pairs;
+  std::vector<Kept> kept = withoutPairs(faces, rounding, pairs);
   progress.reach(0.8);
   if (areInCells)
   {
     removeCovered(faces, areInCells, kept);
   }
   progress.reach(0.9);
+  CutFaces cuts;
+  std::vector<unsigned char> areSheets;
+  if (leaves)
+  {
+    cuts = cutsOf(faces, before, pairs);
+    areSheets = findSheets(cuts, *leaves);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+      for (std::size_t side = 0; side < 2 && areSheets[i]; ++side)
+      {
+        kept.push_back(keptOf(faces, pairs[i][side], rounding, false));
+      }
+    }
+  }
   BoundaryFaces result = triangulate(faces, kept);
   result.extent = extent;
+  result.cuts = std::move(cuts);
+  result.areSheets = std::move(areSheets);
   return result;
+}
+
+} // namespace
+
+BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
+  const WorkProgress& progress, Extent extent, Sheets sheets)
+{
+  return boundaryOf(facesOf(leaves, progress.part(0, 0.7)),
+    sheets == Sheets::Found ? &leaves : nullptr,
+    isInCell ? testInParallel(isInCell, progress.part(0.8, 0.9)) : nullptr, progress, extent);
+}
+
+BoundaryFaces boundaryOf(
+  Faces faces, const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
+{
+  return boundaryOf(std::move(faces), nullptr, areInCells, progress, extent);
 }
 
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)

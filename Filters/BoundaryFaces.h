@@ -3,6 +3,7 @@
 #pragma once
 
 #include "MeshFaces.h"
+#include "SheetFaces.h"
 #include "Triangles.h"
 #include "WorkProgress.h"
 
@@ -31,6 +32,13 @@ enum class Extent
   Layer
 };
 
+/// Walls without thickness within a dataset.
+enum class Sheets
+{
+  Found,
+  Ignored
+};
+
 /// Where the gas ends: the faces that belong to one visible cell only.
 struct BoundaryFaces
 {
@@ -40,6 +48,8 @@ struct BoundaryFaces
   std::vector<unsigned char>
     hidesBehind; ///< of each triangle: whether there is a hidden cell on the other side
   Extent extent = Extent::Volume;
+  CutFaces cuts; ///< within datasets, those of `surface` that are sheets included
+  std::vector<unsigned char> areSheets; ///< of these
 };
 
 /// The boundary of all leaves together: datasets with a double scalar at each point, NaN where there is no gas.
@@ -52,12 +62,14 @@ struct BoundaryFaces
 /// `isInCell`, so are faces that have cells on both sides without the same points: blocks that overlap, hanging
 /// nodes, curved sides of blocks with a gap of up to 0.05 of the cell's height or the face's smallest edge.
 ///
-/// Sheets without thickness within a mesh, whose cells meet at the same points, are not known to be there: give them
-/// as Bodies.
+/// Sheets without thickness within a dataset, whose cells meet at the same places but have points of their own on
+/// both sides, are known by their values (see findSheets()) and are there twice, once from each side. Others are not
+/// known to be there: give them as Bodies.
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
-  const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
+  const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume,
+  Sheets sheets = Sheets::Found);
 
-/// The same of the faces of leaves that were found elsewhere.
+/// The same of the faces of leaves that were found elsewhere. Without sheets.
 BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells,
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
 

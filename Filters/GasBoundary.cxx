@@ -15,8 +15,9 @@ namespace filters
 
 GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
   Outside outside, const CellTest& isInCell, const WorkProgress& progress, Extent extent)
-  : GasBoundary(boundaryOf(leaves, isInCell, progress.part(0, 0.8), extent), bodies, outside,
-      progress.part(0.8, 1))
+  : GasBoundary(boundaryOf(leaves, isInCell, progress.part(0, 0.8), extent,
+                  outside == Outside::Passes ? Sheets::Ignored : Sheets::Found),
+      bodies, outside, progress.part(0.8, 1))
 {
 }
 

@@ -20,7 +20,7 @@ namespace filters
 /// What stops light where the gas ends.
 enum class Outside
 {
-  Auto,   ///< bodies do, outer boundaries do not: see findOuter()
+  Auto,   ///< bodies do, sheets without thickness, too; outer boundaries do not: see findOuter()
   Blocks, ///< all that is outside of the cells
   Passes  ///< nothing but hidden cells and Bodies
 };
@@ -44,6 +44,12 @@ public:
     const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
+
+  /// Whether walls without thickness are where they are with the values of these leaves, on the same mesh.
+  bool hasSheetsOf(const std::vector<vtkDataSet*>& leaves) const
+  {
+    return findSheets(this->Faces.cuts, leaves) == this->Faces.areSheets;
+  }
 
   /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where
   /// there is none. NaN: there is no boundary. `leaves`: these or others on the same mesh.

@@ -94,6 +94,12 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   this->Lattices->beginStep();
 }
 
+bool MeshSource::hasSameSheets(
+  const SourceMesh& mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
+{
+  return mesh.boundary->hasSheetsOf(pointersTo(leaves));
+}
+
 std::uint64_t MeshSource::keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction)
 {

@@ -55,7 +55,11 @@ public:
     return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Warning };
   }
 
-  /// A hash of all that the mesh of a source depends on.
+  /// Whether walls without thickness, which are known by values, are the same with the values of these leaves.
+  static bool hasSameSheets(
+    const SourceMesh& mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
+
+  /// A hash of all that the mesh of a source depends on, but those sheets.
   static std::uint64_t keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction);
 

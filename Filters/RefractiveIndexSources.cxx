@@ -135,7 +135,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
     const std::uint64_t key = MeshSource::keyOf(leaves, ownBodies, outside, reconstruction);
-    if (this->Mesh->key != key)
+    if (this->Mesh->key != key || !MeshSource::hasSameSheets(this->Mesh->mesh, leaves))
     {
       this->LeaveMesh();
     }

@@ -370,6 +370,9 @@ public:
    * - OUTSIDE_BLOCKS: all of them stop it.
    * - OUTSIDE_PASSES: it goes straight on in all of them. Give the surfaces of bodies to make them solid.
    *
+   * Unless it is OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have points of their own at the same
+   * places, stop light where the values at these differ.
+   *
    * This filter's output, a grid, knows OUTSIDE_AUTO as OUTSIDE_BLOCKS; with OUTSIDE_PASSES it has a third point array
    * `TransparentPointMask` (unsigned char), 1 at such places (whose vtkValidPointMask stays 0), else 0.
    * It concerns input that is resampled; an image has cells everywhere, but its point array

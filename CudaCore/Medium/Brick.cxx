@@ -480,6 +480,7 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
     {
       continue;
     }
+    facts.canImprove[axis] = true;
     const double largest = largestThirdDifference(
       samples.nu.data(), samples.isGas, { samples.n, samples.margin - 1, edge + 2, shape_ }, axis);
     // Along the ray the box may be longer than along this axis.

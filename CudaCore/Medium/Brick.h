@@ -32,12 +32,21 @@ inline NodePlace childOf(const NodePlace& place, std::int32_t child)
       2 * place.at[2] + (child >> 2) } };
 }
 
+/// Which part of the box that it is a part of.
+inline std::int32_t partOf(const NodePlace& place, BrickShape shape)
+{
+  const std::int32_t ofLayer = (place.at[0] & 1) | (place.at[1] & 1) << 1;
+  return shape == BrickShape::Layer ? ofLayer : ofLayer | (place.at[2] & 1) << 2;
+}
+
 /// What a box needs to become finer. All of nu or of a deflection, which have the same size.
 struct BrickFacts
 {
   /// Of a ray's deflection over the box, because the samples are as far apart as they are; 0 along an axis on
   /// which the cells are no finer than the samples.
   std::array<double, 3> error{ 0, 0, 0 };
+  /// Whether the cells are finer than the samples along an axis, so that the error can be less.
+  std::array<bool, 3> canImprove{ false, false, false };
   /// The same, because of what lies between samples that are further apart than cells along this axis.
   std::array<double, 3> hidden{ 0, 0, 0 };
   double range = 0;         ///< of its samples, as the deflection that it may make

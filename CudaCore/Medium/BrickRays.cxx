@@ -19,6 +19,10 @@ namespace
 {
 
 constexpr int latticeEdge = 48;
+
+/// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
+constexpr double mostOfSums = 2;
+
 constexpr int brickEdge = BrickMaker<float>::edge;
 
 /// What a leaf with one value for all may add to a ray's deflection, to its optical path and to what it gathers, at
@@ -29,6 +33,13 @@ struct Neglected
   float deflection, opticalPath, gathered;
 };
 
+/// The error of a leaf with samples, of a ray's deflection.
+struct Wrong
+{
+  std::int32_t leaf;
+  float deflection;
+};
+
 struct Bend
 {
   double deflection = 0;
@@ -37,6 +48,7 @@ struct Bend
   double error = 0, errorOfGathered = 0; // sums of squares
   bool isBlocked = false;
   std::vector<Neglected> neglected;
+  std::vector<Wrong> wrong;
 };
 
 /// A ray x = start + s direction, in index coordinates, s from `entry` to `exit` in data units.
@@ -170,7 +182,12 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
     const auto squared = [](double x) { return x * x; };
     const double edges = way / edgeOf(*longest);
-    bend.error += squared(edges * static_cast<double>(medium.errors[found]));
+    const double error = edges * static_cast<double>(medium.errors[found]);
+    bend.error += squared(error);
+    if (error > 0)
+    {
+      bend.wrong.push_back({ found, static_cast<float>(error) });
+    }
     if (medium.fieldErrors != nullptr)
     {
       bend.errorOfGathered += squared(edges * static_cast<double>(medium.fieldErrors[found]));
@@ -214,12 +231,12 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   return bend;
 }
 
-/// Of what a ray neglects: the largest parts, until what is left is half of what is allowed.
-template <float Neglected::*part>
-void addCoarse(const Bend& bend, double allowed, std::vector<std::int32_t>& coarse)
+/// Of errors along a ray that add up to more than is allowed: the largest ones, until what is left is half of it.
+template <auto part, class Error>
+void addLargest(std::vector<Error> errors, double allowed, std::vector<std::int32_t>& leaves)
 {
   double sum = 0;
-  for (const Neglected& one : bend.neglected)
+  for (const Error& one : errors)
   {
     sum += static_cast<double>(one.*part);
   }
@@ -227,16 +244,15 @@ void addCoarse(const Bend& bend, double allowed, std::vector<std::int32_t>& coar
   {
     return;
   }
-  std::vector<Neglected> sorted = bend.neglected;
-  std::sort(sorted.begin(), sorted.end(),
-    [](const Neglected& a, const Neglected& b) { return a.*part > b.*part; });
-  for (const Neglected& one : sorted)
+  std::sort(
+    errors.begin(), errors.end(), [](const Error& a, const Error& b) { return a.*part > b.*part; });
+  for (const Error& one : errors)
   {
     if (!(sum > 0.5 * allowed))
     {
       break;
     }
-    coarse.push_back(one.leaf);
+    leaves.push_back(one.leaf);
     sum -= static_cast<double>(one.*part);
   }
 }
@@ -420,13 +436,18 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   {
     if (bend.isBlocked == areAllBlocked)
     {
-      addCoarse<&Neglected::deflection>(bend, tolerance * findings.deflection, findings.coarse);
-      addCoarse<&Neglected::opticalPath>(bend, tolerance * findings.opticalPath, findings.coarse);
-      addCoarse<&Neglected::gathered>(bend, tolerance * findings.gathered, findings.coarseInFields);
+      const double allowed = tolerance * findings.deflection;
+      addLargest<&Neglected::deflection>(bend.neglected, allowed, findings.coarse);
+      addLargest<&Neglected::opticalPath>(
+        bend.neglected, tolerance * findings.opticalPath, findings.coarse);
+      addLargest<&Neglected::gathered>(
+        bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
+      addLargest<&Wrong::deflection>(bend.wrong, mostOfSums * allowed, findings.wrong);
     }
   }
   makeUnique(findings.coarse);
   makeUnique(findings.coarseInFields);
+  makeUnique(findings.wrong);
   return findings;
 }
 

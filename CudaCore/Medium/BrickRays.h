@@ -100,6 +100,8 @@ struct RayFindings
   std::vector<std::int32_t> coarse;
   std::vector<std::int32_t>
     coarseInFields; ///< the same of leaves without gradients, and of `gathered`
+  /// Leaves whose samples are too far apart, as errors along a ray add up. Those that contribute most.
+  std::vector<std::int32_t> wrong;
 };
 /// `least`: what is known of the largest ones, e.g. from samples that are no longer there. `elsewhere`: null where all
 /// samples are here.

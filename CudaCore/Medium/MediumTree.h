@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -115,6 +116,7 @@ private:
     bool isKnown = false;       ///< otherwise a leaf that no view has asked for
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
     std::int16_t owner = 0;     ///< of its brick and map; 0 where there are none
+    bool isWrong = false;       ///< its error is too large beside those of others along a ray
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
     std::int32_t brick = 0; ///< its number at its owner, as that of the map
@@ -168,13 +170,17 @@ private:
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
     std::vector<typename BrickMaker<Real>::Request> requests; ///< of the tasks that are begun
-    std::vector<Brick<Real>> bricks;                          ///< likewise
+    std::vector<std::int32_t> boxes; ///< likewise; the nodes that are divided, or -1
+    std::map<std::int32_t, std::vector<Real>> fetched; ///< samples of these that others have
+    std::vector<Brick<Real>> bricks;                   ///< likewise
     std::int64_t bricksDone = 0;
   };
   class View;
 
   /// Of a node that is divided.
   std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
+  Brick<Real> makeBrick(std::size_t request) const;
+  void fetchBoxes();
   void makeRoots();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);

@@ -108,7 +108,7 @@ public:
     const bool isSharp = node.facts.hasWallEdge && !node.facts.areEdgesFine &&
       !showsWalls(node, 0.2) && isEdgeOn(node) && allows(node.place.level, 0.25);
     const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
-    double urgency = error > allowed().deflection ? error : 0;
+    double urgency = node.isWrong || error > allowed().deflection ? error : 0;
     if (const double gathered = errorOf(node.place.level, ofFields); gathered > allowed().gathered)
     {
       const double deflection = work_.largest;

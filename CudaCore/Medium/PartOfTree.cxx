@@ -125,6 +125,25 @@ bool PartOfTree<Real>::sumUp(
   return areAllHere;
 }
 
+template <class Real>
+bool PartOfTree<Real>::fetch(
+  const std::vector<std::int32_t>& bricks, std::vector<char>& found) const
+{
+  const auto perBrick = static_cast<std::size_t>(layout_.samplesPerBrick);
+  const std::size_t bytes = perBrick * sizeof(Real);
+  found.resize(bricks.size() * bytes);
+  for (std::size_t n = 0; n < bricks.size(); ++n)
+  {
+    const auto first = static_cast<std::size_t>(bricks[n]) * perBrick;
+    if (bricks[n] < 0 || first + perBrick > samples().size())
+    {
+      return false;
+    }
+    std::memcpy(found.data() + n * bytes, samples().data() + first, bytes);
+  }
+  return true;
+}
+
 template struct DeliveredBricks<float>;
 template struct DeliveredBricks<double>;
 template class PartOfTree<float>;

@@ -31,6 +31,9 @@ public:
   /// See sumUp(); of each owner its segments. Throws Error where one does not answer.
   virtual std::vector<std::vector<LeafSums>> sumUp(
     const std::vector<std::vector<LeafSegment>>& ofOwners) = 0;
+  /// The samples of bricks, of each owner one after the other. Throws Error likewise.
+  virtual std::vector<std::vector<char>> fetch(
+    const std::vector<std::vector<std::int32_t>>& ofOwners) = 0;
 };
 
 /// Bricks on their way, with their numbers at their owner. They replace those that had the same numbers.
@@ -57,6 +60,9 @@ public:
   /// False where a segment is of none of its bricks.
   bool sumUp(
     const std::vector<LeafSegment>& segments, std::vector<LeafSums>& sums, int threads) const;
+
+  /// False where some are not there.
+  bool fetch(const std::vector<std::int32_t>& bricks, std::vector<char>& samples) const;
 
   const std::vector<Real>& samples() const { return samples_.values(); }
   const std::vector<std::int16_t>& gasDistances() const { return maps_.values(); }

@@ -5,10 +5,12 @@
 #include "Medium/NodesInView.h"
 
 #include "Device/Parallel.h"
+#include "Medium/BrickChanges.h"
 #include "Medium/BrickErrors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -116,7 +118,8 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   std::vector<float> errors(leafNodes_.size(), 0.f), fieldErrors(ofFields);
   for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
   {
-    const Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
+    Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
+    node.isWrong = false;
     differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
     errors[leaf] =
       node.brick == 0 ? 0.f : static_cast<float>(view.errorOverEdge(node.place.level, node.facts));
@@ -147,6 +150,10 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   for (const std::int32_t leaf : findings.coarse)
   {
     nodes_[nodeOf(leaf)].isCoarse = true;
+  }
+  for (const std::int32_t leaf : findings.wrong)
+  {
+    nodes_[nodeOf(leaf)].isWrong = true;
   }
   for (const std::int32_t leaf : findings.coarseInFields)
   {
@@ -292,6 +299,7 @@ void MediumTree<Real>::findBricks(const View& view)
   work_.bricksDone = 0;
   work_.tasksBegun = work_.tasksDone;
   std::vector<typename BrickMaker<Real>::Request> requests;
+  work_.boxes.clear();
   const std::size_t atOnce = source_->isRemote() ? remoteBricksAtOnce : bricksAtOnce;
   while (work_.tasksBegun < work_.tasks.size() && requests.size() < atOnce)
   {
@@ -305,12 +313,84 @@ void MediumTree<Real>::findBricks(const View& view)
       if (!task.divides || view.sees(ofOne))
       {
         requests.push_back({ ofOne, negligible });
+        work_.boxes.push_back(task.divides ? task.node : -1);
       }
     }
   }
   maker_.prepare(requests);
   work_.bricks.assign(requests.size(), {});
   work_.requests = std::move(requests);
+  fetchBoxes();
+}
+
+/// Gets the samples of boxes that are divided from those who have them.
+template <class Real>
+void MediumTree<Real>::fetchBoxes()
+{
+  work_.fetched.clear();
+  std::vector<std::vector<std::int32_t>> numbers(owned_.size());
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t at : work_.boxes)
+  {
+    const bool isOther = at >= 0 && (nodes.empty() || nodes.back() != at);
+    const Node* box = isOther ? &nodes_[static_cast<std::size_t>(at)] : nullptr;
+    if (box != nullptr && box->owner > 0 && box->brick > 0)
+    {
+      numbers[static_cast<std::size_t>(box->owner)].push_back(box->brick);
+      nodes.push_back(at);
+    }
+  }
+  if (nodes.empty() || apron() != 1)
+  {
+    return;
+  }
+  const std::vector<std::vector<char>> found = settings_.owners->fetch(numbers);
+  std::vector<std::size_t> next(owned_.size(), 0);
+  const std::size_t bytes = samples_.bytesOfBrick();
+  for (const std::int32_t at : nodes)
+  {
+    const auto owner = static_cast<std::size_t>(nodes_[static_cast<std::size_t>(at)].owner);
+    std::vector<Real>& samples = work_.fetched[at];
+    samples.resize(bytes / sizeof(Real));
+    std::memcpy(samples.data(), found[owner].data() + bytes * next[owner]++, bytes);
+  }
+}
+
+/// A brick with what is wrong with it, also as far as the box tells that it is a part of.
+template <class Real>
+Brick<Real> MediumTree<Real>::makeBrick(std::size_t request) const
+{
+  const auto& [place, negligible] = work_.requests[request];
+  Brick<Real> brick = maker_.make(place, negligible);
+  if (apron() != 1)
+  {
+    return brick;
+  }
+  std::array<double, 3> changes{};
+  const bool isPart = work_.boxes[request] >= 0;
+  if (isPart)
+  {
+    const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
+    const auto fetched = work_.fetched.find(work_.boxes[request]);
+    const Real* samples = fetched != work_.fetched.end()
+      ? fetched->second.data()
+      : samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
+    changes = changesOf(
+      brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double& error = brick.facts.error[axis];
+    if (isPart && brick.facts.canImprove[axis])
+    {
+      error = std::max(error, errorByChange * changes[axis]);
+    }
+    else if (!isPart && place.level == 0)
+    {
+      error *= errorByCells;
+    }
+  }
+  return brick;
 }
 
 /// Puts bricks that are made into the tree.
@@ -375,9 +455,7 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
       {
         for (std::int64_t n = first; n < last; ++n)
         {
-          const auto& request = work_.requests[static_cast<std::size_t>(n)];
-          work_.bricks[static_cast<std::size_t>(n)] =
-            maker_.make(request.place, request.negligible);
+          work_.bricks[static_cast<std::size_t>(n)] = makeBrick(static_cast<std::size_t>(n));
         }
       },
       ofThese);

@@ -55,28 +55,52 @@ void BrickChannels::put(std::int32_t owner, const std::vector<char>& bricks)
 std::vector<std::vector<LeafSums>> BrickChannels::sumUp(
   const std::vector<std::vector<LeafSegment>>& ofOwners)
 {
+  const std::vector<std::vector<char>> answers = ask(RayWorker::SumUp, ofOwners, sizeof(LeafSums));
+  std::vector<std::vector<LeafSums>> sums(answers.size());
+  for (std::size_t owner = 0; owner < answers.size(); ++owner)
+  {
+    if (!answers[owner].empty())
+    {
+      sums[owner].resize(answers[owner].size() / sizeof(LeafSums));
+      std::memcpy(sums[owner].data(), answers[owner].data(), answers[owner].size());
+    }
+  }
+  return sums;
+}
+
+std::vector<std::vector<char>> BrickChannels::fetch(
+  const std::vector<std::vector<std::int32_t>>& ofOwners)
+{
+  return ask(RayWorker::FetchBricks, ofOwners,
+    static_cast<std::size_t>(layout_.samplesPerBrick) * bytesOfReal_);
+}
+
+/// Of each owner but this process so many bytes for each item.
+template <class Item>
+std::vector<std::vector<char>> BrickChannels::ask(
+  std::uint32_t kind, const std::vector<std::vector<Item>>& ofOwners, std::size_t bytesOfAnswer)
+{
   BricksMessage head;
-  head.kind = RayWorker::SumUp;
+  head.kind = kind;
   head.bytesOfReal = bytesOfReal_;
   head.number = newNumber();
   head.tree = tree_;
   head.layout = layout_;
   for (std::size_t owner = 1; owner < ofOwners.size(); ++owner)
   {
-    const std::size_t bytes = ofOwners[owner].size() * sizeof(LeafSegment);
-    if (bytes == 0)
+    const std::size_t bytes = ofOwners[owner].size() * sizeof(Item);
+    if (bytes > 0)
     {
-      continue;
+      std::vector<char> message = messageOf(head, bytes);
+      std::memcpy(message.data() + sizeof(head), ofOwners[owner].data(), bytes);
+      channels_[owner - 1]->send(std::move(message));
     }
-    std::vector<char> message = messageOf(head, bytes);
-    std::memcpy(message.data() + sizeof(head), ofOwners[owner].data(), bytes);
-    channels_[owner - 1]->send(std::move(message));
   }
-  std::vector<std::vector<LeafSums>> sums(ofOwners.size());
+  std::vector<std::vector<char>> answers(ofOwners.size());
   for (std::size_t owner = 1; owner < ofOwners.size(); ++owner)
   {
     Channel& channel = *channels_[owner - 1];
-    const std::size_t bytes = ofOwners[owner].size() * sizeof(LeafSums);
+    const std::size_t bytes = ofOwners[owner].size() * bytesOfAnswer;
     for (bool isThere = bytes == 0; !isThere;)
     {
       if (!channel.hasMessage())
@@ -88,22 +112,22 @@ std::vector<std::vector<LeafSums>> BrickChannels::sumUp(
         std::this_thread::sleep_for(std::chrono::microseconds(20));
         continue;
       }
-      const std::vector<char> answer = channel.receive();
+      std::vector<char> answer = channel.receive();
       AdvancedMessage got;
       if (!read(answer, got) || got.number != head.number)
       {
         continue; // of what has failed
       }
-      if (got.kind != RayWorker::Sums || answer.size() != sizeof(got) + bytes)
+      if (got.kind != RayWorker::Found || answer.size() != sizeof(got) + bytes)
       {
         throwAbsentOwner(static_cast<std::int32_t>(owner));
       }
-      sums[owner].resize(ofOwners[owner].size());
-      std::memcpy(sums[owner].data(), answer.data() + sizeof(got), bytes);
+      answer.erase(answer.begin(), answer.begin() + sizeof(got));
+      answers[owner] = std::move(answer);
       isThere = true;
     }
   }
-  return sums;
+  return answers;
 }
 
 } // namespace schlieren

@@ -29,8 +29,14 @@ public:
   void put(std::int32_t owner, const std::vector<char>& bricks) override;
   std::vector<std::vector<LeafSums>> sumUp(
     const std::vector<std::vector<LeafSegment>>& ofOwners) override;
+  std::vector<std::vector<char>> fetch(
+    const std::vector<std::vector<std::int32_t>>& ofOwners) override;
 
 private:
+  template <class Item>
+  std::vector<std::vector<char>> ask(
+    std::uint32_t kind, const std::vector<std::vector<Item>>& ofOwners, std::size_t bytesOfAnswer);
+
   std::vector<Channel*> channels_;
   BrickLayout layout_{};
   std::uint32_t bytesOfReal_ = 0;

@@ -66,11 +66,11 @@ struct TravellingRays
   }
 };
 
-/// The beginning of a message with bricks of a tree for a worker, as DeliveredBricks has them, or with segments to be
-/// summed up in these.
+/// The beginning of a message with bricks of a tree for a worker, as DeliveredBricks has them, with segments to be
+/// summed up in these, or with numbers of bricks.
 struct BricksMessage
 {
-  std::uint32_t kind = RayWorker::PutBricks; ///< or SumUp
+  std::uint32_t kind = RayWorker::PutBricks; ///< or SumUp, or FetchBricks
   std::uint32_t bytesOfReal = 0;
   std::uint64_t number =
     0; ///< of the message: with bricks of this tree, 0 the first; of what is requested
@@ -108,10 +108,10 @@ struct EndedRay
   RayExit exit;
 };
 
-/// The beginning of a worker's answer to SumUp, behind which the sums come, and to Advance, behind which come the ended rays and the suspended ones.
+/// The beginning of a worker's answer to SumUp and FetchBricks, behind which comes what is found, and to Advance, behind which come the ended rays and the suspended ones.
 struct AdvancedMessage
 {
-  std::uint32_t kind = RayWorker::Advanced; ///< or Sums
+  std::uint32_t kind = RayWorker::Advanced; ///< or Found
   std::uint64_t number = 0;
   std::uint64_t ended = 0, suspended = 0;
   double worstDrift = 0;

@@ -83,24 +83,50 @@ struct RayWorker::Arrays
     }
   }
 
+  /// Answers SumUp and FetchBricks.
   template <class Real>
-  bool sumUp(
+  bool find(
     const BricksMessage& head, const std::vector<char>& message, Channel& channel, int threads)
   {
-    std::vector<LeafSegment> segments((message.size() - sizeof(head)) / sizeof(LeafSegment));
-    std::vector<LeafSums> sums;
-    std::memcpy(
-      segments.data(), message.data() + sizeof(head), segments.size() * sizeof(LeafSegment));
-    if (tree != head.tree || !part<Real>() || !part<Real>()->sumUp(segments, sums, threads))
+    if (tree != head.tree || !part<Real>())
     {
       return false;
     }
-    AdvancedMessage answer;
-    answer.kind = Sums;
-    answer.number = head.number;
-    std::vector<char> bytes = messageOf(answer, sums.size() * sizeof(LeafSums));
-    std::memcpy(bytes.data() + sizeof(answer), sums.data(), sums.size() * sizeof(LeafSums));
-    channel.send(std::move(bytes));
+    const PartOfTree<Real>& own = *part<Real>();
+    const auto itemsOf = [&](auto item)
+    {
+      std::vector<decltype(item)> items((message.size() - sizeof(head)) / sizeof(item));
+      std::memcpy(items.data(), message.data() + sizeof(head), items.size() * sizeof(item));
+      return items;
+    };
+    AdvancedMessage found;
+    found.kind = Found;
+    found.number = head.number;
+    std::vector<char> answer = messageOf(found);
+    const auto append = [&](const auto& values)
+    {
+      const char* first = reinterpret_cast<const char*>(values.data());
+      answer.insert(answer.end(), first, first + values.size() * sizeof(values[0]));
+    };
+    if (head.kind == SumUp)
+    {
+      std::vector<LeafSums> sums;
+      if (!own.sumUp(itemsOf(LeafSegment{}), sums, threads))
+      {
+        return false;
+      }
+      append(sums);
+    }
+    else
+    {
+      std::vector<char> samples;
+      if (!own.fetch(itemsOf(std::int32_t{}), samples))
+      {
+        return false;
+      }
+      append(samples);
+    }
+    channel.send(std::move(answer));
     return true;
   }
 
@@ -229,7 +255,7 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
   TilesHead request;
   BricksMessage ofBricks;
   const bool isOfBricks =
-    read(message, ofBricks) && (ofBricks.kind == PutBricks || ofBricks.kind == SumUp);
+    read(message, ofBricks) && ofBricks.kind >= PutBricks && ofBricks.kind <= FetchBricks;
   if (!isOfBricks &&
     (!read(message, request) || (request.kind != Tiles && request.kind != Advance)))
   {
@@ -247,8 +273,8 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
     if (isOfBricks)
     {
       request.number = ofBricks.number;
-      isTraced = isSingle ? arrays_->sumUp<float>(ofBricks, message, channel, threads)
-                          : arrays_->sumUp<double>(ofBricks, message, channel, threads);
+      isTraced = isSingle ? arrays_->find<float>(ofBricks, message, channel, threads)
+                          : arrays_->find<double>(ofBricks, message, channel, threads);
     }
     else if (request.kind == Tiles)
     {

@@ -29,7 +29,8 @@ public:
     Advanced,    ///< from a worker: these rays
     PutBricks,   ///< to a worker: of a tree
     SumUp,       ///< to a worker: segments in these
-    Sums         ///< from a worker: of these
+    FetchBricks, ///< to a worker: numbers of some
+    Found        ///< from a worker: what SumUp and FetchBricks ask for
   };
   static std::uint32_t kindOf(const std::vector<char>& message);
 

@@ -373,4 +373,5 @@ def main():
                   f"| {along[0]:.1e} | {along[1]:.1e} | {text(of_path[0])} |", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -3,6 +3,7 @@
 //
 // Where gas ends: which faces bound meshes, which of them are walls, and how far from them the points of lattices
 // are.
+#include "CutMesh.h"
 #include "Surfaces.h"
 
 #include "GasBoundary.h"
@@ -545,14 +546,107 @@ TEST(GasBoundary, BluntFinIsAWall)
   EXPECT_NEAR(areasOf({ mesh }).wall, fin, 0.002 * fin);
 }
 
-// The wing has no thickness, and its mesh goes on behind it without a difference: it is not known to be there.
-TEST(GasBoundary, SheetsInAMeshAreNotKnown)
+// The wing has no thickness: it is known by the density of its sides, and is there from both of them. Before and behind it the
+// mesh is cut, too, but nothing differs.
+TEST(GasBoundary, SheetsInAMeshAreKnownByTheirValues)
 {
   vtkNew<vtkXMLStructuredGridReader> reader;
   reader->SetFileName(shared("deltawing.vts").c_str());
   reader->Update();
   const Data mesh = withScalars(reader->GetOutput());
   EXPECT_EQ(areasOf({ mesh }).wall, 0);
+  mesh->GetPointData()->SetActiveScalars("Density");
+  double bounds[6];
+  mesh->GetBounds(bounds);
+  const double span = 0.268, wing = span / 2; // half of it, 1 long
+  EXPECT_NEAR(areasOf({ mesh }).wall, 2 * wing, 0.02 * wing);
+  EXPECT_NEAR(areasOf({ mesh }, Outside::Passes).wall, 0, 1e-12);
+}
+
+TEST(GasBoundary, OnlyValuesThatDifferMakeASheet)
+{
+  const auto mesh = cutMesh(20);
+  const auto wallWith = [&](const std::function<double(const Vec&)>& jump)
+  {
+    setJump(mesh, jump);
+    return areasOf({ mesh }).wall;
+  };
+  const auto isInPlate = [](const Vec& x)
+  { return std::abs(x[0]) < 0.45 && std::abs(x[1]) < 0.45; };
+  EXPECT_EQ(wallWith([](const Vec&) { return 0; }), 0);
+  // A plate of 9 by 9 points. Its sides count both.
+  const double plate = 2 * std::pow(0.1 * 8, 2);
+  EXPECT_NEAR(wallWith([&](const Vec& x) { return isInPlate(x) ? 0.2 : 0; }), plate, 1e-9);
+  // That its values nearly come together at its edges does not matter; that they are about the same everywhere does.
+  EXPECT_NEAR(
+    wallWith([&](const Vec& x) { return isInPlate(x) ? 0.3 * (0.46 - std::abs(x[0])) : 0; }), plate,
+    1e-9);
+  EXPECT_EQ(wallWith([&](const Vec& x) { return isInPlate(x) ? 0.01 : 0; }), 0);
+  EXPECT_EQ(wallWith([](const Vec&) { return 1e-4; }), 0);
+  // An interface on which values differ a little, and much at a shock.
+  EXPECT_EQ(wallWith([](const Vec& x) { return std::abs(x[0]) < 0.06 ? 0.3 : 0.005; }), 0);
+  // Where nothing is known of the flow but rounding.
+  mesh->GetPointData()->RemoveArray("N");
+  vtkIdType point = 0;
+  addPointArray(mesh, "N", [&](const Vec&) { return 1 + 1e-9 * static_cast<double>(point++ % 7); });
+  mesh->GetPointData()->SetActiveScalars("N");
+  EXPECT_EQ(areasOf({ mesh }).wall, 0);
+}
+
+TEST(GasBoundary, BetweenDatasetsThereAreNoSheets)
+{
+  std::vector<Data> leaves;
+  for (const double value : { 1., 2. })
+  {
+    const auto grid = curvilinear(5, 5, 5,
+      [&](double i, double j, double k) -> Vec {
+        return { i, j, k + value };
+      });
+    grid->GetPointData()->RemoveArray("N");
+    addPointArray(grid, "N", [&](const Vec& x) { return value + x[0]; });
+    grid->GetPointData()->SetActiveScalars("N");
+    leaves.emplace_back(grid);
+  }
+  EXPECT_EQ(areasOf(leaves).wall, 0);
+}
+
+TEST(GasBoundary, LightEndsAtASheet)
+{
+  const auto mesh = cutMesh(20);
+  setJump(
+    mesh, [](const Vec& x) { return std::abs(x[0]) < 0.45 && std::abs(x[1]) < 0.45 ? 0.2 : 0; });
+  const Cells cells(std::vector<Data>{ mesh });
+  const GasBoundary boundary(pointers({ mesh }), nullptr, Outside::Auto, cells.test());
+  EXPECT_TRUE(boundary.hasSheetsOf(pointers({ mesh })));
+  const auto other = cutMesh(20);
+  setJump(other, [](const Vec&) { return 0; });
+  EXPECT_FALSE(boundary.hasSheetsOf(pointers({ other })));
+  const Lattice lattice{ { -0.97, -0.97, -0.2 }, { 0.0511, 0.0511, 0.0511 }, { 38, 38, 9 } };
+  const std::vector<unsigned char> isInCell(static_cast<std::size_t>(lattice.size()), 1);
+  std::vector<Place> places(isInCell.size());
+  std::vector<float> distances(isInCell.size());
+  boundary.sample(lattice, isInCell.data(), places.data(), distances.data());
+  for (int j = 0; j < 38; ++j)
+  {
+    for (int i = 0; i < 38; ++i)
+    {
+      int walls = 0;
+      for (int k = 0; k < 9; ++k)
+      {
+        walls += places[static_cast<std::size_t>((k * 38 + j) * 38 + i)] == Place::Wall ? 1 : 0;
+      }
+      const double x = std::abs(lattice.first[0] + 0.0511 * i),
+                   y = std::abs(lattice.first[1] + 0.0511 * j);
+      if (std::max(x, y) < 0.38)
+      {
+        EXPECT_EQ(walls, 1);
+      }
+      else if (std::max(x, y) > 0.46)
+      {
+        EXPECT_EQ(walls, 0);
+      }
+    }
+  }
 }
 
 // An axisymmetric case of OpenFOAM: its plane sides are no walls.

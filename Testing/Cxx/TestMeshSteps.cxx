@@ -4,6 +4,7 @@
 // Time steps on the same mesh use again what depends on the mesh alone. The truth is what a filter makes that has seen
 // no step before: the last bit of every number.
 #include "CellMeshes.h"
+#include "CutMesh.h"
 #include "Surfaces.h"
 
 #include "InputDescription.h"
@@ -353,6 +354,25 @@ TEST(MeshSteps, WhereValuesEndIsPartOfTheMesh)
     const Source source = sourceOf(filter, mesh);
     EXPECT_EQ(filter->GetMeshBuilds(), ++builds) << step;
     expectSame(*source, *sourceOf(reader(), mesh));
+  }
+}
+
+// Walls without thickness are known by values.
+TEST(MeshSteps, WallsAppearAndGo)
+{
+  auto filter = reader();
+  int step = 0;
+  for (const auto& [jump, builds] :
+    { std::pair{ 0., 1 }, { 0., 1 }, { 0.2, 2 }, { 0.3, 2 }, { 0., 3 } })
+  {
+    const auto mesh = cutMesh(12);
+    setJump(mesh, [height = jump](const Vec& x) { return std::abs(x[0]) < 0.45 ? height : 0; });
+    const Source source = sourceOf(filter, mesh);
+    EXPECT_EQ(filter->GetMeshBuilds(), builds) << step;
+    EXPECT_EQ(source->contentOf({ { -0.2, -0.2, -0.2 }, { 0.2, 0.2, 0.2 } }).hasWall, jump > 0)
+      << step;
+    expectSame(*source, *sourceOf(reader(), mesh));
+    ++step;
   }
 }
 

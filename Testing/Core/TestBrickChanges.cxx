@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AnalyticSources.h"
+#include "Medium/BrickChanges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr int edge = BrickMaker<float>::edge;
+constexpr std::size_t stored = edge + 2;
+
+std::vector<double> randomSamples(BrickShape shape)
+{
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> values(-1, 1);
+  std::vector<double> samples(stored * stored * (shape == BrickShape::Layer ? 1 : stored));
+  std::generate(samples.begin(), samples.end(), [&] { return values(generator); });
+  return samples;
+}
+
+TEST(BrickChanges, CoefficientsOfAPartMakeTheSameSpline)
+{
+  for (const BrickShape shape : { BrickShape::Cube, BrickShape::Layer })
+  {
+    const std::vector<double> box = randomSamples(shape);
+    for (std::int32_t part = 0; part < (shape == BrickShape::Layer ? 4 : 8); ++part)
+    {
+      const std::vector<double> ofPart = coefficientsOfPart(box.data(), part, shape);
+      ASSERT_EQ(ofPart.size(), box.size());
+      for (int n = 0; n < 500; ++n)
+      {
+        const Vec3<double> at{ -0.5 + std::fmod(0.7548 * n, 1.) * edge,
+          -0.5 + std::fmod(0.5698 * n, 1.) * edge,
+          shape == BrickShape::Layer ? 0 : -0.5 + std::fmod(0.3247 * n, 1.) * edge };
+        const auto inBox = [&](double local, int axis)
+        { return edge / 2 * (part >> axis & 1) + (local + 0.5) / 2 - 0.5; };
+        const Vec3<double> atBox{ inBox(at.x, 0), inBox(at.y, 1),
+          shape == BrickShape::Layer ? 0 : inBox(at.z, 2) };
+        const auto a = interpolateBrick<QuadraticInterpolation>(ofPart.data(), 1, shape, at);
+        const auto b = interpolateBrick<QuadraticInterpolation>(box.data(), 1, shape, atBox);
+        EXPECT_NEAR(a.value, b.value, 1e-14);
+        EXPECT_NEAR(2 * a.gradient.x, b.gradient.x, 1e-13);
+        EXPECT_NEAR(2 * a.gradient.y, b.gradient.y, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(BrickChanges, AreWhatGradientsChangeBy)
+{
+  constexpr std::array<double, 3> voxel{ 0.1, 0.2, 0.1 };
+  const std::vector<double> box = randomSamples(BrickShape::Cube);
+  Brick<double> made;
+  made.samples = coefficientsOfPart(box.data(), 5, BrickShape::Cube);
+  for (const double change : changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel))
+  {
+    EXPECT_EQ(change, 0);
+  }
+  // A step of 1 along x: over the longest edge of the part, 16 voxels of 0.2, a gradient of 1 by 0.1.
+  made.offset = 3;
+  for (std::size_t at = 0; at < made.samples.size(); ++at)
+  {
+    made.samples[at] += at % stored > 7 ? 1 : 0;
+  }
+  auto changes = changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel);
+  EXPECT_NEAR(changes[0], 16 * 2, 1e-12);
+  EXPECT_NEAR(changes[1], 0, 1e-12);
+  EXPECT_NEAR(changes[2], 0, 1e-12);
+  // Behind a wall nothing counts, at the wall it does.
+  made.gasDistances.assign(made.samples.size(), 2);
+  for (std::size_t at = 0; at < made.samples.size(); ++at)
+  {
+    made.gasDistances[at] = at % stored > 6 ? -2 : 2;
+  }
+  EXPECT_EQ(changesOf(made, 5, box.data(), -3., BrickShape::Cube, voxel)[0], 0);
+  for (std::size_t at = 0; at < made.samples.size(); ++at)
+  {
+    made.gasDistances[at] = at % stored > 7 ? -2 : 2;
+  }
+  EXPECT_NEAR(changesOf(made, 5, box.data(), -3., BrickShape::Cube, voxel)[0], 32, 1e-12);
+  made.samples.clear();
+  EXPECT_EQ(changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel)[0], 0);
+}
+
+/// A front whose values alternate from cell to cell, the same along z: linear in between.
+class CellsSource : public AnalyticSource
+{
+public:
+  double refractivity(double a, double b, double) const override
+  {
+    const double place = (a + 0.2 * b * b) / cell;
+    const double first = std::floor(place);
+    return valueAt(first) + (place - first) * (valueAt(first + 1) - valueAt(first));
+  }
+  Range rangeOver(const Box&) const override { return { 0, 1.1e-4 }; }
+  double cellSizeOver(const Box&) const override { return cell; }
+
+private:
+  static constexpr double cell = 0.03;
+  static double valueAt(double n)
+  {
+    const double isOdd = std::abs(std::fmod(n, 2.));
+    return 5e-5 * (1 + std::tanh(n * cell / 0.15)) * (1 + 0.02 * isOdd);
+  }
+};
+
+/// Along z, of the largest deflection.
+double worstDifference(const MediumTree<float>& tree, const MediumTree<float>& finest)
+{
+  constexpr int count = 400;
+  double worst = 0, largest = 0;
+  for (int n = 0; n < count; ++n)
+  {
+    const Vec3<double> place{ -0.9 + 1.8 * (n % 20 + 0.5) / 20, -0.9 + 1.8 * (n / 20 + 0.5) / 20,
+      0 };
+    const Vec3<double> bend = bendAlong(tree, Interpolation::Quadratic, place, { 0, 0, 1 });
+    const Vec3<double> right = bendAlong(finest, Interpolation::Quadratic, place, { 0, 0, 1 });
+    worst = std::max(worst, std::hypot(bend.x - right.x, bend.y - right.y));
+    largest = std::max(largest, std::hypot(right.x, right.y));
+  }
+  return worst / largest;
+}
+
+// Third differences of samples that are as far apart as every other cell know nothing of the cells between. And all
+// leaves along the light are wrong by the same.
+TEST(BrickChanges, CellsThatAlternateAreWithinTolerance)
+{
+  const auto source = std::make_shared<CellsSource>();
+  TreeSettings settings;
+  settings.tolerance = 0;
+  MediumTree<float> finest(source, 0, settings);
+  finest.refine(everything());
+  for (const double tolerance : { 1e-1, 1e-2, 1e-3 })
+  {
+    settings.tolerance = tolerance;
+    MediumTree<float> tree(source, 0, settings);
+    tree.refine(everything());
+    EXPECT_LT(worstDifference(tree, finest), 2 * tolerance) << tolerance;
+    EXPECT_LE(tree.statistics().voxels, finest.statistics().voxels);
+  }
+}
+
+} // namespace
+
+} // namespace schlieren
