@@ -6,6 +6,7 @@
 #include "Rays/Channel.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace schlieren
