@@ -38,6 +38,30 @@ public:
   }
 };
 
+/// The middle of balls, at all depths.
+class FlatSource : public BallsSource
+{
+public:
+  using BallsSource::BallsSource;
+  bool isFlat() const override { return true; }
+  double refractivity(double x, double y, double) const override
+  {
+    return BallsSource::refractivity(x, y, 0);
+  }
+  Range rangeOver(const Box& box) const override { return BallsSource::rangeOver(middleOf(box)); }
+  double cellSizeOver(const Box& box) const override
+  {
+    return BallsSource::cellSizeOver(middleOf(box));
+  }
+
+private:
+  static Box middleOf(Box box)
+  {
+    box.low[2] = box.high[2] = 0;
+    return box;
+  }
+};
+
 struct Setting
 {
   std::shared_ptr<const MediumSource> source;
@@ -246,6 +270,15 @@ TEST(Distributed, IsTheSameAlongTheSidesOfLeaves)
     setting.path = PathModel::Straight;
     expectSame<float>(setting);
   }
+}
+
+TEST(Distributed, IsTheSameWhereNothingDependsOnDepth)
+{
+  Setting setting{ std::make_shared<FlatSource>(
+    std::vector<Ball>{ { { -0.1, 0.05, 0 }, 0.25, 1e-3 }, { { 0.42, -0.31, 0 }, 0.05, 5e-4 } }) };
+  EXPECT_GT(expectSame<float>(setting), 0.5);
+  setting.direction = { 0, 0, -1 };
+  expectSame<float>(setting);
 }
 
 TEST(Distributed, FollowsRaysThatComeBack)
