@@ -11,6 +11,8 @@
 #include "Optics/CutoffMaker.h"
 #include "RayCache.h"
 #include "Rays/CudaTracer.h"
+#include "Rays/DistributedRays.h"
+#include "Rays/DistributedTracer.h"
 #include "Rays/TeamTracer.h"
 #include "Rays/Tracer.h"
 #include "StageSettings.h"
@@ -74,6 +76,9 @@ struct MediumOfBench
   std::shared_ptr<MediumOnDevices<Real>> shared;
   std::int64_t changesSeen = noChange;    ///< those that the bench's rays are of
   std::unique_ptr<TeamTracer<Real>> team; ///< once rays have been traced together with workers
+  // Where processes have a part of the medium each, which is then shared with no other bench.
+  std::shared_ptr<BrickChannels> owners;
+  std::unique_ptr<DistributedTracer<Real>> distributed; ///< once rays have been traced
 };
 
 /// While it is there, its bench is at work in the medium.
@@ -242,10 +247,17 @@ struct Bench::Stages
   RayCache rays;
   CutoffMaker cutoffs;
 
+  /// `owners`: may be null.
   template <class Real>
-  std::shared_ptr<MediumOnDevices<Real>> makeMedium(const Field& field, const Scene& scene);
+  std::shared_ptr<MediumOnDevices<Real>> makeMedium(
+    const Field& field, const Scene& scene, const std::shared_ptr<BrickOwners>& owners);
   template <class Real>
-  MediumOfBench<Real>& prepareMedium(const Field& field, const Scene& scene);
+  MediumOfBench<Real>& prepareMedium(
+    const Field& field, const Scene& scene, DistributedMedium distribution);
+  template <class Real>
+  void distributeMedium(MediumOfBench<Real>& held, const Field& field, const Scene& scene);
+  /// What the scene asks for, where it can be had.
+  DistributedMedium distributionFor(const Unfinished& asked) const;
   /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
   /// of other benches.
   template <class Real>
@@ -266,21 +278,44 @@ struct Bench::Stages
 
   /// Gives the device's memory back.
   void leaveDevice();
+
+  /// After an error: processes may have lost their parts of it.
+  void forgetDistributedMedium();
 };
+
+DistributedMedium Bench::Stages::distributionFor(const Unfinished& asked) const
+{
+  const Field& field = asked.field;
+  const Scene& scene = asked.scene;
+  const bool canDistribute = !workers.empty() && asked.device == Device::Cpu && field.source &&
+    field.source->fields() == 0 &&
+    canSuspend({ scene.pathModel, scene.integrator, scene.interpolation });
+  return canDistribute ? scene.distributedMedium : DistributedMedium::Off;
+}
 
 template <class Real>
 std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
-  const Field& field, const Scene& scene)
+  const Field& field, const Scene& scene, const std::shared_ptr<BrickOwners>& owners)
 {
   ++work.mediumBuilds;
   return std::make_shared<MediumOnDevices<Real>>(field.source
-      ? buildTree<Real>(
-          field, { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
+      ? buildTree<Real>(field,
+          { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads, owners })
       : buildMedium<Real>(field, scene.interpolation, scene.threads));
 }
 
 template <class Real>
-MediumOfBench<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
+void Bench::Stages::distributeMedium(
+  MediumOfBench<Real>& held, const Field& field, const Scene& scene)
+{
+  held = {}; // first: two media at once might not fit
+  held.owners = std::make_shared<BrickChannels>(workers);
+  held.shared = makeMedium<Real>(field, scene, held.owners);
+}
+
+template <class Real>
+MediumOfBench<Real>& Bench::Stages::prepareMedium(
+  const Field& field, const Scene& scene, DistributedMedium distribution)
 {
   const bool hasSource = field.source != nullptr;
   const void* samples = hasSource ? static_cast<const void*>(field.source.get())
@@ -289,18 +324,28 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(const Field& field, const Scen
   const Grid& grid = field.grid;
   const MediumKey key{ grid.dimensions, grid.origin, grid.spacing, grid.direction, field.version,
     samples, field.ambient, scene.interpolation, scene.precision,
-    hasSource ? scene.mediumTolerance : 0, hasSource ? scene.mediumMemory : 0 };
-  if (!mediumKey || mediumKey->tie() != key.tie())
+    hasSource ? scene.mediumTolerance : 0, hasSource ? scene.mediumMemory : 0, distribution };
+  const auto* before = std::get_if<MediumOfBench<Real>>(&medium);
+  const bool haveOwnersChanged =
+    before != nullptr && before->owners && before->owners->channels() != workers;
+  if (!mediumKey || mediumKey->tie() != key.tie() || haveOwnersChanged)
   {
     // Given up first: two media at once might not fit.
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
     MediumOfBench<Real> held;
-    held.shared = media ? media->entries_->find<Real>(key) : nullptr;
+    if (distribution == DistributedMedium::On)
+    {
+      distributeMedium(held, field, scene);
+    }
+    else if (media)
+    {
+      held.shared = media->entries_->find<Real>(key);
+    }
     if (!held.shared)
     {
-      held.shared = makeMedium<Real>(field, scene);
+      held.shared = makeMedium<Real>(field, scene, nullptr);
       if (media)
       {
         media->entries_->add(key, held.shared);
@@ -355,6 +400,14 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
     isTraced = shared.cuda->trace(task, pass, { ofGradients, shared.mapTolerance },
       isWantedOnHost ? Exits::OnHost : Exits::OnDevice, traced, monitor);
   }
+  else if (held.owners)
+  {
+    if (!held.distributed)
+    {
+      held.distributed = std::make_unique<DistributedTracer<Real>>(shared.medium, *held.owners);
+    }
+    isTraced = held.distributed->trace(task, pass, traced, asked.scene.threads, monitor);
+  }
   else if (!workers.empty())
   {
     if (!held.team)
@@ -395,13 +448,16 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   image.threads = threadCount(scene.threads);
   image.workers = asked.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
 
-  MediumOfBench<Real>& held = prepareMedium<Real>(field, scene);
+  const DistributedMedium distribution = distributionFor(asked);
+  MediumOfBench<Real>& held = prepareMedium<Real>(field, scene, distribution);
   std::optional<InUse<Real>> inUse(std::in_place, *held.shared);
   const auto useOwn = [&]
   {
     inUse.reset();
     held.team.reset();
-    held.shared = makeMedium<Real>(field, scene);
+    held.distributed.reset();
+    held.owners.reset();
+    held.shared = makeMedium<Real>(field, scene, nullptr);
     held.changesSeen = noChange;
     inUse.emplace(*held.shared);
   };
@@ -419,6 +475,15 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
       useOwn();
       refineFor(column, held, watch.monitor(), asked);
     }
+    const auto isMemoryShort = [&] { return held.shared->medium.tree->statistics().isMemoryShort; };
+    if (distribution == DistributedMedium::Auto && !held.owners && isMemoryShort() &&
+      !watch.isAborted())
+    {
+      inUse.reset();
+      distributeMedium(held, field, scene);
+      inUse.emplace(*held.shared);
+      refineFor(column, held, watch.monitor(), asked);
+    }
     image.medium = held.shared->medium.tree->statistics();
     if (watch.isAborted())
     {
@@ -429,6 +494,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   {
     held.changesSeen = held.shared->changes;
     held.team.reset();
+    held.distributed.reset();
     rays.clear();
     asked.beginAnew();
   }
@@ -575,6 +641,26 @@ void Bench::Stages::leaveDevice()
     medium);
 }
 
+void Bench::Stages::forgetDistributedMedium()
+{
+  const bool isDistributed = std::visit(
+    [](const auto& held)
+    {
+      if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+      {
+        return held.owners != nullptr;
+      }
+      return false;
+    },
+    medium);
+  if (isDistributed)
+  {
+    mediumKey.reset();
+    rays.clear();
+    medium = std::monostate{};
+  }
+}
+
 Bench::Bench()
   : stages_(std::make_unique<Stages>())
 {
@@ -653,6 +739,11 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& mo
         again->deviceNote = failure.what();
       }
       asked = std::move(again);
+    }
+    catch (...)
+    {
+      forgetDistributedMedium();
+      throw;
     }
   }
   if (!image.finished && !image.aborted)

@@ -31,11 +31,12 @@ struct MediumKey
   Precision precision;
   double tolerance; ///< of a source, as the next; else 0
   std::size_t memory;
+  DistributedMedium distribution;
 
   auto tie() const
   {
     return std::tie(dimensions, origin, spacing, direction, version, samples, ambient,
-      interpolation, precision, tolerance, memory);
+      interpolation, precision, tolerance, memory, distribution);
   }
 };
 

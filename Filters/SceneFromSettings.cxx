@@ -205,6 +205,7 @@ schlieren::Scene sceneFrom(
   scene.pathTolerance = settings.PathTolerance;
   scene.mediumTolerance = settings.MediumTolerance;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
+  scene.distributedMedium = static_cast<schlieren::DistributedMedium>(settings.DistributedMedium);
   scene.device = static_cast<schlieren::Device>(settings.Device);
   scene.threads = threadsFrom(settings);
   if (settings.PreviewReduction > 1)

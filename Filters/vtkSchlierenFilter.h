@@ -720,6 +720,23 @@ public:
   vtkGetMacro(MediumMemory, int);
   ///@}
 
+  enum DistributedMediumModes
+  {
+    DISTRIBUTED_MEDIUM_OFF,
+    DISTRIBUTED_MEDIUM_AUTO,
+    DISTRIBUTED_MEDIUM_ON
+  };
+
+  ///@{
+  /**
+   * Of meshes, where there are several processes: whether each has all voxels (off, the default), or a part of them and
+   * MediumMemory for it (on; auto: where all do not fit into MediumMemory). Rays then go from process to process. No
+   * effect on a GPU, with ColorByField, and where rays bend with another Integrator than LEAPFROG.
+   */
+  vtkSetClampMacro(DistributedMedium, int, DISTRIBUTED_MEDIUM_OFF, DISTRIBUTED_MEDIUM_ON);
+  vtkGetMacro(DistributedMedium, int);
+  ///@}
+
   ///@{
   /**
    * How long light falls on the film, in the time of the data; 0 (the default): an instant. The image is then the mean

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace schlieren
@@ -86,28 +87,63 @@ StraightRay rayAt(const Grid& grid, const Column& column, double u, double v)
 }
 
 /// Of the nearest sample.
-template <class Real>
 std::int16_t gasDistanceAt(
-  const LeavesView<Real>& medium, const Leaf<Real>& leaf, const double (&local)[3])
+  const BrickLayout& layout, const std::int16_t* distances, const double (&local)[3])
 {
-  const int stride = 16 + 2 * medium.apron;
+  const int stride = 16 + 2 * layout.apron;
   std::int64_t at = 0;
-  for (int axis = medium.axes() - 1; axis >= 0; --axis)
+  for (int axis = layout.axes() - 1; axis >= 0; --axis)
   {
     const int i = static_cast<int>(std::lround(std::clamp(local[axis], 0., 15.)));
-    at = at * stride + i + medium.apron;
+    at = at * stride + i + layout.apron;
   }
-  return medium.gasDistances[leaf.map * medium.samplesPerBrick + at];
+  return distances[at];
 }
 
-template <class Scheme, class Real>
-Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray)
+/// Calls visit(local coordinates, step) for each sample in gas.
+template <class Scheme, class Real, class Visit>
+LeafSums sumUpWith(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
+  const LeafSegment& segment, const Visit& visit)
+{
+  LeafSums sums;
+  const double step = segment.way / segment.steps;
+  const Real* brick = samples + segment.brick * layout.samplesPerBrick;
+  for (int n = 0; n < segment.steps; ++n)
+  {
+    const double middle = (n + 0.5) * step;
+    const double place[3] = { segment.local[0] + middle * segment.along[0],
+      segment.local[1] + middle * segment.along[1], segment.local[2] + middle * segment.along[2] };
+    if (segment.map >= 0)
+    {
+      const std::int16_t distance =
+        gasDistanceAt(layout, gasDistances + segment.map * layout.samplesPerBrick, place);
+      if (distance < 0)
+      {
+        sums.isBlocked = sums.isBlocked || (distance & 1) == 0;
+        continue;
+      }
+    }
+    const Vec3<Real> here{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
+      static_cast<Real>(place[2]) };
+    visit(here, step);
+    const Sample<Real> sample = interpolateBrick<Scheme>(brick, layout.apron, layout.shape, here);
+    sums.opticalPath += static_cast<double>(sample.value) * step;
+    sums.gradient[0] += static_cast<double>(sample.gradient.x) * segment.perIndex * step;
+    sums.gradient[1] += static_cast<double>(sample.gradient.y) * segment.perIndex * step;
+    sums.gradient[2] += static_cast<double>(sample.gradient.z) * segment.perIndex * step;
+  }
+  return sums;
+}
+
+/// Calls sumsOf(segment, sums of the fields) for leaves with samples.
+template <class Real, class SumsOf>
+Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray,
+  const SumsOf& sumsOf)
 {
   double gradient[3] = { 0, 0, 0 }; // summed up, nu by index times data units
   Bend bend;
   std::vector<float> sums(static_cast<std::size_t>(medium.gradients.count), 0.f);
   const auto& spacing = medium.grid.spacing;
-  const double unit = *std::min_element(spacing.begin(), spacing.end());
   double s = ray.entry;
   const auto at = [&](double where, int axis)
   { return ray.start[axis] + where * ray.direction[axis]; };
@@ -120,7 +156,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     {
       local[axis] = (at(s, axis) - leaf.first[axis]) * leaf.perIndex;
       along[axis] = ray.direction[axis] * leaf.perIndex; // samples by data unit
-      if (axis == medium.axes())
+      if (axis == medium.layout.axes())
       {
         continue;
       }
@@ -143,7 +179,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     const auto difference = static_cast<double>(medium.differences[found]);
     const auto edgeOf = [&](double voxel) { return voxel * brickEdge / leaf.perIndex; };
     const auto [shortest, longest] =
-      std::minmax_element(spacing.begin(), spacing.begin() + medium.axes());
+      std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
     const auto squared = [](double x) { return x * x; };
     const double edges = way / edgeOf(*longest);
     const double error = edges * static_cast<double>(medium.errors[found]);
@@ -169,37 +205,17 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     }
     if (leaf.kind != Leaf<Real>::Constant && way > 0)
     {
-      const int steps = std::max(1, static_cast<int>(std::ceil(way * fastest)));
-      const double step = way / steps;
-      const Real* samples = medium.samples + leaf.brick * medium.samplesPerBrick;
-      for (int n = 0; n < steps; ++n)
+      const LeafSums ofLeaf =
+        sumsOf(LeafSegment{ { local[0], local[1], local[2] }, { along[0], along[1], along[2] }, way,
+                 leaf.perIndex, std::max(1, static_cast<int>(std::ceil(way * fastest))), found,
+                 leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
+          sums);
+      bend.opticalPath += ofLeaf.opticalPath;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const double middle = (n + 0.5) * step;
-        const double place[3] = { local[0] + middle * along[0], local[1] + middle * along[1],
-          local[2] + middle * along[2] };
-        if (leaf.kind == Leaf<Real>::Mixed)
-        {
-          const std::int16_t distance = gasDistanceAt(medium, leaf, place);
-          if (distance < 0)
-          {
-            bend.isBlocked = bend.isBlocked || (distance & 1) == 0;
-            continue;
-          }
-        }
-        const Vec3<Real> here{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
-          static_cast<Real>(place[2]) };
-        if (!sums.empty())
-        {
-          gatherGradients(
-            medium.gradients, found, here, static_cast<Real>(step / unit), sums.data());
-        }
-        const Sample<Real> sample =
-          interpolateBrick<Scheme>(samples, medium.apron, medium.shape, here);
-        bend.opticalPath += static_cast<double>(sample.value) * step;
-        gradient[0] += static_cast<double>(sample.gradient.x) * leaf.perIndex * step;
-        gradient[1] += static_cast<double>(sample.gradient.y) * leaf.perIndex * step;
-        gradient[2] += static_cast<double>(sample.gradient.z) * leaf.perIndex * step;
+        gradient[axis] += ofLeaf.gradient[axis];
       }
+      bend.isBlocked = ofLeaf.isBlocked;
       if (bend.isBlocked)
       {
         break;
@@ -266,8 +282,21 @@ double fullColorOf(std::vector<double> gathered)
 } // namespace
 
 template <class Real>
+LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
+  const LeafSegment& segment)
+{
+  return visitScheme(layout.interpolation,
+    [&](auto scheme)
+    {
+      return sumUpWith<decltype(scheme)>(
+        layout, samples, gasDistances, segment, [](const Vec3<Real>&, double) {});
+    });
+}
+
+template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads)
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads,
+  const SumsElsewhere& elsewhere)
 {
   // What of the column is over the box.
   const Grid& grid = medium.grid;
@@ -294,37 +323,92 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   constexpr int ofLattice = latticeEdge * latticeEdge;
   const std::int64_t rays = ofLattice + static_cast<std::int64_t>(places.size());
   std::vector<Bend> bends(static_cast<std::size_t>(rays));
-  parallelFor(rays, 16, threads,
-    [&](std::int64_t begin, std::int64_t end)
+  const auto rayOf = [&](std::int64_t n) -> std::optional<StraightRay>
+  {
+    if (n < ofLattice)
     {
-      for (std::int64_t n = begin; n < end; ++n)
+      return rayAt(grid, column,
+        low[0] + (high[0] - low[0]) * (static_cast<double>(n % latticeEdge) + 0.5) / latticeEdge,
+        low[1] + (high[1] - low[1]) * (static_cast<double>(n / latticeEdge) + 0.5) / latticeEdge);
+    }
+    const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
+    const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
+      grid.origin[1] + index.y * grid.spacing[1], grid.origin[2] + index.z * grid.spacing[2] };
+    const double u = dot(x, column.u), v = dot(x, column.v);
+    const bool isIn = u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1];
+    return isIn ? std::optional(rayAt(grid, column, u, v)) : std::nullopt;
+  };
+  // Calls traceOne(n, ray), which returns the bend.
+  const auto forRays = [&](const auto& traceOne)
+  {
+    parallelFor(rays, 16, threads,
+      [&](std::int64_t begin, std::int64_t end)
       {
-        double u, v;
-        if (n < ofLattice)
+        for (std::int64_t n = begin; n < end; ++n)
         {
-          u = low[0] +
-            (high[0] - low[0]) * (static_cast<double>(n % latticeEdge) + 0.5) / latticeEdge;
-          v = low[1] +
-            (high[1] - low[1]) * (static_cast<double>(n / latticeEdge) + 0.5) / latticeEdge;
-        }
-        else
-        {
-          const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
-          const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
-            grid.origin[1] + index.y * grid.spacing[1],
-            grid.origin[2] + index.z * grid.spacing[2] };
-          u = dot(x, column.u);
-          v = dot(x, column.v);
-          if (!(u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1]))
+          if (const std::optional<StraightRay> ray = rayOf(n))
           {
-            continue;
+            bends[static_cast<std::size_t>(n)] = traceOne(n, *ray);
           }
         }
-        const StraightRay ray = rayAt(grid, column, u, v);
-        bends[static_cast<std::size_t>(n)] = visitScheme(medium.interpolation,
-          [&](auto scheme) { return trace<decltype(scheme)>(medium, column, ray); });
-      }
-    });
+      });
+  };
+  if (elsewhere)
+  {
+    // First which segments there are, as if nothing stopped a ray; then what they add up to.
+    std::vector<std::vector<LeafSegment>> segments(static_cast<std::size_t>(rays));
+    forRays(
+      [&](std::int64_t n, const StraightRay& ray)
+      {
+        return trace(medium, column, ray,
+          [&](const LeafSegment& segment, const std::vector<float>&)
+          {
+            segments[static_cast<std::size_t>(n)].push_back(segment);
+            return LeafSums{};
+          });
+      });
+    std::vector<LeafSegment> all;
+    std::vector<std::size_t> firsts;
+    for (const std::vector<LeafSegment>& ofRay : segments)
+    {
+      firsts.push_back(all.size());
+      all.insert(all.end(), ofRay.begin(), ofRay.end());
+    }
+    const std::vector<LeafSums> sums = elsewhere(all);
+    forRays(
+      [&](std::int64_t n, const StraightRay& ray)
+      {
+        std::size_t next = firsts[static_cast<std::size_t>(n)];
+        return trace(medium, column, ray,
+          [&](const LeafSegment&, const std::vector<float>&) { return sums[next++]; });
+      });
+  }
+  else
+  {
+    const double unit = *std::min_element(grid.spacing.begin(), grid.spacing.end());
+    visitScheme(medium.layout.interpolation,
+      [&](auto scheme)
+      {
+        forRays(
+          [&](std::int64_t, const StraightRay& ray)
+          {
+            return trace(medium, column, ray,
+              [&](const LeafSegment& segment, std::vector<float>& gathered)
+              {
+                return sumUpWith<decltype(scheme)>(medium.layout, medium.samples,
+                  medium.gasDistances, segment,
+                  [&](const Vec3<Real>& here, double step)
+                  {
+                    if (!gathered.empty())
+                    {
+                      gatherGradients(medium.gradients, segment.leaf, here,
+                        static_cast<Real>(step / unit), gathered.data());
+                    }
+                  });
+              });
+          });
+      });
+  }
   const bool areAllBlocked =
     std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
   RayFindings findings;
@@ -367,9 +451,11 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   return findings;
 }
 
+template LeafSums sumUp(const BrickLayout&, const float*, const std::int16_t*, const LeafSegment&);
+template LeafSums sumUp(const BrickLayout&, const double*, const std::int16_t*, const LeafSegment&);
 template RayFindings lookAlongRays(const LeavesView<float>&, const Column&,
-  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int, const SumsElsewhere&);
 template RayFindings lookAlongRays(const LeavesView<double>&, const Column&,
-  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int, const SumsElsewhere&);
 
 } // namespace schlieren

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace schlieren
@@ -24,6 +25,41 @@ struct Column
   double halfWidth[2]; ///< along u and v, data units
   double finest; ///< no voxel needs to be smaller: data units, the pixel's size or a part of it
 };
+
+/// What a straight ray crosses of a leaf with samples.
+struct LeafSegment
+{
+  double local[3], along[3]; ///< from where, local coordinates; and these by data unit
+  double way;                ///< data units
+  double perIndex;           ///< of the leaf
+  std::int32_t steps;
+  std::int32_t leaf;
+  std::int32_t brick, map; ///< map -1: it has none
+};
+
+/// What the samples along it add up to.
+struct LeafSums
+{
+  double gradient[3] = { 0, 0, 0 }; ///< nu by index times data units
+  double opticalPath = 0;           ///< nu times data units
+  bool isBlocked = false;
+};
+
+/// How bricks are laid out.
+struct BrickLayout
+{
+  std::int64_t samplesPerBrick;
+  std::int32_t apron;
+  BrickShape shape;
+  Interpolation interpolation;
+
+  /// The axes along which there is more than one sample.
+  int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
+};
+
+template <class Real>
+LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
+  const LeafSegment& segment);
 
 /// All that rays see of a tree.
 template <class Real>
@@ -42,14 +78,11 @@ struct LeavesView
   const float*
     fieldDifferences;       ///< of each leaf, as `differences`, of all fields; null: there are none
   const float* fieldErrors; ///< of each leaf, as `errors`, of all fields; null: there are none
-  std::int64_t samplesPerBrick;
-  int apron;
-  BrickShape shape;
-  Interpolation interpolation;
-
-  /// The axes along which there is more than one sample.
-  int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
+  BrickLayout layout;
 };
+
+/// The sums of segments whose samples other processes have.
+using SumsElsewhere = std::function<std::vector<LeafSums>(const std::vector<LeafSegment>&)>;
 
 /// What straight rays tell: those on a lattice over the column, and those through some places (index coordinates)
 /// as far as they are in it. Of rays that no wall stops; where walls stop all, of these.
@@ -70,9 +103,11 @@ struct RayFindings
   /// Leaves whose samples are too far apart, as errors along a ray add up. Those that contribute most.
   std::vector<std::int32_t> wrong;
 };
-/// `least`: what is known of the largest ones, e.g. from samples that are no longer there.
+/// `least`: what is known of the largest ones, e.g. from samples that are no longer there. `elsewhere`: null where all
+/// samples are here.
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads);
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads,
+  const SumsElsewhere& elsewhere = nullptr);
 
 } // namespace schlieren

@@ -95,6 +95,18 @@ std::int32_t BrickStore<Value>::add(const std::vector<Value>& values)
   return number;
 }
 
+template <class Value>
+void BrickStore<Value>::put(std::int32_t number, const Value* values)
+{
+  const std::size_t needed =
+    (static_cast<std::size_t>(number) + 1) * layout_.perBrick + layout_.behind;
+  if (values_.size() < needed)
+  {
+    values_.resize(needed);
+  }
+  std::copy_n(values, layout_.perBrick, brick(number));
+}
+
 /// Puts what is in place order[n] into place n.
 template <class Value>
 void BrickStore<Value>::permute(const std::vector<std::int32_t>& order)

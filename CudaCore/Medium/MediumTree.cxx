@@ -137,6 +137,11 @@ void MediumTree<Real>::makeRoots()
   samples_.clear();
   maps_.clear();
   gradients_.clear();
+  if (settings_.owners)
+  {
+    owned_.assign(static_cast<std::size_t>(settings_.owners->count()), Owned{});
+    settings_.owners->begin(layout(), sizeof(Real));
+  }
   isMeasured_ = false;
 }
 
@@ -190,9 +195,54 @@ FieldGradientsView MediumTree<Real>::gradients() const
 template <class Real>
 std::size_t MediumTree<Real>::bytesUsed() const
 {
-  return samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
+  std::size_t ofOthers = 0;
+  for (const Owned& owned : owned_)
+  {
+    ofOthers += static_cast<std::size_t>(owned.samples.used() - 1) * samples_.bytesOfBrick() +
+      static_cast<std::size_t>(owned.maps.used()) * maps_.bytesOfBrick();
+  }
+  return ofOthers + samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
     nodes_.size() * sizeof(Node) + nodeFields_.size() * sizeof(NodeFields) +
     leaves_.size() * (sizeof(Leaf<Real>) + 2 * sizeof(std::int32_t));
+}
+
+template <class Real>
+BrickLayout MediumTree<Real>::layout() const
+{
+  return { samplesPerBrick(), apron(), shape(), settings_.interpolation };
+}
+
+template <class Real>
+std::int32_t MediumTree<Real>::ownerOf(std::int32_t leaf) const
+{
+  return nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)])].owner;
+}
+
+template <class Real>
+std::vector<Leaf<Real>> MediumTree<Real>::leavesOf(std::int32_t owner) const
+{
+  std::vector<Leaf<Real>> leaves;
+  leaves.reserve(leafNodes_.size());
+  for (const std::int32_t at : leafNodes_)
+  {
+    leaves.push_back(leafOf(nodes_[static_cast<std::size_t>(at)], owner));
+  }
+  return leaves;
+}
+
+template <class Real>
+Leaf<Real> MediumTree<Real>::leafOf(const Node& node, std::int32_t owner) const
+{
+  const bool hasSamples = node.brick > 0 || node.map >= 0;
+  const bool isElsewhere = hasSamples && node.owner != owner;
+  Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset,
+    isElsewhere ? ~node.owner : node.brick, isElsewhere ? -1 : node.map, node.kind };
+  for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
+  {
+    leaf.first[axis] =
+      std::ldexp(brickEdge * static_cast<double>(node.place.at[axis]) + 0.5, -node.place.level);
+  }
+  return leaf;
 }
 
 /// Leaves, roots and children as rays see them, depth first: neighbours in space are near each other.
@@ -218,8 +268,7 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
   if (node.children < 0)
   {
     code = ~static_cast<std::int32_t>(leaves_.size());
-    Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset, node.brick, node.map,
-      node.kind };
+    Leaf<Real> leaf = leafOf(node, 0);
     if (!nodeFields_.empty())
     {
       const std::int32_t gradients = fieldsOf(at).brick;
@@ -227,11 +276,6 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
       // In one step nothing would be gathered.
       leaf.kind =
         leaf.kind == Leaf<Real>::Constant && gradients > 0 ? Leaf<Real>::Samples : leaf.kind;
-    }
-    for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
-    {
-      leaf.first[axis] =
-        std::ldexp(brickEdge * static_cast<double>(node.place.at[axis]) + 0.5, -node.place.level);
     }
     leaves_.push_back(leaf);
     leafNodes_.push_back(at);
@@ -282,6 +326,10 @@ void MediumTree<Real>::arrange()
   for (const std::int32_t at : leafNodes_)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
+    if (node.owner > 0)
+    {
+      continue; // numbers of others stay
+    }
     if (node.brick > 0)
     {
       bricks.push_back(node.brick);
@@ -345,6 +393,8 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.voxels =
     statistics_.bricks * brickEdge * brickEdge * (shape() == BrickShape::Layer ? 1 : brickEdge);
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
+  statistics_.processes = std::max(1, static_cast<int>(owned_.size()));
+  statistics_.isMemoryShort = work_.isMemoryShort;
   const double deflection = work_.largest, gathered = work_.gathered;
   statistics_.largestDeflection = deflection;
   statistics_.deflectionError = error;

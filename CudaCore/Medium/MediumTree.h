@@ -8,11 +8,13 @@
 #include "Medium/FieldGradients.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
+#include "Medium/PartOfTree.h"
 #include "Medium/SlopeBlocks.h"
 #include "Schlieren.h"
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -25,9 +27,10 @@ struct TreeSettings
 {
   /// Error of the deflection of a ray that is allowed, of the largest one. 0: as fine as the data are.
   double tolerance = 0.01;
-  std::size_t memory = std::size_t{ 1 } << 30; ///< bytes that leaves may take
+  std::size_t memory = std::size_t{ 1 } << 30; ///< bytes that leaves may take, on each process
   Interpolation interpolation = Interpolation::Quadratic;
   int threads = 0;
+  std::shared_ptr<BrickOwners> owners{}; ///< null: all bricks are here. For sources without fields
 };
 
 /// Of leaves that a view does not need, where memory is short.
@@ -90,6 +93,11 @@ public:
     return gradientBricks_;
   } ///< of the leaves
 
+  /// Which process has a leaf's samples; 0: this one, too.
+  std::int32_t ownerOf(std::int32_t leaf) const;
+  /// The leaves as their owner sees them, with its numbers of bricks. leaves() are those of owner 0.
+  std::vector<Leaf<Real>> leavesOf(std::int32_t owner) const;
+
   // What is known of it.
   double largestNu() const { return largestNu_; }
   double rangeOfNu() const { return rangeOfNu_; }
@@ -107,12 +115,27 @@ private:
     std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has asked for
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
+    std::int16_t owner = 0;     ///< of its brick and map; 0 where there are none
     bool isWrong = false;       ///< its error is too large beside those of others along a ray
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
-    std::int32_t brick = 0;
+    std::int32_t brick = 0; ///< its number at its owner, as that of the map
     std::int32_t map = -1;
     BrickFacts facts{};
+  };
+  /// Of the bricks that another process has.
+  struct Numbers
+  {
+    std::int32_t next;
+    std::vector<std::int32_t> free{};
+
+    std::int32_t take();
+    std::int32_t used() const { return next - static_cast<std::int32_t>(free.size()); }
+  };
+  struct Owned
+  {
+    Numbers samples{ 1 }, maps{ 0 };
+    DeliveredBricks<Real> unsent{};
   };
   /// The same of its fields.
   struct NodeFields
@@ -142,12 +165,14 @@ private:
       std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
     bool hasForgotten = false;                 ///< what the view does not need
     bool hasBegunAnew = false;
+    bool isMemoryShort = false;
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
     std::vector<typename BrickMaker<Real>::Request> requests; ///< of the tasks that are begun
     std::vector<std::int32_t> boxes; ///< likewise; the nodes that are divided, or -1
-    std::vector<Brick<Real>> bricks; ///< likewise
+    std::map<std::int32_t, std::vector<Real>> fetched; ///< samples of these that others have
+    std::vector<Brick<Real>> bricks;                   ///< likewise
     std::int64_t bricksDone = 0;
   };
   class View;
@@ -155,6 +180,7 @@ private:
   /// Of a node that is divided.
   std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
   Brick<Real> makeBrick(std::size_t request) const;
+  void fetchBoxes();
   void makeRoots();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
@@ -165,7 +191,14 @@ private:
   void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
   void addNode(const NodePlace& place);
-  void keep(std::int32_t node, const Brick<Real>& brick);
+  void keep(std::int32_t node, const Brick<Real>& brick, std::int32_t owner);
+  std::int32_t ownerOfTask(std::size_t task) const;
+  void sendBricks();
+  std::vector<LeafSums> sumUp(const std::vector<LeafSegment>& segments) const;
+  BrickLayout layout() const;
+  std::size_t memory() const;
+  void removeSamples(Node& node);
+  void removeMap(Node& node);
   void forget(std::int32_t node);
   void forgetNegligible(const View& view);
   void forgetBelow(std::int32_t node);
@@ -178,6 +211,7 @@ private:
   NodeFields fieldsOf(std::int32_t node) const;
   void numberLeaves();
   void number(std::int32_t node, std::int32_t& code);
+  Leaf<Real> leafOf(const Node& node, std::int32_t owner) const;
   void arrange();
   void summarize(const View& view);
 
@@ -199,6 +233,7 @@ private:
   BrickStore<std::int16_t> maps_;
   BrickStore<float> gradients_;
   std::vector<std::int32_t> gradientBricks_;
+  std::vector<Owned> owned_; ///< by each of the owners; that of this process stays empty
   Work work_;
   Unneeded unneeded_ = Unneeded::Goes; ///< as of the last call
   bool lacksRoom_ = false;

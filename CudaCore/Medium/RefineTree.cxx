@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -135,9 +136,11 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   const RayFindings findings = lookAlongRays<Real>(
     { grid_, finder(), leaves_.data(), differences.data(), errors.data(), samples().data(),
       gasDistances().data(), gradients(), ofFields.empty() ? nullptr : ofFields.data(),
-      ofFields.empty() ? nullptr : fieldErrors.data(), samplesPerBrick(), apron(), shape(),
-      settings_.interpolation },
-    work_.column, places, settings_.tolerance, least, settings_.threads);
+      ofFields.empty() ? nullptr : fieldErrors.data(), layout() },
+    work_.column, places, settings_.tolerance, least, settings_.threads,
+    settings_.owners
+      ? SumsElsewhere([this](const std::vector<LeafSegment>& segments) { return sumUp(segments); })
+      : nullptr);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
   work_.error = findings.error;
@@ -207,7 +210,7 @@ bool MediumTree<Real>::plan(const View& view)
     work_.tasksDone = 0;
     ++work_.rounds;
     const std::size_t used = bytesUsed();
-    const std::size_t available = settings_.memory > used ? settings_.memory - used : 0;
+    const std::size_t available = memory() > used ? memory() - used : 0;
     std::size_t cost = 0, costOfNew = 0;
     for (const Task& task : work_.tasks)
     {
@@ -251,13 +254,14 @@ bool MediumTree<Real>::plan(const View& view)
 template <class Real>
 void MediumTree<Real>::chooseWhatFits(std::size_t available)
 {
+  work_.isMemoryShort = true;
   std::vector<Task>& tasks = work_.tasks;
   const auto levelOf = [&](const Task& task)
   { return nodes_[static_cast<std::size_t>(task.node)].place.level; };
   std::stable_sort(tasks.begin(), tasks.end(),
     [&](const Task& a, const Task& b)
     { return a.urgency != b.urgency ? a.urgency > b.urgency : levelOf(a) < levelOf(b); });
-  const std::size_t reserve = settings_.memory / partsOfReserve;
+  const std::size_t reserve = memory() / partsOfReserve;
   std::size_t fitting = 0, cost = 0;
   for (bool fits = true; fits && fitting < tasks.size(); fitting += fits ? 1 : 0)
   {
@@ -274,6 +278,18 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
     work_.leastUrgent = fits ? std::min(work_.leastUrgent, task.urgency) : work_.leastUrgent;
   }
   tasks.resize(fitting);
+  if (settings_.owners) // which each have a piece of them, see ownerOfTask()
+  {
+    std::vector<std::int32_t> places(nodes_.size(), 0);
+    for (std::size_t leaf = 0; leaf < leafNodes_.size(); ++leaf)
+    {
+      places[static_cast<std::size_t>(leafNodes_[leaf])] = static_cast<std::int32_t>(leaf);
+    }
+    std::sort(tasks.begin(), tasks.end(),
+      [&](const Task& a, const Task& b) {
+        return places[static_cast<std::size_t>(a.node)] < places[static_cast<std::size_t>(b.node)];
+      });
+  }
 }
 
 /// The bricks that the next tasks are about.
@@ -304,6 +320,40 @@ void MediumTree<Real>::findBricks(const View& view)
   maker_.prepare(requests);
   work_.bricks.assign(requests.size(), {});
   work_.requests = std::move(requests);
+  fetchBoxes();
+}
+
+/// Gets the samples of boxes that are divided from those who have them.
+template <class Real>
+void MediumTree<Real>::fetchBoxes()
+{
+  work_.fetched.clear();
+  std::vector<std::vector<std::int32_t>> numbers(owned_.size());
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t at : work_.boxes)
+  {
+    const bool isOther = at >= 0 && (nodes.empty() || nodes.back() != at);
+    const Node* box = isOther ? &nodes_[static_cast<std::size_t>(at)] : nullptr;
+    if (box != nullptr && box->owner > 0 && box->brick > 0)
+    {
+      numbers[static_cast<std::size_t>(box->owner)].push_back(box->brick);
+      nodes.push_back(at);
+    }
+  }
+  if (nodes.empty() || apron() != 1)
+  {
+    return;
+  }
+  const std::vector<std::vector<char>> found = settings_.owners->fetch(numbers);
+  std::vector<std::size_t> next(owned_.size(), 0);
+  const std::size_t bytes = samples_.bytesOfBrick();
+  for (const std::int32_t at : nodes)
+  {
+    const auto owner = static_cast<std::size_t>(nodes_[static_cast<std::size_t>(at)].owner);
+    std::vector<Real>& samples = work_.fetched[at];
+    samples.resize(bytes / sizeof(Real));
+    std::memcpy(samples.data(), found[owner].data() + bytes * next[owner]++, bytes);
+  }
 }
 
 /// A brick with what is wrong with it, also as far as the box tells that it is a part of.
@@ -321,9 +371,12 @@ Brick<Real> MediumTree<Real>::makeBrick(std::size_t request) const
   if (isPart)
   {
     const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
-    changes = changesOf(brick, partOf(place, shape()),
-      samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick(), box.offset, shape(),
-      maker_.voxelOf(place.level));
+    const auto fetched = work_.fetched.find(work_.boxes[request]);
+    const Real* samples = fetched != work_.fetched.end()
+      ? fetched->second.data()
+      : samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
+    changes = changesOf(
+      brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -348,10 +401,11 @@ void MediumTree<Real>::keepBricks(const View& view)
   for (; work_.tasksDone < work_.tasksBegun; ++work_.tasksDone)
   {
     const Task& task = work_.tasks[work_.tasksDone];
+    const std::int32_t owner = ownerOfTask(work_.tasksDone);
     forget(task.node);
     if (!task.divides)
     {
-      keep(task.node, *next++);
+      keep(task.node, *next++, owner);
       continue;
     }
     const auto firstChild = static_cast<std::int32_t>(nodes_.size());
@@ -363,10 +417,11 @@ void MediumTree<Real>::keepBricks(const View& view)
       addNode(childOf(place, child));
       if (view.sees(nodes_.back().place))
       {
-        keep(firstChild + child, *next++);
+        keep(firstChild + child, *next++, owner);
       }
     }
   }
+  sendBricks();
   work_.requests.clear();
   work_.bricks.clear();
 }
@@ -418,15 +473,121 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
 }
 
 template <class Real>
-void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick)
+std::int32_t MediumTree<Real>::Numbers::take()
+{
+  if (free.empty())
+  {
+    return next++;
+  }
+  const std::int32_t number = free.back();
+  free.pop_back();
+  return number;
+}
+
+/// Tasks are in the order of leaves, that of a space-filling curve (Morton 1966) within each root cell: each owner gets
+/// what comes of a piece of them.
+template <class Real>
+std::int32_t MediumTree<Real>::ownerOfTask(std::size_t task) const
+{
+  return static_cast<std::int32_t>(
+    task * std::max<std::size_t>(1, owned_.size()) / work_.tasks.size());
+}
+
+template <class Real>
+std::size_t MediumTree<Real>::memory() const
+{
+  return settings_.memory * std::max<std::size_t>(1, owned_.size());
+}
+
+/// Gives other processes what is theirs.
+template <class Real>
+void MediumTree<Real>::sendBricks()
+{
+  for (std::size_t owner = 1; owner < owned_.size(); ++owner)
+  {
+    DeliveredBricks<Real>& unsent = owned_[owner].unsent;
+    if (!unsent.samplesNumbers.empty() || !unsent.mapNumbers.empty())
+    {
+      settings_.owners->put(static_cast<std::int32_t>(owner), unsent.toBytes());
+      unsent = {};
+    }
+  }
+}
+
+/// The sums of segments, by those who have the samples.
+template <class Real>
+std::vector<LeafSums> MediumTree<Real>::sumUp(const std::vector<LeafSegment>& segments) const
+{
+  std::vector<std::vector<LeafSegment>> ofOwners(owned_.size());
+  std::vector<LeafSums> sums(segments.size());
+  std::vector<std::size_t> own;
+  for (std::size_t n = 0; n < segments.size(); ++n)
+  {
+    LeafSegment segment = segments[n];
+    const Node& node =
+      nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(segment.leaf)])];
+    segment.brick = node.brick;
+    segment.map = node.map;
+    ofOwners[static_cast<std::size_t>(node.owner)].push_back(segment);
+    if (node.owner == 0)
+    {
+      own.push_back(n);
+    }
+  }
+  const std::vector<std::vector<LeafSums>> ofOthers = settings_.owners->sumUp(ofOwners);
+  parallelFor(static_cast<std::int64_t>(own.size()), 256, settings_.threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+      {
+        sums[own[n]] =
+          schlieren::sumUp(layout(), samples().data(), gasDistances().data(), ofOwners[0][n]);
+      }
+    });
+  std::vector<std::size_t> next(owned_.size(), 0);
+  for (std::size_t n = 0; n < segments.size(); ++n)
+  {
+    const auto owner = static_cast<std::size_t>(ownerOf(segments[n].leaf));
+    if (owner > 0)
+    {
+      sums[n] = ofOthers[owner][next[owner]++];
+    }
+  }
+  return sums;
+}
+
+template <class Real>
+void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int32_t owner)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
   node.isKnown = true;
   node.kind = brick.kind;
   node.offset = brick.offset;
   node.facts = brick.facts;
-  node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
-  node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
+  node.owner =
+    static_cast<std::int16_t>(brick.samples.empty() && brick.gasDistances.empty() ? 0 : owner);
+  if (node.owner == 0)
+  {
+    node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
+    node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
+  }
+  else
+  {
+    Owned& owned = owned_[static_cast<std::size_t>(owner)];
+    const auto give = [](const auto& values, Numbers& numbers, auto& numbersSent, auto& sent)
+    {
+      numbersSent.push_back(numbers.take());
+      sent.insert(sent.end(), values.begin(), values.end());
+      return numbersSent.back();
+    };
+    DeliveredBricks<Real>& unsent = owned.unsent;
+    node.brick = brick.samples.empty()
+      ? 0
+      : give(brick.samples, owned.samples, unsent.samplesNumbers, unsent.samples);
+    node.map = brick.gasDistances.empty()
+      ? -1
+      : give(brick.gasDistances, owned.maps, unsent.mapNumbers, unsent.maps);
+  }
   if (!nodeFields_.empty())
   {
     const std::vector<float>& gradients = brick.fields.gradients;
@@ -435,19 +596,43 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick)
   }
 }
 
+template <class Real>
+void MediumTree<Real>::removeSamples(Node& node)
+{
+  if (node.brick > 0 && node.owner == 0)
+  {
+    samples_.remove(node.brick);
+  }
+  else if (node.brick > 0)
+  {
+    owned_[static_cast<std::size_t>(node.owner)].samples.free.push_back(node.brick);
+  }
+  node.brick = 0;
+  node.owner = node.map < 0 ? std::int16_t{ 0 } : node.owner;
+}
+
+template <class Real>
+void MediumTree<Real>::removeMap(Node& node)
+{
+  if (node.map >= 0 && node.owner == 0)
+  {
+    maps_.remove(node.map);
+  }
+  else if (node.map >= 0)
+  {
+    owned_[static_cast<std::size_t>(node.owner)].maps.free.push_back(node.map);
+  }
+  node.map = -1;
+  node.owner = node.brick == 0 ? std::int16_t{ 0 } : node.owner;
+}
+
 /// Takes a node's samples from it.
 template <class Real>
 void MediumTree<Real>::forget(std::int32_t at)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
-  if (node.brick > 0)
-  {
-    samples_.remove(node.brick);
-  }
-  if (node.map >= 0)
-  {
-    maps_.remove(node.map);
-  }
+  removeSamples(node);
+  removeMap(node);
   if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
   {
     gradients_.remove(brick);
@@ -482,15 +667,13 @@ void MediumTree<Real>::forgetNegligible(const View& view)
       fieldsOf(at).brick == 0)
     {
       facts.neglected = std::max(facts.neglected, facts.besideWindow);
-      maps_.remove(node.map);
-      node.map = -1;
+      removeMap(node);
       node.kind = Leaf<Real>::Samples;
     }
     if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= negligible.deflection)
     {
       facts.neglected = std::max(facts.neglected, facts.range);
-      samples_.remove(node.brick);
-      node.brick = 0;
+      removeSamples(node);
       node.kind = Leaf<Real>::Constant;
     }
   }

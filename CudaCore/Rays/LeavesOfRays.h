@@ -70,12 +70,10 @@ struct LeavesOfRays
     return found;
   }
 
-  /// Moves ray i, which is at `x` (local coordinates) and goes along `along`, into the leaf of the middle of its next
-  /// step. Where steps are shorter there (`usual`), so is this one. Returns the new local coordinates by the old
-  /// ones, or 0 if it stays where it is.
-  SCHLIEREN_HD double change(const View& medium, int i, const StepsInLeaves<Number>& usual,
-    const Number (&x)[3][lanes], const Number (&along)[3][lanes], Number& step, Number length,
-    const Number (&perLength)[3][lanes])
+  /// The leaf of the middle of the next step of ray i, which is at `x` (local coordinates) and goes along `along`. Where
+  /// steps are shorter there (`usual`), so is this one.
+  SCHLIEREN_HD std::int32_t next(const View& medium, int i, const StepsInLeaves<Number>& usual,
+    const Number (&x)[3][lanes], const Number (&along)[3][lanes], Number& step) const
   {
     const Leaf<Number>& now = medium.leaves[leaf[i]];
     const auto leafOfMiddle = [&](double ofStep)
@@ -88,18 +86,28 @@ struct LeavesOfRays
       }
       return medium.finder.at({ index[0], index[1], index[2] });
     };
-    std::int32_t next = leafOfMiddle(static_cast<double>(step));
-    const Number there = usual.in(medium.leaves[next]);
+    const std::int32_t found = leafOfMiddle(static_cast<double>(step));
+    const Number there = usual.in(medium.leaves[found]);
     if (there < step)
     {
       step = there;
-      next = leafOfMiddle(static_cast<double>(step));
+      return leafOfMiddle(static_cast<double>(step));
     }
-    if (next == leaf[i])
+    return found;
+  }
+
+  /// Moves ray i into next(). Returns the new local coordinates by the old ones, or 0 if it stays where it is.
+  SCHLIEREN_HD double change(const View& medium, int i, const StepsInLeaves<Number>& usual,
+    const Number (&x)[3][lanes], const Number (&along)[3][lanes], Number& step, Number length,
+    const Number (&perLength)[3][lanes])
+  {
+    const std::int32_t to = next(medium, i, usual, x, along, step);
+    if (to == leaf[i])
     {
       return 0;
     }
-    const Leaf<Number>& then = medium.leaves[next];
+    const Leaf<Number>& now = medium.leaves[leaf[i]];
+    const Leaf<Number>& then = medium.leaves[to];
     for (int axis = 0; axis < 3; ++axis)
     {
       const double local = start[axis][i] +
@@ -108,7 +116,7 @@ struct LeavesOfRays
     }
     travelled[i] += static_cast<double>(length);
     const double ratio = then.perIndex / now.perIndex;
-    set(medium, i, next);
+    set(medium, i, to);
     return ratio;
   }
 

@@ -106,17 +106,33 @@ SCHLIEREN_APART Sample<Real> sampleApart(
 
 /// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
 /// cannot be met saves registers.
-template <bool image, bool tree, bool fields>
+template <bool image, bool tree, bool fields, bool absentLeaves = false>
 struct MayMeet
 {
   static constexpr bool anImage = image;
   static constexpr bool aTree = tree;
   static constexpr bool fieldsToGather = fields;
+  static constexpr bool leavesElsewhere = absentLeaves; ///< see Leaf::isResident
 };
 using MayMeetAll = MayMeet<true, true, true>;
 
 template <class Real>
 struct LeavesOfPack; // for those who march with packs
+
+/// A ray whose march has come to a leaf that is not resident: what of it is not the pass's and the task's, to the last
+/// bit, in the coordinates of the leaf that it leaves.
+template <class Number>
+struct SuspendedRay
+{
+  std::int64_t ray;       ///< of the pass
+  double start[3];        ///< see LeavesOfRays
+  double travelled;       ///< likewise
+  Vec3<Number> offset, q; ///< see Ray, as the next three
+  Number length, path, pathError;
+  std::int32_t leaf;  ///< that it is in; -1: it has not entered the grid yet
+  std::int32_t next;  ///< the one that it comes to
+  std::int32_t steps; ///< so far
+};
 
 /// What the march of some rays through the medium needs to know, and its steps.
 template <class Kernel, class Real, class May = MayMeetAll>
@@ -155,7 +171,9 @@ struct March
   // Rays are told apart by masks, or in arrays, but never by an index into a pack: that would keep the
   // pack in memory, in every step.
 
-  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
+  /// `suspended`: where the march has ended on another process; null: it begins.
+  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch,
+    [[maybe_unused]] const SuspendedRay<Number>* suspended = nullptr)
     : task(ofTask)
     , batch(ofBatch)
     , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
@@ -180,6 +198,14 @@ struct March
     cruise = fromArray<Real>(usual);
     ray.start = packs(start);
     areUnderWay = any(cruise > 0);
+    if constexpr (May::leavesElsewhere)
+    {
+      if (suspended != nullptr)
+      {
+        restore(*suspended);
+        return;
+      }
+    }
     if (isTree())
     {
       enterTree();
@@ -358,19 +384,24 @@ struct March
     }
   }
 
+  /// In leaves of one layer, a usual step may lead far beyond the domain.
+  SCHLIEREN_HD Real stepWithinDomain() const
+  {
+    if (task.medium.planeStride != 0)
+    {
+      return cruise;
+    }
+    const Real out =
+      wayOut(Path::position(ray, light), Path::along(ray, light), domainLow, domainHigh);
+    return minimum(cruise, maximum(out, Real{}));
+  }
+
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
   /// long as a voxel where that is; through a leaf where nothing changes, up to its far side.
   SCHLIEREN_HD Real settle()
   {
     Real step = cruise;
-    // In leaves of one layer, a usual step may lead far beyond the domain.
-    Real within = cruise;
-    if (task.medium.planeStride == 0)
-    {
-      const Real out =
-        wayOut(Path::position(ray, light), Path::along(ray, light), domainLow, domainHigh);
-      within = minimum(cruise, maximum(out, Real{}));
-    }
+    const Real within = stepWithinDomain();
     const Vec3<Real> middle = Path::ahead(ray, light, Number(0.5) * within);
     const auto isOut =
       (insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0) & (cruise > 0);
@@ -740,6 +771,87 @@ struct March
     finish(cruise > 0, RayFate::Trapped, steps);
     areUnderWay = false;
     return true;
+  }
+
+  /// The leaf that settle() would move the ray into where that is not resident; else -1.
+  SCHLIEREN_HD std::int32_t absentLeafAhead() const
+  {
+    static_assert(lanes == 1);
+    Real step = stepWithinDomain();
+    const Vec3<Real> middle = Path::ahead(ray, light, Number(0.5) * step);
+    if (!(insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0))
+    {
+      return -1;
+    }
+    Number x[3][lanes], along[3][lanes];
+    toArrays(Path::position(ray, light), x);
+    toArrays(Path::along(ray, light), along);
+    const std::int32_t next = in.next(task.medium, 0, stepsInLeaves(), x, along, step);
+    return task.medium.leaves[next].isResident() ? -1 : next;
+  }
+
+  /// Takes steps as takeAllSteps(), but none in a leaf that is not resident. Whether the ray has come to one, which
+  /// `suspended` then tells, with all that the march needs to go on as if nothing had happened.
+  SCHLIEREN_HD bool takeStepsInResidentLeaves(SuspendedRay<Number>& suspended)
+  {
+    static_assert(!isAdaptive && !Integrator::samplesBeyond);
+    std::int32_t inside = 0;
+    while (areUnderWay && (inside > 0 || !isTrapped()))
+    {
+      if (inside > 0)
+      {
+        take(stepInside());
+      }
+      else if (const std::int32_t absent = absentLeafAhead(); absent >= 0)
+      {
+        suspend(absent, suspended);
+        return true;
+      }
+      else
+      {
+        take(chooseStep());
+      }
+      --inside;
+      if (inside < 0)
+      {
+        inside = isPlain() ? stepsInside() : 0;
+      }
+    }
+    return false;
+  }
+
+  SCHLIEREN_HD void suspend(std::int32_t next, SuspendedRay<Number>& to) const
+  {
+    to.next = next;
+    to.leaf = in.leaf[0];
+    to.steps = steps;
+    to.travelled = in.travelled[0];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      to.start[axis] = in.start[axis][0];
+    }
+    to.offset = ray.offset;
+    to.q = ray.q;
+    to.length = ray.length;
+    to.path = ray.path;
+    to.pathError = ray.pathError;
+  }
+
+  /// In the leaf that it was in, of which nothing but its place needs to be here.
+  SCHLIEREN_HD void restore(const SuspendedRay<Number>& from)
+  {
+    static_assert(lanes == 1);
+    in.leaf[0] = from.leaf;
+    in.base[0] = 0;
+    in.travelled[0] = from.travelled;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      in.start[axis][0] = from.start[axis];
+    }
+    ray = { static_cast<Vec3<Number>>(Vec3<double>{ from.start[0], from.start[1], from.start[2] }),
+      from.offset, from.q, from.length, from.path, from.pathError };
+    steps = from.steps;
+    takeLeaves();
   }
 
   /// Takes all steps. There is one piece of code for a step, whether there is anything to look at or not: on a GPU,

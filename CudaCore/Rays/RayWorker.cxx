@@ -3,6 +3,7 @@
 #include "Rays/RayWorker.h"
 
 #include "Device/Parallel.h"
+#include "Rays/DistributedRays.h"
 #include "Rays/TeamMessages.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -31,13 +33,106 @@ struct RayWorker::Arrays
     ArrayMessage head;
     if (read(message, head) && head.array < arraysOfTask)
     {
+      if (head.array == samplesOfTask) // of another medium
+      {
+        tree = 0;
+        singles.reset();
+        doubles.reset();
+      }
       cached[head.array] = { head.version, std::move(message) };
     }
   }
 
-  /// Makes the task's pointers point to the arrays. False where one is not there.
+  /// What it has of a tree that is divided.
+  std::uint64_t tree = 0; ///< 0: nothing, or not all of it
+  std::uint64_t puts = 0; ///< messages with bricks of it
+  std::optional<PartOfTree<float>> singles;
+  std::optional<PartOfTree<double>> doubles;
+
   template <class Real>
-  bool bind(TilesMessage<Real>& request) const
+  std::optional<PartOfTree<Real>>& part()
+  {
+    if constexpr (std::is_same_v<Real, float>)
+    {
+      return singles;
+    }
+    else
+    {
+      return doubles;
+    }
+  }
+
+  template <class Real>
+  void put(const BricksMessage& head, const std::vector<char>& message)
+  {
+    const bool isFirst = head.number == 0;
+    if (isFirst)
+    {
+      cached = {};
+      singles.reset();
+      doubles.reset();
+      part<Real>().emplace(head.layout);
+    }
+    const bool isNext = isFirst || (tree == head.tree && puts == head.number);
+    tree = 0; // where there is no memory
+    if (isNext && part<Real>() &&
+      part<Real>()->put(message.data() + sizeof(head), message.size() - sizeof(head)))
+    {
+      tree = head.tree;
+      puts = head.number + 1;
+    }
+  }
+
+  /// Answers SumUp and FetchBricks.
+  template <class Real>
+  bool find(
+    const BricksMessage& head, const std::vector<char>& message, Channel& channel, int threads)
+  {
+    if (tree != head.tree || !part<Real>())
+    {
+      return false;
+    }
+    const PartOfTree<Real>& own = *part<Real>();
+    const auto itemsOf = [&](auto item)
+    {
+      std::vector<decltype(item)> items((message.size() - sizeof(head)) / sizeof(item));
+      std::memcpy(items.data(), message.data() + sizeof(head), items.size() * sizeof(item));
+      return items;
+    };
+    AdvancedMessage found;
+    found.kind = Found;
+    found.number = head.number;
+    std::vector<char> answer = messageOf(found);
+    const auto append = [&](const auto& values)
+    {
+      const char* first = reinterpret_cast<const char*>(values.data());
+      answer.insert(answer.end(), first, first + values.size() * sizeof(values[0]));
+    };
+    if (head.kind == SumUp)
+    {
+      std::vector<LeafSums> sums;
+      if (!own.sumUp(itemsOf(LeafSegment{}), sums, threads))
+      {
+        return false;
+      }
+      append(sums);
+    }
+    else
+    {
+      std::vector<char> samples;
+      if (!own.fetch(itemsOf(std::int32_t{}), samples))
+      {
+        return false;
+      }
+      append(samples);
+    }
+    channel.send(std::move(answer));
+    return true;
+  }
+
+  /// Makes the task's pointers point to the arrays. False where one is not there.
+  template <class Request>
+  bool bind(Request& request) const
   {
     bool isComplete = true;
     forArrays(request.task,
@@ -110,6 +205,30 @@ struct RayWorker::Arrays
     channel.send(std::move(answer));
     return true;
   }
+
+  /// Takes rays through the leaves that are here.
+  template <class Real>
+  bool advance(const std::vector<char>& message, Channel& channel, int threads)
+  {
+    AdvanceMessage<Real> request;
+    const std::optional<PartOfTree<Real>>& own = part<Real>();
+    if (!read(message, request) || !bind(request) || request.head.tree != tree || !own)
+    {
+      return false;
+    }
+    request.task.medium.samples = own->samples().data() + request.head.firstSample;
+    request.task.medium.gasDistances = own->gasDistances().data() + request.head.firstSample;
+    TravellingRays<Real> rays;
+    const auto count = static_cast<std::size_t>(request.head.rays);
+    if (rays.read(message, sizeof(request), count) != message.size())
+    {
+      return false;
+    }
+    const AdvancedRays<Real> advanced =
+      advanceRays(request.task, request.pass, std::move(rays), threads);
+    channel.send(advanced.toMessage(request.head.number));
+    return true;
+  }
 };
 
 RayWorker::RayWorker()
@@ -134,26 +253,49 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
     return;
   }
   TilesHead request;
-  if (!read(message, request) || request.kind != Tiles)
+  BricksMessage ofBricks;
+  const bool isOfBricks =
+    read(message, ofBricks) && ofBricks.kind >= PutBricks && ofBricks.kind <= FetchBricks;
+  if (!isOfBricks &&
+    (!read(message, request) || (request.kind != Tiles && request.kind != Advance)))
   {
     return;
   }
-  RaysMessage lacking;
-  lacking.kind = Lacking;
-  lacking.number = request.number;
-  lacking.tiles = request.tiles;
+  const bool isSingle = (isOfBricks ? ofBricks.bytesOfReal : request.bytesOfReal) == sizeof(float);
   bool isTraced = false;
   try
   {
-    isTraced = request.bytesOfReal == sizeof(float)
-      ? arrays_->trace<float>(message, channel, threads)
-      : arrays_->trace<double>(message, channel, threads);
+    if (isOfBricks && ofBricks.kind == PutBricks)
+    {
+      isSingle ? arrays_->put<float>(ofBricks, message) : arrays_->put<double>(ofBricks, message);
+      return;
+    }
+    if (isOfBricks)
+    {
+      request.number = ofBricks.number;
+      isTraced = isSingle ? arrays_->find<float>(ofBricks, message, channel, threads)
+                          : arrays_->find<double>(ofBricks, message, channel, threads);
+    }
+    else if (request.kind == Tiles)
+    {
+      isTraced = isSingle ? arrays_->trace<float>(message, channel, threads)
+                          : arrays_->trace<double>(message, channel, threads);
+    }
+    else
+    {
+      isTraced = isSingle ? arrays_->advance<float>(message, channel, threads)
+                          : arrays_->advance<double>(message, channel, threads);
+    }
   }
-  catch (const std::exception&) // there is no memory: others trace them
+  catch (const std::exception&) // there is no memory
   {
   }
-  if (!isTraced)
+  if (!isTraced && kindOf(message) != PutBricks)
   {
+    RaysMessage lacking;
+    lacking.kind = Lacking;
+    lacking.number = request.number;
+    lacking.tiles = request.tiles;
     channel.send(messageOf(lacking));
   }
 }

@@ -24,11 +24,17 @@ public:
     Array = 100, ///< to a worker: an array of the medium
     Tiles,       ///< to a worker: to be traced
     Rays,        ///< from a worker: of tiles
-    Lacking      ///< from a worker: it has not the arrays that tiles need
+    Lacking,     ///< from a worker: it has not the arrays that it needs, or no memory
+    Advance,     ///< to a worker: rays that come to its part of the medium
+    Advanced,    ///< from a worker: these rays
+    PutBricks,   ///< to a worker: of a tree
+    SumUp,       ///< to a worker: segments in these
+    FetchBricks, ///< to a worker: numbers of some
+    Found        ///< from a worker: what SumUp and FetchBricks ask for
   };
   static std::uint32_t kindOf(const std::vector<char>& message);
 
-  /// Does what a message of a TeamTracer asks for, and answers. Throws nothing.
+  /// Does what a message of a TeamTracer or a DistributedTracer asks for, and answers. Throws nothing.
   void answer(std::vector<char> message, Channel& channel, int threads);
 
 private:

@@ -21,6 +21,7 @@ namespace schlieren
 
 /// The arrays that a task points to.
 constexpr std::size_t arraysOfTask = 9;
+constexpr std::size_t samplesOfTask = 0;
 
 /// Calls visit(number of the array, pointer to where the task needs it).
 template <class Real, class Visit>

@@ -51,9 +51,9 @@ struct Entry
   double cosine;   ///< between it and w
 };
 
-/// Puts a ray of a pass where it enters the grid.
+/// Puts a ray of a pass where it meets the grid, without a look at the medium there.
 template <class Number, int Lanes>
-SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std::int64_t ray,
+SCHLIEREN_HD Entry meetGrid(const RayTask<Number>& task, const Pass& pass, std::int64_t ray,
   RayBatch<Number, Lanes>& batch, int i)
 {
   batch.steps[i] = 0;
@@ -93,9 +93,28 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
   put(at, batch.start);
   put(static_cast<Vec3<Number>>(cosine * steep), batch.direction);
   put(static_cast<Vec3<Number>>(cosine * along), batch.perLength);
-  // Where it enters and leaves, too: the steps' midpoints do not look at the grid's faces.
-  batch.fate[i] = isWallAt(task.medium, at) ? RayFate::Blocked : RayFate::Left;
+  batch.fate[i] = RayFate::Left;
   return { chord.from, { slope[0], slope[1] }, cosine };
+}
+
+/// Where a ray of a batch starts.
+template <class Number, int Lanes>
+SCHLIEREN_HD Vec3<double> startOf(const RayBatch<Number, Lanes>& batch, int i)
+{
+  return { batch.start[0][i], batch.start[1][i], batch.start[2][i] };
+}
+
+/// Puts a ray of a pass where it enters the grid, if no wall is there: the steps' middles do not look at the grid's faces.
+template <class Number, int Lanes>
+SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std::int64_t ray,
+  RayBatch<Number, Lanes>& batch, int i)
+{
+  const Entry entry = meetGrid(task, pass, ray, batch, i);
+  if (batch.fate[i] == RayFate::Left && isWallAt(task.medium, startOf(batch, i)))
+  {
+    batch.fate[i] = RayFate::Blocked;
+  }
+  return entry;
 }
 
 /// What becomes of a ray whose march is over.

@@ -228,6 +228,34 @@ def in_pieces():
     return found
 
 
+def distributed():
+    """Media of which each rank has a part: of meshes that stay where they are or are gathered, and a body."""
+    from paraview.simple import ProgrammableSource, Sphere
+    from plugin_testing import Schlieren, picture
+    found = {}
+    source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", Script=BALL.replace("KIND", repr("tetrahedra")),
+                                ScriptRequestInformation=WHOLE_EXTENT.replace("IS_GRID", "False"))
+    for kind, limit, path in (("stay", 1, "Refracted"), ("gathered", 10000000, "Refracted"),
+                              ("straight", 10000000, "Straight")):
+        seen = Schlieren(Input=source, Density=["POINTS", "rho"], Bodies=Sphere(Radius=0.2, Center=[0.5, 0.2, 0]),
+                         ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8], GatherLimit=limit, PathModel=path,
+                         MediumTolerance=1e-3, DistributedMedium="On", Device="CPU")
+        for array in ("Deflection", "BlockedFraction"):
+            found[f"{kind}: {array}"] = picture(seen, array)
+        seen.UpdatePropertyInformation()
+        assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
+        seen.ViewDirection = [0.6, 0.1, -1]
+        found[f"{kind}: from another side"] = picture(seen, "Deflection")
+    seen.TimeLimit = 0.05
+    seen.ViewDirection = [1, 0, 0.3]
+    seen.UpdatePipeline()
+    for _ in range(20):
+        seen.InvokeCommand("Refine")
+        seen.UpdatePipeline()
+    found["time-sliced"] = picture(seen, "Deflection")
+    return found
+
+
 def exposed():
     """Exposures over time steps of which each rank has a part, or rank 0 all."""
     from paraview.simple import ProgrammableSource
@@ -515,7 +543,8 @@ def run_results(command, parts, file):
         return dict(arrays)
 
 
-SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed}
+SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed,
+         "distributed": distributed}
 PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     np.savez(sys.argv[-1], **{f"{part}: {name}": values for part in sys.argv[1:-1]
@@ -537,9 +566,10 @@ else:
     isSanitized = "libasan" in os.environ.get("LD_PRELOAD", "")
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
-    assert isSanitized or len(one) == 72 + 18 + 24 + 21 + 8, len(one)
-    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces"] if not isSanitized else [])),
-                         (5, ["files", "gathered", "pieces"] if not isSanitized else [])):
+    distributed_before = {}
+    assert isSanitized or len(one) == 72 + 18 + 24 + 21 + 8 + 10, len(one)
+    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "distributed"] if not isSanitized else [])),
+                         (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
         assert several.keys() == {name for name in one if name.split(":")[0] in parts}
         for name, values in several.items():
@@ -550,6 +580,12 @@ else:
                 # Slabs of two cells do not reach all that values of cells depend on.
                 limit = 1e-3 if name.startswith("pieces: cell data") else 1e-6
                 assert np.abs(one[name] - values).max() <= limit * np.abs(one[name]).max(), name
+            elif name.startswith("distributed:") and "Blocked" not in name:
+                # Rays are rounded differently, and now and then one takes a step in another leaf.
+                difference = np.abs(one[name] - values) / np.abs(one[name]).max()
+                assert difference.max() <= 1e-2 and difference.mean() <= 1e-5, (name, difference.max(), difference.mean())
+                # But the same on any number of ranks.
+                assert np.array_equal(values, distributed_before.setdefault(name, values)), name
             else:
                 assert np.array_equal(one[name], values), name
     if not isSanitized:

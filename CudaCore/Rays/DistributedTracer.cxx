@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rays/DistributedTracer.h"
+
+#include "Rays/DistributedRays.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// A channel sends messages of up to 64 kB without waiting for the other process, which may be sending, too.
+constexpr std::size_t largestMessage = 60000;
+
+/// Messages that a worker is given before it answers the first.
+constexpr int givenAtOnce = 3;
+
+/// Rays of a part that are begun before any of them has ended: enough to keep all processes busy, and few enough for a
+/// pause to wait for.
+constexpr std::int64_t raysPerPart = 4096;
+
+} // namespace
+
+template <class Real>
+struct DistributedTracer<Real>::State
+{
+  const MediumTree<Real>& tree;
+  const BrickChannels& owners;
+  const std::uint64_t version = newNumber(); ///< of the tree's structure
+  Traffic traffic{};
+
+  struct Worker
+  {
+    bool hasTree = false;
+    int given = 0; ///< messages that it has not answered
+  };
+  std::vector<Worker> workers;
+
+  State(const Medium<Real>& medium, const BrickChannels& ofTree)
+    : tree(*medium.tree)
+    , owners(ofTree)
+    , workers(ofTree.channels().size())
+  {
+  }
+
+  template <class Values>
+  void sendArray(Channel& channel, std::uint32_t number, const Values& values)
+  {
+    const ArrayMessage head{ RayWorker::Array, number, version };
+    const std::size_t bytes = values.size() * sizeof(values[0]);
+    std::vector<char> message = messageOf(head, bytes);
+    if (bytes > 0)
+    {
+      std::memcpy(message.data() + sizeof(head), values.data(), bytes);
+    }
+    channel.send(std::move(message));
+  }
+
+  void sendStructure(Channel& channel, std::int32_t owner)
+  {
+    sendArray(channel, 2, tree.leavesOf(owner));
+    sendArray(channel, 3, tree.roots());
+    sendArray(channel, 4, tree.children());
+  }
+};
+
+template <class Real>
+DistributedTracer<Real>::DistributedTracer(const Medium<Real>& medium, const BrickChannels& owners)
+  : state_(std::make_unique<State>(medium, owners))
+{
+}
+
+template <class Real>
+DistributedTracer<Real>::~DistributedTracer() = default;
+
+template <class Real>
+const typename DistributedTracer<Real>::Traffic& DistributedTracer<Real>::traffic() const
+{
+  return state_->traffic;
+}
+
+template <class Real>
+bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
+  int threads, const Monitor& monitor)
+{
+  State& state = *state_;
+  const std::vector<Channel*>& workers = state.owners.channels();
+  const std::size_t count = workers.size() + 1;
+
+  AdvanceMessage<Real> message;
+  message.head.kind = RayWorker::Advance;
+  message.head.bytesOfReal = sizeof(Real);
+  message.head.number = newNumber();
+  message.head.tree = state.owners.tree();
+  message.head.firstSample = task.medium.samples - state.tree.samples().data();
+  message.pass = pass;
+  message.task = task;
+  const std::array<const void*, arraysOfTask> arrays{ nullptr, nullptr, task.medium.leaves,
+    task.medium.finder.roots, task.medium.finder.children };
+  forArrays(message.task,
+    [&](std::size_t n, auto*& pointer)
+    {
+      message.offsets[n] = arrays[n] != nullptr ? 0 : nowhere;
+      message.versions[n] = state.version;
+      pointer = nullptr;
+    });
+
+  constexpr std::size_t raysAtOnce =
+    (largestMessage - sizeof(message)) / sizeof(SuspendedRay<Real>);
+  std::vector<TravellingRays<Real>> waiting(count); // for a part
+  std::int64_t underWay = 0;
+
+  // -1: all have it.
+  const auto ownerOf = [&](std::int32_t leaf) -> std::int32_t
+  {
+    const Leaf<Real>& here = task.medium.leaves[leaf];
+    const bool hasSamples = here.brick != 0 || here.map >= 0;
+    return !here.isResident() ? ~here.brick : (hasSamples ? 0 : -1);
+  };
+  const auto take = [&](std::size_t from, const AdvancedRays<Real>& advanced)
+  {
+    for (const EndedRay& one : advanced.ended)
+    {
+      traced.exits[static_cast<std::size_t>(one.ray)] = one.exit;
+    }
+    underWay -= static_cast<std::int64_t>(advanced.ended.size());
+    traced.worstDrift = std::max(traced.worstDrift, advanced.worstDrift);
+    for (const SuspendedRay<Real>& ray : advanced.suspended.rays)
+    {
+      const std::int32_t owner = ownerOf(ray.next);
+      if (owner < 0 || owner == static_cast<std::int32_t>(from))
+      {
+        throw Error(
+          "A ray has been handed on to nobody: ranks disagree about the medium. Update again.");
+      }
+      waiting[static_cast<std::size_t>(owner)].rays.push_back(ray);
+    }
+  };
+  const auto begin = [&](std::int64_t tile)
+  {
+    const Pass ofTile = passOfTile(pass, tile);
+    for (std::int64_t n = 0; n < ofTile.columns * ofTile.rows; ++n)
+    {
+      const std::int64_t ray =
+        (ofTile.firstRow - pass.firstRow + n / ofTile.columns) * pass.columns + ofTile.firstColumn -
+        pass.firstColumn + n % ofTile.columns;
+      RayBatch<Real, 1> batch{};
+      const Entry entry = meetGrid(task, pass, ray, batch, 0);
+      if (batch.fate[0] != RayFate::Left)
+      {
+        traced.exits[static_cast<std::size_t>(ray)] = leaveGrid(task, batch, 0, entry);
+        continue;
+      }
+      const std::int32_t leaf = task.medium.finder.at(startOf(batch, 0));
+      const std::int32_t owner = ownerOf(leaf);
+      const std::int64_t part = owner >= 0 ? owner : tile % static_cast<std::int64_t>(count);
+      waiting[static_cast<std::size_t>(part)].begin(ray, leaf);
+      ++traced.crossed;
+      ++underWay;
+    }
+  };
+  const auto receive = [&](std::size_t n)
+  {
+    Channel& channel = *workers[n];
+    bool hasReceived = false;
+    while (channel.hasMessage())
+    {
+      const std::vector<char> answer = channel.receive();
+      AdvancedMessage head;
+      if (!read(answer, head) || head.number != message.head.number)
+      {
+        continue; // of a trace that has failed
+      }
+      AdvancedRays<Real> advanced;
+      if (!advanced.fromMessage(answer))
+      {
+        throwAbsentOwner(static_cast<std::int32_t>(n + 1));
+      }
+      --state.workers[n].given;
+      ++state.traffic.messages;
+      state.traffic.bytes += static_cast<std::int64_t>(answer.size());
+      take(n + 1, advanced);
+      hasReceived = true;
+    }
+    if (!channel.isOpen())
+    {
+      throwAbsentOwner(static_cast<std::int32_t>(n + 1));
+    }
+    return hasReceived;
+  };
+  const auto give = [&](std::size_t n)
+  {
+    Channel& channel = *workers[n];
+    typename State::Worker& worker = state.workers[n];
+    while (waiting[n + 1].size() > 0 &&
+      (worker.given == 0 || (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce)))
+    {
+      if (!worker.hasTree)
+      {
+        state.sendStructure(channel, static_cast<std::int32_t>(n + 1));
+        worker.hasTree = true;
+      }
+      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce);
+      message.head.rays = static_cast<std::int64_t>(rays.size());
+      std::vector<char> request = messageOf(message);
+      rays.write(request);
+      ++state.traffic.messages;
+      state.traffic.bytes += static_cast<std::int64_t>(request.size());
+      state.traffic.states += message.head.rays;
+      ++worker.given;
+      channel.send(std::move(request));
+    }
+  };
+  for (typename State::Worker& worker : state.workers)
+  {
+    worker.given = 0; // by a trace that has failed
+  }
+
+  TileQueue tiles = traced.tilesLeft(pass);
+  const TileQueue::Tiles all = tiles.left();
+  const std::int64_t most = raysPerPart * static_cast<std::int64_t>(count);
+  bool isStopped = false;
+  for (;;)
+  {
+    while (!isStopped && underWay < most && tiles.left().count() > 0)
+    {
+      begin(tiles.takeFront().first);
+    }
+    bool isIdle = true;
+    for (std::size_t n = 0; n < workers.size(); ++n)
+    {
+      isIdle = !receive(n) && isIdle;
+      give(n);
+    }
+    if (waiting[0].size() > 0)
+    {
+      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce), threads));
+      isIdle = false;
+    }
+    if (underWay == 0 && (isStopped || tiles.left().count() == 0))
+    {
+      break;
+    }
+    if (isIdle)
+    {
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+    if (monitor.progress)
+    {
+      monitor.progress(static_cast<double>(tiles.left().first) /
+        static_cast<double>(std::max<std::int64_t>(1, all.end)));
+    }
+    isStopped =
+      isStopped || (monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused());
+  }
+  return traced.keepTilesLeft(tiles, pass);
+}
+
+template class DistributedTracer<float>;
+template class DistributedTracer<double>;
+
+} // namespace schlieren

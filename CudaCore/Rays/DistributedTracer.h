@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Medium/Medium.h"
+#include "Rays/BrickChannels.h"
+#include "Rays/Tracer.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Traces rays through a tree whose bricks several processes have, see BrickOwners. It begins all rays, passes on those that come from one part to another, and collects what becomes of them.
+template <class Real>
+class DistributedTracer
+{
+public:
+  /// Both must outlive it, and the medium must not change. It must be a tree with these owners.
+  DistributedTracer(const Medium<Real>& medium, const BrickChannels& owners);
+  ~DistributedTracer();
+
+  /// As traceOnCpu with Simd::None, where canSuspend(). Throws Error where a worker does not answer: nobody else has its part.
+  bool trace(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
+    const Monitor& monitor);
+
+  /// What has been sent between processes since the beginning, in both directions.
+  struct Traffic
+  {
+    std::int64_t messages = 0, bytes = 0; ///< with rays
+    std::int64_t states = 0;              ///< of rays, to workers
+  };
+  const Traffic& traffic() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace schlieren

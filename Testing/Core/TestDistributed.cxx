@@ -1,0 +1,513 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays through a medium of which each process has a part: the processes are threads that know each other by messages
+// alone.
+#include "AnalyticSources.h"
+#include "Fields.h"
+#include "Rays/DistributedTracer.h"
+#include "SameImage.h"
+#include "TreeRays.h"
+#include "WorkerThread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr std::int64_t width = 53, height = 41; // no multiples of a tile's edge
+
+/// A ball of glass, which turns rays around or sends them back into leaves that they have been in.
+class GlassSource : public BallsSource
+{
+public:
+  GlassSource()
+    : BallsSource({ { { 0.05, -0.02, 0.03 }, 0.2, 2.5 } }, 1, 0.1)
+  {
+  }
+};
+
+/// The middle of balls, at all depths.
+class FlatSource : public BallsSource
+{
+public:
+  using BallsSource::BallsSource;
+  bool isFlat() const override { return true; }
+  double refractivity(double x, double y, double) const override
+  {
+    return BallsSource::refractivity(x, y, 0);
+  }
+  Range rangeOver(const Box& box) const override { return BallsSource::rangeOver(middleOf(box)); }
+  double cellSizeOver(const Box& box) const override
+  {
+    return BallsSource::cellSizeOver(middleOf(box));
+  }
+
+private:
+  static Box middleOf(Box box)
+  {
+    box.low[2] = box.high[2] = 0;
+    return box;
+  }
+};
+
+struct Setting
+{
+  std::shared_ptr<const MediumSource> source;
+  Vector direction{ 0.3, -0.5, -0.8 };
+  PathModel path = PathModel::Refracted;
+  Interpolation interpolation = Interpolation::Quadratic;
+  double tolerance = 0.01;
+  double finest = 0.005; ///< voxels that the view asks for
+  std::size_t memory = std::size_t{ 1 } << 30;
+};
+
+template <class Real>
+struct Traced
+{
+  explicit Traced(const Setting& setting, const std::shared_ptr<BrickOwners>& owners = nullptr)
+    : field(fieldOf(setting.source))
+    , medium(buildTree<Real>(field, settingsOf(setting, owners)))
+  {
+    View view;
+    view.viewDirection = setting.direction;
+    view.width = static_cast<int>(width);
+    view.height = static_cast<int>(height);
+    const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
+    refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, setting.finest }, {});
+    RaySettings rays;
+    rays.kernel = { setting.path, Integrator::Leapfrog, setting.interpolation };
+    task = makeTask<Real>(medium, nullptr, FieldGradientsView{}, light, rays);
+  }
+
+  static TreeSettings settingsOf(const Setting& setting, const std::shared_ptr<BrickOwners>& owners)
+  {
+    TreeSettings settings;
+    settings.owners = owners;
+    settings.memory = setting.memory;
+    settings.tolerance = setting.tolerance;
+    settings.interpolation = setting.interpolation;
+    return settings;
+  }
+
+  Field field;
+  Medium<Real> medium;
+  RayTask<Real> task{};
+  const Pass pass{ 0, 0, width, height, { 0.25, -0.125 } };
+
+  void traceAlone(TracedPass& traced) const
+  {
+    traced.resize(pass, 0);
+    EXPECT_TRUE(traceOnCpu(task, pass, traced, 2, {}, Simd::None));
+  }
+
+  std::int64_t count(RayFate fate) const
+  {
+    TracedPass alone;
+    traceAlone(alone);
+    return std::count_if(alone.exits.begin(), alone.exits.end(),
+      [fate](const RayExit& exit) { return exit.fate == fate; });
+  }
+};
+
+void expectSameRays(const TracedPass& a, const TracedPass& b)
+{
+  ASSERT_EQ(a.exits.size(), b.exits.size());
+  for (std::size_t n = 0; n < a.exits.size(); ++n)
+  {
+    EXPECT_EQ(std::memcmp(&a.exits[n], &b.exits[n], sizeof(RayExit)), 0)
+      << n << ": " << a.exits[n].deflection[0] << " " << b.exits[n].deflection[0];
+  }
+  EXPECT_EQ(a.crossed, b.crossed);
+  EXPECT_EQ(a.worstDrift, b.worstDrift);
+}
+
+/// Workers, and a tree that they have parts of.
+template <class Real>
+struct Team
+{
+  Team(const Setting& setting, std::size_t count, Worker::Fault fault = Worker::Fault::None,
+    int after = 0)
+  {
+    while (workers.size() < count)
+    {
+      workers.push_back(std::make_unique<Worker>(fault, after));
+      channels.push_back(workers.back()->channel());
+    }
+    owners = std::make_shared<BrickChannels>(channels);
+    traced.emplace(setting, owners);
+  }
+
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::vector<Channel*> channels;
+  std::shared_ptr<BrickChannels> owners;
+  std::optional<Traced<Real>> traced;
+
+  const MediumTree<Real>& tree() const { return *traced->medium.tree; }
+};
+
+/// To the last bit, for several numbers of processes. Returns how often rays have gone on in another part, per ray.
+template <class Real>
+double expectSame(const Setting& setting, const Traced<Real>& alone)
+{
+  TracedPass expected;
+  alone.traceAlone(expected);
+  double perRay = 0;
+  for (const std::size_t count : { 0u, 1u, 2u, 6u })
+  {
+    SCOPED_TRACE(count);
+    const Team<Real> team(setting, count);
+    const auto ofTeam = team.tree().statistics(), ofOne = alone.medium.tree->statistics();
+    EXPECT_EQ(ofTeam.bricks, ofOne.bricks);
+    EXPECT_EQ(ofTeam.largestDeflection, ofOne.largestDeflection);
+    EXPECT_EQ(ofTeam.estimatedError, ofOne.estimatedError);
+    DistributedTracer<Real> tracer(team.traced->medium, *team.owners);
+    TracedPass rays;
+    rays.resize(team.traced->pass, 0);
+    EXPECT_TRUE(tracer.trace(team.traced->task, team.traced->pass, rays, 2, {}));
+    expectSameRays(rays, expected);
+    perRay = static_cast<double>(tracer.traffic().states) / static_cast<double>(rays.crossed);
+  }
+  return perRay;
+}
+template <class Real = float>
+double expectSame(const Setting& setting)
+{
+  return expectSame(setting, Traced<Real>(setting));
+}
+
+TEST(DistributedTree, HasEachBrickOnce)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-4)) };
+  const Traced<float> alone(setting);
+  constexpr std::int32_t count = 5;
+  const Team<float> team(setting, count - 1);
+  const MediumTree<float>& tree = team.tree();
+  const std::size_t leaves = tree.leaves().size();
+  ASSERT_EQ(leaves, alone.medium.tree->leaves().size());
+  std::vector<std::size_t> bricks(count, 0);
+  std::vector<std::set<std::int32_t>> numbers(count);
+  for (std::int32_t owner = 0; owner < count; ++owner)
+  {
+    const std::vector<Leaf<float>> here = tree.leavesOf(owner);
+    for (std::size_t n = 0; n < leaves; ++n)
+    {
+      const Leaf<float>& leaf = alone.medium.tree->leaves()[n];
+      const std::int32_t of = tree.ownerOf(static_cast<std::int32_t>(n));
+      EXPECT_EQ(here[n].isResident(), of == owner || leaf.brick == 0);
+      EXPECT_EQ(here[n].perIndex, leaf.perIndex);
+      if (!here[n].isResident())
+      {
+        EXPECT_EQ(~here[n].brick, of);
+      }
+      else if (here[n].brick > 0)
+      {
+        ++bricks[static_cast<std::size_t>(owner)];
+        EXPECT_TRUE(numbers[static_cast<std::size_t>(owner)].insert(here[n].brick).second);
+      }
+    }
+  }
+  const auto all = static_cast<std::size_t>(tree.statistics().bricks);
+  EXPECT_EQ(std::accumulate(bricks.begin(), bricks.end(), std::size_t{ 0 }), all);
+  EXPECT_LT(
+    *std::max_element(bricks.begin(), bricks.end()), 1.35 * static_cast<double>(all) / count);
+  EXPECT_LT(
+    tree.samples().size(), 1.35 * static_cast<double>(alone.medium.tree->samples().size()) / count);
+}
+
+// A limit of memory is that of each process.
+TEST(DistributedTree, IsFinerWhereMoreProcessesHaveIt)
+{
+  Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-4)) };
+  setting.tolerance = 1e-4;
+  setting.memory = std::size_t{ 2 } << 20;
+  const Traced<float> alone(setting);
+  const Team<float> team(setting, 3);
+  const auto ofTeam = team.tree().statistics(), ofOne = alone.medium.tree->statistics();
+  EXPECT_LT(ofOne.bytes, 2 << 20);
+  EXPECT_GT(ofTeam.bytes, 3 * ofOne.bytes);
+  EXPECT_LT(ofTeam.bytes, 8 << 20);
+  EXPECT_LT(ofTeam.estimatedError, ofOne.estimatedError);
+  EXPECT_LT(team.tree().samples().size() * sizeof(float), 1.35 * (2 << 20));
+}
+
+TEST(Distributed, IsTheSameToTheLastBitThroughManyParts)
+{
+  Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  for (const Interpolation interpolation : allInterpolations)
+  {
+    SCOPED_TRACE(name(interpolation));
+    setting.interpolation = interpolation;
+    EXPECT_GT(expectSame<float>(setting), 1.5);
+  }
+  setting.interpolation = Interpolation::Quadratic;
+  EXPECT_GT(expectSame<double>(setting), 1.5);
+  setting.path = PathModel::Straight;
+  EXPECT_GT(expectSame<float>(setting), 1.5);
+}
+
+// Along the sides of leaves, where rounding decides which leaf a step is in.
+TEST(Distributed, IsTheSameAlongTheSidesOfLeaves)
+{
+  Setting setting{ std::make_shared<BallsSource>(
+    std::vector<Ball>{ { { 0, 0, 0 }, 0.3, 1e-2 } }, 1, 0.05) };
+  for (const Vector& direction : { Vector{ 0, 0, -1 }, Vector{ 1, 0, 0 }, Vector{ 1, 1, 0 } })
+  {
+    setting.direction = direction;
+    setting.path = PathModel::Refracted;
+    expectSame<float>(setting);
+    setting.path = PathModel::Straight;
+    expectSame<float>(setting);
+  }
+}
+
+TEST(Distributed, IsTheSameWhereNothingDependsOnDepth)
+{
+  Setting setting{ std::make_shared<FlatSource>(
+    std::vector<Ball>{ { { -0.1, 0.05, 0 }, 0.25, 1e-3 }, { { 0.42, -0.31, 0 }, 0.05, 5e-4 } }) };
+  EXPECT_GT(expectSame<float>(setting), 0.5);
+  setting.direction = { 0, 0, -1 };
+  expectSame<float>(setting);
+}
+
+TEST(Distributed, FollowsRaysThatComeBack)
+{
+  const Setting setting{ std::make_shared<GlassSource>() };
+  const Traced<float> alone(setting);
+  EXPECT_GT(alone.count(RayFate::Turned), 0);
+  EXPECT_GT(alone.count(RayFate::Left), 0);
+  EXPECT_GT(expectSame(setting, alone), 1.5);
+}
+
+TEST(Distributed, EndsRaysInWalls)
+{
+  Setting setting{ std::make_shared<SphereSource>(2) };
+  setting.tolerance = 0.5;
+  setting.finest = 0.04;
+  for (const PathModel path : { PathModel::Refracted, PathModel::Straight })
+  {
+    setting.path = path;
+    const Traced<float> alone(setting);
+    EXPECT_GT(alone.count(RayFate::Blocked), 100);
+    EXPECT_GT(alone.count(RayFate::Left), 100);
+    expectSame(setting, alone);
+  }
+}
+
+TEST(Distributed, ResumesAfterPauses)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  TracedPass expected;
+  Traced<float>(setting).traceAlone(expected);
+  const Team<float> team(setting, 2);
+  DistributedTracer<float> tracer(team.traced->medium, *team.owners);
+  TracedPass rays;
+  const Pass pass = team.traced->pass;
+  rays.resize(pass, 0);
+  std::int64_t questions = 0;
+  const Monitor often{ {}, {}, [&] { return ++questions % 3 == 0; } };
+  constexpr int most = 1000;
+  int calls = 1;
+  while (!tracer.trace(team.traced->task, pass, rays, 1, often) && calls < most)
+  {
+    ++calls;
+  }
+  EXPECT_LT(calls, most);
+  expectSameRays(rays, expected);
+}
+
+TEST(Distributed, SaysWhichRankDoesNotAnswer)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  for (const Worker::Fault fault : { Worker::Fault::Leaves, Worker::Fault::LosesEverything })
+  {
+    for (const int after : { 0, 3, 12 }) // before there is a tree, while it is made, and later
+    {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(fault) << " after " << after);
+      try
+      {
+        const Team<float> team(setting, 1, fault, after);
+        DistributedTracer<float> tracer(team.traced->medium, *team.owners);
+        for (int again = 0; again < 100; ++again)
+        {
+          TracedPass rays;
+          rays.resize(team.traced->pass, 0);
+          tracer.trace(team.traced->task, team.traced->pass, rays, 1, {});
+        }
+        FAIL() << "no error";
+      }
+      catch (const Error& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("Rank 1 "), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+Scene sceneOf(DistributedMedium distribution)
+{
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.view.width = static_cast<int>(width);
+  scene.view.height = static_cast<int>(height);
+  scene.view.viewDirection = { 0.3, -0.5, -0.8 };
+  scene.cutoff = Cutoff::KnifeEdge;
+  scene.samplesPerPixel = 2;
+  scene.threads = 1;
+  scene.distributedMedium = distribution;
+  return scene;
+}
+
+/// Of two images: of the largest deflection, the mean and the largest difference.
+std::pair<double, double> differenceOf(const Image& a, const Image& b)
+{
+  EXPECT_EQ(a.deflection.size(), b.deflection.size());
+  double largest = 0, worst = 0, sum = 0;
+  for (std::size_t n = 0; n < a.deflection.size(); ++n)
+  {
+    const double difference =
+      std::abs(static_cast<double>(a.deflection[n]) - static_cast<double>(b.deflection[n]));
+    largest = std::max(largest, std::abs(static_cast<double>(a.deflection[n])));
+    worst = std::max(worst, difference);
+    sum += difference;
+  }
+  return { sum / static_cast<double>(a.deflection.size()) / largest, worst / largest };
+}
+
+struct BenchOfTeam
+{
+  explicit BenchOfTeam(std::size_t count)
+  {
+    while (workers.size() < count)
+    {
+      workers.push_back(std::make_unique<Worker>());
+      channels.push_back(workers.back()->channel());
+    }
+    bench.setWorkers(channels);
+  }
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::vector<Channel*> channels;
+  Bench bench;
+};
+
+// Side by side, rays are rounded differently, and now and then one takes a step in another leaf.
+TEST(DistributedImage, IsThatOfOneProcess)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  for (const PathModel path : { PathModel::Refracted, PathModel::Straight, PathModel::Auto })
+  {
+    Scene scene = sceneOf(DistributedMedium::On);
+    scene.pathModel = path;
+    const Image alone = Bench().render(field, scene);
+    EXPECT_EQ(alone.medium.processes, 1);
+    BenchOfTeam team(3);
+    const Image image = team.bench.render(field, scene);
+    EXPECT_EQ(image.medium.processes, 4);
+    EXPECT_EQ(image.medium.bricks, alone.medium.bricks);
+    EXPECT_EQ(image.raysTraced, alone.raysTraced);
+    EXPECT_EQ(image.blockedFraction, alone.blockedFraction);
+    const auto [mean, worst] = differenceOf(alone, image);
+    EXPECT_LT(mean, 2e-6);
+    EXPECT_LT(worst, 3e-3);
+    // Another view, with pauses.
+    scene.view.viewDirection = { -0.1, 0.2, -1 };
+    const Image other = Bench().render(field, scene);
+    const Monitor atOnce{ {}, {}, [] { return true; } };
+    Image paused = team.bench.render(field, scene, atOnce);
+    int calls = 1;
+    for (; !paused.finished && calls < 10000; ++calls)
+    {
+      paused = team.bench.resume(atOnce);
+    }
+    EXPECT_GT(calls, 2);
+    EXPECT_EQ(paused.medium.processes, 4);
+    EXPECT_LT(differenceOf(other, paused).first, 2e-6);
+  }
+}
+
+TEST(DistributedImage, IsDistributedWhereThatIsWorthIt)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  Scene scene = sceneOf(DistributedMedium::Auto);
+  scene.mediumTolerance = 1e-3;
+  BenchOfTeam team(3);
+  const Image enough = team.bench.render(field, scene);
+  EXPECT_EQ(enough.medium.processes, 1);
+  EXPECT_FALSE(enough.medium.isMemoryShort);
+  scene.mediumMemory = static_cast<std::size_t>(enough.medium.bytes / 2);
+  const Image alone = Bench().render(field, scene);
+  EXPECT_TRUE(alone.medium.isMemoryShort);
+  const Image image = team.bench.render(field, scene);
+  EXPECT_EQ(image.medium.processes, 4);
+  EXPECT_FALSE(image.medium.isMemoryShort);
+  EXPECT_EQ(image.medium.bricks, enough.medium.bricks);
+  EXPECT_LT(differenceOf(enough, image).first, 2e-6);
+  scene.distributedMedium = DistributedMedium::Off;
+  expectSameImage(team.bench.render(field, scene), alone);
+}
+
+TEST(DistributedImage, IsThatOfAllProcessesWhereMediaCannotBeDistributed)
+{
+  const Scene scene = sceneOf(DistributedMedium::On);
+  BenchOfTeam team(2);
+  Scene adaptive = scene;
+  adaptive.integrator = Integrator::Adaptive;
+  adaptive.pathModel = PathModel::Refracted;
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  expectSameImage(team.bench.render(field, adaptive), Bench().render(field, adaptive));
+  const auto withFields = std::make_shared<SourceWithFields>(
+    field.source, std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3) });
+  Field tinted = fieldOf(withFields);
+  tinted.gradients.count = 1;
+  Scene colored = scene;
+  colored.fieldColors = { { 1, 0, 0 } };
+  expectSameImage(team.bench.render(tinted, colored), Bench().render(tinted, colored));
+  const BlobWithHole flow;
+  expectSameImage(team.bench.render(flow.field, scene), Bench().render(flow.field, scene));
+}
+
+TEST(DistributedImage, MayHaveFewerBricksThanProcesses)
+{
+  const Field field =
+    fieldOf(std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.5, 1e-4 } }, 1, 1));
+  Scene scene = sceneOf(DistributedMedium::On);
+  scene.mediumTolerance = 1;
+  BenchOfTeam team(80);
+  const Image image = team.bench.render(field, scene);
+  EXPECT_EQ(image.medium.processes, 81);
+  EXPECT_LT(image.medium.bricks, 80);
+  EXPECT_LT(differenceOf(Bench().render(field, scene), image).first, 2e-6);
+}
+
+TEST(DistributedImage, IsMadeAnewAfterAFault)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  const Scene scene = sceneOf(DistributedMedium::On);
+  const auto media = std::make_shared<SharedMedia>();
+  Worker good, faulty(Worker::Fault::LosesEverything, 8);
+  Bench bench;
+  bench.setMedia(media);
+  bench.setWorkers({ good.channel(), faulty.channel() });
+  EXPECT_THROW(bench.render(field, scene), Error);
+  Worker another;
+  bench.setWorkers({ good.channel(), another.channel() });
+  const Image image = bench.render(field, scene);
+  EXPECT_EQ(image.medium.processes, 3);
+  EXPECT_EQ(media->count(), 0);
+  EXPECT_LT(differenceOf(Bench().render(field, scene), image).first, 2e-6);
+}
+
+} // namespace
+
+} // namespace schlieren
