@@ -100,7 +100,8 @@ enum class SourceShape
 /// and the share of its image that a knife edge lets pass follows from its shape.
 struct LightSource
 {
-  /// From a point source to the middle of the data, data units: more than half the depth. Unset: collimated.
+  /// From a point source to the middle of the data, data units: more than half the depth. Unset: collimated. With a
+  /// perspective the source is in the pupil, whatever this is.
   std::optional<double> distance;
   SourceShape shape = SourceShape::Point;
   /// Of a slit, across the knife edge; diameter of a disc.
@@ -134,7 +135,7 @@ struct BackgroundPattern
   PatternKind kind = PatternKind::Dots;
   std::optional<double>
     distance; ///< from where the data begins, away from the viewer; unset: one depth
-  /// Of stripes, and of the cells that have a dot each: data units; 0: eight pixels. What is finer than four
+  /// Of stripes, and of the cells that have a dot each: data units of the picture; 0: eight pixels. What is finer than four
   /// pixels fades to grey, and is gone at two.
   double period = 0;
   double angle = 0; ///< of stripes, degrees: direction across them, from u to v
@@ -200,15 +201,20 @@ struct Field
   std::uint64_t version = 0;
 };
 
-/// An orthographic camera, as vtkCamera describes it, and its picture.
+/// A camera, as vtkCamera describes it, and its picture. With a perspective, the light is that of a point source in the
+/// camera's pupil: it diverges from there through the flow to the film behind it, as in the shadowgraph with a
+/// retroreflecting screen (Edgerton 1958). Light that takes these paths into the pupil is bent by the same angles.
 struct View
 {
   Vector viewDirection{ 0, 0, -1 };
   Vector viewUp{ 0, 1, 0 };
   std::optional<Vector> focalPoint; ///< unset: centre of the grid
-  double parallelScale = 0;         ///< half height of the picture, data units; 0: fit the grid
-  int width = 512;                  ///< pixels
-  int height = 512;                 ///< pixels
+  /// Half height of the picture in the plane of the focal point, data units; 0: fit the grid.
+  double parallelScale = 0;
+  /// Between the lower and upper side of the picture seen from the pupil, degrees, less than 170; 0: orthographic.
+  double viewAngle = 0;
+  int width = 512;  ///< pixels
+  int height = 512; ///< pixels
 };
 
 /// Everything about the bench that is not the medium.
@@ -228,8 +234,10 @@ struct Scene
   double wavelength = 632.8e-9; ///< of an interferogram, metres
   Fringes fringes;
   BackgroundPattern background;
-  std::optional<double> screenDistance; ///< exit plane to screen, data units; unset: one data depth
-  double focusOffset = 0; ///< of the plane in focus from the data's middle along w, data units
+  /// From where light leaves the data to the screen, data units; unset: one data depth.
+  std::optional<double> screenDistance;
+  /// Of the plane in focus from the data's middle (with a perspective from the focal point) along w, data units.
+  double focusOffset = 0;
 
   LightSource source;
 
@@ -280,6 +288,9 @@ struct Frame
   std::array<double, 2> origin{ 0, 0 }; ///< picture coordinates of the centre of pixel (0, 0)
   double pixelSize = 1;                 ///< data units
   double entry = 0, exit = 0;           ///< the grid's extent along w: x.w of both ends, data units
+  double pupil =
+    0; ///< distance from the plane of the focal point along w, data units; 0: orthographic
+  double focus = 0; ///< x.w of the focal point; 0 where there is no pupil
 };
 
 /// Where light meets the cutoff plane: how many rays of the picture came there, by their deflection.
@@ -333,8 +344,8 @@ struct Image
   PixelArray<float> backgroundDisplacement;
   PixelArray<float> deflection;             ///< 2 per pixel: direction cosines along u and v
   PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
-  /// 2 per pixel: at the exit plane, data units; of Cutoff::Background, whose rays go from the camera to the
-  /// pattern, at the entry plane.
+  /// 2 per pixel: at the exit plane, data units; with a perspective, and of Cutoff::Background, where rays go from the
+  /// camera on, at the entry plane.
   PixelArray<float> displacement;
   PixelArray<float> blockedFraction; ///< per pixel: share of rays that a solid stopped
 

@@ -61,6 +61,29 @@ double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& l
   return margin * medium.largestN * rounding * std::sqrt(voxels);
 }
 
+namespace
+{
+
+/// See filmDistance.
+double focusDistance(const Frame& frame, double offset)
+{
+  return frame.pupil > 0 ? frame.entry - frame.focus - offset
+                         : -0.5 * (frame.exit - frame.entry) + offset;
+}
+
+/// How much larger the picture is on a film at such a distance from where rays leave the data.
+double magnificationAt(const Scene& scene, const Frame& frame, double film)
+{
+  if (frame.pupil > 0)
+  {
+    return 1 + (film + frame.focus - frame.entry) / frame.pupil;
+  }
+  const double depth = frame.exit - frame.entry;
+  return scene.source.distance ? 1 + (film + 0.5 * depth) / *scene.source.distance : 1;
+}
+
+} // namespace
+
 double filmDistance(const Scene& scene, const Frame& frame)
 {
   const double depth = frame.exit - frame.entry;
@@ -73,7 +96,7 @@ double filmDistance(const Scene& scene, const Frame& frame)
     case RecordedPlane::Focus:
       break;
   }
-  return -0.5 * depth + scene.focusOffset;
+  return focusDistance(frame, scene.focusOffset);
 }
 
 std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
@@ -84,11 +107,10 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
   }
   const double depth = frame.exit - frame.entry;
   double furthest = 0; // data units of the picture
-  for (const double film :
-    { scene.screenDistance.value_or(depth), -0.5 * depth + scene.focusOffset, -0.5 * depth })
+  for (const double film : { scene.screenDistance.value_or(depth),
+         focusDistance(frame, scene.focusOffset), focusDistance(frame, 0) })
   {
-    const double magnification =
-      scene.source.distance ? 1 + (film + 0.5 * depth) / *scene.source.distance : 1;
+    const double magnification = magnificationAt(scene, frame, film);
     const double moved = bound.displacement + std::abs(film) * bound.slope;
     furthest = std::max(furthest, magnification > 0 ? moved / magnification : 0);
   }
@@ -99,9 +121,13 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
 {
-  return isOfCamera(scene.cutoff)
-    ? reversedLight(grid, frame)
-    : lightFrom(scene.source, filmDistance(scene, frame), grid, scene.view, frame);
+  const double film = filmDistance(scene, frame);
+  if (!isOfCamera(scene.cutoff))
+  {
+    return lightFrom(scene.source, film, grid, scene.view, frame);
+  }
+  return frame.pupil > 0 ? lightFrom(LightSource{}, film, grid, scene.view, frame)
+                         : reversedLight(grid, frame);
 }
 
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
@@ -116,10 +142,15 @@ Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
   {
     column.middle[i] =
       frame.origin[static_cast<std::size_t>(i)] + 0.5 * (size[i] - 1) * frame.pixelSize;
-    column.halfWidth[i] = (0.5 * size[i] + margin) * frame.pixelSize +
-      0.5 * light.steepest[i] * (frame.exit - frame.entry);
+    column.halfWidth[i] = (0.5 * size[i] + margin) * frame.pixelSize;
+    if (!(frame.pupil > 0))
+    {
+      column.halfWidth[i] += 0.5 * light.steepest[i] * (frame.exit - frame.entry);
+    }
   }
   column.finest = frame.pixelSize;
+  column.pupil = frame.pupil;
+  column.plane = frame.focus;
   return column;
 }
 
@@ -129,7 +160,11 @@ Projection projectionOf(
   Projection projection{ filmDistance(scene, frame), 1 / (frame.pixelSize * light.magnification),
     pathPerDataUnit, light.inclination };
   projection.isOfCamera = isOfCamera(scene.cutoff);
-  if (!projection.isOfCamera && scene.source.distance)
+  if (frame.pupil > 0)
+  {
+    projection.perSourceDistance = 1 / (frame.pupil * light.magnification);
+  }
+  else if (!projection.isOfCamera && scene.source.distance)
   {
     projection.perSourceDistance = 1 / (*scene.source.distance * light.magnification);
   }

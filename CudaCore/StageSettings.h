@@ -60,7 +60,7 @@ struct LightKey
     {
       return key;
     }
-    key.distance = scene.source.distance;
+    key.distance = scene.view.viewAngle > 0 ? std::nullopt : scene.source.distance;
     key.shape = scene.source.shape;
     if (key.shape != SourceShape::Point)
     {
@@ -92,9 +92,9 @@ struct RaysKey
   {
     return std::tuple_cat(light.tie(),
       std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
-        width, height, settings.kernel.path, settings.kernel.integrator, settings.stepVoxels,
-        settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance, seed, device,
-        gradients));
+        frame.pupil, frame.focus, width, height, settings.kernel.path, settings.kernel.integrator,
+        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
+        seed, device, gradients));
   }
 };
 
@@ -118,7 +118,8 @@ template <class Real>
 double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light);
 
 /// How far past the plane where rays leave the data they meet what the film shows: a screen; the background
-/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera. Data units.
+/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera. Data units. With a perspective
+/// rays leave the data at their far end, behind which a screen is, too.
 double filmDistance(const Scene& scene, const Frame& frame);
 
 /// Pixels around the picture from which light may be bent into it, at most an eighth of its longer

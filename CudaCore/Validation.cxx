@@ -225,18 +225,25 @@ void validateLight(const Scene& scene, const Frame& frame)
     return; // light comes from the pattern
   }
   const LightSource& source = scene.source;
-  const double middleToFilm = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen
-    ? 0.5 * depth + scene.screenDistance.value_or(depth)
-    : scene.focusOffset;
   double slope = 0;
   double magnification = 1;
-  if (source.distance)
+  const bool isFocused = techniqueOf(scene.cutoff).plane == RecordedPlane::Focus;
+  if (frame.pupil > 0)
+  {
+    magnification = isFocused ? 1 - scene.focusOffset / frame.pupil : 1;
+    require(magnification > 0, "FocusOffset is ", scene.focusOffset,
+      ", so the plane in focus is not in front of the camera, ", frame.pupil,
+      " from its focal point. Set it to less than that.");
+  }
+  else if (source.distance)
   {
     const double distance = *source.distance;
     require(distance > 0.5 * depth, "The point source is ", distance,
       " data units from the middle of the data, but these reach ", 0.5 * depth,
       " towards it, so it is not in front of them. Set SourceDistance to more than that, or choose "
       "collimated light.");
+    const double middleToFilm =
+      isFocused ? scene.focusOffset : 0.5 * depth + scene.screenDistance.value_or(depth);
     magnification = 1 + middleToFilm / distance;
     require(magnification > 0, "FocusOffset is ", scene.focusOffset,
       ", so the plane in focus is behind the light source, ", distance,

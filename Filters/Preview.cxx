@@ -4,6 +4,8 @@
 
 #include "QualityPresets.h"
 
+#include "vtkMath.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +28,11 @@ schlieren::View previewView(
   const double larger = std::max(static_cast<double>(view.width) / preview.width,
     static_cast<double>(view.height) / preview.height);
   preview.parallelScale = 0.5 * preview.height * larger * frame.pixelSize;
+  if (frame.pupil > 0)
+  {
+    preview.viewAngle =
+      vtkMath::DegreesFromRadians(2 * std::atan(preview.parallelScale / frame.pupil));
+  }
   return preview;
 }
 

@@ -119,6 +119,7 @@ schlieren::View viewFrom(const ViewSettings& settings)
     view.focalPoint = schlieren::Vector{ point[0], point[1], point[2] };
   }
   view.parallelScale = settings.ParallelScale;
+  view.viewAngle = settings.ViewAngle;
   view.width = settings.ImageSize[0];
   view.height = settings.ImageSize[1];
   return view;

@@ -37,6 +37,7 @@ struct ViewSettings
   bool HasFocalPoint = false;
   double FocalPoint[3] = { 0, 0, 0 };
   double ParallelScale = 0;
+  double ViewAngle = 0;
   int ImageSize[2] = { 512, 512 };
 
   template <class Visit>
@@ -47,6 +48,7 @@ struct ViewSettings
     use("HasFocalPoint", this->HasFocalPoint);
     use("FocalPoint", this->FocalPoint);
     use("ParallelScale", this->ParallelScale);
+    use("ViewAngle", this->ViewAngle);
     use("ImageSize", this->ImageSize);
   }
 };

@@ -288,10 +288,21 @@ public:
 
   ///@{
   /**
-   * Half the height of the image, data units; 0 (the default) fits the data.
+   * Half the height of the image in the plane of the focal point, data units; 0 (the default) fits the data.
    */
   vtkSetMacro(ParallelScale, double);
   vtkGetMacro(ParallelScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * Degrees between the lower and the upper side of the image, seen from the camera, less than 170; 0 (the default):
+   * parallel light. Else it is that of a point source in the camera's pupil, which diverges from there through the flow
+   * to what is behind it: each pixel has its own direction, as the surfaces that such a vtkCamera sees. Of data that
+   * reach beyond the camera nothing counts that is behind it.
+   */
+  vtkSetMacro(ViewAngle, double);
+  vtkGetMacro(ViewAngle, double);
   ///@}
 
   ///@{
@@ -513,8 +524,8 @@ public:
 
   ///@{
   /**
-   * For all cutoffs but the shadowgraph: the plane in focus, data units along the light from the middle of
-   * the data. Default: 0.
+   * For all cutoffs but the shadowgraph: the plane in focus, data units towards the viewer from the middle of
+   * the data, with a ViewAngle from the focal point. Default: 0.
    */
   vtkSetMacro(FocusOffset, double);
   vtkGetMacro(FocusOffset, double);
@@ -523,7 +534,8 @@ public:
   ///@{
   /**
    * The light, one of LightSources: COLLIMATED (the default), or DIVERGING from a point SourceDistance
-   * before the middle of the data (data units, before the data; 0, the default: ten data depths).
+   * before the middle of the data (data units, before the data; 0, the default: ten data depths). With a ViewAngle it
+   * diverges from the pupil, whatever this is.
    */
   vtkSetClampMacro(LightSource, int, COLLIMATED, DIVERGING);
   vtkGetMacro(LightSource, int);

@@ -73,19 +73,20 @@ PixelArray<float> UndisturbedPicture::develop() const
   return std::move(image.intensity);
 }
 
-PixelArray<float> backgroundDisplacement(const Image& image, double distance)
+PixelArray<float> backgroundDisplacement(const Image& image, const Projection& projection)
 {
   PixelArray<float> moved(image.displacement.size());
-  for (std::size_t i = 0; i < moved.size(); i += 2)
+  for (std::size_t pixel = 0; 2 * pixel < moved.size(); ++pixel)
   {
-    const double eps[2] = { static_cast<double>(image.deflection[i]),
-      static_cast<double>(image.deflection[i + 1]) };
-    const double way = distance / std::sqrt(std::max(1 - eps[0] * eps[0] - eps[1] * eps[1], 1e-30));
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      moved[i + axis] =
-        static_cast<float>(static_cast<double>(image.displacement[i + axis]) + way * eps[axis]);
-    }
+    const float* eps = &image.deflection[2 * pixel];
+    const float* displacement = &image.displacement[2 * pixel];
+    const auto width = static_cast<std::size_t>(image.width);
+    const FilmShift shift =
+      shiftOnFilm({ static_cast<double>(eps[0]), static_cast<double>(eps[1]) },
+        { displacement[0], displacement[1] }, static_cast<double>(pixel % width),
+        static_cast<double>(pixel / width), { 0, 0 }, projection);
+    moved[2 * pixel] = static_cast<float>(shift.moved[0]);
+    moved[2 * pixel + 1] = static_cast<float>(shift.moved[1]);
   }
   return moved;
 }

@@ -65,6 +65,6 @@ private:
 };
 
 /// How far from where they start the mean rays of pixels meet the background: 2 per pixel, data units.
-PixelArray<float> backgroundDisplacement(const Image& image, double distance);
+PixelArray<float> backgroundDisplacement(const Image& image, const Projection& projection);
 
 } // namespace schlieren

@@ -98,7 +98,7 @@ void ProgressiveImage::develop(Image& image)
   if (undisturbed_)
   {
     image.background = undisturbed_->develop();
-    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection.distance);
+    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection);
   }
 }
 
@@ -117,7 +117,7 @@ bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
   if (undisturbed_)
   {
     image.background = undisturbed_->develop();
-    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection.distance);
+    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection);
   }
   return true;
 }

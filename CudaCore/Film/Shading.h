@@ -42,15 +42,20 @@ struct FilmRay
   bool crossed = true; ///< the medium
 };
 
-/// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
-/// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
-SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
-  const double (&tilt)[2], const Projection& projection)
+/// By how much a ray is off the undisturbed one on the film.
+struct FilmShift
 {
-  const double* eps = exit.deflection;
-  double moved[2] = { static_cast<double>(exit.displacement[0]),
-    static_cast<double>(exit.displacement[1]) };
-  double longer = 0; // than the undisturbed light's way to this place
+  double moved[2];   ///< along u and v, data units
+  double longer = 0; ///< than the undisturbed light's path to this place, data units
+};
+
+/// Of a ray that starts at (column, row) of the picture, with the exit's deflection and displacement.
+SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displacement)[2],
+  double column, double row, const double (&tilt)[2], const Projection& projection)
+{
+  FilmShift shift{ { static_cast<double>(displacement[0]), static_cast<double>(displacement[1]) } };
+  double(&moved)[2] = shift.moved;
+  double& longer = shift.longer;
   if (!projection.inclination.isInclined(tilt))
   {
     const double sideways = eps[0] * eps[0] + eps[1] * eps[1];
@@ -84,12 +89,22 @@ SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
     longer = 0.5 * way * (eps[0] * eps[0] + eps[1] * eps[1] + along * along) -
       beside * perRadius / (further + sqrt(further * further + beside * perRadius * perRadius));
   }
+  return shift;
+}
+
+/// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
+/// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
+SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
+  const double (&tilt)[2], const Projection& projection)
+{
+  const FilmShift shift =
+    shiftOnFilm(exit.deflection, exit.displacement, column, row, tilt, projection);
   const double start[2] = { column, row };
-  RayAtFilm ray{ { eps[0], eps[1] },
-    exit.opticalPathDifference + longer * projection.pathPerDataUnit, { 0, 0 }, { 0, 0 } };
+  RayAtFilm ray{ { exit.deflection[0], exit.deflection[1] },
+    exit.opticalPathDifference + shift.longer * projection.pathPerDataUnit, { 0, 0 }, { 0, 0 } };
   for (int axis = 0; axis < 2; ++axis)
   {
-    ray.position[axis] = start[axis] + moved[axis] * projection.perDataUnit;
+    ray.position[axis] = start[axis] + shift.moved[axis] * projection.perDataUnit;
     ray.place[axis] = projection.isOfCamera ? start[axis] : ray.position[axis];
   }
   return ray;

@@ -60,12 +60,20 @@ struct StraightRay
 
 StraightRay rayAt(const Grid& grid, const Column& column, double u, double v)
 {
-  const Vec3<double> w = cross(column.u, column.v);
-  const Vec3<double> start = u * column.u + v * column.v;
-  const double from[3] = { start.x, start.y, start.z };
-  const double along[3] = { w.x, w.y, w.z };
+  Vec3<double> w = cross(column.u, column.v);
+  Vec3<double> start = u * column.u + v * column.v;
   StraightRay ray{ {}, {}, -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
+  if (column.pupil > 0)
+  {
+    start = start + column.plane * w;
+    const Vec3<double> toPupil =
+      column.pupil * w + (column.middle[0] - u) * column.u + (column.middle[1] - v) * column.v;
+    ray.exit = length(toPupil);
+    w = (1 / ray.exit) * toPupil;
+  }
+  const double from[3] = { start.x, start.y, start.z };
+  const double along[3] = { w.x, w.y, w.z };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     ray.start[axis] = (from[axis] - grid.origin[axis]) / grid.spacing[axis];
@@ -84,6 +92,60 @@ StraightRay rayAt(const Grid& grid, const Column& column, double u, double v)
     }
   }
   return ray;
+}
+
+/// Where something with such a product with u or v is seen in the image, where the column is so wide.
+double imageCoordinate(const Column& column, int side, double coordinate, double width)
+{
+  return column.pupil > 0 ? column.middle[side] + (coordinate - column.middle[side]) / width
+                          : coordinate;
+}
+
+struct Range
+{
+  double low, high;
+};
+
+/// Of the image's coordinates along u or v, as far as there is something of the grid.
+Range rangeOfBox(const Grid& grid, const Column& column, int side)
+{
+  const Vec3<double>& along = side == 0 ? column.u : column.v;
+  if (!(column.pupil > 0))
+  {
+    const double a[3] = { along.x, along.y, along.z };
+    double middle = 0, half = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double halfEdge =
+        0.5 * grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
+      middle += a[axis] * (grid.origin[axis] + halfEdge);
+      half += std::abs(a[axis]) * halfEdge;
+    }
+    return { middle - half, middle + half };
+  }
+  const Vec3<double> w = cross(column.u, column.v);
+  Range range{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double x[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const bool isHigh = ((corner >> axis) & 1) != 0;
+      x[axis] = grid.origin[axis] +
+        (isHigh ? grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1) : 0);
+    }
+    const Vec3<double> at{ x[0], x[1], x[2] };
+    const double width = column.widthAt(dot(at, w));
+    if (!(width > 0))
+    {
+      // What is beside the pupil may be seen anywhere.
+      return { -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
+    }
+    const double place = imageCoordinate(column, side, dot(at, along), width);
+    range.low = std::min(range.low, place);
+    range.high = std::max(range.high, place);
+  }
+  return range;
 }
 
 /// Of the nearest sample.
@@ -298,23 +360,13 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads,
   const SumsElsewhere& elsewhere)
 {
-  // What of the column is over the box.
   const Grid& grid = medium.grid;
-  const Vec3<double>* axes[2] = { &column.u, &column.v };
   double low[2], high[2];
   for (int side = 0; side < 2; ++side)
   {
-    const double a[3] = { axes[side]->x, axes[side]->y, axes[side]->z };
-    double middle = 0, half = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double halfEdge =
-        0.5 * grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
-      middle += a[axis] * (grid.origin[axis] + halfEdge);
-      half += std::abs(a[axis]) * halfEdge;
-    }
-    low[side] = std::max(middle - half, column.middle[side] - column.halfWidth[side]);
-    high[side] = std::min(middle + half, column.middle[side] + column.halfWidth[side]);
+    const Range ofBox = rangeOfBox(grid, column, side);
+    low[side] = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
+    high[side] = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
     if (!(low[side] < high[side]))
     {
       return least;
@@ -334,8 +386,10 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
     const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
       grid.origin[1] + index.y * grid.spacing[1], grid.origin[2] + index.z * grid.spacing[2] };
-    const double u = dot(x, column.u), v = dot(x, column.v);
-    const bool isIn = u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1];
+    const double width = column.widthAt(dot(x, cross(column.u, column.v)));
+    const double u = imageCoordinate(column, 0, dot(x, column.u), width);
+    const double v = imageCoordinate(column, 1, dot(x, column.v), width);
+    const bool isIn = width > 0 && u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1];
     return isIn ? std::optional(rayAt(grid, column, u, v)) : std::nullopt;
   };
   // Calls traceOne(n, ray), which returns the bend.

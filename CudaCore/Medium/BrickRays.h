@@ -17,13 +17,21 @@
 namespace schlieren
 {
 
-/// What a view looks at: an orthographic column through the data; unbounded where the half widths are infinite.
+/// What a view looks at: a column through the data, or with a perspective what is in front of the pupil, where all lines
+/// of sight meet. Unbounded where the half widths are infinite.
 struct Column
 {
   Vec3<double> u, v;   ///< of the image, unit vectors, along the source's axes
   double middle[2];    ///< image coordinates, data units
   double halfWidth[2]; ///< along u and v, data units
   double finest; ///< no voxel needs to be smaller: data units, the pixel's size or a part of it
+  double pupil =
+    0; ///< from the image's plane, along w = u x v, data units; 0: all lines are along w
+  double plane =
+    0; ///< x.w of the image's plane, where there is a pupil; half widths and pixels are those there
+
+  /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.
+  double widthAt(double place) const { return pupil > 0 ? 1 - (place - plane) / pupil : 1; }
 };
 
 /// What a straight ray crosses of a leaf with samples.

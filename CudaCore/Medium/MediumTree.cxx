@@ -383,8 +383,8 @@ void MediumTree<Real>::summarize(const View& view)
     statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
     if (view.sees(node.place))
     {
-      error = std::max(error, view.errorOf(level, node.facts));
-      errorOfFields = std::max(errorOfFields, view.errorOf(level, fields.facts));
+      error = std::max(error, view.errorOf(node.place, node.facts));
+      errorOfFields = std::max(errorOfFields, view.errorOf(node.place, fields.facts));
     }
   }
   statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, statistics_.finestLevel);

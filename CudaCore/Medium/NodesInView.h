@@ -44,16 +44,16 @@ public:
     return sees(column_.u, 0, box) && sees(column_.v, 1, box);
   }
 
-  /// Whether voxels of the next level are wanted along an axis.
-  bool allows(int level, std::size_t axis, double pixels = 1) const
+  /// Whether voxels of the next level are wanted along an axis, which are no smaller than so many pixels.
+  bool allows(const NodePlace& place, std::size_t axis, double pixels = 1) const
   {
-    constexpr double rounding = 1 - 1e-9;
-    return level < finestLevelOfAll && axis < tree_.maker_.axes() &&
-      tree_.maker_.voxelOf(level + 1)[axis] >= rounding * pixels * column_.finest;
+    return allows(place.level, axis, pixels * pixelAt(place));
   }
-  bool allows(int level, double pixels = 1) const
+  bool allows(const NodePlace& place, double pixels = 1) const
   {
-    return allows(level, 0, pixels) || allows(level, 1, pixels) || allows(level, 2, pixels);
+    const double finest = pixels * pixelAt(place);
+    return allows(place.level, 0, finest) || allows(place.level, 1, finest) ||
+      allows(place.level, 2, finest);
   }
 
   /// How long a ray is in a leaf, by the leaf's edge, as far as that is not about 1: in one as deep as the domain.
@@ -72,17 +72,18 @@ public:
 
   /// The error of a node, or of its fields, that the next level would lessen, without edges: of rays.
   template <class Facts>
-  double errorOf(int level, const Facts& facts) const
+  double errorOf(const NodePlace& place, const Facts& facts) const
   {
-    return lengthIn(level) * errorOverEdge(level, facts);
+    return lengthIn(place.level) * errorOverEdge(place, facts);
   }
   /// The same of rays that are in it for as long as its edge.
   template <class Facts>
-  double errorOverEdge(int level, const Facts& facts) const
+  double errorOverEdge(const NodePlace& place, const Facts& facts) const
   {
+    const double pixel = pixelAt(place);
     const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
     const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
-    const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
     double error = 0;
     for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
     {
@@ -90,9 +91,9 @@ public:
       // than by a layer as thick as a voxel.
       const bool isBent = std::is_same_v<Facts, BrickFacts>;
       const double across = isBent ? std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge) : 1;
-      const bool isSeen = voxel[axis] > pixelsOfLayer * column_.finest;
+      const bool isSeen = voxel[axis] > pixelsOfLayer * pixel;
       error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
-      error = allows(level, axis) ? std::max(error, facts.error[axis]) : error;
+      error = allows(place.level, axis, pixel) ? std::max(error, facts.error[axis]) : error;
     }
     return error;
   }
@@ -100,16 +101,16 @@ public:
   /// How badly a leaf needs to be divided; 0: not at all.
   double urgencyOf(const Node& node, const FieldFacts& ofFields) const
   {
-    const double error = errorOf(node.place.level, node.facts);
+    const double error = errorOf(node.place, node.facts);
     const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
     const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
-    const bool isFine = node.facts.areEdgesFine || !allows(node.place.level);
+    const bool isFine = node.facts.areEdgesFine || !allows(node.place);
     // A sharp edge is rounded off by a quarter of a voxel.
     const bool isSharp = node.facts.hasWallEdge && !node.facts.areEdgesFine &&
-      !showsWalls(node, 0.2) && isEdgeOn(node) && allows(node.place.level, 0.25);
+      !showsWalls(node, 0.2) && isEdgeOn(node) && allows(node.place, 0.25);
     const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
     double urgency = node.isWrong || error > allowed().deflection ? error : 0;
-    if (const double gathered = errorOf(node.place.level, ofFields); gathered > allowed().gathered)
+    if (const double gathered = errorOf(node.place, ofFields); gathered > allowed().gathered)
     {
       const double deflection = work_.largest;
       const bool canCompare = deflection > 0 && work_.gathered > 0;
@@ -129,16 +130,17 @@ public:
   {
     constexpr double pixelsOfVoxel = 4; // at most
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
-    return node.facts.edgeError <= pixels * column_.finest &&
+    const double pixel = pixelAt(node.place);
+    return node.facts.edgeError <= pixels * pixel &&
       *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
-      pixelsOfVoxel * column_.finest;
+      pixelsOfVoxel * pixel;
   }
 
   /// Whether walls are seen edge-on in a leaf, or would be after a small turn.
   bool isEdgeOn(const Node& node) const
   {
     constexpr double margin = 0.2; // sine of the turn
-    const Vec3<double> along = cross(column_.u, column_.v);
+    const Vec3<double> along = lineOfSight(node.place);
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
     const double d[3] = { along.x / voxel[0], along.y / voxel[1], along.z / voxel[2] };
     double least = 0, most = 0, square = 0;
@@ -180,7 +182,12 @@ public:
   double progressAt(double ofRound) const
   {
     int levels = 1;
-    while (levels < usualLevels && allows(levels))
+    const auto isWanted = [&](int level)
+    {
+      return allows(level, 0, column_.finest) || allows(level, 1, column_.finest) ||
+        allows(level, 2, column_.finest);
+    };
+    while (levels < usualLevels && isWanted(levels))
     {
       ++levels;
     }
@@ -195,16 +202,81 @@ private:
     return { tolerance * work_.largest, tolerance * work_.gathered };
   }
 
-  bool sees(const Vec3<double>& direction, int side, const Box& box) const
+  bool allows(int level, std::size_t axis, double finest) const
   {
-    const double a[3] = { direction.x, direction.y, direction.z };
-    double middle = 0, half = 0;
+    constexpr double rounding = 1 - 1e-9;
+    return level < finestLevelOfAll && axis < tree_.maker_.axes() &&
+      tree_.maker_.voxelOf(level + 1)[axis] >= rounding * finest;
+  }
+
+  /// The size of a pixel where a node is nearest to the pupil, or beside that a small part of it, data units.
+  double pixelAt(const NodePlace& place) const
+  {
+    if (!(column_.pupil > 0))
+    {
+      return column_.finest;
+    }
+    constexpr double least = 1e-2;
+    const Range depths = rangeOf(cross(column_.u, column_.v), tree_.maker_.boxOf(place));
+    return column_.finest * std::max(least, column_.widthAt(depths.middle + depths.half));
+  }
+
+  /// At the middle of a node, from it to the viewer; of any length.
+  Vec3<double> lineOfSight(const NodePlace& place) const
+  {
+    const Vec3<double> w = cross(column_.u, column_.v);
+    if (!(column_.pupil > 0))
+    {
+      return w;
+    }
+    const Box box = tree_.maker_.boxOf(place);
+    const auto toPupil = [&](const Vec3<double>& axis, double ofPupil)
+    { return (ofPupil - rangeOf(axis, box).middle) * axis; };
+    return toPupil(column_.u, column_.middle[0]) + toPupil(column_.v, column_.middle[1]) +
+      toPupil(w, column_.plane + column_.pupil);
+  }
+
+  struct Range
+  {
+    double middle, half;
+  };
+  /// Of the product of a vector with the places in a box.
+  static Range rangeOf(const Vec3<double>& vector, const Box& box)
+  {
+    const double a[3] = { vector.x, vector.y, vector.z };
+    Range range{ 0, 0 };
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      middle += a[axis] * 0.5 * (box.low[axis] + box.high[axis]);
-      half += std::abs(a[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
+      range.middle += a[axis] * 0.5 * (box.low[axis] + box.high[axis]);
+      range.half += std::abs(a[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
     }
-    return !(std::abs(middle - column_.middle[side]) > widening * column_.halfWidth[side] + half);
+    return range;
+  }
+
+  bool sees(const Vec3<double>& direction, int side, const Box& box) const
+  {
+    const double widest = widening * column_.halfWidth[side];
+    if (!(column_.pupil > 0))
+    {
+      const Range range = rangeOf(direction, box);
+      return !(std::abs(range.middle - column_.middle[side]) > widest + range.half);
+    }
+    if (!std::isfinite(widest))
+    {
+      return true;
+    }
+    // x . u - middle <= widest (1 - (x . w - plane) / pupil), and the same on the other side.
+    const Vec3<double> narrowing = (widest / column_.pupil) * cross(column_.u, column_.v);
+    const double limit = widest * (1 + column_.plane / column_.pupil);
+    for (const double sign : { -1., 1. })
+    {
+      const Range range = rangeOf(sign * direction + narrowing, box);
+      if (range.middle - range.half > sign * column_.middle[side] + limit)
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   const MediumTree& tree_;

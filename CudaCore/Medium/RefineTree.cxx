@@ -122,7 +122,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
     node.isWrong = false;
     differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
     errors[leaf] =
-      node.brick == 0 ? 0.f : static_cast<float>(view.errorOverEdge(node.place.level, node.facts));
+      node.brick == 0 ? 0.f : static_cast<float>(view.errorOverEdge(node.place, node.facts));
     if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
         fields.brick == 0 && !ofFields.empty())
     {
@@ -130,7 +130,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
     }
     else if (!ofFields.empty())
     {
-      fieldErrors[leaf] = static_cast<float>(view.errorOverEdge(node.place.level, fields.facts));
+      fieldErrors[leaf] = static_cast<float>(view.errorOverEdge(node.place, fields.facts));
     }
   }
   const RayFindings findings = lookAlongRays<Real>(
@@ -706,7 +706,7 @@ bool MediumTree<Real>::forgetUnneeded(const View& view)
 template <class Real>
 bool MediumTree<Real>::isNeeded(const Node& node, const View& view) const
 {
-  return view.sees(node.place) && (node.children < 0 || view.allows(node.place.level));
+  return view.sees(node.place) && (node.children < 0 || view.allows(node.place));
 }
 
 template <class Real>

@@ -146,6 +146,12 @@ Frame frameOf(const Grid& grid, const View& view)
       "ViewUp is zero or parallel to ViewDirection, so the image has no upward direction. "
       "Set ViewUp to another direction, for example (0, 1, 0) or (1, 0, 0).");
   }
+  constexpr double widest = 170;
+  if (!(view.viewAngle >= 0 && view.viewAngle < widest))
+  {
+    throw Error("ViewAngle is " + std::to_string(view.viewAngle) +
+      " degrees. Set it to less than 170, or to 0 for parallel light.");
+  }
   if (view.parallelScale < 0)
   {
     throw Error("ParallelScale is " + std::to_string(view.parallelScale) +
@@ -163,7 +169,10 @@ Frame frameOf(const Grid& grid, const View& view)
 
   const double aspect = static_cast<double>(view.width) / view.height;
   const double fit = std::max(halfExtent(grid, v), halfExtent(grid, u) / aspect);
-  const double halfHeight = view.parallelScale > 0 ? view.parallelScale : fit;
+  // With a perspective the data's nearest end has to fit.
+  const double perDistance = std::tan(0.5 * view.viewAngle * radiansPerDegree);
+  const double halfHeight =
+    view.parallelScale > 0 ? view.parallelScale : fit + halfExtent(grid, w) * perDistance;
   frame.pixelSize = 2 * halfHeight / view.height;
   if (!(frame.pixelSize > 0) || !std::isfinite(frame.pixelSize))
   {
@@ -177,6 +186,11 @@ Frame frameOf(const Grid& grid, const View& view)
     dot(focal, v) - 0.5 * (view.height - 1) * frame.pixelSize };
   frame.entry = dot(centre, w) - halfExtent(grid, w);
   frame.exit = dot(centre, w) + halfExtent(grid, w);
+  if (view.viewAngle > 0)
+  {
+    frame.pupil = halfHeight / perDistance;
+    frame.focus = dot(focal, w);
+  }
   return frame;
 }
 
@@ -193,15 +207,27 @@ Light reversedLight(const Grid& grid, const Frame& frame)
 Light lightFrom(
   const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame)
 {
-  Light light = collimatedLight(grid, frame);
+  const bool isFromPupil = frame.pupil > 0;
+  Light light = isFromPupil ? reversedLight(grid, frame) : collimatedLight(grid, frame);
   const double halfDepth = 0.5 * light.depth;
   light.toFilm = light.depth + film / light.unit;
-  const double perDistance = source.distance ? light.unit / *source.distance : 0;
-  light.magnification = 1 + (light.toFilm - halfDepth) * perDistance;
+  double perDistance = source.distance ? light.unit / *source.distance : 0;
+  double middle = 0; // of the data, from the picture's plane along the light
+  if (isFromPupil)
+  {
+    perDistance = light.unit / frame.pupil;
+    middle = (frame.focus - 0.5 * (frame.entry + frame.exit)) / light.unit;
+    light.first = std::max(0., halfDepth - middle - 1 / perDistance);
+  }
+  light.magnification = 1 + (light.toFilm - halfDepth + middle) * perDistance;
+  if (light.first >= light.depth)
+  {
+    light.magnification = 1; // all data are behind the pupil, which no ray meets
+  }
 
   // Towards the axis where it enters.
   const double axis[2] = { 0.5 * (view.width - 1), 0.5 * (view.height - 1) };
-  const double nearer = halfDepth * perDistance;
+  const double nearer = (halfDepth - middle) * perDistance;
   light.corner =
     light.corner + (nearer * axis[0]) * light.perColumn + (nearer * axis[1]) * light.perRow;
   light.perColumn = (1 - nearer) * light.perColumn;

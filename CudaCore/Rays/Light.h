@@ -37,6 +37,7 @@ struct Inclination
 ///   P(zeta) = X (1 + zeta / R) + t (zeta - z),
 /// R being the distance of the source, z the film's plane, and t the tilt of the light of one point of an
 /// extended source (Pass). So all light of X meets the film at X (1 + z / R), wherever it comes from.
+/// With a perspective, the picture's plane is that of the focal point instead, from which zeta counts then.
 /// Lengths are in units of the smallest grid spacing, so that nothing depends on the data's unit of length.
 struct Light
 {
@@ -44,6 +45,7 @@ struct Light
   Vec3<double> perColumn; ///< index coordinates on the entry plane, per pixel along u
   Vec3<double> perRow;    ///< index coordinates on the entry plane, per pixel along v
   Inclination inclination;
+  double first;  ///< entry plane to where light begins, along w: not 0 of a pupil within the data
   double toFilm; ///< entry plane to the film along w; matters to tilted light only
 
   Vec3<double> perLength; ///< index coordinates per unit of length along w
@@ -83,8 +85,8 @@ Light collimatedLight(const Grid& grid, const Frame& frame);
 /// The same from the viewer, against w: the rays of a camera. They start on the frame's exit plane.
 Light reversedLight(const Grid& grid, const Frame& frame);
 
-/// The light of a source on the line through the middle of the picture. `film`: from the exit plane to the
-/// film, data units.
+/// The light of a source on the line through the middle of the picture; with a perspective it is the pupil, and light
+/// goes against w. `film`: from the plane where light leaves the data to the film, data units.
 Light lightFrom(
   const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame);
 

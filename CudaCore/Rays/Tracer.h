@@ -74,7 +74,7 @@ SCHLIEREN_HD Entry meetGrid(const RayTask<Number>& task, const Pass& pass, std::
     per = { 1 / along.x, 1 / along.y, 1 / along.z };
   }
   const Vec3<double>& last = task.medium.last;
-  Chord chord{ 0, light.depth };
+  Chord chord{ light.first, light.depth };
   clip(chord, start.x, along.x, per.x, last.x);
   clip(chord, start.y, along.y, per.y, last.y);
   clip(chord, start.z, along.z, per.z, last.z);

@@ -36,6 +36,9 @@ constexpr int coarsest = 16;
 /// The coarsest that the bench makes: one pixel tells whether there is an image.
 constexpr int reductionAtFirst = 64;
 
+/// Degrees; the bench takes no more.
+constexpr double widestAngle = 169;
+
 /// How far before the far plane the image lies, as a fraction of the depth of the view.
 constexpr double beforeFarPlane = 1e-4;
 
@@ -178,7 +181,7 @@ bool vtkSchlierenActor::View::operator==(const View& other) const
 {
   return this->Direction == other.Direction && this->Up == other.Up &&
     this->FocalPoint == other.FocalPoint && this->ParallelScale == other.ParallelScale &&
-    this->Size == other.Size;
+    this->ViewAngle == other.ViewAngle && this->Size == other.Size;
 }
 
 //------------------------------------------------------------------------------
@@ -192,10 +195,15 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
   // vtkWindowToImageFilter draws an image that is larger than the window in tiles, each with a camera of its own; what is
   // traced is the whole.
   const double tiles = renderer->GetRenderWindow()->GetTileScale()[1];
-  const double half = std::asin(
-    std::min(1., tiles * std::sin(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))));
-  view.ParallelScale = camera->GetParallelProjection() ? tiles * camera->GetParallelScale()
-                                                       : camera->GetDistance() * std::tan(half);
+  const double half = std::min(0.5 * vtkMath::RadiansFromDegrees(widestAngle),
+    std::asin(
+      std::min(1., tiles * std::sin(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())))));
+  view.ParallelScale = tiles * camera->GetParallelScale();
+  if (!camera->GetParallelProjection())
+  {
+    view.ParallelScale = camera->GetDistance() * std::tan(half);
+    view.ViewAngle = 2 * vtkMath::DegreesFromRadians(half);
+  }
   // The window's size is that of all tiles. The renderer's own is still the old one while a layout of views is captured.
   const int* size = renderer->GetRenderWindow()->GetSize();
   const double* port = renderer->GetViewport();
@@ -217,6 +225,7 @@ bool vtkSchlierenActor::LookThrough(const View& view)
   this->Bench->SetViewUp(view.Up.data());
   this->Bench->SetFocalPoint(view.FocalPoint.data());
   this->Bench->SetParallelScale(view.ParallelScale);
+  this->Bench->SetViewAngle(view.ViewAngle);
   this->Bench->SetImageSize(view.Size.data());
   return isMoved;
 }

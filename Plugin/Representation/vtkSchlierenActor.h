@@ -6,8 +6,8 @@
  *
  * The image is traced while it is drawn, because only then are the camera and the size those of the rendering, on
  * servers and in screenshots of another size, too; where the bench is in another process, by that one. It lies just
- * before the far plane of the camera, so all surfaces hide it. With a perspective camera its pixels agree with surfaces
- * in the plane of the focal point.
+ * before the far plane of the camera, so all surfaces hide it. With a perspective camera each pixel has its own direction,
+ * as for surfaces.
  */
 #ifndef vtkSchlierenActor_h
 #define vtkSchlierenActor_h
@@ -40,6 +40,7 @@ public:
   {
     std::array<double, 3> Direction{}, Up{}, FocalPoint{};
     double ParallelScale = 0;
+    double ViewAngle = 0; // degrees; 0: parallel
     std::array<int, 2> Size{};
     bool operator==(const View& other) const;
   };

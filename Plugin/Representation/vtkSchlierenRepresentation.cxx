@@ -98,19 +98,20 @@ bool vtkSchlierenRepresentation::GetFinished()
 int vtkSchlierenRepresentation::GetReduction() { return this->Actor->GetReduction(); }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenRepresentation::TraceForClient(const double request[13])
+void vtkSchlierenRepresentation::TraceForClient(const double request[14])
 {
   vtkSchlierenActor::View view;
   std::copy(request, request + 3, view.Direction.begin());
   std::copy(request + 3, request + 6, view.Up.begin());
   std::copy(request + 6, request + 9, view.FocalPoint.begin());
   view.ParallelScale = request[9];
-  view.Size = { static_cast<int>(request[10]), static_cast<int>(request[11]) };
+  view.ViewAngle = request[10];
+  view.Size = { static_cast<int>(request[11]), static_cast<int>(request[12]) };
   if (this->Actor->GetBench())
   {
     this->PassTimeToBench();
   }
-  this->TracedImage = this->Actor->ImageForElsewhere(view, static_cast<int>(request[12]));
+  this->TracedImage = this->Actor->ImageForElsewhere(view, static_cast<int>(request[13]));
 }
 
 //------------------------------------------------------------------------------
@@ -211,7 +212,7 @@ void vtkSchlierenRepresentation::UseRequest()
   this->Actor->SetTracerElsewhere(
     [this](const vtkSchlierenActor::View& view, int occasion)
     {
-      double request[13] = { 0, 0, 0, 0, 0, 0, 0, 0, 0, view.ParallelScale,
+      double request[14] = { 0, 0, 0, 0, 0, 0, 0, 0, 0, view.ParallelScale, view.ViewAngle,
         static_cast<double>(view.Size[0]), static_cast<double>(view.Size[1]),
         static_cast<double>(occasion) };
       std::copy(view.Direction.begin(), view.Direction.end(), request);

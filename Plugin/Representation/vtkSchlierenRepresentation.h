@@ -57,14 +57,14 @@ public:
    * GetTracedImage() (null: there is none). `request`: direction, up, focal point, parallel scale, columns and rows,
    * and one of vtkSchlierenActor::Occasions.
    */
-  void TraceForClient(const double request[13]);
+  void TraceForClient(const double request[14]);
   VTK_WRAPEXCLUDE vtkImageData* GetTracedImage() const { return this->TracedImage; }
   ///@}
 
   /**
    * Of a client: what requests that of its server, and returns the image.
    */
-  using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[13])>;
+  using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[14])>;
   VTK_WRAPEXCLUDE void SetRequest(Request request);
 
   void SetVisibility(bool isVisible) override;

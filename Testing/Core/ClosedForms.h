@@ -82,6 +82,25 @@ inline ClosedForm oscillator(double n0, const Point& k)
     } };
 }
 
+/// A blob beside the axis, N = peak exp(-r^2 / width^2); its rays have no closed form.
+inline ClosedForm blob(double peak)
+{
+  const Point middle{ 0.3, -0.2, 0.4 };
+  constexpr double width = 0.8;
+  const auto refractivity = [=](const Point& x)
+  {
+    const Point r = x - middle;
+    return peak * std::exp(-dot(r, r) / (width * width));
+  };
+  return { [=](const Point& x) { return refractivity(x) * (2 + refractivity(x)); },
+    [=](const Point& x)
+    {
+      const double N = refractivity(x);
+      return (-2 * (1 + N) * N / (width * width)) * (x - middle);
+    },
+    {} };
+}
+
 /// Maxwell's fish-eye n = n0 / (1 + r^2), R = 1. It is the stereographic image of a sphere (in four
 /// dimensions) on which rays are great circles, and n ds = n0 / 2 times the arc (Luneburg 1964, section
 /// 28). So a ray passes through r0, closes through -r0 / |r0|^2, and the optical path between the two is

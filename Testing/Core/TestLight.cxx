@@ -17,25 +17,6 @@ namespace schlieren
 namespace
 {
 
-/// A blob beside the axis, N = peak exp(-r^2 / width^2).
-ClosedForm blob(double peak)
-{
-  const Point middle{ 0.3, -0.2, 0.4 };
-  constexpr double width = 0.8;
-  const auto refractivity = [=](const Point& x)
-  {
-    const Point r = x - middle;
-    return peak * std::exp(-dot(r, r) / (width * width));
-  };
-  return { [=](const Point& x) { return refractivity(x) * (2 + refractivity(x)); },
-    [=](const Point& x)
-    {
-      const double N = refractivity(x);
-      return (-2 * (1 + N) * N / (width * width)) * (x - middle);
-    },
-    {} };
-}
-
 /// Gas whose index is not that around it where light enters and leaves.
 ClosedForm slope(double peak)
 {

@@ -58,13 +58,37 @@ for z in (-20, 0, 20):
 simple.ResetCamera(view)
 assert math.isclose(view.CameraParallelScale, bounds), (view.CameraParallelScale, bounds)
 
-# With a perspective camera it agrees with surfaces in the plane of the focal point.
-view.CameraParallelProjection = 0
+# With a perspective camera it agrees with surfaces everywhere: of bodies before, beside and behind the focal point, what
+# their surfaces hide is where they block light.
 camera = view.GetActiveCamera()
-height = camera.GetDistance() * math.tan(math.radians(camera.GetViewAngle() / 2))
-perspective = pixels_of(view, SIZE)
-view.CameraParallelProjection, view.CameraParallelScale = 1, height
-assert agrees(perspective, display, view)
+view.CameraParallelProjection = 0
+places = [[-4, 2, 6], [3, -3, 0], [4, 4, -6]]
+balls = [simple.Sphere(Center=place, Radius=1.5, ThetaResolution=64, PhiResolution=64) for place in places]
+bodies = simple.AppendGeometry(Input=balls)
+display.SchlierenBench.Bodies = bodies
+LARGE = (480, 360)
+for angle, zoom in ((30, 1), (60, 1), (30, 4)):  # the last one is within the data
+    view.CameraViewAngle = angle
+    simple.ResetCamera(view)
+    camera.Dolly(zoom)
+    alone = pixels_of(view, LARGE)
+    assert agrees(pixels_of(view, SIZE), display, view), angle
+    surface = simple.Show(bodies, view)
+    surface.AmbientColor = surface.DiffuseColor = [1, 0, 0]
+    both = pixels_of(view, LARGE, channels=slice(None))
+    simple.Hide(bodies, view)
+    hidden = both[..., 0] != both[..., 2]
+    dark = alone < 64
+    assert 500 < hidden.sum() < 0.8 * hidden.size, (angle, zoom, hidden.sum())
+    # Pixels at the rim are partly dark.
+    around = [np.roll(hidden, shift, (0, 1)) for shift in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+    rim = np.any(around, axis=0) & ~np.all(around, axis=0)
+    assert (dark == hidden)[~rim].all(), (angle, zoom, (dark != hidden)[~rim].sum())
+    assert abs(dark.sum() / hidden.sum() - 1) < 0.01, (angle, zoom, dark.sum(), hidden.sum())
+display.SchlierenBench.Bodies = None
+simple.Delete(bodies)
+view.CameraParallelProjection = 1
+simple.ResetCamera(view)
 
 # Another view of the same data has its own camera and settings, unless they are linked.
 second = new_view()

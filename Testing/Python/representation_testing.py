@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Data drawn as Schlieren in a render view, and the same by the filter."""
 
+import math
+
 import numpy as np
 from paraview import simple
 from plugin_testing import Schlieren, picture
@@ -12,7 +14,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 GREY_LEVEL = 0.5 + 1e-4
 
 # Of the filter alone: the representation has them of its view.
-OF_THE_VIEW = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "FollowedView"}
+OF_THE_VIEW = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize", "FollowedView"}
 
 
 def show(flow, view, **settings):
@@ -46,9 +48,11 @@ def filter_like(display, view, size):
         if name not in OF_THE_VIEW and name != "Input" and not own.GetProperty(name).SMProperty.GetInformationOnly():
             bench.SMProxy.GetProperty(name).Copy(own.SMProxy.GetProperty(name))
     bench.SMProxy.UpdateVTKObjects()
+    angle = 0 if camera.GetParallelProjection() else camera.GetViewAngle()
+    half = math.tan(math.radians(angle / 2)) * camera.GetDistance() if angle else camera.GetParallelScale()
     simple.SetProperties(
         bench, ViewDirection=list(camera.GetDirectionOfProjection()), ViewUp=list(camera.GetViewUp()),
-        FocalPoint=list(camera.GetFocalPoint()), ParallelScale=camera.GetParallelScale(), ImageSize=list(size))
+        FocalPoint=list(camera.GetFocalPoint()), ParallelScale=half, ViewAngle=angle, ImageSize=list(size))
     intensity = picture(bench, "Intensity")
     simple.Delete(bench)
     full = 2 if own.Cutoff == "Shadowgraph" else 1
