@@ -137,7 +137,7 @@ TEST(SharedMedia, WhatTheMediumDependsOnMakesAnother)
 
 TEST(SharedMedia, GoesWithItsLastUser)
 {
-  const SampledField<float> data = blob(96);
+  const SampledField<float> data = blob(192); // much larger than what threads take
   const Scene scene = sceneTowards(front);
   const auto media = std::make_shared<SharedMedia>();
   auto first = std::make_unique<Bench>(), second = std::make_unique<Bench>();
