@@ -207,7 +207,7 @@ struct Bench::Unfinished
   Unfinished(const Field& ofField, const Scene& ofScene)
     : field(ofField)
     , scene(ofScene)
-    , picture(std::in_place, ofScene)
+    , image(std::in_place, ofScene)
   {
   }
 
@@ -215,20 +215,20 @@ struct Bench::Unfinished
   const Scene scene;
   Device device = Device::Cpu;
   std::string deviceNote;
-  bool keepsRays = true;                   ///< as far as the budget of memory goes
-  std::optional<ProgressiveImage> picture; ///< always there
+  bool keepsRays = true;                 ///< as far as the budget of memory goes
+  std::optional<ProgressiveImage> image; ///< always there
   std::optional<DisplacementBound> bound;
   double kScale = 0;
   double momentumDrift = 0;
   double traceSeconds = 0;
   double progressOfVoxels = 0; ///< fractionOfVoxels where some have been made
-  std::int64_t shown = 0;      ///< passes of the last picture that was handed out
+  std::int64_t shown = 0;      ///< passes of the last image that was handed out
   bool hasBeenSilent = false;  ///< the last call handed none out
 
-  /// Where the medium has changed under the picture.
+  /// Where the medium has changed under the progressive.
   void beginAnew()
   {
-    picture.emplace(scene);
+    image.emplace(scene);
     bound.reset();
     shown = 0;
   }
@@ -269,7 +269,7 @@ struct Bench::Stages
   bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, MediumOfBench<Real>& held,
     const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked);
 
-  /// Goes on with a picture, until it is finished, aborted or paused.
+  /// Goes on with an image, until it is finished, aborted or paused.
   template <class Real>
   Image goOn(Unfinished& asked, const Watch& watch);
 
@@ -537,18 +537,18 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
   const DeflectionErrors errors{ noiseFloor(ofHeld, field, light), image.medium.deflectionError };
-  ProgressiveImage& picture = *asked.picture;
-  const auto isNewPictureThere = [&]
-  { return picture.isWhole() && picture.passes() > asked.shown; };
-  bool goesOn = !watch.mayPause() || picture.completeUndisturbed(watch.monitor());
-  while (goesOn && picture.passes() < scene.samplesPerPixel)
+  ProgressiveImage& progressive = *asked.image;
+  const auto isNewImageThere = [&]
+  { return progressive.isWhole() && progressive.passes() > asked.shown; };
+  bool goesOn = !watch.mayPause() || progressive.completeUndisturbed(watch.monitor());
+  while (goesOn && progressive.passes() < scene.samplesPerPixel)
   {
     // What has taken more than a call is shown before the next pass hides it.
-    if (watch.mayPause() && asked.hasBeenSilent && isNewPictureThere())
+    if (watch.mayPause() && asked.hasBeenSilent && isNewImageThere())
     {
       break;
     }
-    const std::int64_t number = picture.passes();
+    const std::int64_t number = progressive.passes();
     Monitor ofPass = watch.monitor();
     if (ofPass.progress)
     {
@@ -573,7 +573,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     asked.momentumDrift = std::max(asked.momentumDrift, traced->worstDrift);
     const TracedRays ofTraced{ pass, traced->exits.data(), traced->gathered.data() };
     rays.ask(*traced, ofTraced, number, scene, errors);
-    if (!picture.isBegun())
+    if (!progressive.isBegun())
     {
       if (techniqueOf(scene.cutoff).hasK())
       {
@@ -581,7 +581,7 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
           ? *scene.kScale
           : automaticK(rays.strongDeflection(), techniqueOf(scene.cutoff).fullScale);
       }
-      picture.begin(
+      progressive.begin(
         { cutoffs.cutoffOf(scene, asked.kScale, image.frame.pixelSize),
           projectionOf(scene, image.frame, light, (1 + ofHeld.ambient) * field.lengthScale), margin,
           (view.width + 2 * margin) * (view.height + 2 * margin) *
@@ -589,8 +589,8 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
         rays.tintOf(ofTraced, field, scene));
     }
     ofPass.progress = {};
-    goesOn = picture.add(*traced, pass, rays.holds(*traced) ? Rays::Stay : Rays::Go, ofPass) &&
-      (!watch.mayPause() || picture.completeUndisturbed(ofPass));
+    goesOn = progressive.add(*traced, pass, rays.holds(*traced) ? Rays::Stay : Rays::Go, ofPass) &&
+      (!watch.mayPause() || progressive.completeUndisturbed(ofPass));
     if (watch.isPaused())
     {
       break;
@@ -603,15 +603,15 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   image.kScale = asked.kScale;
   image.momentumDrift = asked.momentumDrift;
   image.traceSeconds = asked.traceSeconds;
-  image.finished = goesOn && picture.passes() == scene.samplesPerPixel;
-  asked.hasBeenSilent = !image.finished && !isNewPictureThere();
+  image.finished = goesOn && progressive.passes() == scene.samplesPerPixel;
+  asked.hasBeenSilent = !image.finished && !isNewImageThere();
   if (scene.histogramSize > 0 && !asked.hasBeenSilent)
   {
     image.histogram = rays.histogram();
   }
   if (image.finished)
   {
-    if (!picture.finish(image, watch.monitor()))
+    if (!progressive.finish(image, watch.monitor()))
     {
       return aborted;
     }
@@ -620,8 +620,8 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   }
   if (!asked.hasBeenSilent)
   {
-    picture.develop(image);
-    asked.shown = picture.passes();
+    progressive.develop(image);
+    asked.shown = progressive.passes();
   }
   image.samples = static_cast<int>(asked.shown);
   return image;
@@ -708,10 +708,10 @@ Image Bench::resume(const Monitor& monitor)
 Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& monitor)
 {
   const Watch watch(monitor);
-  const auto goOnWith = [&](Unfinished& picture)
+  const auto goOnWith = [&](Unfinished& begun)
   {
-    return picture.scene.precision == Precision::Single ? goOn<float>(picture, watch)
-                                                        : goOn<double>(picture, watch);
+    return begun.scene.precision == Precision::Single ? goOn<float>(begun, watch)
+                                                      : goOn<double>(begun, watch);
   };
   Image image;
   for (bool isDone = false; !isDone;)

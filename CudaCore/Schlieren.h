@@ -4,9 +4,9 @@
 // The one public header of the tracer: a Field and a Scene in, an Image out. It brings the index models
 // with it, which make a Field's refractivity from the states of gases.
 //
-// Vectors are in data coordinates. The picture's axes are u (right), v (up) and w, the direction the
+// Vectors are in data coordinates. The image's axes are u (right), v (up) and w, the direction the
 // light travels in, towards the viewer: w = -viewDirection, u = viewDirection x viewUp, v = u x
-// viewDirection, all of unit length. A point x lands at the picture coordinates (x.u, x.v).
+// viewDirection, all of unit length. A point x lands at the image coordinates (x.u, x.v).
 #pragma once
 
 #include "Medium/IndexModels.h"
@@ -82,7 +82,7 @@ enum class Device
 };
 
 /// Red, green and blue, row by row, bottom row first; sRGB.
-struct RgbPicture
+struct RgbImage
 {
   int width = 0;
   int height = 0;
@@ -126,7 +126,7 @@ enum class PatternKind
 {
   Dots,
   Stripes,
-  Picture
+  Image
 };
 
 /// What is behind the flow for Cutoff::Background.
@@ -135,14 +135,14 @@ struct BackgroundPattern
   PatternKind kind = PatternKind::Dots;
   std::optional<double>
     distance; ///< from where the data begins, away from the viewer; unset: one depth
-  /// Of stripes, and of the cells that have a dot each: data units of the picture; 0: eight pixels. What is finer than four
+  /// Of stripes, and of the cells that have a dot each: data units of the image; 0: eight pixels. What is finer than four
   /// pixels fades to grey, and is gone at two.
   double period = 0;
   double angle = 0; ///< of stripes, degrees: direction across them, from u to v
-  std::shared_ptr<const RgbPicture> picture; ///< stretched over what the camera sees
+  std::shared_ptr<const RgbImage> image; ///< stretched over what the camera sees
 };
 
-/// How rays become a picture.
+/// How rays become an image.
 enum class FilmEstimator
 {
   Sheet, ///< the quadrilaterals between neighbouring rays carry the light, folds added up
@@ -167,7 +167,7 @@ struct Grid
   std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 };
 
-/// The gradients of the fields by whose colours a picture is to be tinted; nothing by default. The array
+/// The gradients of the fields by whose colours an image is to be tinted; nothing by default. The array
 /// belongs to the caller, as those of Field do. Where Field has a source, it is the source that knows the fields:
 /// `count` of them, and `values` is null.
 struct FieldGradients
@@ -201,7 +201,7 @@ struct Field
   std::uint64_t version = 0;
 };
 
-/// A camera, as vtkCamera describes it, and its picture. With a perspective, the light is that of a point source in the
+/// A camera, as vtkCamera describes it, and its image. With a perspective, the light is that of a point source in the
 /// camera's pupil: it diverges from there through the flow to the film behind it, as in the shadowgraph with a
 /// retroreflecting screen (Edgerton 1958). Light that takes these paths into the pupil is bent by the same angles.
 struct View
@@ -209,9 +209,9 @@ struct View
   Vector viewDirection{ 0, 0, -1 };
   Vector viewUp{ 0, 1, 0 };
   std::optional<Vector> focalPoint; ///< unset: centre of the grid
-  /// Half height of the picture in the plane of the focal point, data units; 0: fit the grid.
+  /// Half height of the image in the plane of the focal point, data units; 0: fit the grid.
   double parallelScale = 0;
-  /// Between the lower and upper side of the picture seen from the pupil, degrees, less than 170; 0: orthographic.
+  /// Between the lower and upper side of the image seen from the pupil, degrees, less than 170; 0: orthographic.
   double viewAngle = 0;
   int width = 512;  ///< pixels
   int height = 512; ///< pixels
@@ -229,9 +229,8 @@ struct Scene
   std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale, about
   /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
   std::vector<double> gradedFilter{ 0, 1 };
-  std::shared_ptr<const RgbPicture>
-    colorFilter;                ///< from k eps = (-1, -1) to (1, 1); null: the wheel
-  double wavelength = 632.8e-9; ///< of an interferogram, metres
+  std::shared_ptr<const RgbImage> colorFilter; ///< from k eps = (-1, -1) to (1, 1); null: the wheel
+  double wavelength = 632.8e-9;                ///< of an interferogram, metres
   Fringes fringes;
   BackgroundPattern background;
   /// From where light leaves the data to the screen, data units; unset: one data depth.
@@ -277,15 +276,15 @@ struct Scene
   double pathTolerance = 0.01;
   Device device = Device::Auto;
   int threads = 0; ///< CPU threads; 0: all cores this process may use
-  /// Bytes of rays that are held for re-shading. The picture does not depend on it.
+  /// Bytes of rays that are held for re-shading. The image does not depend on it.
   std::size_t memoryBudget = std::size_t{ 1 } << 30;
 };
 
-/// Where the picture of a view lies. u, v, w as above; half-open pixels, centres at origin + i size.
+/// Where the image of a view lies. u, v, w as above; half-open pixels, centres at origin + i size.
 struct Frame
 {
   Vector u, v, w;
-  std::array<double, 2> origin{ 0, 0 }; ///< picture coordinates of the centre of pixel (0, 0)
+  std::array<double, 2> origin{ 0, 0 }; ///< image coordinates of the centre of pixel (0, 0)
   double pixelSize = 1;                 ///< data units
   double entry = 0, exit = 0;           ///< the grid's extent along w: x.w of both ends, data units
   double pupil =
@@ -293,7 +292,7 @@ struct Frame
   double focus = 0; ///< x.w of the focal point; 0 where there is no pupil
 };
 
-/// Where light meets the cutoff plane: how many rays of the picture came there, by their deflection.
+/// Where light meets the cutoff plane: how many rays of the image came there, by their deflection.
 struct Histogram
 {
   int size = 0;                   ///< bins along u and along v
@@ -306,7 +305,7 @@ struct LightBalance
 {
   double emitted = 0; ///< by rays that reach the film's plane, after the cutoff
   double onFilm = 0;
-  double outside = 0; ///< of the picture
+  double outside = 0; ///< of the image
 };
 
 /// What the medium of a Field's source consists of.
@@ -329,7 +328,7 @@ struct MediumStatistics
   bool isMemoryShort = false; ///< for what the tolerance asks for
 };
 
-/// The picture and what is known about it. Arrays are row-major, bottom row first.
+/// The image and what is known about it. Arrays are row-major, bottom row first.
 struct Image
 {
   int width = 0;
@@ -356,12 +355,12 @@ struct Image
   PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff
   double undisturbedLevel = 1;                ///< intensity of light that nothing bends
-  /// Of the rays that start in the picture and reach the film: cut off at the darkest or brightest light.
+  /// Of the rays that start in the image and reach the film: cut off at the darkest or brightest light.
   double saturatedShare = 0;
   LightBalance light;
   Histogram histogram;
   double ambient = 0;            ///< the ambient refractivity used
-  std::int64_t raysTraced = 0;   ///< rays of this picture that crossed the grid
+  std::int64_t raysTraced = 0;   ///< rays of this image that crossed the grid
   std::int64_t stepsTaken = 0;   ///< integration steps of these rays
   std::int64_t raysBlocked = 0;  ///< rays that a solid stopped
   std::int64_t raysLost = 0;     ///< rays trapped in the medium (step limit) or turned back by it
@@ -377,17 +376,17 @@ struct Image
   MediumStatistics medium; ///< of a Field's source
   bool aborted = false;    ///< the monitor asked to stop; all arrays are empty
 
-  /// False where the monitor has paused it, and Bench::resume goes on. The arrays then hold the picture of
+  /// False where the monitor has paused it, and Bench::resume goes on. The arrays then hold the image of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.
   bool finished = true;
-  int samples = 0; ///< per pixel, that the picture is of
+  int samples = 0; ///< per pixel, that the image is of
 };
 
 /// How far a render has come, and whether to stop. All are called by the calling thread only.
 struct Monitor
 {
   std::function<void(double fraction)> progress;
-  std::function<bool()> aborted;  ///< gives the picture up
+  std::function<bool()> aborted;  ///< gives the image up
   std::function<bool()> paused{}; ///< leaves the rest of it for Bench::resume
 };
 
@@ -430,13 +429,13 @@ public:
   Bench(Bench&&) noexcept;
   Bench& operator=(Bench&&) noexcept;
 
-  /// The picture of `field` on the bench `scene`. Throws Error.
+  /// The image of `field` on the bench `scene`. Throws Error.
   Image render(const Field& field, const Scene& scene, const Monitor& monitor = {});
 
-  /// Goes on with the picture that the monitor paused in the last call, which is given up by any other: the
-  /// same picture, to the last bit, that render would have made without a pause. Each call makes some progress,
+  /// Goes on with the image that the monitor paused in the last call, which is given up by any other: the
+  /// same image, to the last bit, that render would have made without a pause. Each call makes some progress,
   /// however soon it is paused again: what is not cut into pieces is the medium, a pass on the GPU, and the
-  /// development of a picture. What Field::gradients points to must still be there. Throws Error.
+  /// development of an image. What Field::gradients points to must still be there. Throws Error.
   Image resume(const Monitor& monitor = {});
   bool isUnfinished() const;
   void giveUp(); ///< forgets it
@@ -460,7 +459,7 @@ private:
 /// The grid that a source is divided into at first: it covers its bounds. Throws Error where these are no box.
 Grid coarsestGrid(const MediumSource& source);
 
-/// The picture plane of a view of a grid. Throws Error where the view is degenerate.
+/// The image plane of a view of a grid. Throws Error where the view is degenerate.
 Frame frameOf(const Grid& grid, const View& view);
 
 /// Writes the gradient of one of `count` fields into what will be FieldGradients::values: its length at

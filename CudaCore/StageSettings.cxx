@@ -71,7 +71,7 @@ double focusDistance(const Frame& frame, double offset)
                          : -0.5 * (frame.exit - frame.entry) + offset;
 }
 
-/// How much larger the picture is on a film at such a distance from where rays leave the data.
+/// How much larger the image is on a film at such a distance from where rays leave the data.
 double magnificationAt(const Scene& scene, const Frame& frame, double film)
 {
   if (frame.pupil > 0)
@@ -106,7 +106,7 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
     return 1;
   }
   const double depth = frame.exit - frame.entry;
-  double furthest = 0; // data units of the picture
+  double furthest = 0; // data units of the image
   for (const double film : { scene.screenDistance.value_or(depth),
          focusDistance(frame, scene.focusOffset), focusDistance(frame, 0) })
   {

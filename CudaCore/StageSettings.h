@@ -122,14 +122,14 @@ double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& l
 /// rays leave the data at their far end, behind which a screen is, too.
 double filmDistance(const Scene& scene, const Frame& frame);
 
-/// Pixels around the picture from which light may be bent into it, at most an eighth of its longer
+/// Pixels around the image from which light may be bent into it, at most an eighth of its longer
 /// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
 /// cutoffs, so that changing the cutoff traces nothing, but for a camera's rays, which stay in their pixel.
 std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame);
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame);
 
-/// The part of a source's medium that a view looks at, with the margin around the picture.
+/// The part of a source's medium that a view looks at, with the margin around the image.
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
 
 /// Where a pass's rays start in their pixels and at their source.

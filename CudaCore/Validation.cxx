@@ -59,15 +59,15 @@ void validateSource(const LightSource& source)
   }
 }
 
-void validatePicture(const RgbPicture& picture, const char* name)
+void validateImage(const RgbImage& image, const char* name)
 {
-  const auto width = static_cast<std::size_t>(std::max(picture.width, 0));
-  const auto height = static_cast<std::size_t>(std::max(picture.height, 0));
-  if (width == 0 || height == 0 || picture.rgb.size() != 3 * width * height)
+  const auto width = static_cast<std::size_t>(std::max(image.width, 0));
+  const auto height = static_cast<std::size_t>(std::max(image.height, 0));
+  if (width == 0 || height == 0 || image.rgb.size() != 3 * width * height)
   {
     std::ostringstream text;
-    text << name << " is " << picture.width << " by " << picture.height << " pixels with "
-         << picture.rgb.size()
+    text << name << " is " << image.width << " by " << image.height << " pixels with "
+         << image.rgb.size()
          << " values. Give it at least one pixel, and red, green and blue for each.";
     throw Error(text.str());
   }
@@ -103,7 +103,7 @@ void validateCutoff(const Scene& scene)
   }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
   {
-    validatePicture(*scene.colorFilter, "ColorFilterImage");
+    validateImage(*scene.colorFilter, "ColorFilterImage");
   }
   if (techniqueOf(scene.cutoff).hasFringes)
   {
@@ -190,7 +190,7 @@ void validateScene(const Scene& scene)
   }
 }
 
-/// How light travels: from where, and to what film. `frame`: of the picture.
+/// How light travels: from where, and to what film. `frame`: of the image.
 void validateLight(const Scene& scene, const Frame& frame)
 {
   const auto require = [](bool isGood, const auto&... message)
@@ -216,11 +216,11 @@ void validateLight(const Scene& scene, const Frame& frame)
       ". Set it to a positive number of data units, or to 0 for eight pixels.");
     require(std::isfinite(scene.background.angle), "BackgroundAngle is ", scene.background.angle,
       ". Set it to an angle in degrees.");
-    if (scene.background.kind == PatternKind::Picture)
+    if (scene.background.kind == PatternKind::Image)
     {
-      require(scene.background.picture != nullptr,
+      require(scene.background.image != nullptr,
         "There is no image behind the flow. Set BackgroundImage, or another BackgroundPattern.");
-      validatePicture(*scene.background.picture, "BackgroundImage");
+      validateImage(*scene.background.image, "BackgroundImage");
     }
     return; // light comes from the pattern
   }

@@ -7,7 +7,7 @@
 namespace schlieren
 {
 
-/// Throws Error where a picture of the field cannot be made, before anything is built or traced.
+/// Throws Error where an image of the field cannot be made, before anything is built or traced.
 void validate(const Field& field, const Scene& scene);
 
 } // namespace schlieren

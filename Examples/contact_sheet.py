@@ -15,7 +15,7 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "Utilities", "four_pictures"))
+sys.path.insert(0, os.path.join(ROOT, "Utilities", "four_images"))
 
 from arguments import DemoError, options_or_exit, parse_arguments  # noqa: E402
 

@@ -16,22 +16,22 @@ namespace filters
 {
 
 //------------------------------------------------------------------------------
-bool LastImage::IsThere() const { return this->Picture->GetNumberOfPoints() > 0; }
+bool LastImage::IsThere() const { return this->Image->GetNumberOfPoints() > 0; }
 
 //------------------------------------------------------------------------------
-bool LastImage::HasColor() const { return this->Picture->GetPointData()->HasArray("Color") != 0; }
+bool LastImage::HasColor() const { return this->Image->GetPointData()->HasArray("Color") != 0; }
 
 //------------------------------------------------------------------------------
-void LastImage::Keep(vtkImageData* output) { this->Picture->ShallowCopy(output); }
+void LastImage::Keep(vtkImageData* output) { this->Image->ShallowCopy(output); }
 
 //------------------------------------------------------------------------------
-void LastImage::Drop() { this->Picture->Initialize(); }
+void LastImage::Drop() { this->Image->Initialize(); }
 
 //------------------------------------------------------------------------------
 void LastImage::Show(vtkImageData* output, const int promised[6])
 {
-  output->ShallowCopy(this->Picture);
-  const int* has = this->Picture->GetDimensions();
+  output->ShallowCopy(this->Image);
+  const int* has = this->Image->GetDimensions();
   const int wants[2] = { promised[1] - promised[0] + 1, promised[3] - promised[2] + 1 };
   if (!this->IsThere() || std::equal(wants, wants + 2, has) || wants[0] < 1 || wants[1] < 1)
   {
@@ -39,8 +39,8 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
   }
   // The same borders.
   double origin[3], spacing[3];
-  this->Picture->GetOrigin(origin);
-  this->Picture->GetSpacing(spacing);
+  this->Image->GetOrigin(origin);
+  this->Image->GetSpacing(spacing);
   for (int axis = 0; axis < 2; ++axis)
   {
     const double before = spacing[axis];
@@ -59,7 +59,7 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
     const vtkIdType row = (2 * (pixel / wants[0]) + 1) * has[1] / (2 * vtkIdType{ wants[1] });
     from[static_cast<std::size_t>(pixel)] = row * has[0] + column;
   }
-  vtkPointData* source = this->Picture->GetPointData();
+  vtkPointData* source = this->Image->GetPointData();
   vtkPointData* arrays = output->GetPointData();
   arrays->Initialize();
   arrays->CopyAllOn();
@@ -81,7 +81,7 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
     }
     tellRanges(array);
   }
-  this->Picture->ShallowCopy(output); // the next slice will want the same
+  this->Image->ShallowCopy(output); // the next slice will want the same
 }
 
 } // namespace filters

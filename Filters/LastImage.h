@@ -23,7 +23,7 @@ public:
   void Show(vtkImageData* output, const int promised[6]);
 
 private:
-  vtkNew<vtkImageData> Picture;
+  vtkNew<vtkImageData> Image;
 };
 
 } // namespace filters

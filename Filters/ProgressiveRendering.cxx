@@ -79,7 +79,7 @@ bool vtkSchlierenFilter::RefineOnRank0()
 void vtkSchlierenFilter::Stop()
 {
   Internals& inside = *this->Inside;
-  if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfPicture())
+  if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfImage())
   {
     inside.StoppedOf = std::exchange(inside.UnfinishedOf, 0);
   }
@@ -88,7 +88,7 @@ void vtkSchlierenFilter::Stop()
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::GetStopped()
 {
-  return this->Inside->StoppedOf != 0 && this->Inside->StoppedOf == this->GetTimeOfPicture();
+  return this->Inside->StoppedOf != 0 && this->Inside->StoppedOf == this->GetTimeOfImage();
 }
 
 //------------------------------------------------------------------------------
@@ -103,7 +103,7 @@ bool vtkSchlierenFilter::WorkOn()
 {
   Internals& inside = *this->Inside;
   this->PassToMedium();
-  const vtkMTimeType now = this->GetTimeOfPicture();
+  const vtkMTimeType now = this->GetTimeOfImage();
   const bool goesOn = inside.UnfinishedOf == now;
   if (goesOn && inside.Ready)
   {
@@ -115,7 +115,7 @@ bool vtkSchlierenFilter::WorkOn()
     {
       schlieren::Monitor monitor;
       monitor.progress = [&inside](double done) { inside.Done = done; };
-      schlieren::Image image = goesOn ? inside.Pictures.GoOn(this->TimeLimit, monitor)
+      schlieren::Image image = goesOn ? inside.Images.GoOn(this->TimeLimit, monitor)
                                       : this->Begin(false, this->TimeLimit, monitor);
       inside.UnfinishedOf = now;
       if (!image.finished && image.intensity.empty())
@@ -128,7 +128,7 @@ bool vtkSchlierenFilter::WorkOn()
     }
     catch (const std::exception&) // an update begins again, and says it
     {
-      inside.Pictures.GiveUp();
+      inside.Images.GiveUp();
       inside.UnfinishedOf = 0;
       return true;
     }
@@ -141,7 +141,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
 {
   Internals& inside = *this->Inside;
   return !(this->ExposureTime > 0) && inside.ShownOf != 0 && inside.ShownOf != now &&
-    inside.FailedAt != now && inside.Shown[PICTURE_PORT].IsThere() &&
+    inside.FailedAt != now && inside.Shown[IMAGE_PORT].IsThere() &&
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
       describeInputs(this, inside.Ranks, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
@@ -163,7 +163,7 @@ bool vtkSchlierenFilter::GetFinished() { return this->Inside->UnfinishedOf == 0;
 bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
-  return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfPicture() &&
+  return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
     inside.holdsRefractivityOf(
       describeInputs(this, inside.Ranks, input, bodies), this->Medium, this->ColorByField);
 }
@@ -190,10 +190,10 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   ready.reset();
   if (goesOn)
   {
-    return this->Show(inside.Pictures.GoOn(this->TimeLimit, monitor), output, histogram);
+    return this->Show(inside.Images.GoOn(this->TimeLimit, monitor), output, histogram);
   }
 
-  const LastImage& shown = inside.Shown[PICTURE_PORT];
+  const LastImage& shown = inside.Shown[IMAGE_PORT];
   const bool isColored = this->ColorByField || this->HasOwnColor();
   if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
   {
@@ -254,7 +254,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
                                                  : this->KeptAmbient();
   inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
-  schlieren::Scene scene = sceneFrom(*this, field.grid, inside.RgbPictures);
+  schlieren::Scene scene = sceneFrom(*this, field.grid, inside.RgbImages);
   addObjects(scene, this->GradedFilter, this->Medium);
   if (inside.FirstInstant && choosesK(*this))
   {
@@ -275,7 +275,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
-  return inside.Pictures.Begin(field, scene, seconds, monitor);
+  return inside.Images.Begin(field, scene, seconds, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -293,7 +293,7 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
     while (steps.IsBefore(instant))
     {
       steps.GoOn();
-      inside.Pictures.SetWorkers(steps.GetMeeting().GetWorkers());
+      inside.Images.SetWorkers(steps.GetMeeting().GetWorkers());
       steps.Keep();
     }
     const auto input = steps.GetData(0, instant);
@@ -332,7 +332,7 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
 void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
 {
   Internals& inside = *this->Inside;
-  if (!inside.Pictures.GetScene().kScale && image.kScale > 0)
+  if (!inside.Images.GetScene().kScale && image.kScale > 0)
   {
     inside.KLock.Found(image.kScale);
   }
@@ -347,21 +347,21 @@ bool vtkSchlierenFilter::Show(
   schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram)
 {
   Internals& inside = *this->Inside;
-  inside.UnfinishedOf = image.finished || image.aborted ? 0 : this->GetTimeOfPicture();
+  inside.UnfinishedOf = image.finished || image.aborted ? 0 : this->GetTimeOfImage();
   if (image.aborted)
   {
     return false;
   }
-  inside.ShownOf = this->GetTimeOfPicture();
+  inside.ShownOf = this->GetTimeOfImage();
   if (image.intensity.empty()) // no more samples than before
   {
     return true;
   }
-  const schlieren::Scene& scene = inside.Pictures.GetScene();
+  const schlieren::Scene& scene = inside.Images.GetScene();
   const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
   if (isWhole) // of a preview the whole image will say it
   {
-    for (const std::string& warning : inside.Pictures.GetWarnings(image))
+    for (const std::string& warning : inside.Images.GetWarnings(image))
     {
       vtkWarningMacro(<< warning);
     }
@@ -372,7 +372,7 @@ bool vtkSchlierenFilter::Show(
   }
   const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
-  this->Status = (isWhole ? "" : "Preview: ") + inside.Pictures.GetStatus(image) +
+  this->Status = (isWhole ? "" : "Preview: ") + inside.Images.GetStatus(image) +
     (inside.Exposure.IsNone() ? "" : ", " + inside.Exposure.GetWords()) +
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
@@ -405,7 +405,7 @@ bool vtkSchlierenFilter::Show(
   }
   addGrid(output, this->GetGrid(), inside.Refractivity->Image);
   setHistogram(histogram, image.histogram);
-  inside.Shown[PICTURE_PORT].Keep(output);
+  inside.Shown[IMAGE_PORT].Keep(output);
   inside.Shown[HISTOGRAM_PORT].Keep(histogram);
   return true;
 }

@@ -17,7 +17,7 @@
 /// coarser level (fourth degree, one axis after the other). So a block meets its neighbours as if they were
 /// one grid. Values are taken for the means over their cells, as finite volumes have them: taken for values
 /// at the centres, they would differ from level to level, by 1/24 of the second derivative and of the
-/// difference of the squared edges, and so print the borders of the levels into a picture.
+/// difference of the squared edges, and so print the borders of the levels into an image.
 ///
 /// Hidden cells and NaN are solid and never interpolated from; cells under refined ones are not solid.
 namespace filters

@@ -5,7 +5,7 @@
 #include "GasChoices.h"
 #include "Preview.h"
 #include "RealOptics.h"
-#include "RgbPictures.h"
+#include "RgbImages.h"
 #include "SchlierenSettings.h"
 
 #include "vtkPiecewiseFunction.h"
@@ -59,7 +59,7 @@ static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
   sameValue(Self::DISC, schlieren::SourceShape::Disc));
 static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
   sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
-  sameValue(Self::PICTURE, schlieren::PatternKind::Picture));
+  sameValue(Self::PICTURE, schlieren::PatternKind::Image));
 static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
   sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
 static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
@@ -83,8 +83,7 @@ schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schliere
   return fringes;
 }
 
-schlieren::BackgroundPattern backgroundFrom(
-  const OpticsSettings& settings, RgbPictureReader& pictures)
+schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbImageReader& images)
 {
   schlieren::BackgroundPattern pattern;
   pattern.kind = static_cast<schlieren::PatternKind>(settings.BackgroundPattern);
@@ -94,7 +93,7 @@ schlieren::BackgroundPattern backgroundFrom(
   }
   pattern.period = settings.BackgroundPeriod;
   pattern.angle = settings.BackgroundAngle;
-  if (pattern.kind == schlieren::PatternKind::Picture)
+  if (pattern.kind == schlieren::PatternKind::Image)
   {
     if (settings.BackgroundImage.empty())
     {
@@ -102,7 +101,7 @@ schlieren::BackgroundPattern backgroundFrom(
         "BackgroundImage is empty, so there is no image behind the flow. Give "
         "the name of one, or set BackgroundPattern to Dots or Stripes.");
     }
-    pattern.picture = pictures.read("BackgroundImage", settings.BackgroundImage);
+    pattern.image = images.read("BackgroundImage", settings.BackgroundImage);
   }
   return pattern;
 }
@@ -157,7 +156,7 @@ int threadsFrom(const ResourceSettings& settings)
 
 //------------------------------------------------------------------------------
 schlieren::Scene sceneFrom(
-  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbPictureReader& pictures)
+  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images)
 {
   schlieren::Scene scene;
   scene.view = viewFrom(settings);
@@ -173,7 +172,7 @@ schlieren::Scene sceneFrom(
   }
   if (scene.cutoff == schlieren::Cutoff::ColorFilter && !settings.ColorFilterImage.empty())
   {
-    scene.colorFilter = pictures.read("ColorFilterImage", settings.ColorFilterImage);
+    scene.colorFilter = images.read("ColorFilterImage", settings.ColorFilterImage);
   }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes)
   {
@@ -182,7 +181,7 @@ schlieren::Scene sceneFrom(
   }
   if (schlieren::isOfCamera(scene.cutoff))
   {
-    scene.background = backgroundFrom(settings, pictures);
+    scene.background = backgroundFrom(settings, images);
   }
   if (!(settings.ScreenDistance < 0)) // NaN too, which the core then reports
   {

@@ -12,14 +12,14 @@ struct SchlierenSettings;
 namespace filters
 {
 
-class RgbPictureReader;
+class RgbImageReader;
 
 /// What the settings say, as the tracer wants it. Checked is only what is converted here: the rest the tracer does.
 /// Throws std::runtime_error with a message for the user.
 
 /// All but what comes from objects. `grid` is that of the medium.
 schlieren::Scene sceneFrom(
-  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbPictureReader& pictures);
+  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images);
 
 /// What comes from objects, where the scene needs it: the graded filter (null: a straight line), and the dispersion of
 /// white light. The colours of fields are apart.

@@ -4,7 +4,7 @@
 
 #include "LastImage.h"
 #include "Ranks.h"
-#include "RgbPictures.h"
+#include "RgbImages.h"
 #include "SensitivityLock.h"
 #include "SharedRefractivity.h"
 #include "TimeExposure.h"
@@ -36,12 +36,12 @@ struct vtkSchlierenFilter::Internals
       : Of(internals)
       , Medium(medium)
     {
-      this->Of.Pictures.SetWorkers(meeting.GetWorkers());
+      this->Of.Images.SetWorkers(meeting.GetWorkers());
       this->Medium->SetPieceChannels(meeting.GetChannels());
     }
     ~WithWorkers()
     {
-      this->Of.Pictures.SetWorkers({});
+      this->Of.Images.SetWorkers({});
       this->Medium->SetPieceChannels({});
     }
     WithWorkers(const WithWorkers&) = delete;
@@ -53,9 +53,9 @@ struct vtkSchlierenFilter::Internals
   };
 
   filters::FilterRanks Ranks;
-  filters::TimeSlicedImage Pictures;
+  filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output
-  filters::RgbPictureReader RgbPictures;
+  filters::RgbImageReader RgbImages;
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // what a source was divided into
 

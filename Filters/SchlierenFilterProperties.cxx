@@ -174,7 +174,7 @@ bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgro
       return true;
     case schlieren::Coloring::InWhiteLight:
       return whiteLight;
-    case schlieren::Coloring::OfBackgroundPicture:
+    case schlieren::Coloring::OfBackgroundImage:
       return backgroundPattern == PICTURE;
     case schlieren::Coloring::None:
       break;
@@ -262,13 +262,13 @@ const char* vtkSchlierenFilter::GetGrid() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()
 {
-  return this->Inside->Pictures.GetBench().work().mediumBuilds;
+  return this->Inside->Images.GetBench().work().mediumBuilds;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 {
-  return this->Inside->Pictures.GetBench().work().raysTraced;
+  return this->Inside->Images.GetBench().work().raysTraced;
 }
 
 //------------------------------------------------------------------------------

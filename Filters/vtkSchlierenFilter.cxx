@@ -150,7 +150,7 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfProperties()
 }
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkSchlierenFilter::GetTimeOfPicture()
+vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 {
   return std::max({ this->GetTimeOfProperties(), upstreamTime(this, 0),
     upstreamTime(this, vtkRefractiveIndex::BODIES) });
@@ -425,7 +425,7 @@ int vtkSchlierenFilter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   Internals& inside = *this->Inside;
-  vtkImageData* output = vtkImageData::GetData(outputVector, PICTURE_PORT);
+  vtkImageData* output = vtkImageData::GetData(outputVector, IMAGE_PORT);
   vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
   histogram->Initialize();
@@ -437,7 +437,7 @@ int vtkSchlierenFilter::RequestData(
   inside.Instant = 0;
   inside.FirstInstant.reset();
   // An empty output lets the pipeline ask again and again, on rank 0 alone: one message is enough.
-  const vtkMTimeType now = this->GetTimeOfPicture();
+  const vtkMTimeType now = this->GetTimeOfImage();
   if (inside.FailedAt == now)
   {
     return 1;
@@ -507,7 +507,7 @@ int vtkSchlierenFilter::RequestData(
     vtkDataObject* bodies = inputs.bodies;
     if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
     {
-      this->ForgetPicture();
+      this->ForgetImage();
       this->Status = noIndexYet;
       return 1;
     }
@@ -543,23 +543,23 @@ int vtkSchlierenFilter::RequestData(
     vtkErrorMacro(<< problem.what());
   }
   const bool isStopped = this->TimeLimit > 0 && this->GetAbortExecute() && inside.FailedAt != now;
-  this->ForgetPicture();
+  this->ForgetImage();
   output->Initialize();
   histogram->Initialize();
   if (isStopped)
   {
-    inside.FailedAt = inside.StoppedOf = this->GetTimeOfPicture(); // later than `now` by the abort
+    inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
     this->Status = isExposure ? "No image: the exposure was stopped" : noIndexYet;
   }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::ForgetPicture()
+void vtkSchlierenFilter::ForgetImage()
 {
   Internals& inside = *this->Inside;
   inside.UnfinishedOf = 0;
-  inside.Pictures.GiveUp();
+  inside.Images.GiveUp();
   inside.Ready.reset();
   inside.DropShown();
   this->KScaleUsed = 0;

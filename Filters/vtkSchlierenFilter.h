@@ -147,7 +147,7 @@ public:
 
   enum OutputPorts
   {
-    PICTURE_PORT = 0,
+    IMAGE_PORT = 0,
     HISTOGRAM_PORT = 1
   };
 
@@ -959,7 +959,7 @@ private:
   void UpdateFieldGradients(vtkDataObject* input);
   /// The newest time of all properties, Refine() apart, and of those and everything upstream.
   vtkMTimeType GetTimeOfProperties();
-  vtkMTimeType GetTimeOfPicture();
+  vtkMTimeType GetTimeOfImage();
   /// Whether an update has only to resume the image that is not finished.
   bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
@@ -970,7 +970,7 @@ private:
   bool WorkOn();
   /// Refine() there. Whether the next update has more to show.
   bool RefineOnRank0();
-  /// Whether a new image can be begun between updates, `now` being GetTimeOfPicture().
+  /// Whether a new image can be begun between updates, `now` being GetTimeOfImage().
   bool CanBegin(vtkMTimeType now);
   /// What is kept from an earlier image: the automatic k, and the refractivity of the surroundings. Unset where there is
   /// none, or none counts.
@@ -988,7 +988,7 @@ private:
   bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
   /// Hands out what there is of an image, where there is anything new. False if aborted.
   bool Show(schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram);
-  void ForgetPicture();
+  void ForgetImage();
 
   vtkNew<vtkRefractiveIndex> Medium;
   std::unique_ptr<Internals> Inside;

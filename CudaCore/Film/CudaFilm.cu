@@ -432,7 +432,7 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
 RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
 {
   const auto fetch = [](void* to, const void* from, std::size_t bytes)
-  { checkCuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the picture"); };
+  { checkCuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the image"); };
   if (memory_->samples)
   {
     memory_->samples->develop(*films.samples, means); // overwritten below

@@ -12,7 +12,7 @@
 namespace schlieren
 {
 
-/// A picture that is summed up on the CUDA device, from rays that lie there. Not a bit differs from
+/// An image that is summed up on the CUDA device, from rays that lie there. Not a bit differs from
 /// that of expose() and PixelMeans: sums of light are whole numbers, and each pixel's means are added up in
 /// the order of the passes. Throws DeviceError.
 class CudaFilm

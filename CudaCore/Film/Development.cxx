@@ -42,14 +42,14 @@ PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, 
 
 void filterNoise(const PixelArray<float>& samples, const Scene& scene, Image& image)
 {
-  for (PixelArray<float>* picture : { &image.intensity, &image.color })
+  for (PixelArray<float>* pixels : { &image.intensity, &image.color })
   {
-    *picture = filtered(std::move(*picture), scene.view.width, scene.view.height, scene.noiseFilter,
+    *pixels = filtered(std::move(*pixels), scene.view.width, scene.view.height, scene.noiseFilter,
       scene.noiseFilterRadius, samples, scene.threads);
   }
 }
 
-bool UndisturbedPicture::addPass(const Monitor& monitor)
+bool UndisturbedImage::addPass(const Monitor& monitor)
 {
   const std::int64_t margin = exposure_.margin;
   Pass pass{ -margin, -margin, scene_.view.width + 2 * margin, scene_.view.height + 2 * margin,
@@ -66,7 +66,7 @@ bool UndisturbedPicture::addPass(const Monitor& monitor)
   return nextRow_ == 0;
 }
 
-PixelArray<float> UndisturbedPicture::develop() const
+PixelArray<float> UndisturbedImage::develop() const
 {
   Image image;
   filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);

@@ -20,14 +20,14 @@ namespace schlieren
 Films filmsOf(
   const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t mostRays);
 
-/// Makes of the films of some passes the picture: its light, intensity and colour. Returns what filterNoise wants
+/// Makes of the films of some passes the image: its light, intensity and colour. Returns what filterNoise wants
 /// to know: the samples of each pixel, where they are counted.
 PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, Image& image);
 
 /// Takes the noise out of intensity and colour.
 void filterNoise(const PixelArray<float>& samples, const Scene& scene, Image& image);
 
-/// How rays come onto films; the same for all passes of a picture.
+/// How rays come onto films; the same for all passes of an image.
 struct Exposure
 {
   Cutoffs cutoff;
@@ -37,12 +37,12 @@ struct Exposure
 };
 
 /// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the
-/// picture, so that where the flow bends nothing either no bit differs.
-class UndisturbedPicture
+/// image, so that where the flow bends nothing either no bit differs.
+class UndisturbedImage
 {
 public:
   /// The scene's stay with their owner.
-  UndisturbedPicture(const Scene& scene, const Exposure& exposure)
+  UndisturbedImage(const Scene& scene, const Exposure& exposure)
     : scene_(scene)
     , exposure_(exposure)
   {

@@ -62,34 +62,34 @@ LightBalance Films::balance(double raysPerPixel) const
 
 PixelArray<float> Films::developIntensity(double raysPerPixel, int threads) const
 {
-  PixelArray<float> picture = planes[0].develop(raysPerPixel, threads);
+  PixelArray<float> image = planes[0].develop(raysPerPixel, threads);
   if (planes.size() == 3)
   {
     const PixelArray<float> green = planes[1].develop(raysPerPixel, threads);
     const PixelArray<float> blue = planes[2].develop(raysPerPixel, threads);
-    for (std::size_t pixel = 0; pixel < picture.size(); ++pixel)
+    for (std::size_t pixel = 0; pixel < image.size(); ++pixel)
     {
-      picture[pixel] = static_cast<float>(luminance[0] * static_cast<double>(picture[pixel]) +
+      image[pixel] = static_cast<float>(luminance[0] * static_cast<double>(image[pixel]) +
         luminance[1] * static_cast<double>(green[pixel]) +
         luminance[2] * static_cast<double>(blue[pixel]));
     }
   }
-  return picture;
+  return image;
 }
 
 PixelArray<float> Films::developColor(double raysPerPixel, int threads) const
 {
-  PixelArray<float> picture(3 * planes[0].pixels());
+  PixelArray<float> image(3 * planes[0].pixels());
   for (std::size_t channel = 0; channel < 3; ++channel)
   {
     const Film& film = planes[planes.size() - 3 + channel];
     const PixelArray<float> light = film.develop(raysPerPixel, threads);
     for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
     {
-      picture[3 * pixel + channel] = light[pixel];
+      image[3 * pixel + channel] = light[pixel];
     }
   }
-  return picture;
+  return image;
 }
 
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,

@@ -18,8 +18,8 @@
 namespace schlieren
 {
 
-/// The films of a picture: of one for light, or of three for linear red, green and blue. Where fields tint a
-/// picture of one, three more hold its colours.
+/// The films of an image: of one for light, or of three for linear red, green and blue. Where fields tint a
+/// image of one, three more hold its colours.
 struct Films
 {
   /// `channels` of the cutoff, 1 or 3. `tint`: unset where nothing tints.
@@ -27,9 +27,9 @@ struct Films
 
   bool isColored() const { return planes.size() > 1; }
 
-  /// One value per pixel; of a picture in colour, its luminance.
+  /// One value per pixel; of an image in colour, its luminance.
   PixelArray<float> developIntensity(double raysPerPixel, int threads) const;
-  /// Of that picture's light; `raysPerPixel` as above.
+  /// Of that image's light; `raysPerPixel` as above.
   LightBalance balance(double raysPerPixel) const;
   /// Three values per pixel.
   PixelArray<float> developColor(double raysPerPixel, int threads) const;
@@ -47,7 +47,7 @@ struct RayCounts
   std::int64_t steps = 0;
   std::int64_t blocked = 0;
   std::int64_t lost = 0;      ///< trapped or turned
-  std::int64_t shaded = 0;    ///< started in the picture and reach the film
+  std::int64_t shaded = 0;    ///< started in the image and reach the film
   std::int64_t saturated = 0; ///< of these, by their cutoff
 
   SCHLIEREN_HD void add(const RayExit& exit)
@@ -59,7 +59,7 @@ struct RayCounts
       ++(exit.fate == RayFate::Blocked ? blocked : lost);
     }
   }
-  /// Of a ray that starts in the picture.
+  /// Of a ray that starts in the image.
   template <class CutoffKind>
   SCHLIEREN_HD void addShaded(const RayExit& exit, const CutoffKind& cutoff)
   {
@@ -85,7 +85,7 @@ struct RayCounts
   }
 };
 
-/// Adds to the films the light of rays that start in the picture or up to `margin` pixels around it; their
+/// Adds to the films the light of rays that start in the image or up to `margin` pixels around it; their
 /// passes cover that.
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
   const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,

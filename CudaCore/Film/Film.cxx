@@ -47,17 +47,17 @@ void Film::add(std::int64_t row, std::int64_t column, const std::int64_t* light,
 
 PixelArray<float> Film::develop(double raysPerPixel, int threads) const
 {
-  PixelArray<float> picture(pixels_.size());
+  PixelArray<float> image(pixels_.size());
   const double scale = 1 / (one_ * raysPerPixel);
   constexpr std::int64_t pixelsPerPiece = 1 << 15;
   parallelFor(static_cast<std::int64_t>(pixels_.size()), pixelsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      std::transform(pixels_.begin() + begin, pixels_.begin() + end, picture.data() + begin,
+      std::transform(pixels_.begin() + begin, pixels_.begin() + end, image.data() + begin,
         [scale](std::int64_t light)
         { return static_cast<float>(static_cast<double>(light) * scale); });
     });
-  return picture;
+  return image;
 }
 
 FilmBand::FilmBand(Film& film)
@@ -83,7 +83,7 @@ void FilmBand::cover(std::int64_t lowest, std::int64_t highest)
   if (!isCovered && !isAllOfUse)
   {
     merge();
-    // Rays mostly go up the picture, and some come back a little.
+    // Rays mostly go up the image, and some come back a little.
     first_ = lowest - std::clamp<std::int64_t>(spare / 4, 0, 8);
     begin_ = end_ = lowest;
   }

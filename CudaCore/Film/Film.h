@@ -21,7 +21,7 @@ struct LightSums
   std::int64_t outside = 0;
 };
 
-/// The picture being summed up, by several threads at once: each adds to a FilmBand of its own.
+/// The image being summed up, by several threads at once: each adds to a FilmBand of its own.
 class Film
 {
 public:

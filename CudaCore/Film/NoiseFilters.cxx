@@ -91,7 +91,7 @@ private:
 };
 
 /// The radius of the smallest disc around a place that holds `wanted` samples: where samples s(r) for each of
-/// its pixels in the picture make pi r^2 s(r) = wanted.
+/// its pixels in the image make pi r^2 s(r) = wanted.
 double coneRadius(const Neighbourhood& place, const std::vector<Neighbour>& neighbours,
   const PixelArray<float>& samples, double wanted)
 {
@@ -130,18 +130,18 @@ bool countsSamples(NoiseFilter filter, double radius)
   return filter == NoiseFilter::Cone && filtersNoise(filter, radius);
 }
 
-PixelArray<float> filtered(PixelArray<float> picture, int width, int height, NoiseFilter filter,
+PixelArray<float> filtered(PixelArray<float> image, int width, int height, NoiseFilter filter,
   double radius, const PixelArray<float>& samples, int threads)
 {
-  if (!filtersNoise(filter, radius) || picture.empty())
+  if (!filtersNoise(filter, radius) || image.empty())
   {
-    return picture;
+    return image;
   }
   const bool isCone = filter == NoiseFilter::Cone;
   const std::vector<Neighbour> neighbours = neighboursOf(filter, radius);
   const std::size_t channels =
-    picture.size() / (static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  PixelArray<float> result(picture.size());
+    image.size() / (static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  PixelArray<float> result(image.size());
   constexpr std::int64_t rowsPerPiece = 8;
   parallelFor(height, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
@@ -166,7 +166,7 @@ PixelArray<float> filtered(PixelArray<float> picture, int width, int height, Noi
             {
               const double weight =
                 isCone && reach > 0 ? 1 - neighbour.distance / reach : neighbour.weight;
-              const float* light = picture.data() + channels * place.of(neighbour);
+              const float* light = image.data() + channels * place.of(neighbour);
               weights += weight;
               for (std::size_t channel = 0; channel < channels; ++channel)
               {

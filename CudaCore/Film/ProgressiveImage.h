@@ -72,7 +72,7 @@ private:
   std::vector<TracedRays> waiting_; ///< not in means_ yet
   std::int64_t passes_ = 0;
   std::int64_t nextRow_ = 0; ///< of the pass that is being added
-  std::optional<UndisturbedPicture> undisturbed_;
+  std::optional<UndisturbedImage> undisturbed_;
 };
 
 } // namespace schlieren

@@ -35,13 +35,13 @@ public:
     const std::int64_t first = pass.rayOf(-margin_, row - margin_);
     const double startColumn = static_cast<double>(-margin_) + pass.pass.offset.column;
     const double startRow = static_cast<double>(row - margin_) + pass.pass.offset.row;
-    const bool isRowOfPicture = row >= margin_ && row < this->rows - margin_;
+    const bool isRowOfImage = row >= margin_ && row < this->rows - margin_;
     RowRange lands;
     for (std::int64_t i = 0; i < this->columns; ++i)
     {
       const RayExit& exit = pass.exits[first + i];
       counts.add(exit);
-      if (isRowOfPicture && i >= margin_ && i < this->columns - margin_)
+      if (isRowOfImage && i >= margin_ && i < this->columns - margin_)
       {
         counts.addShaded(exit, cutoff_);
       }

@@ -12,7 +12,7 @@
 namespace schlieren
 {
 
-/// From where rays leave the grid to the film. The film's coordinates are those of the picture in the middle
+/// From where rays leave the grid to the film. The film's coordinates are those of the image in the middle
 /// of the data, so that undisturbed light is where it was there, however much larger it has become.
 struct Projection
 {
@@ -21,7 +21,7 @@ struct Projection
   double pathPerDataUnit;                 ///< optical path of undisturbed light, metres
   Inclination inclination{ { 0, 0 }, 0 }; ///< of the light
   double perSourceDistance = 0; ///< 1 / from the source to the film, by data unit; 0: collimated
-  bool isOfCamera = false; ///< rays come from the picture: their light belongs to where they start
+  bool isOfCamera = false; ///< rays come from the image: their light belongs to where they start
 };
 
 /// Whether what the film shows of a ray has come through the medium. All that a camera sees counts as such: its
@@ -49,7 +49,7 @@ struct FilmShift
   double longer = 0; ///< than the undisturbed light's path to this place, data units
 };
 
-/// Of a ray that starts at (column, row) of the picture, with the exit's deflection and displacement.
+/// Of a ray that starts at (column, row) of the image, with the exit's deflection and displacement.
 SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displacement)[2],
   double column, double row, const double (&tilt)[2], const Projection& projection)
 {
@@ -92,8 +92,8 @@ SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displac
   return shift;
 }
 
-/// A ray that starts at (column, row) of the picture and reaches the film, there. The camera's lens makes all
-/// paths from a point in focus to its picture equal, so that the path on the film is that to this point.
+/// A ray that starts at (column, row) of the image and reaches the film, there. The camera's lens makes all
+/// paths from a point in focus to its image equal, so that the path on the film is that to this point.
 SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
   const double (&tilt)[2], const Projection& projection)
 {

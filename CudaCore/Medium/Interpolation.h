@@ -108,7 +108,7 @@ SCHLIEREN_HD Sample<Real> tensorProduct(const MediumView<Real>& m, const Real* c
 //   weights    of the value (w) and of the derivative (d); Real is a number or a pack of numbers
 
 /// Quadratic B-spline (Unser, Aldroubi & Eden 1993): the derivative is continuous, so that no cell
-/// boundary shows in a schlieren picture.
+/// boundary shows in a schlieren image.
 struct QuadraticInterpolation
 {
   static constexpr int points = 3;

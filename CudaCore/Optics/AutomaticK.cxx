@@ -20,7 +20,7 @@ double strongDeflection(const Spread& squares, const DeflectionErrors& errors)
   double typical = std::sqrt(squares.percentile);
   if (!(typical > errors.rounding))
   {
-    // Light is bent in less than a hundredth of the picture, if at all.
+    // Light is bent in less than a hundredth of the image, if at all.
     typical = largest;
   }
   typical =

@@ -38,9 +38,9 @@ struct ColorWheel
   SCHLIEREN_HD bool saturates(const double (&eps)[2]) const { return distanceFromAxis(k, eps) > 1; }
 };
 
-/// A picture in the cutoff plane, whose edges are where a component of k eps is -1 or 1. Linear between the
+/// An image in the cutoff plane, whose edges are where a component of k eps is -1 or 1. Linear between the
 /// centres of its pixels; beyond them the colour of the edge.
-struct ColorPicture
+struct ColorImage
 {
   static constexpr int channels = 3;
 

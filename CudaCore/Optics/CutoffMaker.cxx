@@ -36,11 +36,10 @@ Cutoffs CutoffMaker::patternOf(const Scene& scene, double pixelSize)
   const double centre[2] = { 0.5 * (view.width - 1), 0.5 * (view.height - 1) };
   switch (pattern.kind)
   {
-    case PatternKind::Picture:
+    case PatternKind::Image:
     {
-      const RgbPicture& picture = *pattern.picture;
-      return BackgroundPicture{ { 1, picture.width, picture.height,
-                                  linearPicture(pattern.picture) },
+      const RgbImage& image = *pattern.image;
+      return BackgroundImage{ { 1, image.width, image.height, linearImage(pattern.image) },
         2. / view.width, 2. / view.height };
     }
     case PatternKind::Stripes:
@@ -64,10 +63,10 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
   }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
   {
-    const RgbPicture& picture = *scene.colorFilter;
-    return ColorPicture{ k, picture.width, picture.height, linearPicture(scene.colorFilter) };
+    const RgbImage& image = *scene.colorFilter;
+    return ColorImage{ k, image.width, image.height, linearImage(scene.colorFilter) };
   }
-  picture_.reset();
+  image_.reset();
   const CutoffAxis axis = CutoffAxis::at(scene.knifeEdgeAngle, k, scene.cutoffOffset);
   switch (scene.cutoff)
   {
@@ -116,15 +115,15 @@ Cutoffs CutoffMaker::interferogram(const Scene& scene, double pixelSize)
   return WhiteLightTable{ { table_.data(), table_.size() }, carrier, scene.wavelength };
 }
 
-Table CutoffMaker::linearPicture(const std::shared_ptr<const RgbPicture>& picture)
+Table CutoffMaker::linearImage(const std::shared_ptr<const RgbImage>& image)
 {
-  if (picture_ != picture)
+  if (image_ != image)
   {
     static const std::array<float, 256> linear = linearValues<256>();
-    table_.resize(picture->rgb.size());
-    std::transform(picture->rgb.begin(), picture->rgb.end(), table_.begin(),
+    table_.resize(image->rgb.size());
+    std::transform(image->rgb.begin(), image->rgb.end(), table_.begin(),
       [](unsigned char value) { return linear[value]; });
-    picture_ = picture;
+    image_ = image;
   }
   return { table_.data(), table_.size() };
 }

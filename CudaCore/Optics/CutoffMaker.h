@@ -26,10 +26,10 @@ public:
 private:
   Cutoffs patternOf(const Scene& scene, double pixelSize);
   Cutoffs interferogram(const Scene& scene, double pixelSize);
-  Table linearPicture(const std::shared_ptr<const RgbPicture>& picture);
+  Table linearImage(const std::shared_ptr<const RgbImage>& image);
 
   std::vector<float> table_;
-  std::shared_ptr<const RgbPicture> picture_; ///< that table_ was made of, or null
+  std::shared_ptr<const RgbImage> image_; ///< that table_ was made of, or null
 };
 
 } // namespace schlieren

@@ -30,9 +30,9 @@ std::optional<double> meanOf(const Kind& kind)
     ? std::optional(0.5)
     : std::nullopt;
 }
-std::optional<double> meanOf(const BackgroundPicture& kind)
+std::optional<double> meanOf(const BackgroundImage& kind)
 {
-  const Table& table = kind.picture.linear;
+  const Table& table = kind.image.linear;
   double sum = 0;
   for (std::size_t i = 0; i + 2 < table.size; i += 3)
   {

@@ -17,7 +17,7 @@
 namespace schlieren
 {
 
-/// No cutoff at all: every ray counts in full, and where rays land makes the picture.
+/// No cutoff at all: every ray counts in full, and where rays land makes the image.
 struct Shadowgraph
 {
   static constexpr int channels = 1;
@@ -30,7 +30,7 @@ struct Shadowgraph
 /// green and blue.
 using Cutoffs =
   std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter, ColorWheel,
-    ColorPicture, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes, BackgroundPicture>;
+    ColorImage, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes, BackgroundImage>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {
@@ -41,8 +41,8 @@ inline int channelsOf(const Cutoffs& cutoff)
 inline Table* tableOf(GradedFilter& kind) { return &kind.table; }
 inline Table* tableOf(ColorWheel& kind) { return &kind.linear; }
 inline Table* tableOf(WhiteLightTable& kind) { return &kind.colors; }
-inline Table* tableOf(ColorPicture& kind) { return &kind.linear; }
-inline Table* tableOf(BackgroundPicture& kind) { return &kind.picture.linear; }
+inline Table* tableOf(ColorImage& kind) { return &kind.linear; }
+inline Table* tableOf(BackgroundImage& kind) { return &kind.image.linear; }
 template <class Kind>
 Table* tableOf(Kind&)
 {

@@ -18,7 +18,7 @@ namespace
 
 constexpr int exponentAtRest = -20;
 
-/// Calls use(exit) for the rays of some rows of a picture that reach the film.
+/// Calls use(exit) for the rays of some rows of an image that reach the film.
 template <class Use>
 void forEachDeflection(const TracedRays& rays, std::int64_t firstRow, std::int64_t endRow,
   std::int64_t width, const Use& use)

@@ -13,7 +13,7 @@
 namespace schlieren
 {
 
-/// Counts the rays of a picture by their deflection, pass by pass. Its range is the smallest power of two
+/// Counts the rays of an image by their deflection, pass by pass. Its range is the smallest power of two
 /// above all components: so bins merge two by two where it has to grow, and the counts are the same
 /// whichever way passes come.
 class DeflectionHistogram
@@ -28,7 +28,7 @@ public:
   int size() const { return size_; }
   int passes() const { return passes_; } ///< that have been added
 
-  /// Adds the rays of a pass that start in the picture and reach the film.
+  /// Adds the rays of a pass that start in the image and reach the film.
   void add(const TracedRays& rays, int width, int height, int threads);
   /// The same of rays on the device, where they are counted. Throws DeviceError.
   void add(const CudaPass& rays, const Pass& pass, int width, int height);

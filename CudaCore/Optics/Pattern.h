@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is behind the flow of a background-oriented schlieren picture (Meier 2002; Richard & Raffel 2001). A
+// What is behind the flow of a background-oriented schlieren image (Meier 2002; Richard & Raffel 2001). A
 // camera's ray brings the light of the place where it meets the pattern.
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace schlieren
 {
 
-/// How much of a pattern a picture can show: all from four pixels a period on, nothing below two, where it
+/// How much of a pattern an image can show: all from four pixels a period on, nothing below two, where it
 /// would look like another one (aliasing).
 SCHLIEREN_HD double patternContrast(double period) { return limited(0.5 * (period - 2)); }
 
@@ -27,7 +27,7 @@ struct Dots
 {
   static constexpr int channels = 1;
 
-  double centre[2]; ///< of the picture, pixels; a corner of cells
+  double centre[2]; ///< of the image, pixels; a corner of cells
   double period;    ///< edge of a cell, pixels
   std::uint32_t seed;
 
@@ -87,7 +87,7 @@ private:
   }
 };
 
-/// Light and dark as a cosine, brightest in the middle of the picture.
+/// Light and dark as a cosine, brightest in the middle of the image.
 struct Stripes
 {
   static constexpr int channels = 1;
@@ -103,19 +103,19 @@ struct Stripes
   SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 };
 
-/// A picture, stretched over what the camera sees.
-struct BackgroundPicture
+/// An image, stretched over what the camera sees.
+struct BackgroundImage
 {
   static constexpr int channels = 3;
 
-  ColorPicture picture;     ///< its k is 1
-  double perColumn, perRow; ///< 2 / the camera's picture's pixels
+  ColorImage image;         ///< its k is 1
+  double perColumn, perRow; ///< 2 / the camera's image's pixels
 
   SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
   {
     const double place[2] = { (ray.position[0] + 0.5) * perColumn - 1,
       (ray.position[1] + 0.5) * perRow - 1 };
-    picture.shade(RayAtFilm{ { place[0], place[1] }, 0, { 0, 0 } }, light);
+    image.shade(RayAtFilm{ { place[0], place[1] }, 0, { 0, 0 } }, light);
   }
   SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 };

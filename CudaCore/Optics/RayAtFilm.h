@@ -14,7 +14,7 @@ struct RayAtFilm
     [2]; ///< where it meets the film, or a camera's ray what it sees: pixels from the centre
          ///< of pixel (0, 0)
   double place[2] = { 0,
-    0 }; ///< of its light in the picture, likewise; position but for a camera's ray
+    0 }; ///< of its light in the image, likewise; position but for a camera's ray
 };
 
 } // namespace schlieren

@@ -41,8 +41,8 @@ enum class Coloring
 {
   None,
   Always,
-  InWhiteLight,        ///< of Fringes::whiteLight
-  OfBackgroundPicture, ///< where the pattern is PatternKind::Picture
+  InWhiteLight,      ///< of Fringes::whiteLight
+  OfBackgroundImage, ///< where the pattern is PatternKind::Image
 };
 
 struct Technique
@@ -69,7 +69,7 @@ constexpr std::array<Technique, 8> techniques = { {
   { Cutoff::GradedFilter, 0.5, true, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::ColorFilter, 1, false, false, RecordedPlane::Focus, Coloring::Always },
   { Cutoff::Interferogram, 0, false, true, RecordedPlane::Focus, Coloring::InWhiteLight },
-  { Cutoff::Background, 0, false, false, RecordedPlane::Background, Coloring::OfBackgroundPicture },
+  { Cutoff::Background, 0, false, false, RecordedPlane::Background, Coloring::OfBackgroundImage },
 } };
 
 constexpr const Technique& techniqueOf(Cutoff cutoff)

@@ -22,7 +22,7 @@ struct Tint
   std::array<double, 3> of(const float* gathered) const;
 };
 
-/// What 99 % of the rays that crossed the medium within the picture do not exceed; or, where less than
+/// What 99 % of the rays that crossed the medium within the image do not exceed; or, where less than
 /// a hundredth of them has gathered anything, the most; 0 where none has.
 double tintReference(
   const TracedRays& rays, std::size_t fields, int width, int height, int threads);

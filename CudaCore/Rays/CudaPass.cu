@@ -15,18 +15,18 @@ namespace
 
 constexpr int threadsPerBlock = 128;
 
-/// The rays of a pass that start in a picture.
-struct RaysOfPicture
+/// The rays of a pass that start in an image.
+struct RaysOfImage
 {
   const RayExit* first;
   std::int64_t perRow; ///< of the pass
   std::int64_t width, count;
 
-  RaysOfPicture(const RayExit* exits, const Pass& pass, int pictureWidth, int height)
+  RaysOfImage(const RayExit* exits, const Pass& pass, int imageWidth, int height)
     : first(exits - pass.firstRow * pass.columns - pass.firstColumn)
     , perRow(pass.columns)
-    , width(pictureWidth)
-    , count(std::int64_t{ pictureWidth } * height)
+    , width(imageWidth)
+    , count(std::int64_t{ imageWidth } * height)
   {
   }
   unsigned blocks() const
@@ -46,12 +46,12 @@ struct RaysOfPicture
 };
 
 /// Null where it is not counted.
-__device__ const RayExit* countedRay(const RaysOfPicture& rays)
+__device__ const RayExit* countedRay(const RaysOfImage& rays)
 {
   const RayExit* ray = rays.ofThread();
   return ray != nullptr && DeflectionBins::counts(*ray) ? ray : nullptr;
 }
-__device__ const RayExit* crossingRay(const RaysOfPicture& rays)
+__device__ const RayExit* crossingRay(const RaysOfImage& rays)
 {
   const RayExit* ray = rays.ofThread();
   return ray != nullptr && ray->fate == RayFate::Left ? ray : nullptr;
@@ -72,7 +72,7 @@ __device__ void addLargest(double here, long long* largest)
 }
 
 /// All threads of a block come to its end.
-__global__ void largestKernel(const RaysOfPicture rays, long long* largest)
+__global__ void largestKernel(const RaysOfImage rays, long long* largest)
 {
   const RayExit* ray = countedRay(rays);
   addLargest(
@@ -81,7 +81,7 @@ __global__ void largestKernel(const RaysOfPicture rays, long long* largest)
 
 /// All threads of a block come to its end.
 __global__ void countSquaresKernel(
-  const RaysOfPicture rays, unsigned long long* counts, long long* largest)
+  const RaysOfImage rays, unsigned long long* counts, long long* largest)
 {
   const RayExit* ray = crossingRay(rays);
   const double square = ray == nullptr ? 0 : squaredDeflection(*ray);
@@ -100,7 +100,7 @@ __global__ void countSquaresKernel(
 
 /// Lists the squared deflections of a bin.
 __global__ void findSquaresKernel(
-  const RaysOfPicture rays, std::size_t bin, unsigned long long* found, double* squares)
+  const RaysOfImage rays, std::size_t bin, unsigned long long* found, double* squares)
 {
   const RayExit* ray = crossingRay(rays);
   const double square = ray == nullptr ? 0 : squaredDeflection(*ray);
@@ -112,7 +112,7 @@ __global__ void findSquaresKernel(
 
 /// All threads of a block come to its end.
 __global__ void countKernel(
-  const RaysOfPicture rays, const DeflectionBins bins, unsigned long long* counts)
+  const RaysOfImage rays, const DeflectionBins bins, unsigned long long* counts)
 {
   const RayExit* ray = countedRay(rays);
   std::int64_t bin = ray == nullptr ? -1 : bins.of(*ray);
@@ -194,7 +194,7 @@ double CudaPass::largestDeflection(const Pass& pass, int width, int height) cons
 {
   const CudaBuffer<long long> largest(1);
   clear(largest, 1);
-  const RaysOfPicture rays(exits_, pass, width, height);
+  const RaysOfImage rays(exits_, pass, width, height);
   launchKernel(largestKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, largest.data());
   checkCuda(cudaGetLastError(), "Counting rays");
   return numberOf(schlieren::toHost(largest, 1)[0]);
@@ -206,7 +206,7 @@ CudaPass::Squares CudaPass::countSquares(const Pass& pass, int width, int height
   const CudaBuffer<long long> largest(1);
   clear(counts, LeadingBits::count);
   clear(largest, 1);
-  const RaysOfPicture rays(exits_, pass, width, height);
+  const RaysOfImage rays(exits_, pass, width, height);
   launchKernel(countSquaresKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, counts.data(),
     largest.data());
   checkCuda(cudaGetLastError(), "Counting rays");
@@ -221,7 +221,7 @@ std::vector<double> CudaPass::squaresIn(
   const CudaBuffer<unsigned long long> found(1);
   const CudaBuffer<double> squares(size);
   clear(found, 1);
-  const RaysOfPicture rays(exits_, pass, width, height);
+  const RaysOfImage rays(exits_, pass, width, height);
   launchKernel(findSquaresKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bin,
     found.data(), squares.data());
   checkCuda(cudaGetLastError(), "Counting rays");
@@ -233,7 +233,7 @@ void CudaPass::countDeflections(const Pass& pass, int width, int height, const D
 {
   const CudaBuffer<unsigned long long> here(counts.size());
   clear(here, counts.size());
-  const RaysOfPicture rays(exits_, pass, width, height);
+  const RaysOfImage rays(exits_, pass, width, height);
   launchKernel(countKernel, rays.blocks(), threadsPerBlock, 0, nullptr, rays, bins, here.data());
   checkCuda(cudaGetLastError(), "Counting rays");
   const std::vector<unsigned long long> fetched = schlieren::toHost(here, counts.size());

@@ -32,7 +32,7 @@ public:
   std::size_t size() const { return size_; }
   std::vector<RayExit> toHost() const;
 
-  /// The largest component of deflection of the rays that start in a picture of this size and reach the film; the rays
+  /// The largest component of deflection of the rays that start in an image of this size and reach the film; the rays
   /// are those of `pass`.
   double largestDeflection(const Pass& pass, int width, int height) const;
   /// Adds these rays to `counts`, which has `bins` times `bins`, by their deflection: see DeflectionHistogram.

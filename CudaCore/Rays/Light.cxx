@@ -212,7 +212,7 @@ Light lightFrom(
   const double halfDepth = 0.5 * light.depth;
   light.toFilm = light.depth + film / light.unit;
   double perDistance = source.distance ? light.unit / *source.distance : 0;
-  double middle = 0; // of the data, from the picture's plane along the light
+  double middle = 0; // of the data, from the image's plane along the light
   if (isFromPupil)
   {
     perDistance = light.unit / frame.pupil;

@@ -31,13 +31,13 @@ struct Inclination
   }
 };
 
-/// For a point of the picture, the straight line in the grid's index coordinates that light follows there
-/// before anything bends it. With X the point's place from the axis in the picture's plane, which is that
+/// For a point of the image, the straight line in the grid's index coordinates that light follows there
+/// before anything bends it. With X the point's place from the axis in the image's plane, which is that
 /// through the middle of the data, and zeta the way along w from there, the line is
 ///   P(zeta) = X (1 + zeta / R) + t (zeta - z),
 /// R being the distance of the source, z the film's plane, and t the tilt of the light of one point of an
 /// extended source (Pass). So all light of X meets the film at X (1 + z / R), wherever it comes from.
-/// With a perspective, the picture's plane is that of the focal point instead, from which zeta counts then.
+/// With a perspective, the image's plane is that of the focal point instead, from which zeta counts then.
 /// Lengths are in units of the smallest grid spacing, so that nothing depends on the data's unit of length.
 struct Light
 {
@@ -51,15 +51,15 @@ struct Light
   Vec3<double> perLength; ///< index coordinates per unit of length along w
   Vec3<double> lengthPer; ///< its inverse, axis by axis; infinite where it is 0
 
-  Vec3<double> u, v, w; ///< the picture's axes in the grid's axes; w: the way that rays are traced
-  Vec3<double> indexScale;    ///< index coordinates per unit of length along each grid axis
+  Vec3<double> u, v, w;    ///< the image's axes in the grid's axes; w: the way that rays are traced
+  Vec3<double> indexScale; ///< index coordinates per unit of length along each grid axis
   Vec3<double> unitsPerIndex; ///< its inverse, axis by axis
   double depth;               ///< entry plane to exit plane
   double unit;                ///< the unit of length, data units
   double steepest[2];         ///< no slope of this light is larger, along u and v
   double magnification;       ///< 1 + z / R: of what is in the middle of the data, on the film
 
-  /// Where the light of a point of the picture is on the entry plane, in index coordinates.
+  /// Where the light of a point of the image is on the entry plane, in index coordinates.
   SCHLIEREN_HD Vec3<double> start(double column, double row) const
   {
     return corner + column * perColumn + row * perRow;
@@ -79,13 +79,13 @@ struct Light
   double fastest(const Vec3<double>& scale) const;
 };
 
-/// The light of the picture `frame` of `grid`, all of it along w.
+/// The light of the image `frame` of `grid`, all of it along w.
 Light collimatedLight(const Grid& grid, const Frame& frame);
 
 /// The same from the viewer, against w: the rays of a camera. They start on the frame's exit plane.
 Light reversedLight(const Grid& grid, const Frame& frame);
 
-/// The light of a source on the line through the middle of the picture; with a perspective it is the pupil, and light
+/// The light of a source on the line through the middle of the image; with a perspective it is the pupil, and light
 /// goes against w. `film`: from the plane where light leaves the data to the film, data units.
 Light lightFrom(
   const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame);
@@ -96,7 +96,7 @@ Light lightFrom(
 std::array<double, 2> sourcePoint(
   const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed);
 
-/// Pixels around the picture that rays may start from, at most.
+/// Pixels around the image that rays may start from, at most.
 std::int64_t mostMargin(const View& view);
 
 /// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).

@@ -36,7 +36,7 @@ struct PixelOffset
   double column, row;
 };
 
-/// One ray for each of a rectangle of pixels (the picture and a margin around it), row by row.
+/// One ray for each of a rectangle of pixels (the image and a margin around it), row by row.
 struct Pass
 {
   std::int64_t firstColumn, firstRow;

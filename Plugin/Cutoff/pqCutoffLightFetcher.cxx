@@ -3,7 +3,7 @@
 #include "pqCutoffLightFetcher.h"
 
 #include "pqFetchedImage.h"
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
@@ -19,8 +19,8 @@
 namespace
 {
 
-constexpr int picturePort = 0, histogramPort = 1;
-constexpr int patience = 100; // milliseconds in which no other picture came
+constexpr int imagePort = 0, histogramPort = 1;
+constexpr int patience = 100; // milliseconds in which no other image came
 
 int informationOf(vtkSMProxy* filter, const char* name)
 {
@@ -29,7 +29,7 @@ int informationOf(vtkSMProxy* filter, const char* name)
   return vtkSMPropertyHelper(property).GetAsInt();
 }
 
-/// Whether the picture that there is has all pixels and rays. Another would be finished by being fetched, however
+/// Whether the image that there is has all pixels and rays. Another would be finished by being fetched, however
 /// long that takes. Of a filter inside of a representation, changes are announced when they are complete.
 bool isWhole(vtkSMProxy* filter)
 {
@@ -39,7 +39,7 @@ bool isWhole(vtkSMProxy* filter)
   }
   auto* source = vtkSMSourceProxy::SafeDownCast(filter);
   int extent[6];
-  source->GetDataInformation(picturePort)->GetExtent(extent);
+  source->GetDataInformation(imagePort)->GetExtent(extent);
   const int width = vtkSMPropertyHelper(filter, "ImageSize").GetAsInt(0);
   return extent[1] - extent[0] + 1 == width && informationOf(filter, "Finished") != 0;
 }
@@ -55,13 +55,13 @@ pqCutoffLightFetcher::pqCutoffLightFetcher(vtkSMProxy* filter, QWidget* widget)
   this->Timer.setSingleShot(true);
   this->Timer.setInterval(patience);
   QObject::connect(&this->Timer, &QTimer::timeout, this, &pqCutoffLightFetcher::fetch);
-  this->Connection->Connect(filter, vtkCommand::UpdateDataEvent, this, SLOT(pictureUpdated()));
-  QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::pictureChanged, this,
+  this->Connection->Connect(filter, vtkCommand::UpdateDataEvent, this, SLOT(imageUpdated()));
+  QObject::connect(pqImageRefiner::instance(), &pqImageRefiner::imageChanged, this,
     [this](vtkSMProxy* changed)
     {
       if (changed == this->Filter)
       {
-        this->pictureUpdated();
+        this->imageUpdated();
       }
     });
   widget->installEventFilter(this);
@@ -75,7 +75,7 @@ bool pqCutoffLightFetcher::eventFilter(QObject* watched, QEvent* event)
 {
   if (event->type() == QEvent::Show)
   {
-    this->pictureUpdated();
+    this->imageUpdated();
   }
   return QObject::eventFilter(watched, event);
 }
@@ -84,11 +84,11 @@ bool pqCutoffLightFetcher::eventFilter(QObject* watched, QEvent* event)
 void pqCutoffLightFetcher::setWaiting(bool waits)
 {
   this->Waits = waits;
-  this->pictureUpdated();
+  this->imageUpdated();
 }
 
 //------------------------------------------------------------------------------
-void pqCutoffLightFetcher::pictureUpdated()
+void pqCutoffLightFetcher::imageUpdated()
 {
   if (this->Filter && !this->Waits)
   {
@@ -103,16 +103,16 @@ void pqCutoffLightFetcher::fetch()
   {
     return;
   }
-  if (pqPictureRefiner::instance()->isPlaying())
+  if (pqImageRefiner::instance()->isPlaying())
   {
     this->Timer.start();
     return;
   }
-  const int picture = informationOf(this->Filter, "PictureCount");
-  Q_EMIT this->pictureChanged();
-  if (picture != this->FetchedPicture && isWhole(this->Filter))
+  const int image = informationOf(this->Filter, "PictureCount");
+  Q_EMIT this->imageChanged();
+  if (image != this->FetchedImage && isWhole(this->Filter))
   {
-    this->FetchedPicture = picture;
+    this->FetchedImage = image;
     this->Light = pqCutoffLight(fetchedImage(this->Filter, histogramPort, { "Rays" }));
     Q_EMIT this->lightChanged();
   }

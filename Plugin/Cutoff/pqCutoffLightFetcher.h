@@ -14,7 +14,7 @@ class vtkEventQtSlotConnect;
 class vtkSMProxy;
 
 /// Keeps the light on a filter's cutoff plane, wherever the filter runs; fetched while a widget that shows it is
-/// visible, and when the picture is finished.
+/// visible, and when the image is finished.
 class pqCutoffLightFetcher : public QObject
 {
   Q_OBJECT
@@ -30,15 +30,15 @@ public:
   const pqCutoffLight& light() const { return this->Light; }
 
 Q_SIGNALS:
-  /// There is another picture; the light follows.
-  void pictureChanged();
+  /// There is another image; the light follows.
+  void imageChanged();
   void lightChanged();
 
 protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private Q_SLOTS:
-  void pictureUpdated();
+  void imageUpdated();
   void fetch();
 
 private:
@@ -46,7 +46,7 @@ private:
   QWidget* Widget;
   QTimer Timer;
   bool Waits = false;
-  int FetchedPicture = 0; ///< PictureCount
+  int FetchedImage = 0; ///< PictureCount
   pqCutoffLight Light;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

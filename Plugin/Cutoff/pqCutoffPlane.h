@@ -27,7 +27,7 @@ struct pqCutoff
   double Offset = 0;     ///< of the edge, as a share of the source's image
   bool Inverted = false; ///< knife edge and graded filter
   bool IsOfDisc = false; ///< the source's image is a disc
-  bool IsSquare = false; ///< a colour filter that is a picture, not the wheel
+  bool IsSquare = false; ///< a colour filter that is an image, not the wheel
   bool EdgeIsFastened =
     false; ///< it stays where it is while k changes: Offset is in proportion to k
   std::function<double(double)> Graded; ///< transmission, 0 to 1, over the filter's width, 0 to 1

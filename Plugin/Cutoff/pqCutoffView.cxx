@@ -3,7 +3,7 @@
 #include "pqCutoffView.h"
 
 #include "MousePlace.h"
-#include "pqColorFilterPicture.h"
+#include "pqColorFilterImage.h"
 
 #include <QFontMetrics>
 #include <QKeyEvent>
@@ -103,10 +103,10 @@ QSize pqCutoffView::sizeHint() const
 pqCutoffPlane pqCutoffView::plane() const { return { this->square(), this->Range }; }
 
 //------------------------------------------------------------------------------
-void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& picture)
+void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& image)
 {
   this->Cutoff = cutoff;
-  this->Picture = picture;
+  this->Image = image;
   this->fit();
 }
 
@@ -172,8 +172,8 @@ QImage pqCutoffView::composed() const
       const double light = this->Light.brightnessAt(deflection);
       if (this->Cutoff.Kind == pqCutoff::ColorFilter)
       {
-        line[column] = pqColorFilterPicture::lit(
-          pqColorFilterPicture::colorAt(this->Picture, this->Cutoff.K * deflection), light);
+        line[column] = pqColorFilterImage::lit(
+          pqColorFilterImage::colorAt(this->Image, this->Cutoff.K * deflection), light);
       }
       else
       {

@@ -20,8 +20,8 @@ public:
   explicit pqCutoffView(QWidget* parent = nullptr);
   ~pqCutoffView() override;
 
-  /// `picture` is that of a colour filter; null: the wheel.
-  void setCutoff(const pqCutoff& cutoff, const QImage& picture);
+  /// `image` is that of a colour filter; null: the wheel.
+  void setCutoff(const pqCutoff& cutoff, const QImage& image);
   const pqCutoff& cutoff() const { return this->Cutoff; }
   void setLight(const pqCutoffLight& light);
 
@@ -72,7 +72,7 @@ private:
   void drawAxes(QPainter& painter) const;
 
   pqCutoff Cutoff, Before;
-  QImage Picture; ///< of a colour filter
+  QImage Image; ///< of a colour filter
   pqCutoffLight Light;
   double Range = 1e-3;
   bool IsZoomed = false; ///< by the user

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCutoffWidget.h"
 
-#include "pqColorFilterPicture.h"
+#include "pqColorFilterImage.h"
 #include "pqCutoffLightFetcher.h"
 #include "pqCutoffView.h"
 #include "pqProxyWidget.h"
@@ -46,7 +46,7 @@ vtkPiecewiseFunction* gradedFilterOf(vtkSMProxy* proxy)
   return points && points->GetSize() > 0 ? points : nullptr;
 }
 
-/// The cutoff of the picture, as the filter has it now.
+/// The cutoff of the image, as the filter has it now.
 pqCutoff cutoffOf(vtkSMProxy* proxy)
 {
   pqCutoff cutoff;
@@ -107,7 +107,7 @@ pqCutoffWidget::pqCutoffWidget(
   column->addWidget(this->View);
   column->addWidget(this->Numbers);
 
-  QObject::connect(this->Fetcher, &pqCutoffLightFetcher::pictureChanged, this,
+  QObject::connect(this->Fetcher, &pqCutoffLightFetcher::imageChanged, this,
     [this]()
     {
       this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty("KScaleUsed"));
@@ -138,11 +138,11 @@ void pqCutoffWidget::readCutoff()
   if (!this->View->isGrabbed())
   {
     const pqCutoff cutoff = cutoffOf(this->proxy());
-    const bool isPicture = cutoff.Kind == pqCutoff::ColorFilter && cutoff.IsSquare;
+    const bool isImage = cutoff.Kind == pqCutoff::ColorFilter && cutoff.IsSquare;
     this->View->setCutoff(cutoff,
-      isPicture ? pqColorFilterPicture::decoded(
-                    vtkSMPropertyHelper(this->proxy(), "ColorFilterImage").GetAsString())
-                : QImage());
+      isImage ? pqColorFilterImage::decoded(
+                  vtkSMPropertyHelper(this->proxy(), "ColorFilterImage").GetAsString())
+              : QImage());
   }
   this->showNumbers();
 }

@@ -19,7 +19,7 @@ class vtkSMPropertyGroup;
 class vtkEventQtSlotConnect;
 
 /// Shows the light on the cutoff plane and edits the cutoff there, live: the knife edge, its angle and the
-/// sensitivity are those of the picture, and what is dragged is at once in the picture.
+/// sensitivity are those of the image, and what is dragged is at once in the image.
 class pqCutoffWidget : public pqPropertyWidget
 {
   Q_OBJECT

@@ -17,7 +17,7 @@ class pqLiveEdit
 public:
   pqLiveEdit(vtkSMProxy* filter, const QString& label);
 
-  /// Whether the filter is known to have made a picture (PictureCount): until then properties wait for Apply.
+  /// Whether the filter is known to have made an image (PictureCount): until then properties wait for Apply.
   static bool isPossible(vtkSMProxy* filter);
 
   /// Values of these properties, which are shown.

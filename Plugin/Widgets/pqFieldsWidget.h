@@ -22,7 +22,7 @@ class vtkSMProxyProperty;
 /// are the properties Fields, FieldRanges, FieldColors and TransferFunctions.
 ///
 /// The functions are ParaView's opacity functions "SchlierenField1", ...: so state files and scripts
-/// know how to bring them back. A point that is moved is set at once in the function, and in the picture
+/// know how to bring them back. A point that is moved is set at once in the function, and in the image
 /// with Apply.
 ///
 /// Shown for IndexModel Transfer Functions and for ColorByField.

@@ -3,7 +3,7 @@
 #include "pqNoteWidget.h"
 
 #include "pqApplicationCore.h"
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 #include "pqPipelineSource.h"
 #include "pqServerManagerModel.h"
 
@@ -41,7 +41,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   }
   else // a filter inside of a representation
   {
-    QObject::connect(pqPictureRefiner::instance(), &pqPictureRefiner::pictureChanged, this,
+    QObject::connect(pqImageRefiner::instance(), &pqImageRefiner::imageChanged, this,
       [this](vtkSMProxy* changed)
       {
         if (changed == this->proxy())

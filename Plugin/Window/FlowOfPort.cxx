@@ -45,7 +45,7 @@ QString problemOfFlow(pqOutputPort* port)
 {
   if (!port)
   {
-    return "There is no flow to make a picture of. Open data, press Apply, and select them in the "
+    return "There is no flow to make an image of. Open data, press Apply, and select them in the "
            "Pipeline Browser.";
   }
   const QString name = "'" + port->getSource()->getSMName() + "'";

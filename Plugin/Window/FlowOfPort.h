@@ -16,7 +16,7 @@ class vtkSMProxy;
 bool isApplied(pqPipelineSource* source);
 QString notApplied(pqPipelineSource* source);
 
-/// Why no picture can be made of these data and what to do about it; empty: it can.
+/// Why no image can be made of these data and what to do about it; empty: it can.
 QString problemOfFlow(pqOutputPort* port);
 
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);

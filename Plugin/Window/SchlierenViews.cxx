@@ -3,11 +3,11 @@
 #include "SchlierenViews.h"
 
 #include "FlowOfPort.h"
-#include "PictureDisplay.h"
-#include "PicturesInViews.h"
+#include "ImageDisplay.h"
+#include "ImagesInViews.h"
 #include "UndoStep.h"
 #include "VolumeDisplay.h"
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 #include "pqRepresentationRefiner.h"
 
 #include "pqActiveObjects.h"
@@ -167,11 +167,11 @@ public:
     this->findScene();
     switch (arrangement)
     {
-      case Arrangement::OnePicture:
+      case Arrangement::OneImage:
         this->addViews(1);
         this->addImage(0, [](vtkSMProxy*) {});
         break;
-      case Arrangement::ThreePictures:
+      case Arrangement::ThreeImages:
         this->addViews(3);
         this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::KNIFE_EDGE); });
         this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::SHADOWGRAPH); });
@@ -218,7 +218,7 @@ public:
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
       flatten(window);
     }
-    const pqPictureRefiner::ShortUpdates shortly;
+    const pqImageRefiner::ShortUpdates shortly;
     vtkSMProxy* representation = this->Controller->Show(filter->getSourceProxy(), 0, window);
     if (representation)
     {
@@ -230,7 +230,7 @@ public:
         type.Set("Slice");
         representation->UpdateVTKObjects();
       }
-      PictureDisplay::apply(representation, filter->getProxy());
+      ImageDisplay::apply(representation, filter->getProxy());
     }
     {
       SM_SCOPED_TRACE(CallMethod).arg(window).arg("ResetCamera").arg(true);
@@ -261,7 +261,7 @@ private:
   /// The 3-D view, one that shows the flow where there was none.
   void findScene()
   {
-    this->Scene = picturesInViews::scene(this->Server);
+    this->Scene = imagesInViews::scene(this->Server);
     if (!this->Scene)
     {
       auto* builder = pqApplicationCore::instance()->getObjectBuilder();
@@ -431,7 +431,7 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   {
     return { false, true, missing };
   }
-  pqPipelineSource* selected = picturesInViews::filterOf(flow ? flow->getSource() : nullptr);
+  pqPipelineSource* selected = imagesInViews::filterOf(flow ? flow->getSource() : nullptr);
   if (selected)
   {
     const auto inputs = qobject_cast<pqPipelineFilter*>(selected)->getInputs("Input");

@@ -13,9 +13,9 @@ namespace SchlierenViews
 
 enum class Arrangement
 {
-  OnePicture,
-  ThreePictures, ///< knife edge, shadowgraph and interferogram
-  Comparison     ///< straight and bent light, at one k
+  OneImage,
+  ThreeImages, ///< knife edge, shadowgraph and interferogram
+  Comparison   ///< straight and bent light, at one k
 };
 
 /// What was made of the data, or, where nothing could be made, why.

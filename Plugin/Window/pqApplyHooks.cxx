@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqApplyHooks.h"
 
-#include "PicturesInViews.h"
+#include "ImagesInViews.h"
 #include "SchlierenViews.h"
 
 #include "pqApplicationCore.h"
@@ -68,7 +68,7 @@ void pqApplyHooks::beforeOne(pqProxy* proxy)
     return;
   }
   this->Shortly.emplace();
-  if (picturesInViews::isSchlieren(source))
+  if (imagesInViews::isSchlieren(source))
   {
     SchlierenViews::show(source);
     // ParaView has nothing to show any more.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 
 #include <QObject>
 
@@ -28,5 +28,5 @@ private:
   void after();
 
   bool IsSetUp = false;
-  std::optional<pqPictureRefiner::ShortUpdates> Shortly;
+  std::optional<pqImageRefiner::ShortUpdates> Shortly;
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqImageProgress.h"
 
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
@@ -75,7 +75,7 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
   : QObject(parentObject)
 {
   QObject::connect(
-    pqPictureRefiner::instance(), &pqPictureRefiner::progressed, this, &pqImageProgress::show);
+    pqImageRefiner::instance(), &pqImageRefiner::progressed, this, &pqImageProgress::show);
   QObject::connect(manager(), &pqProgressManager::progressEndEvent, this,
     [this]()
     {
@@ -132,7 +132,7 @@ void pqImageProgress::watchBenchOf(pqRepresentation* representation)
 //------------------------------------------------------------------------------
 void pqImageProgress::onProgressOfView(vtkObject* bench)
 {
-  if (!pqPictureRefiner::instance()->isPlaying())
+  if (!pqImageRefiner::instance()->isPlaying())
   {
     this->letAbort(bench);
   }
@@ -172,14 +172,14 @@ void pqImageProgress::abort()
   }
   else
   {
-    pqPictureRefiner::instance()->stop();
+    pqImageRefiner::instance()->stop();
   }
 }
 
 //------------------------------------------------------------------------------
 void pqImageProgress::onProgress(vtkObject* filter)
 {
-  if (pqPictureRefiner::instance()->isShort())
+  if (pqImageRefiner::instance()->isShort())
   {
     this->letAbort(filter);
   }

@@ -3,7 +3,7 @@
 #include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 #include "pqRenderView.h"
 #include "pqRepresentation.h"
 #include "pqServer.h"
@@ -186,7 +186,7 @@ void pqRepresentationRefiner::refine(pqView* view)
   {
     if (isSchlieren(representation))
     {
-      Q_EMIT pqPictureRefiner::instance()->pictureChanged(benchOf(representation));
+      Q_EMIT pqImageRefiner::instance()->imageChanged(benchOf(representation));
     }
   }
 }

@@ -3,9 +3,9 @@
 #include "pqSchlierenStart.h"
 
 #include "pqApplyHooks.h"
+#include "pqImageDisplayKeeper.h"
 #include "pqImageProgress.h"
-#include "pqPictureDisplayKeeper.h"
-#include "pqPictureStatus.h"
+#include "pqImageStatus.h"
 #include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
@@ -30,8 +30,8 @@ void pqSchlierenStart::startup()
     return;
   }
   first = this;
-  new pqPictureStatus(this);
-  new pqPictureDisplayKeeper(this);
+  new pqImageStatus(this);
+  new pqImageDisplayKeeper(this);
   new pqRepresentationRefiner(this);
   new pqImageProgress(this);
   // ParaView's window may come after its plugins.

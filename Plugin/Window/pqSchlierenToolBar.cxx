@@ -24,12 +24,12 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   using SchlierenViews::Arrangement;
   this->setObjectName("SchlierenToolBar");
 
-  QAction* one = this->addArrangement("OnePicture", "&Add Schlieren View",
-    "Show the selected flow as a schlieren image beside its 3-D view", Arrangement::OnePicture);
+  QAction* one = this->addArrangement("OneImage", "&Add Schlieren View",
+    "Show the selected flow as a schlieren image beside its 3-D view", Arrangement::OneImage);
   one->setShortcut(QKeySequence("Ctrl+Shift+L"));
-  this->addArrangement("ThreePictures", "&Three Images",
+  this->addArrangement("ThreeImages", "&Three Images",
     "Show the selected flow behind a knife edge, as a shadowgraph and as an interferogram",
-    Arrangement::ThreePictures);
+    Arrangement::ThreeImages);
   this->addArrangement("Comparison", "&Compare Straight and Bent Light",
     "Show what bending adds: images of the selected flow by straight and by refracted rays, at "
     "one sensitivity",

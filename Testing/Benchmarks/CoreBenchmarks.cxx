@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast each stage is, and how wrong: every picture is compared with its closed form, so that speed
+// How fast each stage is, and how wrong: every image is compared with its closed form, so that speed
 // and error stand in one table. Medium: a Gaussian column of radius 1 in a cube of half edge 4, seen
 // across its axis in a direction that no grid axis shares.
 #include "Schlieren.h"

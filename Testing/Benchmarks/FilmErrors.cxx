@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the film's estimators and noise filters are worth: errors against closed forms and against pictures of
-// many more rays, and how much pictures change as samples come in. Prints tables; takes minutes.
+// What the film's estimators and noise filters are worth: errors against closed forms and against images of
+// many more rays, and how much images change as samples come in. Prints tables; takes minutes.
 #include "Jet.h"
 #include "Schlieren.h"
 
@@ -39,14 +39,14 @@ Scene cpuScene(int width, int height)
   return scene;
 }
 
-/// A picture without noise.
+/// An image without noise.
 struct Truth
 {
   Scene scene;
-  std::vector<double> picture;
+  std::vector<double> image;
 };
 
-/// A row of the table: errors, over all pictures, of a sheet of a few rays and of more and more photons.
+/// A row of the table: errors, over all images, of a sheet of a few rays and of more and more photons.
 void printErrors(
   const std::string& name, Bench& bench, const Field& field, const std::vector<Truth>& truths)
 {
@@ -59,7 +59,7 @@ void printErrors(
       Scene scene = truth.scene;
       scene.filmEstimator = estimator;
       scene.samplesPerPixel = samples;
-      squares += std::pow(rmsDifference(bench.render(field, scene).intensity, truth.picture), 2);
+      squares += std::pow(rmsDifference(bench.render(field, scene).intensity, truth.image), 2);
     }
     std::printf(" %.4f |", std::sqrt(squares / static_cast<double>(truths.size())));
   };
@@ -161,7 +161,7 @@ Scene jetScene(int width, int height)
   return scene;
 }
 
-/// Means of the pixels of pictures that are `scale` times as fine, each of many rays.
+/// Means of the pixels of images that are `scale` times as fine, each of many rays.
 std::vector<double> fineTruth(const Field& field, const Scene& coarse, int scale)
 {
   Scene scene = coarse;
@@ -189,7 +189,7 @@ std::vector<double> fineTruth(const Field& field, const Scene& coarse, int scale
 void jetErrors(const Jet& jet)
 {
   constexpr int finer = 4;
-  printErrorsHeader("Jet, 512 x 288 pixels. Against pictures four times as fine, 256 rays a pixel");
+  printErrorsHeader("Jet, 512 x 288 pixels. Against images four times as fine, 256 rays a pixel");
   Bench bench;
   Scene scene = jetScene(512, 288);
   printErrors("knife edge", bench, jet.field, { { scene, fineTruth(jet.field, scene, finer) } });
@@ -209,7 +209,7 @@ void convergence(const Jet& jet)
   constexpr double radius = 6;
   std::printf(
     "\nJet, knife edge, 192 x 108 pixels: RMS difference of the intensity, as a share of full "
-    "scale (black to white), between pictures of n and of 10 n samples a pixel. Cone filter "
+    "scale (black to white), between images of n and of 10 n samples a pixel. Cone filter "
     "of radius %g pixels, that is %.0f samples\n\n"
     "| | 1 and 10 | 10 and 100 | 100 and 1000 |\n|---|---|---|---|\n",
     radius, std::acos(-1.) * radius * radius);
@@ -228,12 +228,12 @@ void convergence(const Jet& jet)
       for (const int samples : { 1, 10, 100, 1000 })
       {
         scene.samplesPerPixel = samples;
-        PixelArray<float> picture = bench.render(jet.field, scene).intensity;
+        PixelArray<float> image = bench.render(jet.field, scene).intensity;
         if (samples > 1)
         {
-          std::printf(" %.3f %% |", 100 * rmsDifference(last, picture));
+          std::printf(" %.3f %% |", 100 * rmsDifference(last, image));
         }
-        last = std::move(picture);
+        last = std::move(image);
       }
       std::printf("\n");
       std::fflush(stdout);

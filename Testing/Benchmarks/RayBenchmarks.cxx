@@ -3,7 +3,7 @@
 //
 // How many steps and rays a second the marcher takes: by integrator, interpolation, precision, path model,
 // instructions, threads and direction of view, deflection and optical path difference both summed.
-// 512^2 rays that fit the grid into the picture; all figures by the clock.
+// 512^2 rays that fit the grid into the image; all figures by the clock.
 #include "Medium/HomogeneityMap.h"
 #include "Rays/Tracer.h"
 

@@ -318,7 +318,7 @@ inline std::ostream& operator<<(std::ostream& out, const Worst& worst)
              << ", optical path " << worst.opticalPathDifference;
 }
 
-/// Largest differences between two pictures.
+/// Largest differences between two images.
 inline Worst differences(const Image& a, const Image& b)
 {
   Worst worst;
@@ -347,7 +347,7 @@ void forRays(const ClosedForm& form, const Grid& grid, const Image& image, const
   }
 }
 
-/// How far a picture of the medium, in vacuum and with one ray per pixel, is from the closed form.
+/// How far an image of the medium, in vacuum and with one ray per pixel, is from the closed form.
 inline Worst errorsOf(const ClosedForm& form, const Grid& grid, const Image& image)
 {
   Worst worst;

@@ -79,7 +79,7 @@ private:
   }
 };
 
-/// Picture coordinates of the centre of a pixel.
+/// Image coordinates of the centre of a pixel.
 struct PixelCentre
 {
   double u, v;

@@ -27,14 +27,14 @@ Scene cameraScene(Device device)
   return scene;
 }
 
-std::shared_ptr<const RgbPicture> fourColors()
+std::shared_ptr<const RgbImage> fourColors()
 {
   // Red, green; above blue, white.
-  return std::make_shared<RgbPicture>(
-    RgbPicture{ 2, 2, { 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255 } });
+  return std::make_shared<RgbImage>(
+    RgbImage{ 2, 2, { 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255 } });
 }
 
-const PatternKind allPatterns[] = { PatternKind::Dots, PatternKind::Stripes, PatternKind::Picture };
+const PatternKind allPatterns[] = { PatternKind::Dots, PatternKind::Stripes, PatternKind::Image };
 
 class Background : public OnDevice
 {
@@ -144,7 +144,7 @@ TEST_P(Background, IsTheSameWithoutFlow)
       {
         Scene scene = cameraScene(GetParam());
         scene.background.kind = kind;
-        scene.background.picture = fourColors();
+        scene.background.image = fourColors();
         scene.filmEstimator = estimator;
         scene.noiseFilter = filter;
         const Image image = Bench().render(gas.field, scene);
@@ -159,12 +159,12 @@ TEST_P(Background, IsTheSameWithoutFlow)
   }
 }
 
-TEST_P(Background, PictureIsStretchedOverTheView)
+TEST_P(Background, ImageIsStretchedOverTheView)
 {
   const SampledField<float> gas(cube(16, 1), [](double, double, double) { return 3e-4; });
   Scene scene = cameraScene(GetParam());
-  scene.background.kind = PatternKind::Picture;
-  scene.background.picture = fourColors();
+  scene.background.kind = PatternKind::Image;
+  scene.background.image = fourColors();
   const Image image = Bench().render(gas.field, scene);
   ASSERT_EQ(image.color.size(), 3 * image.intensity.size());
   const auto expectColor = [&](int column, int row, const std::array<float, 3>& color)
@@ -193,11 +193,8 @@ TEST_P(Background, DotsAreEvenAndRepeat)
   EXPECT_EQ(first, take());
   scene.seed = 2;
   const PixelArray<float> second = take();
-  const auto mean = [](const PixelArray<float>& picture)
-  {
-    return std::accumulate(picture.begin(), picture.end(), 0.) /
-      static_cast<double>(picture.size());
-  };
+  const auto mean = [](const PixelArray<float>& image)
+  { return std::accumulate(image.begin(), image.end(), 0.) / static_cast<double>(image.size()); };
   EXPECT_NEAR(mean(first), 0.5, 0.02);
   EXPECT_NEAR(mean(second), 0.5, 0.02);
   double differs = 0, contrast = 0;
@@ -210,7 +207,7 @@ TEST_P(Background, DotsAreEvenAndRepeat)
   EXPECT_GT(contrast / static_cast<double>(first.size()), 0.12);
 }
 
-/// What is too fine for the picture is grey, what is far away or coarse is drawn all the same.
+/// What is too fine for the image is grey, what is far away or coarse is drawn all the same.
 TEST_P(Background, SurvivesExtremes)
 {
   const SampledField<float> gas(
@@ -287,9 +284,9 @@ TEST(BackgroundMistakes, AreTold)
   expectError({ PatternKind::Dots, 1e31, 0, 0, nullptr }, "BackgroundDistance");
   expectError({ PatternKind::Dots, {}, -1, 0, nullptr }, "BackgroundPeriod");
   expectError({ PatternKind::Stripes, {}, 0, nan, nullptr }, "BackgroundAngle");
-  expectError({ PatternKind::Picture, {}, 0, 0, nullptr }, "BackgroundImage");
-  expectError({ PatternKind::Picture, {}, 0, 0,
-                std::make_shared<RgbPicture>(RgbPicture{ 2, 2, { 1, 2, 3 } }) },
+  expectError({ PatternKind::Image, {}, 0, 0, nullptr }, "BackgroundImage");
+  expectError(
+    { PatternKind::Image, {}, 0, 0, std::make_shared<RgbImage>(RgbImage{ 2, 2, { 1, 2, 3 } }) },
     "BackgroundImage");
 }
 

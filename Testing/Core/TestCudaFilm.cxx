@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The same rays make the same picture on host and device.
+// The same rays make the same image on host and device.
 #include "Fields.h"
 #include "Film/CudaFilm.h"
 #include "Optics/AutomaticK.h"
@@ -70,7 +70,7 @@ std::vector<RayExit> lensExits(const Pass& pass, std::mt19937&)
   return exits;
 }
 
-void expectSamePictures(const Cutoffs& cutoff, FilmEstimator estimator,
+void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
   std::int64_t raysPerBand = std::int64_t{ 1 } << 20, decltype(anyExits)* exitsOf = anyExits)
 {
   constexpr int passes = 3;
@@ -120,9 +120,9 @@ TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
 {
   for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
   {
-    expectSamePictures(KnifeEdge::at(30, 300, false), estimator);
-    expectSamePictures(KnifeEdge::at(90, 20, true), estimator);
-    expectSamePictures(Shadowgraph{}, estimator);
+    expectSameImages(KnifeEdge::at(30, 300, false), estimator);
+    expectSameImages(KnifeEdge::at(90, 20, true), estimator);
+    expectSameImages(Shadowgraph{}, estimator);
   }
 }
 
@@ -131,11 +131,11 @@ TEST_F(HostAndDeviceFilm, IsTheSameOfBentCells)
 {
   for (const std::int64_t raysPerBand : { std::int64_t{ 1 }, std::int64_t{ 1 } << 20 })
   {
-    expectSamePictures(KnifeEdge::at(30, 10, false), FilmEstimator::Sheet, raysPerBand, lensExits);
+    expectSameImages(KnifeEdge::at(30, 10, false), FilmEstimator::Sheet, raysPerBand, lensExits);
   }
   const std::array<float, 12> pixels{ 0.1f, 0.2f, 0.3f, 0.9f, 0, 1, 0.5f, 0.6f, 0, 1, 1, 0.2f };
-  expectSamePictures(ColorPicture{ 10, 2, 2, { pixels.data(), pixels.size() } },
-    FilmEstimator::Sheet, std::int64_t{ 1 } << 20, lensExits);
+  expectSameImages(ColorImage{ 10, 2, 2, { pixels.data(), pixels.size() } }, FilmEstimator::Sheet,
+    std::int64_t{ 1 } << 20, lensExits);
 }
 
 /// Of 16 rows each, of 20, and of all but the last one.
@@ -147,7 +147,7 @@ TEST_F(HostAndDeviceFilm, IsTheSameInBands)
   {
     for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
     {
-      expectSamePictures(KnifeEdge::at(30, 300, false), estimator, raysPerBand);
+      expectSameImages(KnifeEdge::at(30, 300, false), estimator, raysPerBand);
     }
   }
 }
@@ -158,8 +158,8 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
   scene.view.width = width;
   scene.view.height = height;
   scene.fringes.spacing = 0.1;
-  const auto image = std::make_shared<RgbPicture>(
-    RgbPicture{ 2, 2, { 1, 2, 3, 40, 50, 60, 70, 80, 90, 255, 0, 200 } });
+  const auto image =
+    std::make_shared<RgbImage>(RgbImage{ 2, 2, { 1, 2, 3, 40, 50, 60, 70, 80, 90, 255, 0, 200 } });
   CutoffMaker maker;
   std::set<std::size_t> kinds;
   const auto check = [&]
@@ -167,8 +167,8 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
     const Cutoffs cutoff = maker.cutoffOf(scene, 300, 0.013);
     kinds.insert(cutoff.index());
     SCOPED_TRACE(cutoff.index());
-    expectSamePictures(cutoff, FilmEstimator::Sheet);
-    expectSamePictures(cutoff, FilmEstimator::Photon);
+    expectSameImages(cutoff, FilmEstimator::Sheet);
+    expectSameImages(cutoff, FilmEstimator::Photon);
   };
   for (const Cutoff cutoff :
     { Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement, Cutoff::GradedFilter })
@@ -193,8 +193,8 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
   scene.fringes.dispersion = [](double wavelength) { return 1 + 1e-8 / wavelength; };
   check();
   scene.cutoff = Cutoff::Background;
-  scene.background.picture = image;
-  for (const PatternKind kind : { PatternKind::Dots, PatternKind::Stripes, PatternKind::Picture })
+  scene.background.image = image;
+  for (const PatternKind kind : { PatternKind::Dots, PatternKind::Stripes, PatternKind::Image })
   {
     scene.background.kind = kind;
     check();

@@ -461,7 +461,7 @@ Image render(Bench& bench, const Field& field, const Scene& scene)
   return image;
 }
 
-void expectSamePicture(const Image& a, const Image& b)
+void expectSameImage(const Image& a, const Image& b)
 {
   EXPECT_EQ(a.intensity, b.intensity);
   EXPECT_EQ(a.color, b.color);
@@ -475,7 +475,7 @@ void expectSamePicture(const Image& a, const Image& b)
 }
 
 /// Held rays, whether on the device or (where something tints) on the host.
-TEST_F(HostAndDeviceRays, ServeForTheNextPicture)
+TEST_F(HostAndDeviceRays, ServeForTheNextImage)
 {
   const Bundle<float> bundle(
     { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
@@ -492,24 +492,24 @@ TEST_F(HostAndDeviceRays, ServeForTheNextPicture)
 
   scene.knifeEdgeAngle = 90;
   Bench fresh;
-  expectSamePicture(render(bench, field, scene), render(fresh, field, scene));
+  expectSameImage(render(bench, field, scene), render(fresh, field, scene));
   EXPECT_EQ(bench.work().raysTraced, rays);
   scene.cutoff = Cutoff::Shadowgraph;
   Bench freshShadow;
-  expectSamePicture(render(bench, field, scene), render(freshShadow, field, scene));
+  expectSameImage(render(bench, field, scene), render(freshShadow, field, scene));
   EXPECT_EQ(bench.work().raysTraced, rays);
   EXPECT_EQ(freshShadow.work().raysTraced, rays);
 
   field.gradients = { 2, bundle.gradients.data(), 1 };
   scene.fieldColors = { { 1, 0, 0 }, { 0, 0, 1 } };
   Bench freshTint;
-  expectSamePicture(render(bench, field, scene), render(freshTint, field, scene));
+  expectSameImage(render(bench, field, scene), render(freshTint, field, scene));
 
   field.gradients = FieldGradients{};
   scene.fieldColors.clear();
   scene.samplesPerPixel = 4; // of which three are held, on the host
   Bench freshMore;
-  expectSamePicture(render(bench, field, scene), render(freshMore, field, scene));
+  expectSameImage(render(bench, field, scene), render(freshMore, field, scene));
 }
 
 } // namespace

@@ -232,17 +232,17 @@ TEST(ColorWheel, IsWhiteInTheMiddleAndPureOutside)
   EXPECT_EQ(lightOf(scene, 1e12, bent(-1e-3, 0)), (std::vector<double>{ 0, 1, 1 }));
 }
 
-std::shared_ptr<const RgbPicture> picture(int width, int height, std::vector<unsigned char> rgb)
+std::shared_ptr<const RgbImage> image(int width, int height, std::vector<unsigned char> rgb)
 {
-  return std::make_shared<RgbPicture>(RgbPicture{ width, height, std::move(rgb) });
+  return std::make_shared<RgbImage>(RgbImage{ width, height, std::move(rgb) });
 }
 
-TEST(ColorPicture, IsLookedUpBetweenItsEdges)
+TEST(ColorImage, IsLookedUpBetweenItsEdges)
 {
   Scene scene;
   scene.cutoff = Cutoff::ColorFilter;
   // Bottom row: black, red; top row: green, grey.
-  scene.colorFilter = picture(2, 2, { 0, 0, 0, 255, 0, 0, 0, 255, 0, 188, 188, 188 });
+  scene.colorFilter = image(2, 2, { 0, 0, 0, 255, 0, 0, 0, 255, 0, 188, 188, 188 });
   const double grey = std::pow((188 / 255. + 0.055) / 1.055, 2.4);
   const auto at = [&](double u, double v) { return lightOf(scene, 100, bent(u / 100, v / 100)); };
   const auto expect = [&](double u, double v, double red, double green, double blue)
@@ -271,18 +271,18 @@ TEST(ColorPicture, IsLookedUpBetweenItsEdges)
   EXPECT_EQ(at(0, 0), lightOf(scene, 0, bent(0.4, 0.2)));
 }
 
-TEST(ColorPicture, OfOnePixelIsThatColourEverywhere)
+TEST(ColorImage, OfOnePixelIsThatColourEverywhere)
 {
   Scene scene;
   scene.cutoff = Cutoff::ColorFilter;
-  scene.colorFilter = picture(1, 1, { 255, 0, 255 });
+  scene.colorFilter = image(1, 1, { 255, 0, 255 });
   for (const double k : { 0., 1., 1e12 })
   {
     EXPECT_EQ(lightOf(scene, k, bent(-0.3, 0.2)), (std::vector<double>{ 1, 0, 1 }));
   }
 }
 
-TEST(CutoffMaker, ForgetsNoPictureAndKeepsNoOldOne)
+TEST(CutoffMaker, ForgetsNoImageAndKeepsNoOldOne)
 {
   CutoffMaker maker;
   Scene scene;
@@ -290,17 +290,17 @@ TEST(CutoffMaker, ForgetsNoPictureAndKeepsNoOldOne)
   const auto light = [&maker, &scene]
   {
     const Cutoffs cutoff = maker.cutoffOf(scene, 1, 1);
-    return lightOf(std::get<ColorPicture>(cutoff), bent(0, 0));
+    return lightOf(std::get<ColorImage>(cutoff), bent(0, 0));
   };
   const std::array<double, 3> red{ 1, 0, 0 }, blue{ 0, 0, 1 };
-  scene.colorFilter = picture(1, 1, { 255, 0, 0 });
+  scene.colorFilter = image(1, 1, { 255, 0, 0 });
   EXPECT_EQ(light(), red);
   EXPECT_EQ(light(), red);
   Scene other;
   other.cutoff = Cutoff::GradedFilter;
   maker.cutoffOf(other, 1, 1); // its table takes the place
   EXPECT_EQ(light(), red);
-  scene.colorFilter = picture(1, 1, { 0, 0, 255 });
+  scene.colorFilter = image(1, 1, { 0, 0, 255 });
   EXPECT_EQ(light(), blue);
 }
 
@@ -350,8 +350,8 @@ TEST(Saturation, BeginsWhereMoreDeflectionChangesNothing)
   EXPECT_TRUE(saturates(CircularComplement{ 1000 }, 7.1e-4, -7.1e-4));
   EXPECT_TRUE(saturates(ColorWheel{ 1000, {} }, 0, -1.1e-3));
   EXPECT_FALSE(saturates(ColorWheel{ 1000, {} }, 0, -0.9e-3));
-  EXPECT_TRUE(saturates(ColorPicture{ 1000, 1, 1, {} }, 0, -1.1e-3));
-  EXPECT_FALSE(saturates(ColorPicture{ 1000, 1, 1, {} }, 0.9e-3, -0.9e-3));
+  EXPECT_TRUE(saturates(ColorImage{ 1000, 1, 1, {} }, 0, -1.1e-3));
+  EXPECT_FALSE(saturates(ColorImage{ 1000, 1, 1, {} }, 0.9e-3, -0.9e-3));
   EXPECT_FALSE(saturates(Shadowgraph{}, 1, 1));
   EXPECT_FALSE(saturates(Interferogram{ 1e6, {} }, 1, 1));
 }
@@ -370,7 +370,7 @@ TEST(Cutoffs, AnyDeflectionGivesLight)
     {
       scene.source.shape = variant % 2 == 0 ? SourceShape::Slit : SourceShape::Disc;
       scene.colorFilter =
-        variant % 2 == 0 ? nullptr : picture(2, 1, { 255, 255, 255, 255, 255, 255 });
+        variant % 2 == 0 ? nullptr : image(2, 1, { 255, 255, 255, 255, 255, 255 });
       scene.fringes.finite = variant % 2 != 0;
       scene.fringes.spacing = 1e-3;
       scene.fringes.whiteLight = variant >= 2;
@@ -407,7 +407,7 @@ struct WeakBlob : testing::Test
   }
 
   /// Renders, and compares with a formula of the place on the film (from its middle, pixels), k eps and OPD.
-  Image expectPicture(
+  Image expectImage(
     const std::function<double(double, double, const double (&)[2], double)>& intensity)
   {
     Image image = bench.render(blob.field, scene);
@@ -434,40 +434,40 @@ struct WeakBlob : testing::Test
 TEST_F(WeakBlob, IsSeenThroughEveryCutoffAndTracedOnce)
 {
   const auto clamped = [](double light) { return std::clamp(light, 0., 1.); };
-  const Image knife = expectPicture(
+  const Image knife = expectImage(
     [&](double, double, const double(&bent)[2], double) { return clamped(0.5 + bent[0]); });
   EXPECT_EQ(knife.undisturbedLevel, 0.5);
 
   scene.cutoff = Cutoff::Circular;
-  const Image circular = expectPicture([&](double, double, const double(&bent)[2], double)
+  const Image circular = expectImage([&](double, double, const double(&bent)[2], double)
     { return clamped(1 - std::hypot(bent[0], bent[1])); });
   EXPECT_EQ(circular.undisturbedLevel, 1);
   EXPECT_DOUBLE_EQ(circular.kScale, 2 * knife.kScale); // the same light at full scale
 
   scene.cutoff = Cutoff::CircularComplement;
-  const Image complement = expectPicture([&](double, double, const double(&bent)[2], double)
+  const Image complement = expectImage([&](double, double, const double(&bent)[2], double)
     { return clamped(std::hypot(bent[0], bent[1])); });
   EXPECT_EQ(complement.undisturbedLevel, 0);
 
   scene.cutoff = Cutoff::GradedFilter;
   scene.gradedFilter = { 1, 0, 1 };
-  expectPicture(
+  expectImage(
     [&](double, double, const double(&bent)[2], double) { return clamped(2 * std::abs(bent[0])); });
 
   scene.cutoff = Cutoff::Shadowgraph;
   scene.screenDistance = 0;
-  EXPECT_EQ(expectPicture([](double, double, const double(&)[2], double) { return 1; }).kScale, 0);
+  EXPECT_EQ(expectImage([](double, double, const double(&)[2], double) { return 1; }).kScale, 0);
 
   scene.cutoff = Cutoff::Interferogram;
   const auto fringe = [](double path) { return (1 + std::cos(2 * pi * path / 632.8e-9)) / 2; };
   const Image infinite =
-    expectPicture([&](double, double, const double(&)[2], double path) { return fringe(path); });
+    expectImage([&](double, double, const double(&)[2], double path) { return fringe(path); });
   EXPECT_EQ(infinite.kScale, 0);
   EXPECT_LT(*std::min_element(infinite.intensity.begin(), infinite.intensity.end()), 0.1f);
   scene.fringes.finite = true;
   scene.fringes.spacing = 8 * infinite.frame.pixelSize;
   scene.fringes.angle = 90;
-  expectPicture([&](double, double up, const double(&)[2], double path)
+  expectImage([&](double, double up, const double(&)[2], double path)
     { return fringe(path + 632.8e-9 * up / 8); });
 
   scene.cutoff = Cutoff::ColorFilter;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Both ways in which rays become a picture: where light goes, how exact it is, and what must not change it.
+// Both ways in which rays become an image: where light goes, how exact it is, and what must not change it.
 #include "Fields.h"
 #include "Film/Exposure.h"
 #include "Rays/Light.h"
@@ -18,9 +18,9 @@ namespace
 
 constexpr FilmEstimator both[] = { FilmEstimator::Sheet, FilmEstimator::Photon };
 
-double mean(const PixelArray<float>& picture)
+double mean(const PixelArray<float>& image)
 {
-  return std::accumulate(picture.begin(), picture.end(), 0.) / static_cast<double>(picture.size());
+  return std::accumulate(image.begin(), image.end(), 0.) / static_cast<double>(image.size());
 }
 
 /// A blob of gas beside a solid ball; how far away the screen is decides what becomes of the light.
@@ -108,7 +108,7 @@ TEST(Estimators, BentLightAddsUpToTheUndisturbed)
   }
 }
 
-/// The same bend everywhere in a cube that fills the picture: light is as even in its outermost pixels, though
+/// The same bend everywhere in a cube that fills the image: light is as even in its outermost pixels, though
 /// that beside the cube is not bent.
 TEST(Estimators, LightIsEvenUpToTheSidesOfTheMedium)
 {
@@ -132,7 +132,7 @@ TEST(Estimators, LightIsEvenUpToTheSidesOfTheMedium)
   }
 }
 
-TEST(Estimators, PicturesDoNotDependOnThreads)
+TEST(Estimators, ImagesDoNotDependOnThreads)
 {
   Bodies bodies(1e-3, true);
   Scene& scene = bodies.scene;
@@ -158,8 +158,8 @@ TEST(Estimators, PicturesDoNotDependOnThreads)
   }
 }
 
-/// Rays that are not held are traced again, for the same picture.
-TEST(Estimators, PicturesDoNotDependOnTheMemoryBudget)
+/// Rays that are not held are traced again, for the same image.
+TEST(Estimators, ImagesDoNotDependOnTheMemoryBudget)
 {
   Bodies bodies(1e-3, true);
   Scene& scene = bodies.scene;
@@ -179,7 +179,7 @@ TEST(Estimators, PicturesDoNotDependOnTheMemoryBudget)
       EXPECT_EQ(image.deflection, held.deflection);
       EXPECT_EQ(image.opticalPathDifference, held.opticalPathDifference);
       EXPECT_EQ(image.raysTraced, held.raysTraced);
-      // A second picture.
+      // A second image.
       const std::int64_t traced = bench.work().raysTraced;
       EXPECT_EQ(bench.render(bodies.gas.field, scene).intensity, held.intensity);
       if (budget == 0)
@@ -254,7 +254,7 @@ struct GaussianLens
   }
 
   /// Of passes of rays.
-  PixelArray<float> picture(FilmEstimator estimator, int passes) const
+  PixelArray<float> image(FilmEstimator estimator, int passes) const
   {
     std::vector<std::vector<RayExit>> exits;
     std::vector<TracedRays> rays;
@@ -351,12 +351,12 @@ struct GaussianLens
 };
 
 /// Root of the mean square of the pixels' differences from undisturbed light's intensity as 1.
-double rmsError(const PixelArray<float>& picture, const std::vector<double>& truth)
+double rmsError(const PixelArray<float>& image, const std::vector<double>& truth)
 {
   double sum = 0;
   for (std::size_t pixel = 0; pixel < truth.size(); ++pixel)
   {
-    const double error = static_cast<double>(picture[pixel]) - truth[pixel];
+    const double error = static_cast<double>(image[pixel]) - truth[pixel];
     sum += error * error;
   }
   return std::sqrt(sum / static_cast<double>(truth.size()));
@@ -371,9 +371,9 @@ TEST(Estimators, SheetsOfOneRayAreAsExactAs32Photons)
     {
       const GaussianLens lens{ shape, strength };
       const std::vector<double> truth = lens.truth();
-      const double sheet = rmsError(lens.picture(FilmEstimator::Sheet, 1), truth);
-      const double photons = rmsError(lens.picture(FilmEstimator::Photon, 1), truth);
-      const double manyPhotons = rmsError(lens.picture(FilmEstimator::Photon, 32), truth);
+      const double sheet = rmsError(lens.image(FilmEstimator::Sheet, 1), truth);
+      const double photons = rmsError(lens.image(FilmEstimator::Photon, 1), truth);
+      const double manyPhotons = rmsError(lens.image(FilmEstimator::Photon, 32), truth);
       EXPECT_LE(sheet, 0.5 * manyPhotons);
       EXPECT_LT(manyPhotons, photons);
     }
@@ -384,7 +384,7 @@ TEST(Estimators, SheetsOfOneRayAreAsExactAs32Photons)
 TEST(Estimators, BrightnessIsTheSumOverFolds)
 {
   const GaussianLens lens{ GaussianLens::Shape::Column, 3 };
-  const PixelArray<float> picture = lens.picture(FilmEstimator::Sheet, 4);
+  const PixelArray<float> image = lens.image(FilmEstimator::Sheet, 4);
   for (const int column : { 45, 47, 49, 80, 10 })
   {
     const double there = column - GaussianLens::middle;
@@ -398,8 +398,8 @@ TEST(Estimators, BrightnessIsTheSumOverFolds)
         expected += step / std::abs(b - a);
       }
     }
-    EXPECT_NEAR(picture[static_cast<std::size_t>(40 * GaussianLens::size + column)], expected,
-      0.01 * expected);
+    EXPECT_NEAR(
+      image[static_cast<std::size_t>(40 * GaussianLens::size + column)], expected, 0.01 * expected);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// From traced rays to pictures: invented rays, counted one by one.
+// From traced rays to images: invented rays, counted one by one.
 #include "Film/Exposure.h"
 #include "Film/PixelMeans.h"
 #include "Optics/AutomaticK.h"
@@ -21,7 +21,7 @@ namespace
 
 constexpr int width = 37, height = 90;
 constexpr std::int64_t margin = 3;
-constexpr std::int64_t heldMargin = 5; ///< more than the picture needs
+constexpr std::int64_t heldMargin = 5; ///< more than the image needs
 
 /// Passes of rays of all fates, which land up to `spread` pixels from where they start.
 struct InventedRays
@@ -52,7 +52,7 @@ struct InventedRays
 };
 
 template <class Use>
-void forEachRayOfPicture(const TracedRays& rays, std::int64_t around, const Use& use)
+void forEachRayOfImage(const TracedRays& rays, std::int64_t around, const Use& use)
 {
   for (std::int64_t row = -around; row < height + around; ++row)
   {
@@ -66,7 +66,7 @@ void forEachRayOfPicture(const TracedRays& rays, std::int64_t around, const Use&
 
 struct Exposed
 {
-  PixelArray<float> picture;
+  PixelArray<float> image;
   RayCounts counts;
 };
 
@@ -94,7 +94,7 @@ TEST(Exposure, IsTheSumOfAllRays)
     RayCounts counts;
     for (const TracedRays& rays : invented.rays)
     {
-      forEachRayOfPicture(rays, margin,
+      forEachRayOfImage(rays, margin,
         [&](std::int64_t column, std::int64_t row, const RayExit& exit)
         {
           counts.crossed += exit.fate == RayFate::Missed ? 0 : 1;
@@ -127,7 +127,7 @@ TEST(Exposure, IsTheSumOfAllRays)
     const Exposed one = exposed(invented.rays, knife, projection, 1);
     for (std::size_t pixel = 0; pixel < expected.size(); ++pixel)
     {
-      ASSERT_NEAR(one.picture[pixel], expected[pixel], 1e-5);
+      ASSERT_NEAR(one.image[pixel], expected[pixel], 1e-5);
     }
     EXPECT_EQ(one.counts.crossed, counts.crossed);
     EXPECT_EQ(one.counts.steps, counts.steps);
@@ -135,7 +135,7 @@ TEST(Exposure, IsTheSumOfAllRays)
     EXPECT_EQ(one.counts.lost, counts.lost);
     for (const int threads : { 2, 5 })
     {
-      EXPECT_EQ(exposed(invented.rays, knife, projection, threads).picture, one.picture);
+      EXPECT_EQ(exposed(invented.rays, knife, projection, threads).image, one.image);
     }
   }
 }
@@ -148,7 +148,7 @@ TEST(PixelMeans, AreThoseOfTheRaysThatStartThere)
   std::vector<double> sums(width * height), lights(width * height), blocked(width * height);
   for (const TracedRays& rays : invented.rays)
   {
-    forEachRayOfPicture(rays, 0,
+    forEachRayOfImage(rays, 0,
       [&](std::int64_t column, std::int64_t row, const RayExit& exit)
       {
         const auto pixel = static_cast<std::size_t>(row * width + column);
@@ -206,17 +206,17 @@ TEST(Spread, HoldsTheSortedValues)
       {
         exit.fate = RayFate::Missed;
       }
-      forEachRayOfPicture(invented.rays[0], heldMargin,
+      forEachRayOfImage(invented.rays[0], heldMargin,
         [&](std::int64_t column, std::int64_t row, const RayExit& exit)
         {
           const std::int64_t ray = &exit - invented.rays[0].exits;
           double& value = values[static_cast<std::size_t>(ray)] = make();
-          const bool isInPicture = column >= 0 && column < width && row >= 0 && row < height;
-          if (!isInPicture || static_cast<int>(sorted.size()) < rays)
+          const bool isInImage = column >= 0 && column < width && row >= 0 && row < height;
+          if (!isInImage || static_cast<int>(sorted.size()) < rays)
           {
             invented.exits[0][static_cast<std::size_t>(ray)].fate = RayFate::Left;
           }
-          if (!isInPicture)
+          if (!isInImage)
           {
             value = 1e305; // must not count
           }

@@ -103,7 +103,7 @@ TEST_P(Extremes, AmbientOffsetDoesNotShow)
   EXPECT_LT(difference(vacuum.opticalPathDifference, air.opticalPathDifference, 1), 2e-6);
 }
 
-TEST_P(Extremes, FaintestMediumGivesTheSamePicture)
+TEST_P(Extremes, FaintestMediumGivesTheSameImage)
 {
   const Scene scene = smallScene(GetParam());
   const Image reference = renderBlob(1e-4, 0, scene);
@@ -139,7 +139,7 @@ TEST_P(Extremes, SingleAgreesWithDouble)
   }
 }
 
-TEST_P(Extremes, MirroredDataGivesTheMirroredPicture)
+TEST_P(Extremes, MirroredDataGivesTheMirroredImage)
 {
   Scene scene = smallScene(GetParam());
   scene.view.viewDirection = { 0, 0, -1 };

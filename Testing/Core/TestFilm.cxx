@@ -15,9 +15,9 @@ namespace schlieren
 namespace
 {
 
-double sum(const PixelArray<float>& picture)
+double sum(const PixelArray<float>& image)
 {
-  return std::accumulate(picture.begin(), picture.end(), 0.);
+  return std::accumulate(image.begin(), image.end(), 0.);
 }
 
 TEST(AutomaticK, MapsThe99thPercentileToFullScale)
@@ -94,12 +94,12 @@ TEST(Film, SharesARayAmongFourPixels)
 {
   Film film(4, 3, 1);
   Splatter{ film }(1.25, 0.5, 1);
-  const PixelArray<float> picture = film.develop(1, 1);
-  EXPECT_FLOAT_EQ(picture[1], 0.375f);
-  EXPECT_FLOAT_EQ(picture[2], 0.125f);
-  EXPECT_FLOAT_EQ(picture[5], 0.375f);
-  EXPECT_FLOAT_EQ(picture[6], 0.125f);
-  EXPECT_DOUBLE_EQ(sum(picture), 1);
+  const PixelArray<float> image = film.develop(1, 1);
+  EXPECT_FLOAT_EQ(image[1], 0.375f);
+  EXPECT_FLOAT_EQ(image[2], 0.125f);
+  EXPECT_FLOAT_EQ(image[5], 0.375f);
+  EXPECT_FLOAT_EQ(image[6], 0.125f);
+  EXPECT_DOUBLE_EQ(sum(image), 1);
 }
 
 TEST(Film, LosesNoLight)
@@ -164,7 +164,7 @@ TEST(Film, BandsChangeNothing)
       }
     }
   }
-  std::vector<PixelArray<float>> pictures;
+  std::vector<PixelArray<float>> images;
   for (const std::int64_t covered : { -1, 0, 5, 63, 64, 500 })
   {
     SCOPED_TRACE(covered);
@@ -182,12 +182,12 @@ TEST(Film, BandsChangeNothing)
         band.add(at.column, at.row, sharesOf(at, std::llround(film.one())));
       }
     }
-    pictures.push_back(film.develop(1, 2));
+    images.push_back(film.develop(1, 2));
     for (std::size_t pixel = 0; pixel < expected.size(); ++pixel)
     {
-      ASSERT_NEAR(pictures.back()[pixel], expected[pixel], 1e-5);
+      ASSERT_NEAR(images.back()[pixel], expected[pixel], 1e-5);
     }
-    EXPECT_EQ(pictures.back(), pictures.front());
+    EXPECT_EQ(images.back(), images.front());
   }
 }
 
@@ -245,8 +245,8 @@ TEST(Light, UndisturbedFilmIsEven)
   }
 }
 
-/// A knife's picture of a gentle flow: I = 1/2 + k eps, and the automatic k uses the scale well.
-TEST(KnifeEdge, PictureFollowsTheDeflection)
+/// A knife's image of a gentle flow: I = 1/2 + k eps, and the automatic k uses the scale well.
+TEST(KnifeEdge, ImageFollowsTheDeflection)
 {
   const SampledField<float> blob(cube(32, 1),
     [](double x, double y, double z) { return 1e-8 * std::exp(-(x * x + y * y + z * z) / 0.1); });
@@ -272,7 +272,7 @@ TEST(KnifeEdge, PictureFollowsTheDeflection)
   }
 }
 
-/// Rounding must not be blown up to a picture: the field varies along the light only.
+/// Rounding must not be blown up to an image: the field varies along the light only.
 TEST(AutomaticK, LeavesRoundingInvisible)
 {
   const SampledField<float> gas(cube(48, 1),

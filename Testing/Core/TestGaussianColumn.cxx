@@ -121,7 +121,7 @@ TEST_P(GaussianColumn, LinearConvergesWithTheGrid)
   EXPECT_NEAR(std::log2(coarse.opd / fine.opd), 2, 0.2);
 }
 
-/// The column lies across the picture at an angle and light crosses the grid obliquely, so that
+/// The column lies across the image at an angle and light crosses the grid obliquely, so that
 /// nothing is aligned with anything.
 TEST_P(GaussianColumn, ObliqueViewMatchesClosedForm)
 {

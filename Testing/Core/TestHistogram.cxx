@@ -18,7 +18,7 @@ namespace
 constexpr int width = 23, height = 17;
 constexpr Pass pass{ -2, -1, width + 3, height + 4, { 0, 0 } };
 
-/// Rays with a deflection each in the picture, and strong ones around it that do not count.
+/// Rays with a deflection each in the image, and strong ones around it that do not count.
 std::vector<RayExit> exitsOf(const std::function<std::array<double, 2>(int, int)>& deflection)
 {
   std::vector<RayExit> exits(static_cast<std::size_t>(pass.columns * pass.rows),
@@ -183,7 +183,7 @@ TEST(Histogram, TakesAnyDeflection)
   EXPECT_TRUE(std::isfinite(histogram.range));
 }
 
-TEST(Histogram, BelongsToThePictureAndIsCountedOnce)
+TEST(Histogram, BelongsToTheImageAndIsCountedOnce)
 {
   SampledField<float> column(
     cube(24, 1), [](double x, double y, double) { return 1e-4 * std::exp(-4 * (x * x + y * y)); });

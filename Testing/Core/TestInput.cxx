@@ -30,12 +30,12 @@ Change graded(const std::vector<double>& filter)
   };
 }
 
-Change colored(const RgbPicture& picture)
+Change colored(const RgbImage& image)
 {
-  return [picture](Field&, Scene& scene)
+  return [image](Field&, Scene& scene)
   {
     scene.cutoff = Cutoff::ColorFilter;
-    scene.colorFilter = std::make_shared<RgbPicture>(picture);
+    scene.colorFilter = std::make_shared<RgbImage>(image);
   };
 }
 
@@ -57,7 +57,7 @@ std::vector<Mistake> mistakes()
   return {
     { "no pixels", "ImageSize", [](Field&, Scene& s) { s.view.width = 0; } },
     { "negative height", "ImageSize", [](Field&, Scene& s) { s.view.height = -3; } },
-    { "huge picture", "ImageSize", [](Field&, Scene& s) { s.view.height = 1 << 20; } },
+    { "huge image", "ImageSize", [](Field&, Scene& s) { s.view.height = 1 << 20; } },
     { "no direction", "ViewDirection is (0, 0, 0)",
       [](Field&, Scene& s) {
         s.view.viewDirection = { 0, 0, 0 };
@@ -85,9 +85,9 @@ std::vector<Mistake> mistakes()
     { "filter that amplifies", "GradedFilter is 1.5", graded({ 0, 1.5 }) },
     { "filter below darkness", "GradedFilter is -0.1", graded({ 0, -0.1, 1 }) },
     { "filter of NaN", "GradedFilter", graded({ nan, 1 }) },
-    { "picture without pixels", "ColorFilter", colored({ 0, 0, {} }) },
-    { "picture cut short", "ColorFilter", colored({ 2, 1, { 1, 2, 3 } }) },
-    { "picture of negative size", "ColorFilter", colored({ -1, -1, { 1, 2, 3 } }) },
+    { "image without pixels", "ColorFilter", colored({ 0, 0, {} }) },
+    { "image cut short", "ColorFilter", colored({ 2, 1, { 1, 2, 3 } }) },
+    { "image of negative size", "ColorFilter", colored({ -1, -1, { 1, 2, 3 } }) },
     { "no wavelength", "Wavelength", fringes([](Scene& s) { s.wavelength = 0; }) },
     { "negative wavelength", "Wavelength", fringes([](Scene& s) { s.wavelength = -5e-7; }) },
     { "wavelength of NaN", "Wavelength", fringes([=](Scene& s) { s.wavelength = nan; }) },

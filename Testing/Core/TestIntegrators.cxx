@@ -25,7 +25,7 @@ double lens(double x, double y, double z)
 /// Largest |grad n^2| / 2: n times 0.858 peak / width, and the narrowest direction is 1.22 times narrower.
 constexpr double lensBend = (1 + lensPeak) * 0.858 * 1.22 * lensPeak / lensWidth;
 
-/// Pictures of the lens by one bench, each with single rays through most of it.
+/// Images of the lens by one bench, each with single rays through most of it.
 class Lens
 {
 public:

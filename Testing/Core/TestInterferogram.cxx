@@ -137,7 +137,7 @@ TEST(FiniteFringes, HaveTheirSpacingAndDirection)
       std::sin(degrees * radiansPerDegree) };
     const auto at = [&](double alongNormal, double aside, double path)
     {
-      // From the middle of the picture, data units.
+      // From the middle of the image, data units.
       const double u = alongNormal * across[0] - aside * across[1];
       const double v = alongNormal * across[1] + aside * across[0];
       return lightOf(fringes, { { 0, 0 }, path, { 150 + u / pixelSize, 100 + v / pixelSize } });

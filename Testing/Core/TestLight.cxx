@@ -248,7 +248,7 @@ Scene wallScene(Device device)
   return scene;
 }
 
-/// The place in the picture, from its axis, where the wall begins to darken.
+/// The place in the image, from its axis, where the wall begins to darken.
 double edgeIn(const Image& image)
 {
   double light = 0;
@@ -554,7 +554,7 @@ TEST(LightMistakes, AreTold)
     scene.source.distance = distance;
     expectError(scene, "SourceDistance");
   }
-  scene.source.distance = 1.3; // the picture's corners are at 1.41
+  scene.source.distance = 1.3; // the image's corners are at 1.41
   expectError(scene, "45");
   scene.source.distance = 3;
   scene.focusOffset = -3;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the medium, its homogeneity map and pictures take while they are made, in bytes, against the samples
+// What the medium, its homogeneity map and images take while they are made, in bytes, against the samples
 // that they are made from.
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
@@ -78,8 +78,8 @@ TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
   }
 }
 
-/// All of it: medium, map, rays, film and the picture that is handed out.
-TEST(Memory, OfAPictureIsThatOfTheSamplesAndAThird)
+/// All of it: medium, map, rays, film and the image that is handed out.
+TEST(Memory, OfAImageIsThatOfTheSamplesAndAThird)
 {
   const SampledField<float> field(
     cube(256, 1), [](double x, double y, double z) { return 1e-4 * (x * y + z); });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The filters that take the noise out of a finished picture.
+// The filters that take the noise out of a finished image.
 #include "Fields.h"
 #include "Film/NoiseFilters.h"
 #include "Math/Units.h"
@@ -23,33 +23,33 @@ constexpr std::size_t pixels = width * height;
 constexpr NoiseFilter allFilters[] = { NoiseFilter::Gaussian, NoiseFilter::Mean,
   NoiseFilter::Cone };
 
-PixelArray<float> evenPicture(float light, std::size_t channels = 1)
+PixelArray<float> evenImage(float light, std::size_t channels = 1)
 {
-  PixelArray<float> picture(channels * pixels);
-  std::fill(picture.begin(), picture.end(), light);
-  return picture;
+  PixelArray<float> image(channels * pixels);
+  std::fill(image.begin(), image.end(), light);
+  return image;
 }
 
 PixelArray<float> noise(std::size_t channels = 1)
 {
   std::mt19937 random(11);
-  PixelArray<float> picture(channels * pixels);
-  std::generate(picture.begin(), picture.end(),
-    [&random] { return static_cast<float>(random() % 1000) / 1000; });
-  return picture;
+  PixelArray<float> image(channels * pixels);
+  std::generate(
+    image.begin(), image.end(), [&random] { return static_cast<float>(random() % 1000) / 1000; });
+  return image;
 }
 
 /// What a single bright pixel far from the border becomes.
 PixelArray<float> spotThrough(NoiseFilter filter, double radius, float samplesPerPixel = 1)
 {
-  PixelArray<float> picture = evenPicture(0);
-  picture[14 * width + 20] = 1;
-  return filtered(picture, width, height, filter, radius, evenPicture(samplesPerPixel), 2);
+  PixelArray<float> image = evenImage(0);
+  image[14 * width + 20] = 1;
+  return filtered(image, width, height, filter, radius, evenImage(samplesPerPixel), 2);
 }
 
-float at(const PixelArray<float>& picture, int columns, int rows)
+float at(const PixelArray<float>& image, int columns, int rows)
 {
-  return picture[static_cast<std::size_t>((14 + rows) * width + 20 + columns)];
+  return image[static_cast<std::size_t>((14 + rows) * width + 20 + columns)];
 }
 
 TEST(NoiseFilters, LeaveEvenLightAsItIs)
@@ -60,8 +60,8 @@ TEST(NoiseFilters, LeaveEvenLightAsItIs)
     {
       for (const float light : { 0.f, 0.5f, 1.f, 0.1f, 3e30f })
       {
-        const PixelArray<float> picture = evenPicture(light, 3);
-        EXPECT_EQ(filtered(picture, width, height, filter, radius, noise(), 2), picture);
+        const PixelArray<float> image = evenImage(light, 3);
+        EXPECT_EQ(filtered(image, width, height, filter, radius, noise(), 2), image);
       }
     }
   }
@@ -69,15 +69,15 @@ TEST(NoiseFilters, LeaveEvenLightAsItIs)
 
 TEST(NoiseFilters, ChangeNothingBelowOnePixel)
 {
-  const PixelArray<float> picture = noise();
+  const PixelArray<float> image = noise();
   for (const double radius : { 0., 0.5, 0.999 })
   {
     for (const NoiseFilter filter : allFilters)
     {
-      EXPECT_EQ(filtered(picture, width, height, filter, radius, evenPicture(1), 2), picture);
+      EXPECT_EQ(filtered(image, width, height, filter, radius, evenImage(1), 2), image);
     }
   }
-  EXPECT_EQ(filtered(picture, width, height, NoiseFilter::None, 5, evenPicture(1), 2), picture);
+  EXPECT_EQ(filtered(image, width, height, NoiseFilter::None, 5, evenImage(1), 2), image);
 }
 
 TEST(NoiseFilters, DoNotDependOnThreads)
@@ -95,22 +95,22 @@ TEST(NoiseFilters, DoNotDependOnThreads)
 
 TEST(NoiseFilters, GaussianHasItsWidth)
 {
-  const PixelArray<float> picture = spotThrough(NoiseFilter::Gaussian, 4);
-  EXPECT_NEAR(at(picture, 2, 0) / at(picture, 0, 0), std::exp(-0.5), 1e-6);
-  EXPECT_NEAR(at(picture, 2, -2) / at(picture, 0, 0), std::exp(-1.), 1e-6);
-  EXPECT_NEAR(at(picture, 0, 0), 1 / (2 * pi * 4), 0.02 / (2 * pi * 4));
-  EXPECT_GT(at(picture, -6, 0), 0);
-  EXPECT_EQ(at(picture, -5, 4), 0);
+  const PixelArray<float> image = spotThrough(NoiseFilter::Gaussian, 4);
+  EXPECT_NEAR(at(image, 2, 0) / at(image, 0, 0), std::exp(-0.5), 1e-6);
+  EXPECT_NEAR(at(image, 2, -2) / at(image, 0, 0), std::exp(-1.), 1e-6);
+  EXPECT_NEAR(at(image, 0, 0), 1 / (2 * pi * 4), 0.02 / (2 * pi * 4));
+  EXPECT_GT(at(image, -6, 0), 0);
+  EXPECT_EQ(at(image, -5, 4), 0);
 }
 
 TEST(NoiseFilters, MeanIsThatOfADisc)
 {
-  const PixelArray<float> picture = spotThrough(NoiseFilter::Mean, 2);
+  const PixelArray<float> image = spotThrough(NoiseFilter::Mean, 2);
   for (int row = -4; row <= 4; ++row)
   {
     for (int column = -4; column <= 4; ++column)
     {
-      EXPECT_FLOAT_EQ(at(picture, column, row), column * column + row * row <= 4 ? 1 / 13.f : 0.f);
+      EXPECT_FLOAT_EQ(at(image, column, row), column * column + row * row <= 4 ? 1 / 13.f : 0.f);
     }
   }
 }
@@ -122,13 +122,13 @@ TEST(NoiseFilters, ConeShrinksAsSamplesComeIn)
   {
     constexpr double radius = 6;
     const double expected = radius / std::sqrt(static_cast<double>(samplesPerPixel));
-    const PixelArray<float> picture = spotThrough(NoiseFilter::Cone, radius, samplesPerPixel);
-    EXPECT_NEAR(at(picture, 1, 0) / at(picture, 0, 0), 1 - 1 / expected, 1e-5);
+    const PixelArray<float> image = spotThrough(NoiseFilter::Cone, radius, samplesPerPixel);
+    EXPECT_NEAR(at(image, 1, 0) / at(image, 0, 0), 1 - 1 / expected, 1e-5);
     EXPECT_NEAR(
-      at(picture, 1, -1) / at(picture, 0, 0), std::max(0., 1 - std::sqrt(2.) / expected), 1e-5);
+      at(image, 1, -1) / at(image, 0, 0), std::max(0., 1 - std::sqrt(2.) / expected), 1e-5);
     const int last = static_cast<int>(std::ceil(expected)) - 1;
-    EXPECT_GT(at(picture, last, 0), 0);
-    EXPECT_EQ(at(picture, last + 1, 0), 0);
+    EXPECT_GT(at(image, last, 0), 0);
+    EXPECT_EQ(at(image, last + 1, 0), 0);
   }
   // No neighbour is left in it.
   EXPECT_EQ(at(spotThrough(NoiseFilter::Cone, 6, 36), 0, 0), 1);
@@ -138,14 +138,13 @@ TEST(NoiseFilters, ConeShrinksAsSamplesComeIn)
 /// Where light is dense the cone is narrow: a bright line stays sharp, while what is beside it is blurred.
 TEST(NoiseFilters, ConeIsNarrowWhereLightIsDense)
 {
-  PixelArray<float> samples = evenPicture(1);
+  PixelArray<float> samples = evenImage(1);
   for (int row = 0; row < height; ++row)
   {
     samples[static_cast<std::size_t>(row * width + 20)] = 1000;
   }
-  PixelArray<float> picture = samples;
-  const PixelArray<float> sharp =
-    filtered(picture, width, height, NoiseFilter::Cone, 5, samples, 2);
+  PixelArray<float> image = samples;
+  const PixelArray<float> sharp = filtered(image, width, height, NoiseFilter::Cone, 5, samples, 2);
   EXPECT_EQ(at(sharp, 0, 0), 1000);
   EXPECT_EQ(at(sharp, 9, 0), 1);
 }
@@ -153,9 +152,9 @@ TEST(NoiseFilters, ConeIsNarrowWhereLightIsDense)
 /// Nowhere are there samples enough, or any: a disc of twice the radius is the limit.
 TEST(NoiseFilters, ConeHasALimit)
 {
-  const PixelArray<float> picture = spotThrough(NoiseFilter::Cone, 3, 0);
-  EXPECT_NEAR(at(picture, 3, 0) / at(picture, 0, 0), 0.5, 1e-6);
-  EXPECT_EQ(at(picture, 6, 0), 0);
+  const PixelArray<float> image = spotThrough(NoiseFilter::Cone, 3, 0);
+  EXPECT_NEAR(at(image, 3, 0) / at(image, 0, 0), 0.5, 1e-6);
+  EXPECT_EQ(at(image, 6, 0), 0);
   PixelArray<float> single(1);
   single[0] = 0.25f;
   for (const NoiseFilter filter : allFilters)
@@ -167,27 +166,27 @@ TEST(NoiseFilters, ConeHasALimit)
 /// Noise of independent pixels falls as the square root of how many are averaged.
 TEST(NoiseFilters, TakeNoiseOut)
 {
-  const auto deviation = [](const PixelArray<float>& picture)
+  const auto deviation = [](const PixelArray<float>& image)
   {
     double sum = 0, squares = 0;
-    for (const float light : picture)
+    for (const float light : image)
     {
       sum += static_cast<double>(light);
       squares += static_cast<double>(light) * static_cast<double>(light);
     }
-    const double mean = sum / static_cast<double>(picture.size());
-    return std::sqrt(squares / static_cast<double>(picture.size()) - mean * mean);
+    const double mean = sum / static_cast<double>(image.size());
+    return std::sqrt(squares / static_cast<double>(image.size()) - mean * mean);
   };
   const double before = deviation(noise());
   const double after =
-    deviation(filtered(noise(), width, height, NoiseFilter::Mean, 2, evenPicture(1), 2));
+    deviation(filtered(noise(), width, height, NoiseFilter::Mean, 2, evenImage(1), 2));
   EXPECT_NEAR(after / before, 1 / std::sqrt(13.), 0.05);
 }
 
 /// What a bench makes of a flow, with a body, is filtered as a whole.
-struct NoisyPicture
+struct NoisyImage
 {
-  NoisyPicture()
+  NoisyImage()
     : gas(cube(20, 1),
         [](double x, double y, double z)
         { return std::hypot(x, y) < 0.2 ? std::nan("") : 1e-4 * std::sin(9 * x + 5 * y * z); })
@@ -204,9 +203,9 @@ struct NoisyPicture
   Scene scene;
 };
 
-TEST(NoiseFilters, AreAppliedToTheBenchsPictures)
+TEST(NoiseFilters, AreAppliedToTheBenchsImages)
 {
-  NoisyPicture noisy;
+  NoisyImage noisy;
   std::vector<float> gradients(noisy.gas.samples.size(), 1);
   noisy.gas.field.gradients = { 1, gradients.data(), 1 };
   Scene& scene = noisy.scene;
@@ -230,7 +229,7 @@ TEST(NoiseFilters, AreAppliedToTheBenchsPictures)
 /// The cone's samples are counted where rays land, whatever light they bring.
 TEST(NoiseFilters, ConeCountsTheSamplesThatLand)
 {
-  NoisyPicture noisy;
+  NoisyImage noisy;
   Scene& scene = noisy.scene;
   scene.cutoff = Cutoff::Shadowgraph;
   scene.screenDistance = 300;
@@ -250,7 +249,7 @@ TEST(NoiseFilters, ConeCountsTheSamplesThatLand)
 
 TEST(NoiseFilters, RadiusMustMakeSense)
 {
-  NoisyPicture noisy;
+  NoisyImage noisy;
   for (const double radius : { -1., 32.5, 1e300, std::nan(""), HUGE_VAL })
   {
     noisy.scene.noiseFilterRadius = radius;

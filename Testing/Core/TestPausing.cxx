@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture that is made in pieces is the one made in one go, to the last bit.
+// An image that is made in pieces is the one made in one go, to the last bit.
 #include "Fields.h"
 #include "SameImage.h"
 
@@ -192,7 +192,7 @@ TEST(Pausing, NoPauseFinishesWhatWasBegun)
 }
 
 // Each shows all samples so far, as if no more had been asked for.
-TEST(Pausing, ShowsThePictureOfTheSamplesSoFar)
+TEST(Pausing, ShowsTheImageOfTheSamplesSoFar)
 {
   const Flow flow;
   for (const Cutoff cutoff : { Cutoff::ColorFilter, Cutoff::Background })
@@ -273,7 +273,7 @@ TEST(Pausing, AnotherCutoffInTheMidstKeepsTheRays)
   }
 }
 
-TEST(Pausing, AnotherViewOrMediumInTheMidstGivesThePictureUp)
+TEST(Pausing, AnotherViewOrMediumInTheMidstGivesTheImageUp)
 {
   Flow flow;
   Bench bench;

@@ -397,7 +397,7 @@ TEST_P(RayExtremes, StepsOfOneVoxelKeepTheirHeight)
   }
 }
 
-/// All rays of a picture of a box, against the piece of line inside it: a field that is linear is
+/// All rays of an image of a box, against the piece of line inside it: a field that is linear is
 /// interpolated exactly by every scheme, on every grid, up to its faces.
 void compareWithChords(const Grid& grid, const Scene& scene, const Vector& viewDirection)
 {
@@ -615,7 +615,7 @@ TEST_P(RayExtremes, PhaseOfTenMillionFringes)
   EXPECT_GT(most, 1e7);
 }
 
-/// Numbers at the end of what can be written down: a picture all the same.
+/// Numbers at the end of what can be written down: an image all the same.
 TEST_P(RayExtremes, DenormalValues)
 {
   for (const double peak : { 1e-40, 1e-44, 1e-300, 1e-310, 5e-324 })

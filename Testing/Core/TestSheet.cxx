@@ -614,7 +614,7 @@ TEST(SheetRay, TwoStepsAreAsGoodAsOne)
   EXPECT_LT(others, 800);
 }
 
-/// Whatever the shape, a mirrored sheet makes a mirrored picture.
+/// Whatever the shape, a mirrored sheet makes a mirrored image.
 TEST(Sheet, HasNoHandedness)
 {
   std::mt19937 random(9);

@@ -212,7 +212,7 @@ ClippedErrors errorsWithin(double radius, const Image& image)
 }
 
 /// Light that crosses transparent places lacks the deflection that the gas which is missing there would
-/// add, and has little else: over the picture the error is that of rays that graze the edge of the data.
+/// add, and has little else: over the image the error is that of rays that graze the edge of the data.
 TEST_P(Solids, TransparentPlacesContinueTheGas)
 {
   for (const double radius : { 0.7, 0.8, 0.9 })

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Stages keep their results; pictures do not depend on how they came about.
+// Stages keep their results; images do not depend on how they came about.
 #include "Fields.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Scene smallScene()
   return scene;
 }
 
-void expectSamePicture(const Image& a, const Image& b)
+void expectSameImage(const Image& a, const Image& b)
 {
   EXPECT_EQ(a.intensity, b.intensity);
   EXPECT_EQ(a.deflection, b.deflection);
@@ -61,7 +61,7 @@ TEST(Stages, CutoffTracesNothing)
   image = bench.render(blob.field, scene);
   EXPECT_EQ(bench.work().mediumBuilds, first.mediumBuilds);
   EXPECT_EQ(bench.work().raysTraced, first.raysTraced);
-  expectSamePicture(image, Bench().render(blob.field, scene));
+  expectSameImage(image, Bench().render(blob.field, scene));
 }
 
 TEST(Stages, CameraKeepsTheMedium)
@@ -75,7 +75,7 @@ TEST(Stages, CameraKeepsTheMedium)
   const Image image = bench.render(blob.field, scene);
   EXPECT_EQ(bench.work().mediumBuilds, 1);
   EXPECT_GT(bench.work().raysTraced, rays);
-  expectSamePicture(image, Bench().render(blob.field, scene));
+  expectSameImage(image, Bench().render(blob.field, scene));
 }
 
 TEST(Stages, NewDataRebuildTheMedium)
@@ -106,7 +106,7 @@ TEST(Stages, EverythingThatMattersTracesAgain)
     const std::int64_t rays = bench.work().raysTraced;
     image = bench.render(blob.field, scene);
     EXPECT_GT(bench.work().raysTraced, rays);
-    expectSamePicture(image, Bench().render(blob.field, scene));
+    expectSameImage(image, Bench().render(blob.field, scene));
   };
   scene.stepSize = 0.5;
   expectFresh("step");
@@ -135,15 +135,15 @@ TEST(Stages, MoreSamplesContinueTheSequence)
   scene.samplesPerPixel = 9;
   const Image grown = bench.render(blob.field, scene);
   Bench fresh;
-  expectSamePicture(grown, fresh.render(blob.field, scene));
+  expectSameImage(grown, fresh.render(blob.field, scene));
   EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced);
   EXPECT_GT(bench.work().raysTraced, 2 * rays);
-  // Going back shows the first picture again and traces nothing.
+  // Going back shows the first image again and traces nothing.
   const std::int64_t all = bench.work().raysTraced;
   scene.samplesPerPixel = 3;
   const Image back = bench.render(blob.field, scene);
   EXPECT_EQ(bench.work().raysTraced, all);
-  expectSamePicture(back, Bench().render(blob.field, scene));
+  expectSameImage(back, Bench().render(blob.field, scene));
 }
 
 TEST(Stages, ThreadsDoNotChangeABit)
@@ -161,7 +161,7 @@ TEST(Stages, ThreadsDoNotChangeABit)
     {
       SCOPED_TRACE(threads);
       scene.threads = threads;
-      expectSamePicture(one, Bench().render(blob.field, scene));
+      expectSameImage(one, Bench().render(blob.field, scene));
     }
   }
 }
@@ -179,7 +179,7 @@ TEST(Stages, AbortLeavesNothingBroken)
   EXPECT_TRUE(aborted.intensity.empty());
   const Image image = bench.render(blob.field, scene);
   EXPECT_FALSE(image.aborted);
-  expectSamePicture(image, Bench().render(blob.field, scene));
+  expectSameImage(image, Bench().render(blob.field, scene));
 }
 
 TEST(Stages, ProgressGrowsToOne)

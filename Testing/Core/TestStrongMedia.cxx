@@ -335,7 +335,7 @@ TEST_P(StrongMedia, RaysAreReversible)
 }
 
 /// Lengths have no unit, the index no scale, and space no handedness, in strong media too.
-TEST_P(StrongMedia, SimilarMediaGiveSimilarPictures)
+TEST_P(StrongMedia, SimilarMediaGiveSimilarImages)
 {
   const Case medium = strongMedia().back();
   const Grid grid = boxGrid(1. / 20, medium.half);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Colour by field: rays gather the gradients of fields, and the picture is tinted by the fields' colours.
+// Colour by field: rays gather the gradients of fields, and the image is tinted by the fields' colours.
 #include "Fields.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct TintedField : SampledField<float>
 
 double vacuum(double, double, double) { return 0; }
 
-/// One ray at each pixel's centre of a picture that shows more than the data.
+/// One ray at each pixel's centre of an image that shows more than the data.
 Scene sceneOf(const std::vector<Color>& colors, Device device = Device::Cpu)
 {
   Scene scene;
@@ -68,7 +68,7 @@ std::array<double, 3> tintAt(const Image& image, int column, int row)
   return tint;
 }
 
-/// The largest difference of any pixel's tint from that of a place of the picture.
+/// The largest difference of any pixel's tint from that of a place of the image.
 double largestDifference(
   const Image& image, const std::function<std::array<double, 3>(double u, double v)>& truth)
 {
@@ -367,7 +367,7 @@ TEST(Tint, BlockedLightIsBlack)
   }
 }
 
-TEST(Tint, FieldsWithoutGradientLeaveThePictureWhite)
+TEST(Tint, FieldsWithoutGradientLeaveTheImageWhite)
 {
   const TintedField tinted(cube(9, 1), swirl, { [](double, double, double) { return 7; } });
   const Image image = Bench().render(tinted.field, sceneOf({ red }));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where things appear in the picture, and to which side light bends there.
+// Where things appear in the image, and to which side light bends there.
 #include "Fields.h"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ class Views : public OnDevice
 {
 };
 
-/// A field that grows along one picture axis bends light to that side: eps = L grad n / n.
+/// A field that grows along one image axis bends light to that side: eps = L grad n / n.
 TEST_P(Views, LightBendsTowardsHigherIndex)
 {
   for (const NamedView& view : allViews())
@@ -115,7 +115,7 @@ TEST_P(Views, LightBendsTowardsHigherIndex)
   }
 }
 
-/// A bright spot's centre of gravity in the picture is its place in space, to a hundredth of a pixel.
+/// A bright spot's centre of gravity in the image is its place in space, to a hundredth of a pixel.
 void expectSpotInPlace(
   const Grid& grid, const Vector& place, double radius, const View& view, Device device)
 {

@@ -199,8 +199,8 @@ public:
   std::vector<std::string> Warnings;
 };
 
-/// Makes a mistake, expects one message with all of `words` and an empty picture, puts the mistake right
-/// and expects a picture.
+/// Makes a mistake, expects one message with all of `words` and an empty image, puts the mistake right
+/// and expects an image.
 template <class Filter, class Make, class Correct>
 void expectOneMessage(
   Filter* filter, const Make& make, const std::vector<std::string>& words, const Correct& correct)
@@ -224,7 +224,7 @@ void expectOneMessage(
   EXPECT_FALSE(isEmpty(filter));
 }
 
-/// The axes of a picture, as vtkCamera has them.
+/// The axes of an image, as vtkCamera has them.
 struct Axes
 {
   Axes(const Vec& viewDirection, const Vec& viewUp)
@@ -257,7 +257,7 @@ struct GaussianColumn
   }
 };
 
-/// Compares the picture of a column with the closed form: largest errors of the deflection and of the
+/// Compares the image of a column with the closed form: largest errors of the deflection and of the
 /// optical path difference, relative to their largest values.
 struct ColumnErrors
 {

@@ -56,7 +56,7 @@ TEST(Amr, ThreeLevelsMatchTheClosedForm)
   }
 }
 
-// What stands out at a border of levels would be a line in a schlieren picture: the largest second difference there, by
+// What stands out at a border of levels would be a line in a schlieren image: the largest second difference there, by
 // that elsewhere.
 template <class IsAtBorder>
 double bordersByElsewhere(vtkSchlierenFilter* filter, const IsAtBorder& isAtBorder)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pictures tinted by the colours of the fields whose gradients light crosses (ColorByField).
+// Images tinted by the colours of the fields whose gradients light crosses (ColorByField).
 #include "BallOnLevels.h"
 #include "Fixtures.h"
 
@@ -172,14 +172,14 @@ void setWholeRanges(vtkSchlierenFilter* filter, std::size_t fields)
 
 } // namespace
 
-TEST(ColorByField, AddsTheTintedPictureAndChangesNoOther)
+TEST(ColorByField, AddsTheTintedImageAndChangesNoOther)
 {
   auto filter = tinted(flow());
   EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), rounding);
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   EXPECT_STREQ(image->GetPointData()->GetScalars()->GetName(), "Color");
   EXPECT_EQ(image->GetPointData()->GetScalars()->GetDataType(), VTK_UNSIGNED_CHAR);
-  EXPECT_GT(arrayOf(filter, "Intensity")->GetRange()[1], 0.8) << "the picture shows something";
+  EXPECT_GT(arrayOf(filter, "Intensity")->GetRange()[1], 0.8) << "the image shows something";
 
   const std::vector<double> intensity = valuesOf(filter, "Intensity");
   const std::vector<double> deflection = valuesOf(filter, "Deflection");

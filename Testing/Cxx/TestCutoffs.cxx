@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What each cutoff makes of a field that bends all light alike, against its formula, and what comes with the
-// picture.
+// image.
 #include "Fixtures.h"
 
 #include "vtkBase64Utilities.h"
@@ -47,7 +47,7 @@ vtkSmartPointer<Filter> benchOf(vtkImageData* image, int cutoff, double k)
 constexpr double epsX = 2e-5, epsY = 3e-5;
 const double eps = std::hypot(epsX, epsY);
 
-/// Of the picture's middle, with every pixel of it the same.
+/// Of the image's middle, with every pixel of it the same.
 double intensityOf(Filter* filter)
 {
   filter->Update();
@@ -166,15 +166,15 @@ TEST(Cutoffs, AColorWheelTellsTheDirection)
   expectColor(colorOf(benchOf(bending(0, 0), Filter::COLOR_FILTER, 1)), { 255, 255, 255 }, "white");
 }
 
-TEST(Cutoffs, AColorPictureShowsItsQuadrants)
+TEST(Cutoffs, AColorImageShowsItsQuadrants)
 {
-  vtkNew<vtkImageData> picture;
-  picture->SetDimensions(2, 2, 1);
-  picture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   const unsigned char colors[12] = { 10, 20, 30, 200, 100, 0, 0, 255, 60, 250, 240, 5 };
-  std::copy_n(colors, 12, static_cast<unsigned char*>(picture->GetScalarPointer()));
+  std::copy_n(colors, 12, static_cast<unsigned char*>(image->GetScalarPointer()));
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(picture);
+  writer->SetInputData(image);
   const std::string name = SCHLIEREN_TEST_OUTPUT "/quadrants.png";
   writer->SetFileName(name.c_str());
   writer->Write();
@@ -235,7 +235,7 @@ TEST(Cutoffs, FiniteFringesHaveTheirSpacingAndDirection)
     }
     EXPECT_NEAR(fieldValue(filter, "FringeSpacing"), spacing, 1e-9 * spacing);
   };
-  expectFringes(0.1, 0); // a tenth of the picture's height
+  expectFringes(0.1, 0); // a tenth of the image's height
   filter->SetFringeSpacing(0.27);
   expectFringes(0.27, 90);
   expectFringes(0.27, 35);
@@ -299,8 +299,8 @@ TEST(Cutoffs, ABackgroundIsSeenWhereRaysMeetIt)
   EXPECT_EQ(arrayOf(filter, "BackgroundDisplacement"), nullptr);
 }
 
-// The colours of a picture behind the flow are those of the file.
-TEST(Cutoffs, ABackgroundPictureFillsWhatIsSeen)
+// The colours of an image behind the flow are those of the file.
+TEST(Cutoffs, ABackgroundImageFillsWhatIsSeen)
 {
   auto filter = benchOf(bending(0, 0), Filter::BACKGROUND_ORIENTED, 1);
   filter->SetBackgroundPattern(Filter::PICTURE);

@@ -160,7 +160,7 @@ TEST(LinearField, KnifeEdgeAngleChoosesTheComponent)
 namespace
 {
 
-/// Where the optical path's centre of gravity lies in the picture.
+/// Where the optical path's centre of gravity lies in the image.
 std::array<double, 2> centreOfGravity(vtkSchlierenFilter* filter)
 {
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
@@ -178,8 +178,8 @@ std::array<double, 2> centreOfGravity(vtkSchlierenFilter* filter)
 
 } // namespace
 
-// Picture coordinates are (x.u, x.v), also for a tilted grid far from the origin.
-TEST(PictureCoordinates, BlobAppearsWhereItIs)
+// Image coordinates are (x.u, x.v), also for a tilted grid far from the origin.
+TEST(ImageCoordinates, BlobAppearsWhereItIs)
 {
   const Vec far = { 1000, -2000, 500 };
   for (const double angle : { 0., 0.5 })
@@ -218,7 +218,7 @@ TEST(PictureCoordinates, BlobAppearsWhereItIs)
   }
 }
 
-TEST(PictureCoordinates, FocalPointIsTheCentreOfThePicture)
+TEST(ImageCoordinates, FocalPointIsTheCentreOfTheImage)
 {
   auto filter = bench(columnImage(16), 10);
   const auto centre = [&filter]()

@@ -114,7 +114,7 @@ TEST(Inputs, CellArrayOfVoxelsMatchesTheClosedForm)
 }
 
 // Two halves that share a face, a block without the array and a surface with it.
-TEST(Inputs, BlocksMakeOnePicture)
+TEST(Inputs, BlocksMakeOneImage)
 {
   const auto image = columnImage(48);
   vtkNew<vtkMultiBlockDataSet> inner;

@@ -416,7 +416,7 @@ TEST(Extremes, BadCellsHarmNoOthers)
     }
     else
     {
-      vtkNew<vtkImageData> output; // either a picture or a message
+      vtkNew<vtkImageData> output; // either an image or a message
       try
       {
         reader()->Convert(mesh, output);

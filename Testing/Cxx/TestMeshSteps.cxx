@@ -204,7 +204,7 @@ TEST(MeshSteps, NewValuesOnTheMeshAreThoseOfANewMesh)
   }
 }
 
-TEST(MeshSteps, PicturesOnTheMeshAreThoseOfANewFilter)
+TEST(MeshSteps, ImagesOnTheMeshAreThoseOfANewFilter)
 {
   for (const auto& [name, make] : kinds())
   {

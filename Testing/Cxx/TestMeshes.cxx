@@ -306,11 +306,11 @@ TEST(Extremes, OriginsFarAwayCostNothing)
     filter->Update();
     ASSERT_FALSE(isEmpty(filter));
     const GaussianColumn column;
-    auto* picture = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+    auto* output = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
     std::vector<double> deflection;
-    for (vtkIdType i = 0; i < picture->GetNumberOfPoints(); ++i)
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
     {
-      deflection.push_back(column.deflection((picture->GetPoint(i)[0] - offset) / scale));
+      deflection.push_back(column.deflection((output->GetPoint(i)[0] - offset) / scale));
       deflection.push_back(0);
     }
     EXPECT_LT(relativeDifference(valuesOf(filter, "Deflection"), deflection), 1e-3) << isImage;
@@ -341,11 +341,11 @@ TEST(Extremes, ThinDomainsAreSampledAsFinelyAsTheirCells)
   filter->Update();
   // The same column, seen through a thousandth of its depth.
   const GaussianColumn column;
-  auto* picture = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  auto* output = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   std::vector<double> deflection;
-  for (vtkIdType i = 0; i < picture->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    deflection.push_back(column.deflection(picture->GetPoint(i)[0]) * 1e-3);
+    deflection.push_back(column.deflection(output->GetPoint(i)[0]) * 1e-3);
     deflection.push_back(0);
   }
   EXPECT_LT(relativeDifference(valuesOf(filter, "Deflection"), deflection), 3e-3);
@@ -395,11 +395,11 @@ TEST(Extremes, LayersAtWallsAreSampledAsFinelyAsTheirCells)
   filter->SetFocalPoint(0.5, 2 * width, 0.5);
   filter->SetParallelScale(2 * width);
   filter->Update();
-  auto* picture = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  auto* output = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   std::vector<double> deflection;
-  for (vtkIdType i = 0; i < picture->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const double at = picture->GetPoint(i)[1];
+    const double at = output->GetPoint(i)[1];
     deflection.push_back(0);
     deflection.push_back(-2 * at / (width * width) * layer(at));
   }

@@ -223,7 +223,7 @@ std::vector<Mistake> mistakes()
         f->SetFocalLength(0);
       },
       { "FocalLength is 0 m", "positive" }, [](Filter* f) { f->SetFocalLength(1); } },
-    { "NoSuchPicture",
+    { "NoSuchImage",
       [](Filter* f)
       {
         f->SetCutoff(Filter::COLOR_FILTER);
@@ -231,7 +231,7 @@ std::vector<Mistake> mistakes()
       },
       { "ColorFilterImage", "'/no/such.png'", "data:image/png" },
       [](Filter* f) { f->SetColorFilterImage(""); } },
-    { "HalfAPicture",
+    { "HalfAImage",
       [](Filter* f)
       {
         f->SetCutoff(Filter::BACKGROUND_ORIENTED);

@@ -136,7 +136,7 @@ TEST(Pipeline, OutputsAreNotTurnedWithTheInput)
   input->SetDirectionMatrix(turned);
   auto filter = bench(input, 20);
   filter->Update();
-  for (int port : { vtkSchlierenFilter::PICTURE_PORT, vtkSchlierenFilter::HISTOGRAM_PORT })
+  for (int port : { vtkSchlierenFilter::IMAGE_PORT, vtkSchlierenFilter::HISTOGRAM_PORT })
   {
     auto* output = vtkImageData::SafeDownCast(filter->GetOutputDataObject(port));
     vtkInformation* info = filter->GetOutputInformation(port);
@@ -302,7 +302,7 @@ TEST(Pipeline, APropertyOfTheMediumIsPassedOn)
   EXPECT_NEAR(largest(valuesOf(filter, "OpticalPathDifference")) / once, 2, 1e-3);
 }
 
-TEST(Pipeline, AnyNumberOfThreadsGivesTheSamePicture)
+TEST(Pipeline, AnyNumberOfThreadsGivesTheSameImage)
 {
   const auto image = columnImage(40);
   std::vector<double> intensity, deflection, opticalPath;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pictures of fewer pixels, for while a view is turned: the same place, seen roughly.
+// Images of fewer pixels, for while a view is turned: the same place, seen roughly.
 #include "Fixtures.h"
 #include "Preview.h"
 #include "QualityPresets.h"
-#include "RgbPictures.h"
+#include "RgbImages.h"
 #include "SceneFromSettings.h"
 
 #include "vtkInformation.h"
@@ -24,11 +24,11 @@ vtkSmartPointer<vtkImageData> columnImage()
 }
 
 /// Borders of the pixels, not their centres: left, right, low, high.
-std::array<double, 4> bordersOf(vtkImageData* picture)
+std::array<double, 4> bordersOf(vtkImageData* image)
 {
-  const double* origin = picture->GetOrigin();
-  const double* spacing = picture->GetSpacing();
-  const int* size = picture->GetDimensions();
+  const double* origin = image->GetOrigin();
+  const double* spacing = image->GetSpacing();
+  const int* size = image->GetDimensions();
   return { origin[0] - 0.5 * spacing[0], origin[0] + (size[0] - 0.5) * spacing[0],
     origin[1] - 0.5 * spacing[1], origin[1] + (size[1] - 0.5) * spacing[1] };
 }
@@ -36,9 +36,9 @@ std::array<double, 4> bordersOf(vtkImageData* picture)
 /// Means over squares of `edge` pixels.
 std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge)
 {
-  auto* picture = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-  vtkDataArray* array = picture->GetPointData()->GetArray(name);
-  const int* size = picture->GetDimensions();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* array = image->GetPointData()->GetArray(name);
+  const int* size = image->GetDimensions();
   std::vector<double> means;
   for (int row = 0; row < size[1]; row += edge)
   {
@@ -61,7 +61,7 @@ std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge
 
 } // namespace
 
-// Of a smooth flow, whose picture changes little within four pixels.
+// Of a smooth flow, whose image changes little within four pixels.
 TEST(Preview, IsTheWholeOneAveragedOverBoxes)
 {
   for (const int cutoff : { vtkSchlierenFilter::KNIFE_EDGE, vtkSchlierenFilter::SHADOWGRAPH })
@@ -104,20 +104,20 @@ TEST(Preview, LiesWhereTheInformationSays)
     filter->UpdateInformation();
     vtkInformation* info = filter->GetOutputInformation(0);
     filter->Update();
-    vtkImageData* picture = filter->GetOutput();
-    EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
+    vtkImageData* image = filter->GetOutput();
+    EXPECT_TRUE(std::equal(image->GetExtent(), image->GetExtent() + 6,
       info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
+    EXPECT_TRUE(
+      std::equal(image->GetOrigin(), image->GetOrigin() + 2, info->Get(vtkDataObject::ORIGIN())));
     EXPECT_TRUE(std::equal(
-      picture->GetOrigin(), picture->GetOrigin() + 2, info->Get(vtkDataObject::ORIGIN())));
-    EXPECT_TRUE(std::equal(
-      picture->GetSpacing(), picture->GetSpacing() + 2, info->Get(vtkDataObject::SPACING())));
-    const auto preview = bordersOf(picture);
+      image->GetSpacing(), image->GetSpacing() + 2, info->Get(vtkDataObject::SPACING())));
+    const auto preview = bordersOf(image);
     for (std::size_t side = 0; side < whole.size(); side += 2)
     {
-      EXPECT_LE(preview[side], whole[side] + 1e-12);                    // all of it,
-      EXPECT_GE(preview[side], whole[side] - picture->GetSpacing()[0]); // and hardly more
+      EXPECT_LE(preview[side], whole[side] + 1e-12);                  // all of it,
+      EXPECT_GE(preview[side], whole[side] - image->GetSpacing()[0]); // and hardly more
       EXPECT_GE(preview[side + 1], whole[side + 1] - 1e-12);
-      EXPECT_LE(preview[side + 1], whole[side + 1] + picture->GetSpacing()[0]);
+      EXPECT_LE(preview[side + 1], whole[side + 1] + image->GetSpacing()[0]);
     }
   }
 }
@@ -127,14 +127,14 @@ TEST(Preview, HasOneRayPerPixelAndTheRestAsSet)
   vtkNew<vtkSchlierenFilter> filter;
   schlieren::Grid grid;
   grid.dimensions = { 41, 41, 21 };
-  RgbPictureReader pictures;
+  RgbImageReader images;
   filter->SetQuality(vtkSchlierenFilter::PUBLICATION);
   filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
   filter->SetFringeMode(vtkSchlierenFilter::FINITE_FRINGES);
   filter->SetNoiseFilter(vtkSchlierenFilter::GAUSSIAN);
-  const schlieren::Scene whole = sceneFrom(filter->GetSettings(), grid, pictures);
+  const schlieren::Scene whole = sceneFrom(filter->GetSettings(), grid, images);
   filter->SetPreviewReduction(4);
-  const schlieren::Scene preview = sceneFrom(filter->GetSettings(), grid, pictures);
+  const schlieren::Scene preview = sceneFrom(filter->GetSettings(), grid, images);
   EXPECT_EQ(preview.view.width, 128);
   EXPECT_EQ(preview.samplesPerPixel, 1);
   EXPECT_EQ(preview.stepSize, interactiveStepSize());
@@ -144,7 +144,7 @@ TEST(Preview, HasOneRayPerPixelAndTheRestAsSet)
   EXPECT_EQ(preview.histogramSize, whole.histogramSize);
   EXPECT_EQ(preview.interpolation, whole.interpolation);
   filter->SetStepSize(3);
-  EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).stepSize, 3);
+  EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, images).stepSize, 3);
 }
 
 TEST(Preview, ShowsTheSameBackground)
@@ -152,16 +152,16 @@ TEST(Preview, ShowsTheSameBackground)
   vtkNew<vtkSchlierenFilter> filter;
   schlieren::Grid grid;
   grid.dimensions = { 41, 41, 21 };
-  RgbPictureReader pictures;
+  RgbImageReader images;
   const double pixel =
-    schlieren::frameOf(grid, sceneFrom(filter->GetSettings(), grid, pictures).view).pixelSize;
+    schlieren::frameOf(grid, sceneFrom(filter->GetSettings(), grid, images).view).pixelSize;
   filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
   filter->SetPreviewReduction(2);
-  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 8 * pixel);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, images).background.period, 8 * pixel);
   filter->SetPreviewReduction(4); // finer than four of its pixels would be grey
-  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 16 * pixel);
+  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, images).background.period, 16 * pixel);
   filter->SetBackgroundPeriod(0.1);
-  EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, pictures).background.period, 0.1);
+  EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, images).background.period, 0.1);
 }
 
 TEST(Preview, HidesNoMistake)

@@ -148,22 +148,22 @@ TEST(Quality, EveryPresetTracesItsRays)
   }
 }
 
-TEST(Quality, EveryInterpolationMakesAPictureOfItsOwn)
+TEST(Quality, EveryInterpolationMakesAImageOfItsOwn)
 {
-  std::vector<std::vector<double>> pictures;
+  std::vector<std::vector<double>> images;
   for (const int interpolation :
     { Filter::QUADRATIC, Filter::LINEAR, Filter::CENTRAL, Filter::CUBIC })
   {
     auto filter = bench(columnImage(24), 20);
     filter->SetInterpolation(interpolation);
     filter->Update();
-    pictures.push_back(valuesOf(filter, "Deflection"));
+    images.push_back(valuesOf(filter, "Deflection"));
     // Linear has one gradient for a cell: off by h / (2 s) where the largest is 0.429.
     const double limit = interpolation == Filter::LINEAR ? 0.34 : 0.2;
     EXPECT_LT(compareWithColumn(filter, GaussianColumn()).deflection, limit) << interpolation;
-    for (std::size_t other = 0; other + 1 < pictures.size(); ++other)
+    for (std::size_t other = 0; other + 1 < images.size(); ++other)
     {
-      EXPECT_NE(pictures.back(), pictures[other]) << interpolation << " and " << other;
+      EXPECT_NE(images.back(), images[other]) << interpolation << " and " << other;
     }
   }
 }

@@ -4,7 +4,7 @@
 // What the filter's properties ask of the tracer.
 #include "Fixtures.h"
 #include "RealOptics.h"
-#include "RgbPictures.h"
+#include "RgbImages.h"
 #include "SceneFromSettings.h"
 
 #include "vtkPiecewiseFunction.h"
@@ -35,7 +35,7 @@ protected:
 
   schlieren::Scene scene()
   {
-    schlieren::Scene made = sceneFrom(this->filter->GetSettings(), this->grid, this->pictures);
+    schlieren::Scene made = sceneFrom(this->filter->GetSettings(), this->grid, this->images);
     addObjects(made, this->filter->GetGradedFilter(), this->medium);
     return made;
   }
@@ -56,7 +56,7 @@ protected:
   vtkNew<Filter> filter;
   vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
-  RgbPictureReader pictures;
+  RgbImageReader images;
 };
 
 } // namespace
@@ -229,7 +229,7 @@ TEST_F(Scene, DivergingLightComesFromTenDepthsUnlessItIsSaid)
   EXPECT_FALSE(this->scene().source.distance.has_value());
 }
 
-TEST_F(Scene, FringesAreATenthOfThePictureHighOrFollowFromTheBeams)
+TEST_F(Scene, FringesAreATenthOfTheImageHighOrFollowFromTheBeams)
 {
   this->filter->SetCutoff(Filter::INTERFEROGRAM);
   this->filter->SetWavelength(500);
@@ -239,7 +239,7 @@ TEST_F(Scene, FringesAreATenthOfThePictureHighOrFollowFromTheBeams)
   this->filter->SetFringeAngle(30);
   EXPECT_TRUE(this->scene().fringes.finite);
   EXPECT_DOUBLE_EQ(this->scene().fringes.angle, 30);
-  EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.6); // the picture is 6 high
+  EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.6); // the image is 6 high
   this->filter->SetFringeSpacing(0.125);
   EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.125);
   this->filter->SetLengthScale(1e-3);
@@ -310,7 +310,7 @@ TEST_F(Scene, BackgroundIsAPattern)
 }
 
 // A pixel of red 255, green 16 and blue 32, as a PNG file.
-TEST_F(Scene, ColorFilterIsAWheelOrAPicture)
+TEST_F(Scene, ColorFilterIsAWheelOrAImage)
 {
   this->filter->SetCutoff(Filter::COLOR_FILTER);
   EXPECT_EQ(this->scene().colorFilter, nullptr);

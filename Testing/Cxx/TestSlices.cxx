@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pictures that are made in slices of time, and what is shown in between.
+// Images that are made in slices of time, and what is shown in between.
 #include "Fixtures.h"
 #include "Series.h"
 
@@ -38,18 +38,18 @@ int updateInSlices(vtkSchlierenFilter* filter, double seconds = shortest)
   int slices = 1;
   for (constexpr int tooMany = 10000; !filter->GetFinished() && slices < tooMany; ++slices)
   {
-    const vtkTypeInt64 pictures = filter->GetPictureCount();
+    const vtkTypeInt64 images = filter->GetPictureCount();
     const std::vector<double> before = valuesOf(filter, "Intensity");
     filter->Refine();
     filter->Update();
-    EXPECT_TRUE(filter->GetPictureCount() > pictures || valuesOf(filter, "Intensity") == before);
+    EXPECT_TRUE(filter->GetPictureCount() > images || valuesOf(filter, "Intensity") == before);
   }
   EXPECT_TRUE(filter->GetFinished());
   filter->SetTimeLimit(0);
   return slices;
 }
 
-void expectSamePicture(vtkSchlierenFilter* a, vtkSchlierenFilter* b)
+void expectSameImage(vtkSchlierenFilter* a, vtkSchlierenFilter* b)
 {
   for (int port = 0; port < 2; ++port)
   {
@@ -81,7 +81,7 @@ void expectSamePicture(vtkSchlierenFilter* a, vtkSchlierenFilter* b)
   }
 }
 
-/// Compares slices with a whole picture of a filter that is set up alike.
+/// Compares slices with a whole image of a filter that is set up alike.
 template <class SetUp>
 void expectSameInSlices(vtkDataObject* input, const SetUp& setUp)
 {
@@ -92,7 +92,7 @@ void expectSameInSlices(vtkDataObject* input, const SetUp& setUp)
   setUp(sliced);
   sliced->SetNumberOfThreads(2);
   EXPECT_GT(updateInSlices(sliced), 1);
-  expectSamePicture(sliced, whole);
+  expectSameImage(sliced, whole);
   EXPECT_EQ(sliced->GetMediumBuilds(), 1);
 }
 
@@ -169,7 +169,7 @@ TEST(Slices, TheLimitIsNoModification)
   filter->SetTimeLimit(1);
   EXPECT_EQ(filter->GetMTime(), time);
   EXPECT_TRUE(progressOf(filter).empty()); // nothing is run
-  filter->Refine();                        // of a finished picture
+  filter->Refine();                        // of a finished image
   EXPECT_EQ(filter->GetMTime(), time);
   EXPECT_TRUE(progressOf(filter).empty());
 
@@ -186,7 +186,7 @@ TEST(Slices, TheLimitIsNoModification)
   EXPECT_TRUE(filter->GetFinished()); // without a limit all is done
 }
 
-TEST(Slices, ANewFilterBeginsWithAHurriedPicture)
+TEST(Slices, ANewFilterBeginsWithAHurriedImage)
 {
   auto filter = smallBench(columnImage());
   filter->SetImageSize(200, 160);
@@ -194,37 +194,37 @@ TEST(Slices, ANewFilterBeginsWithAHurriedPicture)
   filter->Update();
   EXPECT_FALSE(filter->GetFinished());
   EXPECT_EQ(filter->GetPictureCount(), 1);
-  vtkImageData* picture = filter->GetOutput();
-  EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
+  vtkImageData* image = filter->GetOutput();
+  EXPECT_TRUE(std::equal(image->GetExtent(), image->GetExtent() + 6,
     filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
-  EXPECT_EQ(picture->GetPointData()->GetScalars()->GetNumberOfTuples(), 200 * 160);
+  EXPECT_EQ(image->GetPointData()->GetScalars()->GetNumberOfTuples(), 200 * 160);
   const std::vector<double> rough = valuesOf(filter, "Deflection");
-  const Vec origin{ picture->GetOrigin()[0], picture->GetOrigin()[1], 0 };
+  const Vec origin{ image->GetOrigin()[0], image->GetOrigin()[1], 0 };
 
   EXPECT_GT(updateInSlices(filter), 3);
   EXPECT_EQ(filter->GetPictureCount(), 4); // one for each sample, too
   EXPECT_LT(relativeDifference(rough, valuesOf(filter, "Deflection")), 0.3);
-  EXPECT_NEAR(picture->GetOrigin()[0], origin[0], 1e-12);
-  EXPECT_NEAR(picture->GetOrigin()[1], origin[1], 1e-12);
+  EXPECT_NEAR(image->GetOrigin()[0], origin[0], 1e-12);
+  EXPECT_NEAR(image->GetOrigin()[1], origin[1], 1e-12);
 }
 
-TEST(Slices, TheLastPictureStaysUntilThereIsABetterOne)
+TEST(Slices, TheLastImageStaysUntilThereIsABetterOne)
 {
   auto filter = smallBench(columnImage());
   filter->Update();
   const std::vector<double> last = valuesOf(filter, "Intensity");
-  const vtkTypeInt64 pictures = filter->GetPictureCount();
+  const vtkTypeInt64 images = filter->GetPictureCount();
   const std::string status = filter->GetStatus();
   filter->SetViewDirection(0.5, 0.2, -1);
   filter->SetTimeLimit(shortest);
   filter->Update();
   EXPECT_FALSE(filter->GetFinished());
   EXPECT_EQ(valuesOf(filter, "Intensity"), last);
-  EXPECT_EQ(filter->GetPictureCount(), pictures);
+  EXPECT_EQ(filter->GetPictureCount(), images);
   EXPECT_EQ(filter->GetStatus(), status);
   EXPECT_GT(filter->GetOutput(vtkSchlierenFilter::HISTOGRAM_PORT)->GetNumberOfPoints(), 0);
 
-  while (filter->GetPictureCount() == pictures)
+  while (filter->GetPictureCount() == images)
   {
     filter->Refine();
     filter->Update();
@@ -238,14 +238,14 @@ TEST(Slices, TheLastPictureStaysUntilThereIsABetterOne)
 }
 
 // Of another size than the last one: filters after this one rely on the extent they were told.
-TEST(Slices, TheLastPictureFillsThePromisedExtent)
+TEST(Slices, TheLastImageFillsThePromisedExtent)
 {
   auto filter = smallBench(columnImage());
   filter->SetCutoff(vtkSchlierenFilter::COLOR_FILTER);
   filter->Update();
-  vtkImageData* picture = filter->GetOutput();
-  const double left = picture->GetOrigin()[0] - 0.5 * picture->GetSpacing()[0];
-  const double width = 40 * picture->GetSpacing()[0];
+  vtkImageData* image = filter->GetOutput();
+  const double left = image->GetOrigin()[0] - 0.5 * image->GetSpacing()[0];
+  const double width = 40 * image->GetSpacing()[0];
   const std::vector<double> last = valuesOf(filter, "Color");
   filter->SetImageSize(120, 20);
   filter->SetHistogramSize(32);
@@ -253,17 +253,16 @@ TEST(Slices, TheLastPictureFillsThePromisedExtent)
   filter->Update();
   for (int port = 0; port < 2; ++port)
   {
-    picture = filter->GetOutput(port);
-    EXPECT_TRUE(std::equal(picture->GetExtent(), picture->GetExtent() + 6,
+    image = filter->GetOutput(port);
+    EXPECT_TRUE(std::equal(image->GetExtent(), image->GetExtent() + 6,
       filter->GetOutputInformation(port)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
-    ASSERT_NE(picture->GetPointData()->GetScalars(), nullptr);
-    EXPECT_EQ(
-      picture->GetPointData()->GetScalars()->GetNumberOfTuples(), picture->GetNumberOfPoints());
+    ASSERT_NE(image->GetPointData()->GetScalars(), nullptr);
+    EXPECT_EQ(image->GetPointData()->GetScalars()->GetNumberOfTuples(), image->GetNumberOfPoints());
   }
-  picture = filter->GetOutput();
-  EXPECT_STREQ(picture->GetPointData()->GetScalars()->GetName(), "Color");
-  EXPECT_NEAR(picture->GetOrigin()[0] - 0.5 * picture->GetSpacing()[0], left, 1e-12);
-  EXPECT_NEAR(120 * picture->GetSpacing()[0], width, 1e-12);
+  image = filter->GetOutput();
+  EXPECT_STREQ(image->GetPointData()->GetScalars()->GetName(), "Color");
+  EXPECT_NEAR(image->GetOrigin()[0] - 0.5 * image->GetSpacing()[0], left, 1e-12);
+  EXPECT_NEAR(120 * image->GetSpacing()[0], width, 1e-12);
   const std::vector<double> stretched = valuesOf(filter, "Color");
   for (int row = 0; row < 20; ++row)
   {
@@ -278,7 +277,7 @@ TEST(Slices, TheLastPictureFillsThePromisedExtent)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 120 * 20);
 }
 
-TEST(Slices, AnotherPropertyInTheMidstMakesAnotherPicture)
+TEST(Slices, AnotherPropertyInTheMidstMakesAnotherImage)
 {
   const auto image = columnImage();
   const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
@@ -311,7 +310,7 @@ TEST(Slices, AnotherPropertyInTheMidstMakesAnotherPicture)
       change(filter);
       filter->Refine();
       updateInSlices(filter);
-      expectSamePicture(filter, fresh);
+      expectSameImage(filter, fresh);
     }
   }
 }
@@ -335,21 +334,21 @@ TEST(Slices, RefineBeginsAfterAnotherProperty)
     auto filter = smallBench(image);
     filter->Update();
     const vtkMTimeType shown = filter->GetOutput()->GetMTime();
-    const vtkTypeInt64 pictures = filter->GetPictureCount();
+    const vtkTypeInt64 images = filter->GetPictureCount();
     change(filter);
     EXPECT_TRUE(filter->GetFinished()); // nothing has been begun
     filter->SetTimeLimit(shortest);
     int slices = 0;
-    for (; filter->GetPictureCount() == pictures && slices < 10000; ++slices)
+    for (; filter->GetPictureCount() == images && slices < 10000; ++slices)
     {
       filter->Refine();
       EXPECT_FALSE(filter->GetFinished());
       EXPECT_EQ(filter->GetOutput()->GetMTime(), shown);
     }
     EXPECT_GT(slices, what == std::string("cutoff") ? 0 : 1);
-    EXPECT_EQ(filter->GetPictureCount(), pictures + 1);
+    EXPECT_EQ(filter->GetPictureCount(), images + 1);
     updateInSlices(filter);
-    expectSamePicture(filter, fresh);
+    expectSameImage(filter, fresh);
     EXPECT_EQ(
       filter->GetMediumBuilds(), fresh->GetMediumBuilds() + (what == std::string("ambient")));
 
@@ -362,7 +361,7 @@ TEST(Slices, RefineBeginsAfterAnotherProperty)
     filter->Update();
     fresh->SetSeed(4);
     fresh->Update();
-    expectSamePicture(filter, fresh);
+    expectSameImage(filter, fresh);
   }
 }
 
@@ -399,7 +398,7 @@ TEST(Slices, RefineLeavesTheMediumToUpdates)
     fresh->AddField("f");
     change(fresh);
     fresh->Update();
-    expectSamePicture(filter, fresh);
+    expectSameImage(filter, fresh);
   }
   auto fresh = smallBench(image);
   fresh->SetTimeLimit(shortest);
@@ -426,7 +425,7 @@ TEST(Slices, AMistakeBeforeRefineIsLeftToTheUpdate)
   updateInSlices(filter);
 }
 
-TEST(Slices, AnotherInputInTheMidstMakesAnotherPicture)
+TEST(Slices, AnotherInputInTheMidstMakesAnotherImage)
 {
   auto image = columnImage();
   auto filter = smallBench(image);
@@ -438,7 +437,7 @@ TEST(Slices, AnotherInputInTheMidstMakesAnotherPicture)
   updateInSlices(filter);
   auto fresh = smallBench(image);
   fresh->Update();
-  expectSamePicture(filter, fresh);
+  expectSameImage(filter, fresh);
   EXPECT_EQ(filter->GetMediumBuilds(), 2);
 }
 
@@ -541,7 +540,7 @@ TEST(Slices, AbortLeavesNothing)
     updateInSlices(filter);
     auto fresh = smallBench(image);
     fresh->Update();
-    expectSamePicture(filter, fresh);
+    expectSameImage(filter, fresh);
   }
 }
 
@@ -578,7 +577,7 @@ TEST(Slices, StopLeavesWhatIsThere)
   EXPECT_FALSE(filter->GetStopped());
   EXPECT_FALSE(filter->GetFinished());
   updateInSlices(filter);
-  expectSamePicture(filter, fresh);
+  expectSameImage(filter, fresh);
   EXPECT_EQ(filter->GetPercentDone(), 100);
   EXPECT_LT(filter->GetTotalRaysTraced() - rays, fresh->GetTotalRaysTraced());
 
@@ -591,7 +590,7 @@ TEST(Slices, StopLeavesWhatIsThere)
   filter->SetSeed(1);
   EXPECT_FALSE(filter->GetStopped());
   filter->Update();
-  expectSamePicture(filter, fresh);
+  expectSameImage(filter, fresh);
 }
 
 // Another time of the same source changes none of the filter's or the source's own times.
@@ -615,11 +614,11 @@ TEST(Slices, WhatIsStoppedIsOneTimeStep)
   auto fresh = smallBench(nullptr);
   fresh->SetAutoKScale(false);
   atTime(fresh, 2);
-  expectSamePicture(filter, fresh);
+  expectSameImage(filter, fresh);
 }
 
 // An array that the image from before does not have.
-TEST(Slices, ColouredPictureHasColourAtOnce)
+TEST(Slices, ColouredImageHasColourAtOnce)
 {
   auto filter = smallBench(columnImage());
   filter->Update();
@@ -650,7 +649,7 @@ TEST(Slices, NoLimitFinishesWhatWasBegun)
     filter->Refine();
     filter->Update();
     EXPECT_TRUE(filter->GetFinished());
-    expectSamePicture(filter, fresh);
+    expectSameImage(filter, fresh);
   }
 }
 
@@ -667,7 +666,7 @@ TEST(Slices, AWarningIsGivenOnce)
   filter->SetParallelScale(0.1);
   updateInSlices(filter);
   EXPECT_EQ(complaints->Warnings.size(), 2u);
-  filter->SetPreviewReduction(2); // the whole picture says it
+  filter->SetPreviewReduction(2); // the whole image says it
   filter->Update();
   EXPECT_EQ(complaints->Warnings.size(), 2u);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a picture's line of words says.
+// What an image's line of words says.
 #include "Fixtures.h"
 #include "ImageStatus.h"
 
@@ -12,7 +12,7 @@
 
 using namespace filters;
 
-TEST(Status, SaysWhatIsKnownOfAPicture)
+TEST(Status, SaysWhatIsKnownOfAImage)
 {
   schlieren::Image image;
   schlieren::Scene scene;
@@ -76,7 +76,7 @@ TEST(Status, TellsTheSpeedOfTheLastTracingWhereNothingIsTraced)
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), status);
 
-  filter->SetImageSize(-1, 0); // a mistake has no picture to speak of
+  filter->SetImageSize(-1, 0); // a mistake has no image to speak of
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   filter->Update();
   EXPECT_EQ(complaints->Errors.size(), 1u);

@@ -6,7 +6,7 @@ import os
 import sys
 
 import numpy as np
-from demo_testing import DATA, SOURCE, picture
+from demo_testing import DATA, SOURCE, image_array
 
 sys.path.insert(0, os.path.join(SOURCE, "Examples"))
 
@@ -22,7 +22,7 @@ assert len(tiles) == sum(len(row) for _, row in groups) == 32
 assert all(len(row) == contact_sheet.COLUMNS for _, row in groups)
 
 # The file holds the tiles, pixel by pixel, and text above each.
-sheet = picture(path)
+sheet = image_array(path)
 width, height, corner = contact_sheet.layout(frame, len(groups))
 assert sheet.shape == (height, width, 3), sheet.shape
 for j, (_, row) in enumerate(groups):
@@ -158,7 +158,7 @@ expected = sum(np.abs(1 - i - y % 1) * np.abs(1 - j - x % 1) * pattern[row + i, 
 change = sum(np.hypot(*np.gradient(moved[..., axis])) for axis in (0, 1)) / frame.pixel
 slow = change < 0.5
 slow &= (np.abs(y - HEIGHT / 2) < HEIGHT / 2 - 2) & (np.abs(x - WIDTH / 2) < WIDTH / 2 - 2)
-print(f"In {slow.mean():.0%} of the picture the shift varies little")
+print(f"In {slow.mean():.0%} of the image the shift varies little")
 assert slow.mean() > 0.4
 check_below("the pattern, where the flow shows it", rms((light("seen") - expected)[slow])
             / rms((pattern - light("seen"))[slow]), 0.25)

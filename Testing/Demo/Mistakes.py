@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each mistake of a user ends in one line that says what is wrong, no picture, and an exit code."""
+"""Each mistake of a user ends in one line that says what is wrong, no image, and an exit code."""
 
 import os
 import subprocess
@@ -18,7 +18,7 @@ def fails(*arguments, saying, code=1):
     lines = [line for line in err.splitlines() if "error: " in line]
     assert len(lines) == 1 and all(word in lines[0] for word in saying), f"{arguments}: {err}"
     assert "Traceback" not in err, err
-    assert not os.path.exists("never.png"), f"{arguments}: there is a picture"
+    assert not os.path.exists("never.png"), f"{arguments}: there is an image"
 
 
 def write(name, dimensions):

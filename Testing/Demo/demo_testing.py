@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the demo's Python part as a user does and takes its picture apart."""
+"""Runs the demo's Python part as a user does and takes its image apart."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 PVPYTHON = sys.argv[1]
 SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
 DATA = os.path.join(SOURCE, "Testing", "Data")
-SCRIPT = os.path.join(SOURCE, "Utilities", "four_pictures", "main.py")
+SCRIPT = os.path.join(SOURCE, "Utilities", "four_images", "main.py")
 sys.path.insert(0, os.path.dirname(SCRIPT))
 
 from sheet import layout  # noqa: E402
@@ -27,7 +27,7 @@ def run_demo(*arguments):
     return done.returncode, done.stdout, done.stderr
 
 
-def picture(path):
+def image_array(path):
     """A PNG as rows (top first) x columns x RGB, as floats 0 to 255."""
     reader = vtkPNGReader()
     reader.SetFileName(path)
@@ -42,12 +42,12 @@ def tiles(path, frame):
 
     Row 0 is the lowest one, as in the frame's coordinates.
     """
-    sheet = picture(path)
+    sheet = image_array(path)
     width, height, corners, _ = layout(frame)
     assert sheet.shape == (height, width, 3), f"The sheet is {sheet.shape}"
     parts = [sheet[top:top + frame.height, left:left + frame.width][::-1] for left, top in corners]
     for part in parts[1:]:
-        assert np.ptp(part, axis=2).max() == 0, "A bench's picture is not grey"
+        assert np.ptp(part, axis=2).max() == 0, "A bench's image is not grey"
     return [parts[0]] + [part[..., 0] / 255 for part in parts[1:]]
 
 

@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
-                          picture, sums_along)
+                          image_array, sums_along)
 from paraview.simple import ExtractCellsByRegion, XMLUnstructuredGridReader
 
 K = 2.26e-4
@@ -27,8 +27,8 @@ schlieren = Schlieren(near, Density=["POINTS", "rho"], GladstoneDaleConstant=K, 
                       SamplingDimensions=[60, 40, 40], **EVERY_VOXEL,
                       ImageSize=[240, 160], ParallelScale=2.5)
 x, y = coordinates(schlieren)
-path = picture(schlieren, "OpticalPathDifference") / 0.01
-deflection = picture(schlieren, "Deflection")
+path = image_array(schlieren, "OpticalPathDifference") / 0.01
+deflection = image_array(schlieren, "Deflection")
 
 # Sums along rays that VTK takes through the cells themselves.
 rows, columns = [index.ravel() for index in np.mgrid[8:160:16, 8:240:16]]

@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
-                          picture, sums_along)
+                          image_array, sums_along)
 from paraview.simple import Reflect, XMLStructuredGridReader
 
 K = 2.26e-4
@@ -17,15 +17,15 @@ half.UpdatePipeline()
 wing = Reflect(half, Plane="Y", Center=0)
 wing.UpdatePipeline()
 
-# From behind, along the chord: the right of the picture is +y, the starboard half as computed.
+# From behind, along the chord: the right of the image is +y, the starboard half as computed.
 schlieren = Schlieren(wing, Density=["POINTS", "Density"], GladstoneDaleConstant=K,
                       DensityScale=DENSITY, AutoAmbientRefractivity=0,
                       AmbientRefractivity=K * DENSITY, SamplingDimensions=[61, 161, 101],
                       **EVERY_VOXEL, ImageSize=[320, 240], ViewDirection=[-1, 0, 0],
                       ViewUp=[0, 0, 1], FocalPoint=[0.5, 0, 0.2], ParallelScale=0.6)
 y, z = coordinates(schlieren)
-path = picture(schlieren, "OpticalPathDifference")
-deflection = picture(schlieren, "Deflection")
+path = image_array(schlieren, "OpticalPathDifference")
+deflection = image_array(schlieren, "Deflection")
 
 # Sums along rays that VTK takes through the half that was computed. The wing is a sheet without
 # thickness at z = 0, on which the density jumps: not there.

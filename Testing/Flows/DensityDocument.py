@@ -6,7 +6,7 @@ import os
 import re
 
 import numpy as np
-from flow_testing import DATA, SOURCE, one_dataset, picture
+from flow_testing import DATA, SOURCE, one_dataset, image_array
 from paraview.simple import PLOT3DReader, SaveData, XMLStructuredGridReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -88,9 +88,9 @@ assert abs(index_of_water(293.15, 0.5893) - 1.33335) < 1e-5, "Water at 20 C, sod
 T, N = arrays(names["water"], "Temperature", "N")
 assert np.abs(N - (index_of_water(T) - 1)).max() < 2e-6
 
-# Each bench gives a picture, here a small one.
+# Each bench gives an image, here a small one.
 for bench in benches:
     bench.SamplingDimensions = [24, 24, 24]
     bench.ImageSize = [32, 32]
     bench.OutsideBlocksLight = 0
-    assert np.ptp(picture(bench, "OpticalPathDifference")) > 0
+    assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0

@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
-                          picture, sums_along)
+                          image_array, sums_along)
 from paraview.simple import Calculator, XMLUnstructuredGridReader
 
 mesh = XMLUnstructuredGridReader(FileName=[os.path.join(DATA, "heating_coil_fluid.vtu")])
@@ -23,14 +23,14 @@ schlieren = Schlieren(Input=water, IndexModel="Refractivity", IndexArray=["POINT
                       MediumTolerance=0.005, **EVERY_VOXEL, ImageSize=[240, 270],
                       ViewDirection=[0, 1, 0], ViewUp=[0, 0, 1], ParallelScale=1.25)
 x, z = coordinates(schlieren)
-blocked = picture(schlieren, "BlockedFraction")
+blocked = image_array(schlieren, "BlockedFraction")
 inside = blocked[(0.1 < z) & (z < 2.1)]
 assert inside[:, abs(x) < 0.4].all() and not blocked[:, abs(x) > 0.99].any()
 schlieren.ParallelScale = 1.1
 x, z = coordinates(schlieren)
-path = picture(schlieren, "OpticalPathDifference") / 0.1
-deflection = picture(schlieren, "Deflection")
-blocked = picture(schlieren, "BlockedFraction")
+path = image_array(schlieren, "OpticalPathDifference") / 0.1
+deflection = image_array(schlieren, "Deflection")
+blocked = image_array(schlieren, "BlockedFraction")
 
 # Sums along rays that VTK takes through the cells, away from the coil and the walls.
 data = one_dataset(Calculator(mesh, ResultArrayName="shift", Function=SHIFT))

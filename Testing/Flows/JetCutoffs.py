@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ladenburg's jet behind every cutoff: pictures against baselines, mirrored about the axis."""
+"""Ladenburg's jet behind every cutoff: images against baselines, mirrored about the axis."""
 
 import os
 
 import numpy as np
-from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, picture, write_picture)
+from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, image_array, write_image)
 from paraview.simple import CreatePiecewiseFunction, SetProperties, XMLImageDataReader
 
 jet = XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.vti")])
@@ -23,11 +23,11 @@ def green_for_blue(shown):
 
 
 def shoot(name, mirror=same, white=1, array="Intensity", **properties):
-    """A picture from the filter's own settings but for `properties`; `mirror` makes of it what it is
+    """An image from the filter's own settings but for `properties`; `mirror` makes of it what it is
     upside down."""
     before = {name: bench.GetProperty(name).GetData() for name in properties}
     SetProperties(bench, **properties)
-    shown = picture(bench, array).astype(float) / (255 if array == "Color" else white)
+    shown = image_array(bench, array).astype(float) / (255 if array == "Color" else white)
     if mirror:
         error = np.abs(mirror(shown) - shown[::-1]).mean()
         print(f"{name}: not symmetric by {error:.5f}")
@@ -52,7 +52,7 @@ colors = np.array([(230, 40, 30), (40, 200, 60), (40, 90, 255), (250, 210, 30)],
     np.rint(np.arctan2(v, u) / (np.pi / 2)).astype(int) % 4]
 colors[np.hypot(u, v) < 0.2] = 60
 shoot("JetColorFilter", None, array="Color", Cutoff="Color Filter",
-      ColorFilterImage=write_picture("colors.png", colors))
+      ColorFilterImage=write_image("colors.png", colors))
 
 shoot("JetInterferogram", Cutoff="Interferogram", Wavelength=546.1)
 shoot("JetFiniteFringes", Cutoff="Interferogram", Wavelength=546.1, FringeMode="Finite",

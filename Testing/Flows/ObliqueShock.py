@@ -5,7 +5,7 @@
 import os
 
 import numpy as np
-from flow_testing import DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, output, picture
+from flow_testing import DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, output, image_array
 from paraview.simple import XMLImageDataReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -20,8 +20,8 @@ schlieren = Schlieren(flow, Density=["POINTS", "rho"], GladstoneDaleConstant=K,
                       AmbientRefractivity=K * DENSITY * 1.4, **EVERY_VOXEL,
                       ImageSize=[656, 160], FocalPoint=[2.05, 0.5, 0.5], ParallelScale=0.5)
 x, y = coordinates(schlieren)
-path = picture(schlieren, "OpticalPathDifference")
-deflection = picture(schlieren, "Deflection")
+path = image_array(schlieren, "OpticalPathDifference")
+deflection = image_array(schlieren, "Deflection")
 
 
 def angle(ratio, mach):

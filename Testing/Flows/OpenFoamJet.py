@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 from flow_testing import (DATA, EVERY_VOXEL, RefractiveIndex, Schlieren, check_baseline,
-                          coordinates, one_dataset, output, picture)
+                          coordinates, one_dataset, output, image_array)
 from paraview.simple import AngularPeriodicFilter, Calculator, OpenFOAMReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -32,7 +32,7 @@ schlieren = Schlieren(jet, Density=["CELLS", "rho"], GladstoneDaleConstant=K,
                       SamplingDimensions=[121, 81, 81], **EVERY_VOXEL,
                       OutsideBlocksLight=0, ImageSize=[240, 161], ParallelScale=0.125e-3 * 161 / 2)
 x, y = coordinates(schlieren)
-fringes = picture(schlieren, "OpticalPathDifference") / WAVELENGTH
+fringes = image_array(schlieren, "OpticalPathDifference") / WAVELENGTH
 axis = len(y) // 2
 assert abs(y[axis]) < 1e-9 and np.allclose(x, (np.arange(240) + 0.5) * 0.125e-3, atol=1e-8)
 

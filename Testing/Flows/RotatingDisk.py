@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 from flow_testing import (DATA, EVERY_VOXEL, Schlieren, check_baseline, coordinates, one_dataset,
-                          picture, sums_along)
+                          image_array, sums_along)
 from paraview.simple import Calculator, Cylinder, ExodusIIReader, Transform
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
@@ -50,9 +50,9 @@ schlieren = Schlieren(Input=gas, Bodies=disk, IndexModel="Gladstone-Dale Mixture
                       **EVERY_VOXEL, ImageSize=[160, 280], ViewDirection=[0, 1, 0],
                       ViewUp=[0, 0, 1])
 x, z = coordinates(schlieren)
-path = picture(schlieren, "OpticalPathDifference") / 0.01
-deflection = picture(schlieren, "Deflection")
-blocked = picture(schlieren, "BlockedFraction")
+path = image_array(schlieren, "OpticalPathDifference") / 0.01
+deflection = image_array(schlieren, "Deflection")
+blocked = image_array(schlieren, "BlockedFraction")
 
 # Sums along rays that VTK takes through the cells.
 array = numpy_to_vtk(expected, deep=True)

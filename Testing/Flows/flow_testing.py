@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests on real flows share: the files, pictures against baselines, and sums along rays that
+"""What the tests on real flows share: the files, images against baselines, and sums along rays that
 VTK's probe takes through the data as they were read."""
 
 import os
@@ -20,25 +20,25 @@ DATA = os.path.join(SOURCE, "Testing", "Data")
 sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
 
 from plugin_testing import (EVERY_VOXEL, RefractiveIndex, Schlieren, output,  # noqa: E402, F401
-                            picture)
+                            image_array)
 
 
 def coordinates(bench):
-    """The pixels' centres along the picture's right and along its up, data units."""
+    """The pixels' centres along the image's right and along its up, data units."""
     image = output(bench)
     return [image.GetOrigin()[i] + image.GetSpacing()[i] * np.arange(image.GetDimensions()[i])
             for i in (0, 1)]
 
 
 def levels(bench, white, array):
-    """An array as the levels 0 to 255 of a picture: its own bytes, or grey, in which `white` is 255."""
-    values = picture(bench, array)
+    """An array as the levels 0 to 255 of an image: its own bytes, or grey, in which `white` is 255."""
+    values = image_array(bench, array)
     if values.dtype == np.uint8:
         return values
     return np.clip(np.rint(values * (255 / white)), 0, 255).astype(np.uint8)
 
 
-def write_picture(name, pixels):
+def write_image(name, pixels):
     """A PNG of rows x columns (x 3) bytes, lowest row first; its full name."""
     image = vtkImageData()
     image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
@@ -52,9 +52,9 @@ def write_picture(name, pixels):
 
 
 def check_baseline(bench, name, white=1, array="Intensity"):
-    """Compares the picture with Testing/Baseline/<name>.png, level by level, and leaves its own."""
+    """Compares the image with Testing/Baseline/<name>.png, level by level, and leaves its own."""
     made = levels(bench, white, array)
-    file = write_picture(name + ".png", made)
+    file = write_image(name + ".png", made)
     path = os.path.join(SOURCE, "Testing", "Baseline", name + ".png")
     assert os.path.exists(path), f"There is no baseline {path} for {file}"
     reader = vtkPNGReader()

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays and steps per second on a GPU, beside what the device could do at most, and how far its pictures
+// Rays and steps per second on a GPU, beside what the device could do at most, and how far its images
 // are from the CPU's. Needs no library, so that it runs wherever nvcc does.
 //
 //   GpuBenchmarks [largest grid, points per axis = 1024]
@@ -178,7 +178,7 @@ Scene sceneOf(const Vector& viewDirection)
   Scene scene;
   scene.view.viewDirection = viewDirection;
   scene.samplesPerPixel = samplesPerPixel;
-  scene.kScale = 1000; // the picture alone, not the search for its k
+  scene.kScale = 1000; // the image alone, not the search for its k
   scene.pathModel = PathModel::Refracted;
   scene.device = Device::Cuda;
   return scene;
@@ -214,11 +214,11 @@ Differences differences(const Values& host, const Values& device)
 void printHeader()
 {
   std::printf("%-26s %-11s %-9s %-8s %-5s %8s %8s %9s %9s %6s %6s %6s %7s %7s %7s\n", "medium",
-    "cutoff", "sampling", "steps", "skip", "rays/s", "steps/s", "picture", "again", "L1", "issue",
+    "cutoff", "sampling", "steps", "skip", "rays/s", "steps/s", "image", "again", "L1", "issue",
     "memory", "rms", "worst", "OPD");
 }
 
-/// Measures one scene. Rays are traced again for each picture, because the seed changes.
+/// Measures one scene. Rays are traced again for each image, because the seed changes.
 void measure(const char* medium, Bench& bench, const Field& field, Scene scene, const Peak& peak)
 {
   bench.render(field, scene); // sends the medium to the device
@@ -369,7 +369,7 @@ void run(std::int64_t largest)
   std::printf(
     "At most: memory %.2f TB/s, first-level caches %.1f TB/s, %.1f T instructions/s.\n"
     "rays/s, steps/s: of tracing\n"
-    "picture: all of it; again: with another knife edge\n"
+    "image: all of it; again: with another knife edge\n"
     "L1, issue: of the most that reading and calculating allow, if a step takes one sample\n"
     "  (RK4 takes four, Adaptive three)\n"
     "memory: if every pass, of a ray per pixel, read all of the medium from there\n"

@@ -31,7 +31,7 @@ namespace
 {
 
 constexpr int threadsPerBlock = 128;
-constexpr int pixels = 1024; // a side of the picture
+constexpr int pixels = 1024; // a side of the image
 
 // Where a sample is looked for. Each sampler returns value and gradient at a position within [1, last - 1].
 
@@ -282,7 +282,7 @@ __global__ void marchKernel(
   deflections[row * pixels + column] = q;
 }
 
-/// The picture fits into the ball within the cube, with a tenth of its radius to spare for bent rays.
+/// The image fits into the ball within the cube, with a tenth of its radius to spare for bent rays.
 template <class Real>
 Bundle<Real> bundleAlong(const Vec3<double>& direction, std::int64_t points)
 {

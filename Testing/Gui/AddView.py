@@ -15,7 +15,7 @@ SIZE = [360, 270]
 
 user = ViewsSession()
 user.save_state("before.pvsm")
-user.press("OnePicture")
+user.press("OneImage")
 user.save_state("added.pvsm")
 user.undo()
 user.save_state("undone.pvsm")

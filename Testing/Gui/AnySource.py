@@ -9,11 +9,11 @@ from representation_testing import pixels_of
 from window_testing import BENCH, PROPERTIES
 
 user = ViewsSession()
-for button in ("OnePicture", "ThreePictures", "Comparison"):
+for button in ("OneImage", "ThreeImages", "Comparison"):
     user.check_button(button, "enabled", "false")
 
 user.python('SetActiveSource(Sphere(registrationName="ball"))')
-user.press("OnePicture")
+user.press("OneImage")
 user.check_message("'ball': There is no array with one value at a point or cell, so nothing tells the "
                    "refractive index. Load or compute a density.")
 user.python("""
@@ -22,7 +22,7 @@ warm = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="T", Functio
 warm.UpdatePipeline()
 SetActiveSource(warm)
 """)
-user.press("OnePicture")
+user.press("OneImage")
 user.check_message("'warm': There is no density, nor a temperature together with a pressure, so nothing tells the "
                    "refractive index. Load or compute one (Documentation/density.md says how), or choose an "
                    "array yourself in the filter of the menu Filters > Schlieren.")
@@ -40,13 +40,13 @@ nothing.LowerThreshold = nothing.UpperThreshold = 100  # where a slider still re
 nothing.UpdatePipeline()
 SetActiveSource(nothing)
 """)
-user.press("ThreePictures")
+user.press("ThreeImages")
 user.check_message("'nothing' has no cells to send light through. Select data that fill a volume.")
 
 # Made from the menu and not applied yet.
 user.python('SetActiveSource(FindSource("mesh"))')
 user.choose_filter("Schlieren")
-user.press("OnePicture")
+user.press("OneImage")
 user.check_message("'Schlieren1' has not been applied yet. Press Apply first.")
 user.delete()
 
@@ -63,7 +63,7 @@ blocks.UpdatePipeline()
 SetActiveSource(blocks)
 Delete(GetActiveView())
 """)
-user.press("OnePicture")
+user.press("OneImage")
 user.save_state("blocks.pvsm")
 
 # In that view, another one with its settings, from the menu.
@@ -73,7 +73,7 @@ user.python("""
 (display,) = displays()
 display.SchlierenBench.GradedFilter.Points = [0, 0.25, 0.5, 0, 1, 0.75, 0.5, 0]
 """)
-user.menu("menuSchlieren", "actionOnePicture")
+user.menu("menuSchlieren", "actionOneImage")
 user.save_state("two.pvsm")
 user.choose("Cutoff/ComboBox", "Circular")
 user.save_state("different.pvsm")
@@ -83,7 +83,7 @@ user.choose_filter("Schlieren")
 user.properties = PROPERTIES
 user.choose("Cutoff/ComboBox", "Color Filter")
 user.apply()
-user.press("OnePicture")
+user.press("OneImage")
 user.save_state("filter.pvsm")
 user.play("")
 

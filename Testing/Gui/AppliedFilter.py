@@ -5,7 +5,7 @@
 window answers."""
 
 import numpy as np
-from views_testing import (INSIDE, OPEN_JET, TRACE, ViewsSession, check_display, filters, load, picture,
+from views_testing import (INSIDE, OPEN_JET, TRACE, ViewsSession, check_display, filters, load, image_array,
                            play_trace, shown, simple, values, views)
 
 user = ViewsSession()
@@ -107,7 +107,7 @@ def check(state):
     assert np.allclose(flat.CameraFocalPoint[:2], (low + high) / 2, atol=0.01 * (high - low)[0])
     # All of it is seen, in a view that is higher than wide, with no more room around it than that needs.
     assert 1 < flat.CameraParallelScale / ((high - low)[1] / 2) < 2
-    return values(bench), picture(bench, "Intensity")
+    return values(bench), image_array(bench, "Intensity")
 
 
 made, intensity = check("applied.pvsm")

@@ -10,7 +10,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
-from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from plugin_testing import Schlieren, image_array, simple  # noqa: E402
 from views_testing import traced  # noqa: E402
 from window_testing import FOLDER, PANEL, PROPERTIES, Session  # noqa: E402
 
@@ -78,13 +78,13 @@ bench.SMProxy.AddObserver("UpdateEvent", write)
 def shown(state):
     simple.ResetSession()
     simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
-    return picture(simple.FindSource("bench"), "Intensity")
+    return image_array(simple.FindSource("bench"), "Intensity")
 
 
 def scripted(**properties):
     flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
     flow.UpdatePipeline()
-    return picture(Schlieren(Input=flow, ImageSize=[32, 32], GladstoneDaleConstant=1e-6, **properties),
+    return image_array(Schlieren(Input=flow, ImageSize=[32, 32], GladstoneDaleConstant=1e-6, **properties),
                    "Intensity")
 
 

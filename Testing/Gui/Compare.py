@@ -6,7 +6,7 @@ of a mesh."""
 import os
 
 import numpy as np
-from views_testing import (FOLDER, MESH, ViewsSession, check_baseline, check_linked, drawn, frame_view, load, picture,
+from views_testing import (FOLDER, MESH, ViewsSession, check_baseline, check_linked, drawn, frame_view, load, image_array,
                            simple, views)
 from plugin_testing import Schlieren
 
@@ -55,7 +55,7 @@ alone = Schlieren(
 alone.UpdatePipeline()
 k = alone.FieldData["KScale"].GetRange()[0]
 assert np.isclose(bent.KScale, k, rtol=1e-3), (bent.KScale, k)
-assert np.ptp(picture(alone, "Intensity")) > 0.2
+assert np.ptp(image_array(alone, "Intensity")) > 0.2
 simple.Delete(alone)
 
 # Straight and bent light side by side, at a k that no window's size changes.

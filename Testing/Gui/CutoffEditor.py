@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The cutoff plane in the properties panel: what is dragged by so many pixels is what the geometry says, and
-is at once in the picture; undone, traced and kept like anything else."""
+is at once in the image; undone, traced and kept like anything else."""
 
 import json
 import os
 
 import numpy as np
-from views_testing import check_baseline, frame, load, picture, show_grey, simple, views
+from views_testing import check_baseline, frame, load, image_array, show_grey, simple, views
 from plugin_testing import Schlieren
 from window_testing import FOLDER, PANEL, PROPERTIES, Session
 
@@ -53,7 +53,7 @@ def expect(name, **properties):
 
 
 def settle():
-    """Until the light of another picture is shown, which waits a moment for yet another."""
+    """Until the light of another image is shown, which waits a moment for yet another."""
     user.python("bench = FindSource('bench')\nuntil(lambda: finished(bench))\npause(0.3)")
 
 
@@ -62,7 +62,7 @@ user.check(PLANE, "enabled", "true")
 user.size_plane(SIDE)
 user.check(PLANE, "range", RANGE)
 
-# The edge: 21 pixels to the right. On the way there 40; the picture is there before the mouse is released.
+# The edge: 21 pixels to the right. On the way there 40; the image is there before the mouse is released.
 edge, on_the_way = round(K * 21 * PIXEL, 3), round(K * 40 * PIXEL, 3)
 x, y = (MIDDLE + (0, -30)).astype(int)
 user.event(f"{PROPERTIES}/{PLANE}", "mousePress", f"1,1,0,{x},{y}")
@@ -182,8 +182,8 @@ for name, properties in saved.items():
     for key, value in properties.items():
         held = bench.GetPropertyValue(key)
         assert held == value or np.isclose(held, value, rtol=1e-12), (name, key, held, value)
-    shown = picture(bench, "Intensity")
-    assert np.array_equal(shown, picture(scripted(**properties), "Intensity")), name
+    shown = image_array(bench, "Intensity")
+    assert np.array_equal(shown, image_array(scripted(**properties), "Intensity")), name
     assert shown.std() > 0.01
 
 # The edge where it was dragged to, then turned.
@@ -194,7 +194,7 @@ for name in ("edge", "turned"):
     frame(bench, view, [270, 270], 10)
     check_baseline(view, f"WindowCutoff{name.capitalize()}.png", [270, 270])
 
-# Pictures were made on the way and where the mouse was released.
+# Images were made on the way and where the mouse was released.
 with open(LOG, encoding="utf-8") as file:
     made = json.load(file)
 assert [on_the_way, 0, K] in made

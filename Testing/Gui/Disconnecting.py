@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The knife dragged, the colour filter painted, and the menu's Disconnect in the middle of a refinement, with
-a server and without: the same pictures, and afterwards one click makes another. Skipped without pvserver."""
+a server and without: the same images, and afterwards one click makes another. Skipped without pvserver."""
 
 import numpy as np
 from server_testing import connect, start_server
 from filter_testing import saved
-from views_testing import ViewsSession, check_linked, drawn, filters, load, picture, simple, values, views
+from views_testing import ViewsSession, check_linked, drawn, filters, load, image_array, simple, values, views
 from representation_testing import pixels_of
 
 K = 200
@@ -58,10 +58,10 @@ def session(name, before):
     user.python(SETTLE)
     user.drag(PREVIEW, (80, 90), (150, 90))
     keep("painted")
-    user.click("ColorFilterImage/PaintOnPicture")
+    user.click("ColorFilterImage/PaintOnImage")
     user.drag_view(0, (0.5, 0.5), (0.55, 0.55))
     keep("brushed")
-    user.click("ColorFilterImage/PaintOnPicture")
+    user.click("ColorFilterImage/PaintOnImage")
 
     if name:
         user.python(SETTLE + """
@@ -77,7 +77,7 @@ Show(flow, view)
 ResetCamera(view)
 SetActiveSource(flow)
 """)
-        user.press("OnePicture")
+        user.press("OneImage")
         user.python("settle_views()")
         user.save_state("afterwards.pvsm")
     user.play(before + SCENE)
@@ -92,20 +92,20 @@ finally:
 
 
 def held(state):
-    """What is set on its filter, the picture that the window had, and the one of the state."""
+    """What is set on its filter, the image that the window had, and the one of the state."""
     load(state + ".pvsm")
     (bench,) = filters().values()
     shown = saved(state)["intensity"]
     assert np.ptp(shown) > 0.2
-    assert np.abs(shown - picture(bench, "Intensity").ravel()).max() < 1e-5, state
+    assert np.abs(shown - image_array(bench, "Intensity").ravel()).max() < 1e-5, state
     return values(bench), shown
 
 
 steps = [[held(name + step) for step in ("first", "dragged", "painted", "brushed")]
          for name in ("", "served ")]
-for (here, picture_here), (there, picture_there) in zip(*steps):
+for (here, image_here), (there, image_there) in zip(*steps):
     assert here == there, [(name, here[name], there[name]) for name in here if here[name] != there[name]]
-    assert np.abs(picture_here - picture_there).max() < 1e-5
+    assert np.abs(image_here - image_there).max() < 1e-5
 (first, dragged, painted, brushed) = steps[1]
 assert float(first[0]["CutoffOffset"]) == 0
 assert float(dragged[0]["CutoffOffset"]) == round(K * 21 * 0.01 / SIDE, 3)

@@ -6,7 +6,7 @@ is; before Apply, given up, undone, traced and kept. A script that switches it o
 import os
 
 import numpy as np
-from views_testing import picture, simple, traced
+from views_testing import image_array, simple, traced
 from plugin_testing import Schlieren
 from window_testing import FOLDER, Session
 
@@ -21,7 +21,7 @@ def scripted(**properties):
 
 
 automatic = scripted()
-picture_of_automatic = picture(automatic, "Intensity")
+image_of_automatic = image_array(automatic, "Intensity")
 k = automatic.FieldData["KScale"].GetRange()[0]
 assert k > 0 and abs(k - 1000) > 100
 
@@ -89,7 +89,7 @@ for state, is_automatic, value in (("before", 1, 1000), ("off", 0, k), ("undone"
     simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
     bench = simple.FindSource("bench")
     assert (bench.AutoKScale, bench.KScale) == (is_automatic, value), (state, bench.AutoKScale, bench.KScale)
-    assert np.abs(picture(bench, "Intensity") - picture_of_automatic).max() < 1e-6, state
+    assert np.abs(image_array(bench, "Intensity") - image_of_automatic).max() < 1e-6, state
 
 with open(TRACE, encoding="utf-8") as file:
     text = file.read()

@@ -26,7 +26,7 @@ def keep(step):
     user.save_state(step + ".pvsm")
 
 
-user.press("OnePicture")
+user.press("OneImage")
 user.python("""
 import inside_window
 for view in GetRenderViews():

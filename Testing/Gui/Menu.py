@@ -10,7 +10,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
-from plugin_testing import picture, simple  # noqa: E402
+from plugin_testing import image_array, simple  # noqa: E402
 from views_testing import INSIDE  # noqa: E402
 from window_testing import FOLDER, PROPERTIES, Session  # noqa: E402
 
@@ -21,7 +21,7 @@ user.apply()
 user.check("Grid/Note", "text", "17 x 17 x 17 points: the data's own")
 user.save_state("menu.pvsm")
 
-# What notes tell is of the picture that Apply makes.
+# What notes tell is of the image that Apply makes.
 user.event(f"{PROPERTIES}/KFromOptics/CheckBox", "set_boolean", "true")
 user.type("FocalLength/DoubleLineEdit0", "2")
 user.apply()
@@ -40,4 +40,4 @@ simple.ResetSession()
 simple.LoadState(os.path.join(FOLDER, "menu.pvsm"))
 bench = simple.FindSource("Schlieren1")
 assert bench.Bodies is None and bench.Density == ["POINTS", "RTData"]
-assert np.ptp(picture(bench, "Intensity")) > 0
+assert np.ptp(image_array(bench, "Intensity")) > 0

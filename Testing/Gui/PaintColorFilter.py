@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Painting the colour filter, on itself and through the picture: the filter gets colour where the brush was
-or where the rays of the brushed pixels go, and the picture shows it without Apply."""
+"""Painting the colour filter, on itself and through the image: the filter gets colour where the brush was
+or where the rays of the brushed pixels go, and the image shows it without Apply."""
 
 import os
 
@@ -14,7 +14,7 @@ MIDDLE, HALF = 113, 96  # of the filter in its widget, pixels; the middle give o
 SIDE = 256              # of the painted filter
 PIXELS, K = 321, 300
 COLOR = (10, 200, 30)
-PIXEL = np.array([100, 205])  # of the picture: column, row; in the middle of the view
+PIXEL = np.array([100, 205])  # of the image: column, row; in the middle of the view
 SAVED = os.path.join(FOLDER, "saved.png")
 
 user = Session()
@@ -26,7 +26,7 @@ def stroke(*places):
 
 
 def look(name):
-    """Keeps what the filter is and what its picture is, in the window."""
+    """Keeps what the filter is and what its image is, in the window."""
     user.check_at(PANEL + "/Accept", "enabled", "false")
     user.python(f"""
 bench = FindSource("bench")
@@ -65,38 +65,38 @@ look("back")
 user.click(WIDGET + "/Erase")
 
 user.click(WIDGET + "/Save")
-user.event("pqClientMainWindow/SavePictureDialog", "filesSelected", SAVED)
+user.event("pqClientMainWindow/SaveImageDialog", "filesSelected", SAVED)
 user.click(WIDGET + "/Fill")
 look("filled")
 user.click(WIDGET + "/Load")
-user.event("pqClientMainWindow/LoadPictureDialog", "filesSelected", SAVED)
+user.event("pqClientMainWindow/LoadImageDialog", "filesSelected", SAVED)
 user.apply()
 look("loaded")
 user.click(WIDGET + "/Clear")
 user.apply()
 look("cleared")
 
-# On the picture: beside it there is nothing to paint, and the view does not turn.
+# On the image: beside it there is nothing to paint, and the view does not turn.
 user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 6)
-user.click(WIDGET + "/PaintOnPicture")
-user.check(WIDGET + "/PaintOnPicture", "checked", "true")
+user.click(WIDGET + "/PaintOnImage")
+user.check(WIDGET + "/PaintOnImage", "checked", "true")
 user.drag_view(0, (0.02, 0.02), (0.03, 0.03))
 look("beside")
 user.drag_view(0, (0.5, 0.5), (0.5, 0.5))
-look("picture")
-user.save_state("picture.pvsm")
+look("image")
+user.save_state("image.pvsm")
 user.event(VIEW.format(0), "keyEvent", "6:16777216:0::0:1")
-user.check(WIDGET + "/PaintOnPicture", "checked", "false")
+user.check(WIDGET + "/PaintOnImage", "checked", "false")
 user.drag_view(0, (0.5, 0.5), (0.6, 0.5), button=3)
 user.click(WIDGET + "/Undo")
 look("taken")
 
 # It ends by itself with the view.
-user.click(WIDGET + "/PaintOnPicture")
+user.click(WIDGET + "/PaintOnImage")
 user.python("Delete(GetActiveView())")
-user.check(WIDGET + "/PaintOnPicture", "checked", "false")
-user.click(WIDGET + "/PaintOnPicture")
-user.check(WIDGET + "/PaintOnPicture", "checked", "false")
+user.check(WIDGET + "/PaintOnImage", "checked", "false")
+user.click(WIDGET + "/PaintOnImage")
+user.check(WIDGET + "/PaintOnImage", "checked", "false")
 
 user.play(f"""
 import sys
@@ -138,16 +138,16 @@ hue = np.stack([np.clip(2 - np.abs((sector - 2 * n + 3) % 6 - 3), 0, 1) for n in
 WHEEL = 255 * (1 - np.minimum(1, np.hypot(u, v))[..., None] * (1 - hue))
 
 
-def check_painted(picture, inside, outside):
+def check_painted(image, inside, outside):
     """The brush's colour inside, the wheel outside."""
     assert inside.sum() > 100
-    assert (picture[inside] == COLOR).all()
-    assert np.abs(picture - WHEEL)[outside].max() <= 1
+    assert (image[inside] == COLOR).all()
+    assert np.abs(image - WHEEL)[outside].max() <= 1
 
 
-def check_brushed(picture, distance):
+def check_brushed(image, distance):
     """Painted where the brush of 12 % was, but for the pixels at its rim."""
-    check_painted(picture, distance < 0.12 - 2 / SIDE, distance > 0.12 + 2 / SIDE)
+    check_painted(image, distance < 0.12 - 2 / SIDE, distance > 0.12 + 2 / SIDE)
 
 
 text, before = seen("wheel")
@@ -168,16 +168,16 @@ check_brushed(by_keys, np.minimum(far, by_key))
 
 text_erased, shown_erased = seen("erased")
 assert np.abs(held(text_erased) - WHEEL).max() <= 1
-assert np.abs(shown_erased - before).max() <= 2  # a picture's wheel, not the formula's
+assert np.abs(shown_erased - before).max() <= 2  # an image's wheel, not the formula's
 assert np.array_equal(png(SAVED), held(text))
 assert (held(seen("filled")[0]) == COLOR).all() and (seen("filled")[1] == COLOR).all()
 assert np.array_equal(held(seen("loaded")[0]), held(text))
 assert np.array_equal(seen("loaded")[1], shown)
 
-# On the picture: the rays of the pixels in the brush's circle, times k.
+# On the image: the rays of the pixels in the brush's circle, times k.
 assert seen("cleared")[0] == seen("beside")[0] == seen("taken")[0] == ""
-text, shown = seen("picture")
-deflection = np.load(os.path.join(FOLDER, "picture.npz"))["Deflection"].reshape(PIXELS, PIXELS, 2)
+text, shown = seen("image")
+deflection = np.load(os.path.join(FOLDER, "image.npz"))["Deflection"].reshape(PIXELS, PIXELS, 2)
 rows, columns = np.mgrid[:PIXELS, :PIXELS]
 away = np.hypot(columns - PIXEL[0], rows - PIXEL[1]) - 0.03 * PIXELS
 places = np.clip(K * deflection, -1, 1)
@@ -207,15 +207,15 @@ other = around(distances(perhaps, places).min(axis=0) > 0.08)
 assert same[PIXEL[1], PIXEL[0]] and (same & (away > 1)).sum() > 100 and other.sum() > 1000
 assert np.abs(shown[same] - COLOR).max() <= 2  # light gathers and spreads a little
 assert np.abs(shown - before)[other].max() <= 2
-cameras = [np.load(os.path.join(FOLDER, name + ".npz"))["camera"] for name in ("cleared", "picture")]
+cameras = [np.load(os.path.join(FOLDER, name + ".npz"))["camera"] for name in ("cleared", "image")]
 assert np.array_equal(*cameras)
 
-load("picture.pvsm")
+load("image.pvsm")
 assert simple.FindSource("bench").ColorFilterImage == text
 
 
 def check_shown(name, painted):
-    """The picture, as the view shows it behind this filter."""
+    """The image, as the view shows it behind this filter."""
     bench, ((_, view),) = simple.FindSource("bench"), views()
     bench.ColorFilterImage = os.path.join(FOLDER, "exact.png")
     write_png(painted, bench.ColorFilterImage)
@@ -228,7 +228,7 @@ def check_shown(name, painted):
 exact = np.rint(WHEEL)
 exact[distances(places[away < 0], on_filter).min(axis=0) < 0.06] = COLOR
 assert (np.abs(exact - held(text)).max(axis=2) > 1).mean() < 0.02
-check_shown("WindowPaintOnPicture.png", exact)
+check_shown("WindowPaintOnImage.png", exact)
 
 # So is the stroke on the filter, moved back by what the widget's middle depends on the font; all else of the
 # filter is the wheel, see above.

@@ -56,16 +56,16 @@ GetActiveView().CameraParallelProjection = {int(kind == "parallel")}
 Render()
 """)
     look("before" + kind)
-    user.event(WIDGET + "/PaintOnPicture", "activate")
-    user.check_at(WIDGET + "/PaintOnPicture", "checked", "true")
+    user.event(WIDGET + "/PaintOnImage", "activate")
+    user.check_at(WIDGET + "/PaintOnImage", "checked", "true")
     user.drag_view(0, place, place)
     look(kind)
-    user.event(WIDGET + "/PaintOnPicture", "activate")
-    user.check_at(WIDGET + "/PaintOnPicture", "checked", "false")
+    user.event(WIDGET + "/PaintOnImage", "activate")
+    user.check_at(WIDGET + "/PaintOnImage", "checked", "false")
     user.event(WIDGET + "/Clear", "activate")
-user.event(WIDGET + "/PaintOnPicture", "activate")
+user.event(WIDGET + "/PaintOnImage", "activate")
 user.drag_view(0, (0.4, 0.4), (0.45, 0.5))
-user.event(WIDGET + "/PaintOnPicture", "activate")
+user.event(WIDGET + "/PaintOnImage", "activate")
 user.check_at(WIDGET + "/Undo", "enabled", "true")
 user.event(WIDGET + "/Undo", "activate")
 look("taken")
@@ -74,7 +74,7 @@ look("taken")
 user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "set_string", "Outline")
 user.python("""
 from inside_window import widget
-assert not widget("propertiesPanel", "SchlierenBench", "ColorFilterImage", "PaintOnPicture").isVisible()
+assert not widget("propertiesPanel", "SchlierenBench", "ColorFilterImage", "PaintOnImage").isVisible()
 """)
 
 server, prefix = None, "from paraview.simple import *"
@@ -113,8 +113,8 @@ for kind, (x, y) in PLACES.items():
     kept = seen(kind)
     assert np.array_equal(kept["camera"], seen("before" + kind)["camera"]), "The view has turned."
     columns, rows = kept["size"]
-    picture = png_of_text(str(kept["text"]))
-    painted = (picture == COLOR).all(axis=2)
+    image = png_of_text(str(kept["text"]))
+    painted = (image == COLOR).all(axis=2)
     assert painted.sum() > 100, kind
     changed = np.abs(shown(kind) - shown("before" + kind)).max(axis=2) > 20
     assert changed.sum() > 100, kind

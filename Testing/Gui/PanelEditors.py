@@ -14,7 +14,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
-from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from plugin_testing import Schlieren, image_array, simple  # noqa: E402
 from paraview import smstate  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
@@ -173,7 +173,7 @@ def values(proxy, name):
 
 
 def scripted(**properties):
-    """The picture of a filter that a script has set up."""
+    """The image of a filter that a script has set up."""
     flow = simple.XMLImageDataReader(FileName=[FLOW])
     flow.UpdatePipeline()
     bench = Schlieren(Input=flow)
@@ -181,7 +181,7 @@ def scripted(**properties):
     bench.ImageSize = [32, 32]
     for name, value in properties.items():
         setattr(bench, name, value)
-    return picture(bench, "OpticalPathDifference")
+    return image_array(bench, "OpticalPathDifference")
 
 
 def functions(proxy):
@@ -194,7 +194,7 @@ assert functions(grid) == [LINE], functions(grid)
 
 bench = bench_of("gas.pvsm")
 assert bench.Gas == "helium" and bench.IndexModel == "Gladstone-Dale"
-shown = picture(bench, "OpticalPathDifference")
+shown = image_array(bench, "OpticalPathDifference")
 assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(Gas="He"))
 
 bench = bench_of("mixture.pvsm")
@@ -203,7 +203,7 @@ assert values(bench, "MixtureArrays") == ["Y_He", "Y_CO2"]
 assert values(bench, "MixtureGases") == ["helium", "Custom"]
 assert len(bench.MixtureConstants) == len(bench.MixtureMolarMasses) == 2
 assert bench.MixtureConstants[1] == 2.3e-4 and bench.MixtureMolarMasses[1] == 0.044
-shown = picture(bench, "OpticalPathDifference")
+shown = image_array(bench, "OpticalPathDifference")
 assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(
     IndexModel="Gladstone-Dale Mixture", Wavelength=500, MixtureArrays=["Y_He", "Y_CO2"],
     MixtureGases=["He", ""], MixtureConstants=[1, 2.3e-4], BackgroundGas="air"))
@@ -213,13 +213,13 @@ assert values(bench, "Fields") == ["temperature", "Y_He"]
 assert values(bench, "FieldRanges") == [0, 0, 0.1, 0.4]
 assert len(bench.FieldColors) == 6 and values(bench, "FieldColors")[3:] == [0, 1, 0]
 assert functions(bench) == [LINE, LINE], functions(bench)
-straight = picture(bench, "OpticalPathDifference")
+straight = image_array(bench, "OpticalPathDifference")
 
 bench = bench_of("curve.pvsm")
 first, curve = functions(bench)
 assert first == LINE and len(curve) == 12 and curve[:4] == LINE[:4], (first, curve)
 assert abs(curve[4] - 0.6) < 0.1 and abs(curve[5] - 0.8) < 0.1, curve  # 0.2 from the top
-shown = picture(bench, "OpticalPathDifference")
+shown = image_array(bench, "OpticalPathDifference")
 assert np.abs(shown - straight).max() > 0.01 * np.ptp(straight)
 assert np.array_equal(shown, scripted(
     IndexModel="Transfer Functions", Fields=["temperature", "Y_He"], FieldRanges=[0, 0, 0.1, 0.4],
@@ -232,7 +232,7 @@ simple.ResetSession()
 exec(script, {})  # pylint: disable=exec-used
 bench = simple.FindSource("bench")
 assert functions(bench) == [LINE, curve], functions(bench)
-assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
+assert np.array_equal(image_array(bench, "OpticalPathDifference"), shown)
 
 # So does the trace, up to where the last field was removed.
 with open(TRACE, encoding="utf-8") as file:
@@ -249,7 +249,7 @@ simple.SetActiveSource(bench)
 exec(script[:last], {})  # pylint: disable=exec-used
 assert functions(bench) == [LINE, curve], functions(bench)
 assert values(bench, "MixtureGases") == ["helium", "Custom"]
-assert np.array_equal(picture(bench, "OpticalPathDifference"), shown)
+assert np.array_equal(image_array(bench, "OpticalPathDifference"), shown)
 
 bench = bench_of("removed.pvsm")
 assert values(bench, "Fields") == ["temperature"] and functions(bench) == [LINE]

@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
-from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from plugin_testing import Schlieren, image_array, simple  # noqa: E402
 from window_testing import BENCH, DISPLAY, FOLDER, Session  # noqa: E402
 
 SETTINGS = ("Cutoff", "AutoKScale", "KScale", "CutoffOffset", "KnifeEdgeAngle")
@@ -88,7 +88,7 @@ def drawn(name):
         Input=wavelet, Density=["POINTS", "RTData"], **{name: kept[name].item() for name in SETTINGS}, ImageSize=kept["size"].tolist(), ViewUp=kept["up"].tolist(),
         ViewDirection=(kept["focus"] - kept["position"]).tolist(), FocalPoint=kept["focus"].tolist(),
         ParallelScale=float(kept["scale"]))
-    difference = np.abs(picture(bench, "Intensity").ravel() - kept["intensity"])
+    difference = np.abs(image_array(bench, "Intensity").ravel() - kept["intensity"])
     assert difference.max() < 1e-5, (name, difference.max(), difference.mean())
     with open(os.path.join(FOLDER, name + ".json"), encoding="utf-8") as file:
         return json.load(file)

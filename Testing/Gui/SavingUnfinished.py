@@ -8,7 +8,7 @@ import os
 import numpy as np
 from views_testing import ViewsSession, png, simple
 from filter_testing import SCENE
-from plugin_testing import Schlieren, picture
+from plugin_testing import Schlieren, image_array
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from window_testing import FOLDER
 
@@ -20,7 +20,7 @@ def screenshot(view, name):
 """
 
 user = ViewsSession()
-user.press("OnePicture")
+user.press("OneImage")
 
 # Of a filter.
 user.python(HELPERS + """
@@ -88,7 +88,7 @@ assert not np.array_equal(frames[0], frames[1]) and not np.array_equal(frames[1]
 
 flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
 flow.UpdatePipeline()
-expected = picture(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Draft",
+expected = image_array(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Draft",
                              SamplesPerPixel=400, KnifeEdgeAngle=30, ParallelScale=13), "Intensity")
 saved = simple.XMLImageDataReader(FileName=os.path.join(FOLDER, "unfinished.vti"))
 saved.UpdatePipeline()

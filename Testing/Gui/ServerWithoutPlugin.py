@@ -30,7 +30,7 @@ assert "CreateView" not in traced and "Schlieren" not in traced and "Split" not 
 """
 
 user.save_state("before.pvsm")
-for button in ("OnePicture", "ThreePictures", "Comparison"):
+for button in ("OneImage", "ThreeImages", "Comparison"):
     user.python(BEFORE)
     user.press(button)
     user.check_message(f"The server localhost:{port} has not loaded the plugin Schlieren, so no image can be "
@@ -42,7 +42,7 @@ user.python("""
 LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=globals())
 SetActiveSource(FindSource("mesh"))
 """)
-user.press("OnePicture")
+user.press("OneImage")
 user.save_state("loaded.pvsm")
 try:
     user.play(INSIDE + f"""

@@ -12,7 +12,7 @@ with open(REPORT, "w", encoding="utf-8"):
     pass
 
 user = ViewsSession()
-user.press("OnePicture")
+user.press("OneImage")
 
 # What is checked is checked within the window. Its frames have the numbers of their cells in the layout.
 HELPERS = f"""

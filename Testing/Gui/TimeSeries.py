@@ -70,7 +70,7 @@ def vcr(name):
     user.idle()
 
 
-user.press("OnePicture")
+user.press("OneImage")
 user.python(SETTLE + NOTE + begin("played"))
 vcr("Play")
 user.python(SETTLE + "save('played')\n" + begin("stepped"))

@@ -13,7 +13,7 @@ MIDDLE = 20 + SIDE // 2, 2 + SIDE // 2  # of the widget; give or take a few
 SIZE = (160, 120)
 
 user = ViewsSession(BENCH)
-user.press("OnePicture")
+user.press("OneImage")
 user.python("settle_views()")
 user.save_state("clicked.pvsm")
 user.drag_view(2, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The toolbar where a server has the data and makes the pictures. Skipped without pvserver."""
+"""The toolbar where a server has the data and makes the images. Skipped without pvserver."""
 
 import numpy as np
 from server_testing import connect, start_server
@@ -11,7 +11,7 @@ SIZE = (120, 90)
 
 server, port = start_server()
 user = ViewsSession()
-user.press("OnePicture")
+user.press("OneImage")
 user.save_state("one.pvsm")
 user.undo()
 user.save_state("undone.pvsm")

@@ -62,12 +62,12 @@ def finished(source):
 
 
 def rows_of(source):
-    """Of the picture that a filter holds in this program."""
+    """Of the image that a filter holds in this program."""
     return source.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
 
 
 def settle(*filters):
-    """Until their pictures are whole and nothing changes them any more. Rough ones are finished, too, but have
+    """Until their images are whole and nothing changes them any more. Rough ones are finished, too, but have
     fewer rows; with a server only that one knows how many."""
     def whole():
         return all(finished(one) and (one.GetClientSideObject() is None or rows_of(one) == one.ImageSize[1])
@@ -95,7 +95,7 @@ def settle_views():
 
 
 def save(name, source, *views):
-    """Keeps the picture that a filter has, as it is, its properties and the cameras of views."""
+    """Keeps the image that a filter has, as it is, its properties and the cameras of views."""
     here = source.GetClientSideObject()
     image = here.GetOutputDataObject(0) if here else servermanager.Fetch(source)
     cameras = [view.GetActiveCamera() for view in views]

@@ -13,7 +13,7 @@ import numpy as np
 SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
 sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
 
-from plugin_testing import picture, simple  # noqa: E402, F401
+from plugin_testing import image_array, simple  # noqa: E402, F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
@@ -180,7 +180,7 @@ def screenshot(view, name, size):
 
 
 def frame(bench, view, size, scale):
-    """Makes the picture of so many pixels, 2 * scale high, and lets it fill its view, pixel on pixel: no
+    """Makes the image of so many pixels, 2 * scale high, and lets it fill its view, pixel on pixel: no
     window's size matters then."""
     bench.ImageSize = size
     bench.ParallelScale = view.CameraParallelScale = scale
@@ -195,7 +195,7 @@ def frame(bench, view, size, scale):
 
 
 def show_grey(bench, view):
-    """As the toolbar's pictures are shown: black is 0, white is 1."""
+    """As the toolbar's images are shown: black is 0, white is 1."""
     simple.ColorBy(shown(bench, view), ("POINTS", "Intensity"))
     colors = simple.GetColorTransferFunction("Intensity")
     colors.AutomaticRescaleRangeMode = "Never"
@@ -205,7 +205,7 @@ def show_grey(bench, view):
 
 
 def check_baseline(view, name, size):
-    """What the view shows, or several views side by side, is the kept picture of that name."""
+    """What the view shows, or several views side by side, is the kept image of that name."""
     several = view if isinstance(view, list) else [view]
     made = np.concatenate([screenshot(one, f"{place}{name}", size) for place, one in enumerate(several)],
                           axis=1)

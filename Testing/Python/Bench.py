@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bench as scripts set it up and state files keep it: every property, a picture as text, two outputs."""
+"""The bench as scripts set it up and state files keep it: every property, an image as text, two outputs."""
 
 import base64
 import os
@@ -9,7 +9,7 @@ import zlib
 
 import numpy as np
 from paraview import simple, smstate
-from plugin_testing import Schlieren, gaussian_column, output, picture
+from plugin_testing import Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray
@@ -70,7 +70,7 @@ def check(find=simple.FindSource):
 
 check()
 
-# What k and offset optics have is told before there is a picture.
+# What k and offset optics have is told before there is an image.
 made.UpdatePropertyInformation()
 assert made.GetProperty("KScaleOfOptics").GetData() == 4000
 assert made.GetProperty("CutoffOffsetOfOptics").GetData() == 0.5
@@ -102,7 +102,7 @@ rays = vtk_to_numpy(histogram.GetPointData().GetArray("Rays")).reshape(256, 256)
 assert histogram.GetPointData().GetScalars().GetName() == "Rays"
 x = histogram.GetOrigin()[0] + np.arange(256) * histogram.GetSpacing()[0]
 assert np.allclose(x, -x[::-1], atol=1e-6 * x[-1]), "The middle of the bins is no deflection"
-deflection = picture(plain, "Deflection").reshape(-1, 2)
+deflection = image_array(plain, "Deflection").reshape(-1, 2)
 assert rays.sum() >= 256, rays.sum()
 edges = np.linspace(x[0] - (x[1] - x[0]) / 2, x[-1] + (x[1] - x[0]) / 2, 257)
 expected, _, _ = np.histogram2d(deflection[:, 1], deflection[:, 0], bins=2 * [edges])

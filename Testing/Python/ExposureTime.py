@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from paraview import simple
-from plugin_testing import EVERY_VOXEL, Schlieren, output, picture
+from plugin_testing import EVERY_VOXEL, Schlieren, output, image_array
 from series_testing import write_series
 
 STEPS = np.linspace(0, 2, 33).tolist()
@@ -31,7 +31,7 @@ def truth(x, begin, end):
 def error(bench, begin, end):
     image = output_of(bench)
     x = image.GetOrigin()[0] + np.arange(image.GetDimensions()[0]) * image.GetSpacing()[0]
-    return np.abs(picture(bench, "Intensity") - truth(x, begin, end)).max()
+    return np.abs(image_array(bench, "Intensity") - truth(x, begin, end)).max()
 
 
 def output_of(bench):
@@ -54,7 +54,7 @@ bench.UpdatePipeline(1)
 assert error(bench, 0.75, 1.25) < 5e-3, error(bench, 0.75, 1.25)
 interval = output_of(bench).GetFieldData().GetArray("ExposureInterval")
 assert (interval.GetValue(0), interval.GetValue(1)) == (0.75, 1.25)
-exposed = picture(bench, "Intensity").copy()
+exposed = image_array(bench, "Intensity").copy()
 bench.UpdatePipeline(2)
 assert error(bench, 1.75, 2) < 5e-3, error(bench, 1.75, 2)
 bench.ExposureTime = 0
@@ -67,7 +67,7 @@ files = simple.XMLImageDataReader(FileName=[f"moving{step}.vti" for step in rang
 files.UpdatePipeline()
 series = bench_of(files, **{**fixed, "ExposureTime": EXPOSURE / (STEPS[1] - STEPS[0])})
 series.UpdatePipeline(16)
-assert np.abs(picture(series, "Intensity") - exposed).max() < 1e-6
+assert np.abs(image_array(series, "Intensity") - exposed).max() < 1e-6
 
 # A script that makes the data of a time.
 made = simple.ProgrammableSource(OutputDataSetType="vtkImageData")
@@ -96,7 +96,7 @@ self.GetOutput().GetInformation().Set(self.GetOutput().DATA_TIME_STEP(), time)
 made.UpdatePipeline(0)
 scripted = bench_of(made, **fixed)
 scripted.UpdatePipeline(1)
-assert np.abs(picture(scripted, "Intensity") - exposed).max() < 1e-6
+assert np.abs(image_array(scripted, "Intensity") - exposed).max() < 1e-6
 
 # An automatic k is kept at other times, whatever is changed there.
 for reader, times in ((flow, (1, 0.5)), (files, (16, 8)), (made, (1, 0.5))):
@@ -118,9 +118,9 @@ bench, ours = bench_of(between, AutoKScale=0, KScale=K), bench_of(flow, **fixed)
 bench.UpdatePipeline(1.01)
 ours.ExposureTime, ours.ExposureSamples = 0.02, 2
 ours.UpdatePipeline(1.01)
-plain = picture(bench, "Intensity")
+plain = image_array(bench, "Intensity")
 bench.UpdatePipeline(1.005)
-low = picture(bench, "Intensity").copy()
+low = image_array(bench, "Intensity").copy()
 bench.UpdatePipeline(1.015)
-assert np.abs((low + picture(bench, "Intensity")) / 2 - picture(ours, "Intensity")).max() < 1e-5
+assert np.abs((low + image_array(bench, "Intensity")) / 2 - image_array(ours, "Intensity")).max() < 1e-5
 assert not np.array_equal(plain, low)

@@ -8,7 +8,7 @@ import os
 
 import numpy as np
 from paraview import simple, smstate
-from plugin_testing import Schlieren, picture
+from plugin_testing import Schlieren, image_array
 from series_testing import write_series
 
 TIMES = np.linspace(0, 2, 9).tolist()
@@ -50,7 +50,7 @@ assert fixed == own[0.5]
 images = {}
 for time in TIMES + TIMES[::-1] + [1.5, 0.25, 1.75, 0.5]:
     assert at(bench, time) == fixed, time
-    image = picture(bench, "Intensity").copy()
+    image = image_array(bench, "Intensity").copy()
     assert np.array_equal(images.setdefault(time, image), image), time
 
 at(bench, 1.5)
@@ -59,11 +59,11 @@ assert (bench.LockedK, bench.LockedAmbient) == fixed
 # Fringes count what the gas around has become, in units of light at the first time.
 bench.Cutoff = "Interferogram"
 assert at(bench, 1.5)[1] == fixed[1]
-path = picture(bench, "OpticalPathDifference")[0, 0]
+path = image_array(bench, "OpticalPathDifference")[0, 0]
 assert abs(path / (2 * (own[1.5][1] - own[0.5][1])) - 1) < 0.01, path
 bench.LockAmbient = 0
 at(bench, 1.5)
-assert abs(picture(bench, "OpticalPathDifference")[0, 0]) < 0.01 * abs(path)
+assert abs(image_array(bench, "OpticalPathDifference")[0, 0]) < 0.01 * abs(path)
 bench.LockAmbient, bench.Cutoff = 1, "Knife Edge"
 bench.LockedAmbient = fixed[1]
 bench.LockedK = fixed[0]
@@ -85,7 +85,7 @@ assert {values for _, values in made} == {fixed}, made
 # State files of both kinds hold them.
 scene.AnimationTime = 1.5
 at(bench, 1.5)
-kept = picture(bench, "Intensity").copy()
+kept = image_array(bench, "Intensity").copy()
 assert (bench.LockedK, bench.LockedAmbient) == fixed
 simple.SaveState("pulse.pvsm")
 script = smstate.get_state()
@@ -97,7 +97,7 @@ def check_kept():
     found = simple.FindSource("bench")
     assert (found.LockedK, found.LockedAmbient) == fixed
     assert at(found, 1.5) == fixed
-    assert np.array_equal(picture(found, "Intensity"), kept)
+    assert np.array_equal(image_array(found, "Intensity"), kept)
     assert at(found, 0) == fixed
     for loaded in simple.GetViews():
         simple.Delete(loaded)

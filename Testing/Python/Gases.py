@@ -3,7 +3,7 @@
 """The index models that take several arrays, as scripts use them."""
 
 import numpy as np
-from plugin_testing import (RefractiveIndex, Schlieren, gaussian_column, is_empty, output, picture)
+from plugin_testing import (RefractiveIndex, Schlieren, gaussian_column, is_empty, output, image_array)
 from paraview.simple import Calculator
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -81,7 +81,7 @@ for model, choices in (
         ("Gladstone-Dale Mixture", {"Density": ["POINTS", "rho"], "MixtureArrays": ["Y_He"],
                                     "MixtureConstants": [HELIUM]}),
         ("Ciddor", {"Temperature": ["POINTS", "T"], "Pressure": ["POINTS", "p"]})):
-    pictures = []
+    images = []
     for proxy in (RefractiveIndex(flow), Schlieren(flow)):
         proxy.IndexModel = model
         for name, value in choices.items():
@@ -89,5 +89,5 @@ for model, choices in (
         proxy.UpdatePipeline()
         bench = proxy if proxy.GetXMLName() == "Schlieren" else Schlieren(proxy)
         bench.ImageSize = [32, 32]
-        pictures.append(picture(bench, "OpticalPathDifference"))
-    assert np.ptp(pictures[0]) > 0 and np.array_equal(*pictures), model
+        images.append(image_array(bench, "OpticalPathDifference"))
+    assert np.ptp(images[0]) > 0 and np.array_equal(*images), model

@@ -5,7 +5,7 @@
 import numpy as np
 from paraview.simple import AppendDatasets
 from plugin_testing import (CONSTANT, RefractiveIndex, Schlieren, column_errors, gaussian_column,
-                            one_ray_per_pixel, output, picture)
+                            one_ray_per_pixel, output, image_array)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 source = gaussian_column()
@@ -15,7 +15,7 @@ choices = ({"IndexModel": "Gladstone-Dale", "Density": ["POINTS", "rho"]},
            {"IndexModel": "Refractive Index", "IndexArray": ["POINTS", "n"]},
            {"IndexModel": "Refractivity", "IndexArray": ["POINTS", "N"]},
            {"IndexModel": "Refractivity", "IndexArray": ["CELLS", "cells"]})
-pictures = []
+images = []
 for choice in choices:
     bench = Schlieren(source)
     for name, value in choice.items():
@@ -24,11 +24,11 @@ for choice in choices:
     errors = column_errors(bench)
     print(choice, "relative errors: deflection %.2e, optical path %.2e" % errors)
     assert max(errors) < 1e-3
-    pictures.append(picture(bench, "Intensity"))
-assert np.ptp(pictures[0]) > 0.5, "The automatic k should use the range of grey"
-assert np.abs(pictures[1] - pictures[0]).max() < 1e-3
+    images.append(image_array(bench, "Intensity"))
+assert np.ptp(images[0]) > 0.5, "The automatic k should use the range of grey"
+assert np.abs(images[1] - images[0]).max() < 1e-3
 
-# In two steps the picture is the same, value by value.
+# In two steps the image is the same, value by value.
 refractivity = RefractiveIndex(source)
 refractivity.Density = ["POINTS", "rho"]
 refractivity.UpdatePipeline()
@@ -43,7 +43,7 @@ direct = Schlieren(source)
 direct.Density = ["POINTS", "rho"]
 one_ray_per_pixel(direct)
 for name in ("Intensity", "Deflection", "OpticalPathDifference", "Displacement", "BlockedFraction"):
-    assert np.array_equal(picture(chained, name), picture(direct, name)), name
+    assert np.array_equal(image_array(chained, name), image_array(direct, name)), name
 
 # Resampled, when the source is not an image.
 points = AppendDatasets(source)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from paraview.simple import AMRGaussianPulseSource, Calculator, HierarchicalFractal, PassArrays, Slice, Tetrahedralize
-from plugin_testing import RADIUS, RefractiveIndex, Schlieren, gaussian_column, is_empty, output, picture
+from plugin_testing import RADIUS, RefractiveIndex, Schlieren, gaussian_column, is_empty, output, image_array
 
 
 def told_grid(bench):
@@ -20,7 +20,7 @@ medium = RefractiveIndex(pulse, IndexModel="Refractivity", IndexArray=["CELLS", 
 assert output(medium).GetDimensions() == (10, 10, 10)
 assert told_grid(medium) == "10 x 10 x 10 points: the cells of level 1", told_grid(medium)
 bench = Schlieren(pulse, IndexModel="Refractivity", IndexArray=["CELLS", "Gaussian-Pulse"])
-assert np.abs(picture(bench, "Deflection")).max() > 0 and picture(bench, "BlockedFraction").max() == 0
+assert np.abs(image_array(bench, "Deflection")).max() > 0 and image_array(bench, "BlockedFraction").max() == 0
 assert "million voxels" in told_grid(bench), told_grid(bench)
 
 # Six levels of blocks, with layers of ghost cells or without, which give the same medium.
@@ -76,7 +76,7 @@ for source in (column, tetrahedra):
                       Cutoff="Shadowgraph", SamplesPerPixel=1, AutoAmbientRefractivity=0)
     part = Schlieren(source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1],
                      Cutoff="Shadowgraph", SamplesPerPixel=1, AutoAmbientRefractivity=0, SamplingBounds=box)
-    bent, ofPart = (np.abs(picture(bench, "Deflection")).max() for bench in (whole, part))
+    bent, ofPart = (np.abs(image_array(bench, "Deflection")).max() for bench in (whole, part))
     # Light along z meets as much of the column as is in the box.
     expected = math.erf(0.5 * (made[5] - made[4]) / RADIUS) / math.erf(1 / RADIUS)
     assert abs(ofPart / bent / expected - 1) < 0.01, (ofPart / bent, expected)

@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 from paraview import simple, smstate
-from plugin_testing import Schlieren, output, picture
+from plugin_testing import Schlieren, output, image_array
 from series_testing import write_series
 
 TIMES = [0, 1, 2]
@@ -41,7 +41,7 @@ for time, locked in ((1, 0), (2, own[1]), (0, own[1]), (2, own[1])):
 words = bench.GetProperty("Sensitivity").GetData(), bench.GetProperty("Status").GetData()
 assert words[0].startswith(f"k locked at {own[1]:.4g}: full scale is ") and words[1].endswith(
     f", k locked at {own[1]:.4g}"), words
-kept = picture(bench, "Intensity")
+kept = image_array(bench, "Intensity")
 
 # State files keep it: the same image, and the same k at other times.
 simple.SaveState("locked.pvsm")
@@ -52,7 +52,7 @@ def check_kept():
     found = simple.FindSource("bench")
     assert found.LockK == "Over Time" and found.LockedK == own[1], found.LockedK
     assert k_at(found, 2) == own[1]
-    assert np.array_equal(picture(found, "Intensity"), kept)
+    assert np.array_equal(image_array(found, "Intensity"), kept)
     assert k_at(found, 0) == own[1]
     # So does another camera, until each image is to have its own.
     found.ViewDirection = [1, 0, -1]
@@ -80,7 +80,7 @@ for change in ({}, {"ParallelScale": 0.5}, {"Quality": "Publication"}, {"Density
                {"Cutoff": "Circular"}, {"KnifeEdgeAngle": 30.0}):
     for one in (bench, fresh):
         simple.SetProperties(one, **change)
-    assert np.array_equal(picture(bench, "Intensity"), picture(fresh, "Intensity")), change
+    assert np.array_equal(image_array(bench, "Intensity"), image_array(fresh, "Intensity")), change
     assert bench.LockedK == 0
 bench.LockK = "Always"
 k = output(bench).GetFieldData().GetArray("KScale").GetValue(0)

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from paraview import simple
-from plugin_testing import Schlieren, output, picture
+from plugin_testing import Schlieren, output, image_array
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_HEXAGONAL_PRISM, VTK_PENTAGONAL_PRISM, VTK_POLYHEDRON,
@@ -108,7 +108,7 @@ def seen(data, **view):
     image = output(bench)
     x = image.GetOrigin()[0] + image.GetSpacing()[0] * np.arange(PIXELS)
     u, v = np.meshgrid(x, image.GetOrigin()[1] + image.GetSpacing()[1] * np.arange(PIXELS))
-    return bench, u, v, picture(bench, "Deflection").astype(float), picture(bench, "BlockedFraction")
+    return bench, u, v, image_array(bench, "Deflection").astype(float), image_array(bench, "BlockedFraction")
 
 
 def check(name, data, counts, body_area=0., rms=0.01, worst=0.04):
@@ -169,7 +169,7 @@ moving.GetPointData().GetArray("rho").Modified()
 moving.GetPoints().Modified()
 moving.Modified()
 bench.Input.MarkModified(None)
-again = picture(bench, "Deflection")
+again = image_array(bench, "Deflection")
 fresh = vtkStructuredGrid()
 fresh.DeepCopy(moving)
 assert np.array_equal(again, seen(fresh)[3].astype(again.dtype))

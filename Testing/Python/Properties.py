@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 from paraview.simple import AppendDatasets, Clip, Sphere
-from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, picture
+from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
@@ -126,16 +126,16 @@ bench.PathModel = "Refracted"
 bench.SamplesPerPixel = 4  # the first is at the pixel's centre, whatever the seed
 assert output(bench).GetDimensions() == (48, 32, 1)
 before = work(bench)
-reference = picture(bench, "Intensity")
+reference = image_array(bench, "Intensity")
 for name, value in (("KnifeEdgeAngle", 30), ("InvertCutoff", 1), ("Cutoff", "Shadowgraph")):
     default = current(name)
     setattr(bench, name, value)
-    assert not np.array_equal(picture(bench, "Intensity"), reference), name
+    assert not np.array_equal(image_array(bench, "Intensity"), reference), name
     setattr(bench, name, default)
-    assert np.array_equal(picture(bench, "Intensity"), reference), name
+    assert np.array_equal(image_array(bench, "Intensity"), reference), name
 bench.AutoKScale = 0
 bench.KScale = 10
-assert np.abs(picture(bench, "Intensity") - 0.5).max() < 0.1
+assert np.abs(image_array(bench, "Intensity") - 0.5).max() < 0.1
 bench.AutoKScale = 1
 assert work(bench) == before, "Cutoffs and k must trace nothing"
 
@@ -151,11 +151,11 @@ for name, value in (("ViewDirection", [1, 0, -1]), ("ViewUp", [1, 1, 0]), ("Para
                     ("Precision", "Double"), ("Seed", 2), ("LengthScale", 0.1),
                     ("GladstoneDaleConstant", 1e-4), ("DensityScale", 2)):
     default = current(name)
-    reference = picture(bench, "OpticalPathDifference")
+    reference = image_array(bench, "OpticalPathDifference")
     setattr(bench, name, value)
-    assert not np.array_equal(picture(bench, "OpticalPathDifference"), reference), name
+    assert not np.array_equal(image_array(bench, "OpticalPathDifference"), reference), name
     setattr(bench, name, default)
-    assert np.array_equal(picture(bench, "OpticalPathDifference"), reference), name
+    assert np.array_equal(image_array(bench, "OpticalPathDifference"), reference), name
 
 # The focal point: empty means the data's centre.
 centred = output(bench).GetOrigin()
@@ -165,18 +165,18 @@ assert np.allclose(np.subtract(moved, centred), [0.25, -0.5, 0]), (moved, centre
 bench.FocalPoint = []
 assert np.allclose(output(bench).GetOrigin(), centred)
 
-# A body: its shadow, and no other picture without it.
+# A body: its shadow, and no other image without it.
 for proxy in (bench, RefractiveIndex(source, Density=["POINTS", "rho"])):
     chained = proxy if proxy is bench else Schlieren(proxy, ImageSize=[48, 32])
-    free = picture(chained, "Deflection")
+    free = image_array(chained, "Deflection")
     proxy.Bodies = Sphere(Radius=0.4)
-    blocked = picture(chained, "BlockedFraction") * output(chained).GetSpacing()[0]**2
+    blocked = image_array(chained, "BlockedFraction") * output(chained).GetSpacing()[0]**2
     assert abs(blocked.sum() / (np.pi * 0.4**2) - 1) < 0.2, blocked.sum()
     proxy.Bodies = None
-    assert np.array_equal(picture(chained, "Deflection"), free)
-    assert picture(chained, "BlockedFraction").max() == 0
+    assert np.array_equal(image_array(chained, "Deflection"), free)
+    assert image_array(chained, "BlockedFraction").max() == 0
 with_body = Schlieren(Input=source, Bodies=Sphere(Radius=0.4), Density=["POINTS", "rho"])
-assert picture(with_body, "BlockedFraction").max() == 1
+assert image_array(with_body, "BlockedFraction").max() == 1
 
 # Outside of a mesh light may pass.
 mesh = Clip(AppendDatasets(source), ClipType="Sphere")
@@ -185,24 +185,24 @@ outside = Schlieren(mesh, Density=["POINTS", "rho"], ImageSize=[16, 16])
 for name, value, blocked in (("Outside", "Blocks", 1), ("Outside", "Passes", 0), ("OutsideBlocksLight", 1, 1),
                              ("OutsideBlocksLight", 0, 0)):
     setattr(outside, name, value)
-    assert picture(outside, "BlockedFraction")[8, 1] == blocked, (name, value)
+    assert image_array(outside, "BlockedFraction")[8, 1] == blocked, (name, value)
 
 # A mask: light ends where rho is high, and only then.
 masked = Schlieren(source, Density=["POINTS", "rho"], ImageSize=[16, 16])
 assert masked.Mask[1] == "None", masked.Mask
-assert picture(masked, "BlockedFraction").max() == 0
+assert image_array(masked, "BlockedFraction").max() == 0
 top = 0.9 * source.GetDataInformation().GetPointDataInformation().GetArrayInformation("rho").GetComponentRange(0)[1]
 masked.Mask, masked.MaskThreshold = ["POINTS", "rho"], top
-assert 0 < picture(masked, "BlockedFraction").mean() < 0.5
+assert 0 < image_array(masked, "BlockedFraction").mean() < 0.5
 masked.MaskedSide = "Below"
-assert picture(masked, "BlockedFraction").mean() > 0.5
+assert image_array(masked, "BlockedFraction").mean() > 0.5
 masked.Mask = ["POINTS", "None"]
-assert picture(masked, "BlockedFraction").max() == 0
+assert image_array(masked, "BlockedFraction").max() == 0
 
 # A shadowgraph's screen.
 bench.Cutoff = "Shadowgraph"
-near, bench.ScreenDistance = picture(bench, "Intensity"), 100
-assert picture(bench, "Intensity").std() > 2 * near.std()
+near, bench.ScreenDistance = image_array(bench, "Intensity"), 100
+assert image_array(bench, "Intensity").std() > 2 * near.std()
 
 field = output(bench).GetFieldData()
 for name in ("Device", "PathModel", "KScale", "AmbientRefractivity", "RaysTraced", "RaysLost",

@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 from paraview import simple, smstate, smtrace
-from plugin_testing import Schlieren, gaussian_column, output, picture
+from plugin_testing import Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 
 PRESETS = ("Interactive", "Draft", "Publication", "Reference")
@@ -93,9 +93,9 @@ bench.Quality = "Custom"
 for name, value in (("Interpolation", "Cubic"), ("Interpolation", "Central"), ("StepSize", 0.3),
                     ("Precision", "Double")):
     bench.Quality = "Publication"
-    reference = picture(bench, "Deflection")
+    reference = image_array(bench, "Deflection")
     setattr(bench, name, value)
-    assert not np.array_equal(picture(bench, "Deflection"), reference), (name, value)
+    assert not np.array_equal(image_array(bench, "Deflection"), reference), (name, value)
 bench.Quality = "Publication"
 used = set()
 for model in ("Straight", "Refracted"):

@@ -27,7 +27,7 @@ def results():
     """Arrays that rank 0 has, by their names."""
     from paraview.servermanager import Fetch
     from paraview.simple import AppendDatasets, GroupDatasets, Sphere, Tetrahedralize, Transform, Wavelet
-    from plugin_testing import RefractiveIndex, Schlieren, picture
+    from plugin_testing import RefractiveIndex, Schlieren, image_array
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     wavelet = Wavelet(WholeExtent=3 * [-8, 8])
@@ -46,7 +46,7 @@ def results():
             label = name + (" with a ball" if bodies else "")
             for kind, bench in (("direct", seen), ("in two steps", again)):
                 for array in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
-                    found[f"{label}: {array}, {kind}"] = picture(bench, array)
+                    found[f"{label}: {array}, {kind}"] = image_array(bench, array)
                 # The others have none, so that nothing is counted or drawn twice.
                 assert bench.GetDataInformation().GetNumberOfPoints() == 32 * 32, label
             # And they have not read what they do not need.
@@ -63,7 +63,7 @@ def read_files():
     source makes the ranks wait for each other."""
     from paraview.simple import (ExodusIIReader, HierarchicalFractal, OpenFOAMReader, PLOT3DReader,
                                  XMLImageDataReader, XMLUnstructuredGridReader)
-    from plugin_testing import Schlieren, picture
+    from plugin_testing import Schlieren, image_array
     data = os.path.join(HERE, "..", "Data", "")
     foam = OpenFOAMReader(FileName=data + "ladenburg_openfoam/ladenburg.foam")
     foam.MeshRegions = ["internalMesh"]
@@ -82,7 +82,7 @@ def read_files():
             ("fin", fin, ["POINTS", "Density"])):  # a part on each rank, whatever is requested
         seen = Schlieren(Input=reader, Density=array, ImageSize=[32, 32], MediumTolerance=0.1)
         for kind in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
-            found[f"{name}: {kind}"] = picture(seen, kind)
+            found[f"{name}: {kind}"] = image_array(seen, kind)
     return found
 
 
@@ -175,7 +175,7 @@ def gathered():
     """The same data whether they are spread or not."""
     from paraview.servermanager import Fetch
     from paraview.simple import ProgrammableSource
-    from plugin_testing import RefractiveIndex, Schlieren, picture
+    from plugin_testing import RefractiveIndex, Schlieren, image_array
     from vtkmodules.util.numpy_support import vtk_to_numpy
     found = {}
     for kind, output in (("image", "vtkImageData"), ("rectilinear", "vtkRectilinearGrid"),
@@ -187,7 +187,7 @@ def gathered():
         density = ["CELLS" if kind == "cell data" else "POINTS", "rho"]
         seen = Schlieren(Input=source, Density=density, ImageSize=[40, 40], ViewDirection=[0.2, -0.6, -0.8])
         for array in ("Intensity", "Deflection", "OpticalPathDifference"):
-            found[f"{kind}: {array}"] = picture(seen, array)
+            found[f"{kind}: {array}"] = image_array(seen, array)
         medium = RefractiveIndex(Input=source, Density=density, SamplingDimensions=[20, 20, 20])
         found[f"{kind}: Refractivity"] = vtk_to_numpy(Fetch(medium).GetPointData().GetArray("Refractivity"))
     return found
@@ -197,7 +197,7 @@ def in_pieces():
     """Meshes that stay where they are, cut by straight and oblique planes: images, which mind small steps of the density
     where pieces meet, and a body."""
     from paraview.simple import ProgrammableSource, Sphere
-    from plugin_testing import Schlieren, picture
+    from plugin_testing import Schlieren, image_array
     found = {}
     for kind, output in (("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
                          ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid")):
@@ -208,13 +208,13 @@ def in_pieces():
         seen = Schlieren(Input=source, Density=["CELLS" if kind == "cell data" else "POINTS", "rho"], Bodies=bodies,
                          ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8], GatherLimit=1, MediumTolerance=1e-3)
         for array in ("Deflection", "OpticalPathDifference", "BlockedFraction"):
-            found[f"{kind}: {array}"] = picture(seen, array)
+            found[f"{kind}: {array}"] = image_array(seen, array)
         seen.UpdatePropertyInformation()
         assert ("on their ranks" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
         seen.Cutoff = "Shadowgraph"
-        found[f"{kind}: Shadowgraph"] = picture(seen, "Intensity")
+        found[f"{kind}: Shadowgraph"] = image_array(seen, "Intensity")
         seen.ViewDirection = [0, 0, -1]
-        found[f"{kind}: along a cut"] = picture(seen, "Deflection")
+        found[f"{kind}: along a cut"] = image_array(seen, "Deflection")
     # Time-sliced: the same number of steps on all ranks, whoever knows that the image is finished.
     seen.TimeLimit = 0.05
     seen.ViewDirection = [1, 0, 0.3]
@@ -224,14 +224,14 @@ def in_pieces():
         seen.UpdatePipeline()
     seen.UpdatePropertyInformation()
     assert not is_rank0() or seen.GetProperty("Finished").GetData() == 1
-    found["cell data: time-sliced"] = picture(seen, "Deflection")
+    found["cell data: time-sliced"] = image_array(seen, "Deflection")
     return found
 
 
 def distributed():
     """Media of which each rank has a part: of meshes that stay where they are or are gathered, and a body."""
     from paraview.simple import ProgrammableSource, Sphere
-    from plugin_testing import Schlieren, picture
+    from plugin_testing import Schlieren, image_array
     found = {}
     source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", Script=BALL.replace("KIND", repr("tetrahedra")),
                                 ScriptRequestInformation=WHOLE_EXTENT.replace("IS_GRID", "False"))
@@ -241,25 +241,25 @@ def distributed():
                          ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8], GatherLimit=limit, PathModel=path,
                          MediumTolerance=1e-3, DistributedMedium="On", Device="CPU")
         for array in ("Deflection", "BlockedFraction"):
-            found[f"{kind}: {array}"] = picture(seen, array)
+            found[f"{kind}: {array}"] = image_array(seen, array)
         seen.UpdatePropertyInformation()
         assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
         seen.ViewDirection = [0.6, 0.1, -1]
-        found[f"{kind}: from another side"] = picture(seen, "Deflection")
+        found[f"{kind}: from another side"] = image_array(seen, "Deflection")
     seen.TimeLimit = 0.05
     seen.ViewDirection = [1, 0, 0.3]
     seen.UpdatePipeline()
     for _ in range(20):
         seen.InvokeCommand("Refine")
         seen.UpdatePipeline()
-    found["time-sliced"] = picture(seen, "Deflection")
+    found["time-sliced"] = image_array(seen, "Deflection")
     return found
 
 
 def exposed():
     """Exposures over time steps of which each rank has a part, or rank 0 all."""
     from paraview.simple import ProgrammableSource
-    from plugin_testing import Schlieren, picture
+    from plugin_testing import Schlieren, image_array
     found = {}
     times = """
 key = self.GetExecutive().UPDATE_TIME_STEP()
@@ -281,10 +281,10 @@ output.GetInformation().Set(output.DATA_TIME_STEP(), time)
         seen.UpdatePipeline(0.5)
         assert "ExposureInterval" in seen.FieldData.keys() or not is_rank0()
         for array in ("Intensity", "Deflection", "OpticalPathDifference"):
-            found[f"{kind}: {array}"] = picture(seen, array)
+            found[f"{kind}: {array}"] = image_array(seen, array)
         seen.ExposureTime = 0
         seen.UpdatePipeline(0.5)
-        found[f"{kind} at the instant"] = picture(seen, "Intensity")
+        found[f"{kind} at the instant"] = image_array(seen, "Intensity")
     return found
 
 

@@ -4,7 +4,7 @@
 
 import numpy as np
 from paraview import simple
-from plugin_testing import Schlieren, picture
+from plugin_testing import Schlieren, image_array
 from representation_testing import GREY_LEVEL, filter_like, pixels_of, show
 
 SIZE = (120, 90)
@@ -33,7 +33,7 @@ for flow in (wavelet, mesh):
         simple.ResetCamera(view)
         images.append(pixels_of(view, SIZE))
     bench = Schlieren(Input=flow, Density=["POINTS", "RTData"])
-    picture(bench, "Intensity")
+    image_array(bench, "Intensity")
     benches = [display.SchlierenBench for display in displays] + [bench]
     assert builds(*benches) == [1, 0, 0], builds(*benches)
     for display, view, image in zip(displays, views, images):
@@ -45,10 +45,10 @@ for flow in (wavelet, mesh):
     simple.Render(views[0])
     assert builds(*benches) == [1, 0, 0], builds(*benches)
     bench.DensityScale = 2
-    picture(bench, "Intensity")
+    image_array(bench, "Intensity")
     assert builds(*benches) == [1, 0, 1], builds(*benches)
     bench.DensityScale = 1
-    picture(bench, "Intensity")
+    image_array(bench, "Intensity")
     assert builds(*benches) == [1, 0, 1], builds(*benches)
 
     # The view that made it goes; the others keep it.
@@ -61,7 +61,7 @@ for flow in (wavelet, mesh):
     # New data: one medium again.
     wavelet.Maximum = 200 if flow is wavelet else 150
     pixels_of(views[1], SIZE)
-    picture(bench, "Intensity")
+    image_array(bench, "Intensity")
     assert sum(builds(*benches)) == 2, builds(*benches)
     simple.Delete(bench)
     simple.Delete(views[1])

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures in slices of time, as a window asks for them through proxies: the jet, and what is told of it."""
+"""Images in slices of time, as a window asks for them through proxies: the jet, and what is told of it."""
 
 import os
 
 import numpy as np
 from paraview import simple
-from plugin_testing import Schlieren, picture
+from plugin_testing import Schlieren, image_array
 
 jet = simple.OpenDataFile(
     os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Data", "ladenburg_jet_3d.vti"))
@@ -21,14 +21,14 @@ def told(name):
 
 
 whole = Schlieren(Input=jet, **SETTINGS)
-expected = picture(whole, "Intensity")
+expected = image_array(whole, "Intensity")
 assert np.ptp(expected) > 0.5, np.ptp(expected)
 
 bench = Schlieren(Input=jet, **SETTINGS)
 bench.TimeLimit = 1e-9
 bench.UpdatePipeline()
 assert told("Finished") == 0 and told("PictureCount") == 1, told("PictureCount")
-rough = picture(bench, "Intensity")  # something is there from the beginning, of the size that was promised
+rough = image_array(bench, "Intensity")  # something is there from the beginning, of the size that was promised
 assert rough.shape == expected.shape and np.ptp(rough) > 0.2
 
 slices, counts = 1, {1}
@@ -39,24 +39,24 @@ while not told("Finished"):
     slices += 1
     assert slices < 10000
 assert slices > 10 and counts == {1, 2, 3, 4}, (slices, counts)
-assert np.array_equal(picture(bench, "Intensity"), expected)
+assert np.array_equal(image_array(bench, "Intensity"), expected)
 assert told("Status").startswith("3 samples per pixel, "), told("Status")
 assert told("MediumBuilds") == 0  # it is that of whole
 
-# Neither a limit nor Refine makes a finished picture anew.
+# Neither a limit nor Refine makes a finished image anew.
 bench.TimeLimit = 0
 bench.InvokeCommand("Refine")
 bench.UpdatePipeline()
 assert told("PictureCount") == 4
 
-# A picture that is hurried, and then whole again without tracing all of it in between.
+# An image that is hurried, and then whole again without tracing all of it in between.
 bench.PreviewReduction = 4
-assert picture(bench, "Intensity").shape == (16, 24)
+assert image_array(bench, "Intensity").shape == (16, 24)
 bench.PreviewReduction = 1
 bench.TimeLimit = 1e-9
-assert picture(bench, "Intensity").shape == (64, 96)
+assert image_array(bench, "Intensity").shape == (64, 96)
 assert told("Finished") == 0
 bench.TimeLimit = 0
 bench.InvokeCommand("Refine")
-assert np.array_equal(picture(bench, "Intensity"), expected)
+assert np.array_equal(image_array(bench, "Intensity"), expected)
 assert told("Finished") == 1

@@ -70,7 +70,7 @@ def output(bench):
     return bench.GetClientSideObject().GetOutputDataObject(0)
 
 
-def picture(bench, name):
+def image_array(bench, name):
     """An array of the updated output: rows x columns (x components), lowest row first."""
     image = output(bench)
     columns, rows, _ = image.GetDimensions()
@@ -91,7 +91,7 @@ def column_errors(bench):
     gauss = AMPLITUDE * np.exp(-(x / RADIUS)**2)
     deflection = -2 * math.sqrt(math.pi) * x / RADIUS * gauss
     path = math.sqrt(math.pi) * RADIUS * gauss
-    seen = picture(bench, "Deflection")
+    seen = image_array(bench, "Deflection")
     return (max(np.abs(seen[..., 0] - deflection).max(), np.abs(seen[..., 1]).max())
             / np.abs(deflection).max(),
-            np.abs(picture(bench, "OpticalPathDifference") - path).max() / path.max())
+            np.abs(image_array(bench, "OpticalPathDifference") - path).max() / path.max())

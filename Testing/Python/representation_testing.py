@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from paraview import simple
-from plugin_testing import Schlieren, picture
+from plugin_testing import Schlieren, image_array
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
@@ -53,7 +53,7 @@ def filter_like(display, view, size):
     simple.SetProperties(
         bench, ViewDirection=list(camera.GetDirectionOfProjection()), ViewUp=list(camera.GetViewUp()),
         FocalPoint=list(camera.GetFocalPoint()), ParallelScale=half, ViewAngle=angle, ImageSize=list(size))
-    intensity = picture(bench, "Intensity")
+    intensity = image_array(bench, "Intensity")
     simple.Delete(bench)
     full = 2 if own.Cutoff == "Shadowgraph" else 1
     return np.clip(255 / full * intensity, 0, 255)

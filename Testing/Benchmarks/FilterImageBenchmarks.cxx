@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How many pictures of 512 x 512 pixels a second the filter makes: with another knife edge, and with
+// How many images of 512 x 512 pixels a second the filter makes: with another knife edge, and with
 // another camera; the pipeline's and the output arrays' share included.
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -80,10 +80,10 @@ void updateAgain(benchmark::State& state, vtkSchlierenFilter* filter, const Chan
   }
   const double all =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto pictures = static_cast<double>(state.iterations());
-  state.counters["pictures/s"] = pictures / all;
-  state.counters["trace/ms"] = 1e3 * tracing / pictures;
-  state.counters["other/ms"] = 1e3 * (all - tracing) / pictures;
+  const auto images = static_cast<double>(state.iterations());
+  state.counters["images/s"] = images / all;
+  state.counters["trace/ms"] = 1e3 * tracing / images;
+  state.counters["other/ms"] = 1e3 * (all - tracing) / images;
 }
 
 void turnKnife(vtkSchlierenFilter* filter)
@@ -117,7 +117,7 @@ BENCHMARK(filterShadesMeshAgain)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// The camera goes round the medium of 256 points each way, three degrees a picture.
+/// The camera goes round the medium of 256 points each way, three degrees an image.
 void filterHasNewCamera(benchmark::State& state)
 {
   double angle = 0;
@@ -136,7 +136,7 @@ BENCHMARK(filterHasNewCamera)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// The same in pictures of fewer pixels.
+/// The same in images of fewer pixels.
 void filterHurries(benchmark::State& state)
 {
   double angle = 0;
@@ -156,7 +156,7 @@ BENCHMARK(filterHurries)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// A picture of so many samples per pixel in slices of so many microseconds; 0: in one go. Its rays are new.
+/// An image of so many samples per pixel in slices of so many microseconds; 0: in one go. Its rays are new.
 void filterRefines(benchmark::State& state)
 {
   auto filter = filterOf(ball(256), state);
@@ -164,7 +164,7 @@ void filterRefines(benchmark::State& state)
   filter->SetImageSize(pixels, pixels);
   const double limit = 1e-6 * static_cast<double>(state.range(3));
   double longest = 0;
-  double longestWait = 0; // for a new picture
+  double longestWait = 0; // for a new image
   double slices = 0;
   using Clock = std::chrono::steady_clock;
   const auto since = [](Clock::time_point start)
@@ -177,12 +177,12 @@ void filterRefines(benchmark::State& state)
     do
     {
       filter->Refine();
-      const vtkTypeInt64 pictures = filter->GetPictureCount();
+      const vtkTypeInt64 images = filter->GetPictureCount();
       const Clock::time_point start = Clock::now();
       filter->Update();
       longest = std::max(longest, since(start));
       ++slices;
-      if (filter->GetPictureCount() != pictures)
+      if (filter->GetPictureCount() != images)
       {
         longestWait = std::max(longestWait, since(shown));
         shown = Clock::now();

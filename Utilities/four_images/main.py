@@ -5,7 +5,7 @@ bench shows with a vertical and with a horizontal knife edge, and a shadowgraph.
 
 Started by Utilities/demo, or by hand:
 
-    Utilities/with-display pvpython Utilities/four_pictures/main.py --plugin .../Schlieren.so FILE --array rho
+    Utilities/with-display pvpython Utilities/four_images/main.py --plugin .../Schlieren.so FILE --array rho
 """
 
 import os

@@ -11,7 +11,7 @@ class pqServer;
 class pqView;
 
 /// Which views show the images of which filters.
-namespace picturesInViews
+namespace imagesInViews
 {
 
 bool isSchlieren(pqPipelineSource* source);
@@ -29,9 +29,9 @@ QList<pqPipelineSource*> filters();
 QList<QPointer<pqView>> showing(pqPipelineSource* filter);
 
 /// The filters whose images are visible in a view.
-QList<pqPipelineSource*> picturesIn(pqView* view);
+QList<pqPipelineSource*> imagesIn(pqView* view);
 
 /// Whether a view looks straight onto a plane.
 bool isFlat(pqView* view);
 
-} // namespace picturesInViews
+} // namespace imagesInViews

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RgbPictures.h"
+#include "RgbImages.h"
 
 #include "vtkBase64Utilities.h"
 #include "vtk_png.h"
@@ -22,7 +22,7 @@ namespace
 const std::string scheme = "data:";
 const std::string encoding = ";base64,";
 
-/// Pixels: beyond that a picture's size is taken for damage.
+/// Pixels: beyond that an image's size is taken for damage.
 constexpr std::uint64_t mostPixels = std::uint64_t{ 1 } << 28;
 
 using Bytes = std::vector<unsigned char>;
@@ -87,7 +87,7 @@ struct PngImage : png_image
 };
 
 /// `name`: of the file; empty where the property holds it.
-std::shared_ptr<const schlieren::RgbPicture> decoded(
+std::shared_ptr<const schlieren::RgbImage> decoded(
   const std::string& property, const std::string& name, const Bytes& file)
 {
   const auto refuse = [&](const std::string& reason)
@@ -97,57 +97,56 @@ std::shared_ptr<const schlieren::RgbPicture> decoded(
       " that is no complete PNG image (" + reason + "). Save the image as PNG, and use all of it.");
   };
   // libpng's own reader, because VTK's does not survive damaged files.
-  PngImage image;
-  if (!png_image_begin_read_from_memory(&image, file.data(), file.size()))
+  PngImage png;
+  if (!png_image_begin_read_from_memory(&png, file.data(), file.size()))
   {
-    refuse(image.message);
+    refuse(png.message);
   }
-  if (std::uint64_t{ image.width } * image.height > mostPixels)
+  if (std::uint64_t{ png.width } * png.height > mostPixels)
   {
-    refuse(
-      "its size would be " + std::to_string(image.width) + " x " + std::to_string(image.height));
+    refuse("its size would be " + std::to_string(png.width) + " x " + std::to_string(png.height));
   }
-  image.format = PNG_FORMAT_RGB;
-  image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-  auto picture = std::make_shared<schlieren::RgbPicture>();
-  picture->width = static_cast<int>(image.width);
-  picture->height = static_cast<int>(image.height);
-  picture->rgb.resize(PNG_IMAGE_SIZE(image));
+  png.format = PNG_FORMAT_RGB;
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+  auto image = std::make_shared<schlieren::RgbImage>();
+  image->width = static_cast<int>(png.width);
+  image->height = static_cast<int>(png.height);
+  image->rgb.resize(PNG_IMAGE_SIZE(png));
   const png_color white{ 255, 255, 255 };
-  const auto bottomRowFirst = -static_cast<png_int_32>(PNG_IMAGE_ROW_STRIDE(image));
-  if (!png_image_finish_read(&image, &white, picture->rgb.data(), bottomRowFirst, nullptr))
+  const auto bottomRowFirst = -static_cast<png_int_32>(PNG_IMAGE_ROW_STRIDE(png));
+  if (!png_image_finish_read(&png, &white, image->rgb.data(), bottomRowFirst, nullptr))
   {
-    refuse(image.message);
+    refuse(png.message);
   }
-  return picture;
+  return image;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::RgbPicture> RgbPictureReader::read(
+std::shared_ptr<const schlieren::RgbImage> RgbImageReader::read(
   const std::string& property, const std::string& text)
 {
   const bool isContent = text.compare(0, scheme.size(), scheme) == 0;
-  if (isContent && this->Picture && this->Text == text)
+  if (isContent && this->Image && this->Text == text)
   {
-    return this->Picture;
+    return this->Image;
   }
   Bytes file = isContent ? bytesFromText(property, text) : bytesFromFile(property, text);
-  if (!this->Picture || file != this->File)
+  if (!this->Image || file != this->File)
   {
-    this->Picture = decoded(property, isContent ? "" : text, file);
+    this->Image = decoded(property, isContent ? "" : text, file);
     this->File = std::move(file);
   }
   this->Text = text;
-  return this->Picture;
+  return this->Image;
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
+std::shared_ptr<const schlieren::RgbImage> readRgbImage(
   const std::string& property, const std::string& text)
 {
-  return RgbPictureReader().read(property, text);
+  return RgbImageReader().read(property, text);
 }
 
 } // namespace filters

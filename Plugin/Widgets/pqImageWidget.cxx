@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqPictureWidget.h"
+#include "pqImageWidget.h"
 
 #include "pqApplicationCore.h"
 #include "pqColorChooserButton.h"
 #include "pqCoreUtilities.h"
 #include "pqCutoffLightFetcher.h"
 #include "pqFileDialog.h"
+#include "pqImagePainter.h"
+#include "pqImageView.h"
 #include "pqLiveEdit.h"
-#include "pqPicturePainter.h"
-#include "pqPictureView.h"
 #include "pqUndoStack.h"
 
 #include "vtkPVXMLElement.h"
@@ -34,7 +34,7 @@ namespace
 
 // Texts in a PNG: its file's name, and what is underneath the paint.
 const QString nameKey = "Title", underneathKey = "Underneath", wheelName = "wheel";
-constexpr int largestSide = 2048; // pixels: the picture goes into every state file
+constexpr int largestSide = 2048; // pixels: the image goes into every state file
 constexpr int pauseOfStroke = 40; // milliseconds
 constexpr int usualBrush = 8;     // per cent of the filter's side, the diameter
 
@@ -51,23 +51,22 @@ QImage opaque(const QImage& read)
   return image;
 }
 
-QString strokeLabel() { return pqPictureWidget::tr("Paint Color Filter"); }
+QString strokeLabel() { return pqImageWidget::tr("Paint Color Filter"); }
 
 pqUndoStack* undoStack() { return pqApplicationCore::instance()->getUndoStack(); }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-pqPictureWidget::pqPictureWidget(
-  vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidget* parentObject)
+pqImageWidget::pqImageWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidget* parentObject)
   : pqPropertyWidget(smProxy, parentObject)
 {
   this->setProperty(smProperty);
   vtkPVXMLElement* hints = smProperty->GetHints();
-  vtkPVXMLElement* hint = hints ? hints->FindNestedElementByName("SchlierenPicture") : nullptr;
+  vtkPVXMLElement* hint = hints ? hints->FindNestedElementByName("SchlierenImage") : nullptr;
   const bool isFilter = hint && QString(hint->GetAttribute("plane")) == "deflection";
 
-  this->View = new pqPictureView(isFilter, this);
+  this->View = new pqImageView(isFilter, this);
   this->View->setObjectName("Preview");
   this->Note = new QLabel(this);
   this->Note->setObjectName("Note");
@@ -81,10 +80,10 @@ pqPictureWidget::pqPictureWidget(
   column->addLayout(grid);
 
   QAbstractButton* load = this->newButton("Load", tr("&Load..."),
-    tr("Reads a PNG, or any picture, into this property: state files keep it. At most %1 pixels "
+    tr("Reads a PNG, or any image, into this property: state files keep it. At most %1 pixels "
        "along a side; larger ones are scaled down.")
       .arg(largestSide));
-  this->Clear = this->newButton("Clear", tr("&Clear"), tr("Takes the picture out."));
+  this->Clear = this->newButton("Clear", tr("&Clear"), tr("Takes the image out."));
   grid->addWidget(load, 0, 0);
   grid->addWidget(this->Clear, 0, 2);
   if (isFilter)
@@ -93,18 +92,17 @@ pqPictureWidget::pqPictureWidget(
     this->addPainting(grid);
   }
 
-  QObject::connect(load, &QAbstractButton::clicked, this, &pqPictureWidget::load);
-  QObject::connect(this->Clear, &QAbstractButton::clicked, this, &pqPictureWidget::clear);
-  this->showPicture();
-  this->addPropertyLink(this, "picture", SIGNAL(pictureChanged()), smProperty);
+  QObject::connect(load, &QAbstractButton::clicked, this, &pqImageWidget::load);
+  QObject::connect(this->Clear, &QAbstractButton::clicked, this, &pqImageWidget::clear);
+  this->showImage();
+  this->addPropertyLink(this, "image", SIGNAL(imageChanged()), smProperty);
 }
 
 //------------------------------------------------------------------------------
-pqPictureWidget::~pqPictureWidget() = default;
+pqImageWidget::~pqImageWidget() = default;
 
 //------------------------------------------------------------------------------
-QAbstractButton* pqPictureWidget::newButton(
-  const char* name, const QString& text, const QString& tip)
+QAbstractButton* pqImageWidget::newButton(const char* name, const QString& text, const QString& tip)
 {
   auto* button = new QPushButton(text, this);
   button->setObjectName(name);
@@ -114,7 +112,7 @@ QAbstractButton* pqPictureWidget::newButton(
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::addPainting(QGridLayout* grid)
+void pqImageWidget::addPainting(QGridLayout* grid)
 {
   this->Save = this->newButton("Save", tr("&Save..."), tr("Writes the filter to a PNG file."));
   auto* brush = new pqColorChooserButton(this);
@@ -130,7 +128,7 @@ void pqPictureWidget::addPainting(QGridLayout* grid)
   size->setAccessibleName(size->toolTip());
   size->setMinimumWidth(1);
   QAbstractButton* erase = this->newButton("Erase", tr("&Erase"),
-    tr("Brushes away what has been painted: the picture that was loaded, or the wheel, comes "
+    tr("Brushes away what has been painted: the image that was loaded, or the wheel, comes "
        "back."));
   erase->setCheckable(true);
   QAbstractButton* undo =
@@ -141,11 +139,11 @@ void pqPictureWidget::addPainting(QGridLayout* grid)
     "Light", tr("L&ight"), tr("Shows where on the filter light is: the rest is greyed."));
   this->Light->setCheckable(true);
   this->Light->setChecked(true);
-  this->OnPicture = this->newButton("PaintOnPicture", tr("&Paint on Picture"),
-    tr("While this is on, the left mouse button paints on the schlieren picture: where the rays "
+  this->OnImage = this->newButton("PaintOnImage", tr("&Paint on Image"),
+    tr("While this is on, the left mouse button paints on the schlieren image: where the rays "
        "of the brushed pixels meet the filter, it gets the brush's colour, or is erased. Escape "
        "ends it."));
-  this->OnPicture->setCheckable(true);
+  this->OnImage->setCheckable(true);
 
   grid->addWidget(this->Save, 0, 1);
   grid->addWidget(brush, 1, 0);
@@ -154,9 +152,9 @@ void pqPictureWidget::addPainting(QGridLayout* grid)
   grid->addWidget(undo, 2, 0);
   grid->addWidget(fill, 2, 1);
   grid->addWidget(this->Light, 2, 2);
-  grid->addWidget(this->OnPicture, 3, 0, 1, 3);
+  grid->addWidget(this->OnImage, 3, 0, 1, 3);
 
-  this->Painter = new pqPicturePainter(this->proxy(), this);
+  this->Painter = new pqImagePainter(this->proxy(), this);
   const auto setBrushSize = [this](int percent)
   {
     this->Brush.Radius = percent / 200.;
@@ -169,8 +167,8 @@ void pqPictureWidget::addPainting(QGridLayout* grid)
     [this](const QColor& color) { this->Brush.Color = color; });
   QObject::connect(
     erase, &QAbstractButton::toggled, this, [this](bool on) { this->Brush.Erases = on; });
-  QObject::connect(fill, &QAbstractButton::clicked, this, &pqPictureWidget::fill);
-  QObject::connect(this->Save, &QAbstractButton::clicked, this, &pqPictureWidget::save);
+  QObject::connect(fill, &QAbstractButton::clicked, this, &pqImageWidget::fill);
+  QObject::connect(this->Save, &QAbstractButton::clicked, this, &pqImageWidget::save);
 
   // The one stack of the window knows all strokes.
   if (pqUndoStack* stack = undoStack())
@@ -184,46 +182,42 @@ void pqPictureWidget::addPainting(QGridLayout* grid)
 
   this->Pause.setSingleShot(true);
   this->Pause.setInterval(pauseOfStroke);
-  QObject::connect(&this->Pause, &QTimer::timeout, this, &pqPictureWidget::showStroke);
-  QObject::connect(this->View, &pqPictureView::strokeBegan, this, &pqPictureWidget::beginStroke);
-  QObject::connect(this->View, &pqPictureView::brushed, this, &pqPictureWidget::brush);
-  QObject::connect(this->View, &pqPictureView::strokeEnded, this, &pqPictureWidget::endStroke);
+  QObject::connect(&this->Pause, &QTimer::timeout, this, &pqImageWidget::showStroke);
+  QObject::connect(this->View, &pqImageView::strokeBegan, this, &pqImageWidget::beginStroke);
+  QObject::connect(this->View, &pqImageView::brushed, this, &pqImageWidget::brush);
+  QObject::connect(this->View, &pqImageView::strokeEnded, this, &pqImageWidget::endStroke);
+  QObject::connect(this->Painter, &pqImagePainter::strokeBegan, this, &pqImageWidget::beginStroke);
+  QObject::connect(this->Painter, &pqImagePainter::brushed, this, &pqImageWidget::brush);
+  QObject::connect(this->Painter, &pqImagePainter::strokeEnded, this, &pqImageWidget::endStroke);
   QObject::connect(
-    this->Painter, &pqPicturePainter::strokeBegan, this, &pqPictureWidget::beginStroke);
-  QObject::connect(this->Painter, &pqPicturePainter::brushed, this, &pqPictureWidget::brush);
-  QObject::connect(
-    this->Painter, &pqPicturePainter::strokeEnded, this, &pqPictureWidget::endStroke);
-  QObject::connect(this->Painter, &pqPicturePainter::stopped, this,
-    [this]() { this->OnPicture->setChecked(false); });
-  QObject::connect(
-    this->OnPicture, &QAbstractButton::toggled, this, &pqPictureWidget::paintOnPicture);
+    this->Painter, &pqImagePainter::stopped, this, [this]() { this->OnImage->setChecked(false); });
+  QObject::connect(this->OnImage, &QAbstractButton::toggled, this, &pqImageWidget::paintOnImage);
 
   this->Fetcher = new pqCutoffLightFetcher(this->proxy(), this);
   QObject::connect(
-    this->Fetcher, &pqCutoffLightFetcher::lightChanged, this, &pqPictureWidget::showLight);
+    this->Fetcher, &pqCutoffLightFetcher::lightChanged, this, &pqImageWidget::showLight);
   QObject::connect(
-    this->Fetcher, &pqCutoffLightFetcher::pictureChanged, this, &pqPictureWidget::showLight);
-  QObject::connect(this->Light, &QAbstractButton::toggled, this, &pqPictureWidget::showLight);
+    this->Fetcher, &pqCutoffLightFetcher::imageChanged, this, &pqImageWidget::showLight);
+  QObject::connect(this->Light, &QAbstractButton::toggled, this, &pqImageWidget::showLight);
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::setPicture(const QString& picture)
+void pqImageWidget::setImage(const QString& image)
 {
-  if (this->Picture != picture)
+  if (this->Image != image)
   {
-    this->Picture = picture;
-    this->showPicture();
-    Q_EMIT this->pictureChanged();
+    this->Image = image;
+    this->showImage();
+    Q_EMIT this->imageChanged();
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::showPicture()
+void pqImageWidget::showImage()
 {
-  const bool isEmpty = this->Picture.isEmpty();
-  const QImage image =
-    this->IsPainting ? this->Canvas : pqColorFilterPicture::decoded(this->Picture);
-  this->View->setPicture(image);
+  const bool isEmpty = this->Image.isEmpty();
+  const QImage image = this->IsPainting ? this->Canvas : pqColorFilterImage::decoded(this->Image);
+  this->View->setImage(image);
   this->Clear->setEnabled(!isEmpty);
   const bool isKnown = isEmpty || !image.isNull();
   if (this->View->isColorFilter())
@@ -233,22 +227,22 @@ void pqPictureWidget::showPicture()
   }
   if (isEmpty)
   {
-    this->Note->setText(this->View->isColorFilter() ? tr("the colour wheel") : tr("no picture"));
+    this->Note->setText(this->View->isColorFilter() ? tr("the colour wheel") : tr("no image"));
     return;
   }
-  const bool isName = !this->Picture.startsWith("data:");
-  const QString name = isName ? this->Picture : image.text(nameKey);
+  const bool isName = !this->Image.startsWith("data:");
+  const QString name = isName ? this->Image : image.text(nameKey);
   QString size = tr("%1 x %2 pixels").arg(image.width()).arg(image.height());
   if (!isKnown)
   {
     size = isName ? tr("a file on the server; load it to see it here and to paint on it")
-                  : tr("no picture that can be read");
+                  : tr("no image that can be read");
   }
   this->Note->setText(name.isEmpty() ? size : tr("%1: %2").arg(name, size));
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::showLight()
+void pqImageWidget::showLight()
 {
   this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty("KScaleUsed"));
   const double k = vtkSMPropertyHelper(this->proxy(), "KScaleUsed").GetAsDouble();
@@ -256,22 +250,22 @@ void pqPictureWidget::showLight()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::beginStroke()
+void pqImageWidget::beginStroke()
 {
-  const QImage before = pqColorFilterPicture::decoded(this->Picture);
-  if (this->IsPainting || (before.isNull() && !this->Picture.isEmpty()))
+  const QImage before = pqColorFilterImage::decoded(this->Image);
+  if (this->IsPainting || (before.isNull() && !this->Image.isEmpty()))
   {
     return;
   }
   QString underneath = before.text(underneathKey);
-  this->Canvas = pqColorFilterPicture::paintable(before);
+  this->Canvas = pqColorFilterImage::paintable(before);
   if (underneath.isEmpty())
   {
-    underneath = this->Picture.isEmpty() ? wheelName : pqColorFilterPicture::encoded(this->Canvas);
+    underneath = this->Image.isEmpty() ? wheelName : pqColorFilterImage::encoded(this->Canvas);
   }
   this->Underneath = underneath == wheelName
-    ? pqColorFilterPicture::paintable(QImage())
-    : pqColorFilterPicture::decoded(underneath).convertToFormat(QImage::Format_RGB32);
+    ? pqColorFilterImage::paintable(QImage())
+    : pqColorFilterImage::decoded(underneath).convertToFormat(QImage::Format_RGB32);
   this->Canvas.setText(nameKey, tr("painted"));
   this->Canvas.setText(underneathKey, underneath);
   this->IsPainting = true;
@@ -283,12 +277,12 @@ void pqPictureWidget::beginStroke()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::brush(const QVector<QPointF>& places)
+void pqImageWidget::brush(const QVector<QPointF>& places)
 {
   if (this->IsPainting)
   {
-    pqColorFilterPicture::paint(this->Canvas, this->Underneath, this->Brush, places);
-    this->View->setPicture(this->Canvas);
+    pqColorFilterImage::paint(this->Canvas, this->Underneath, this->Brush, places);
+    this->View->setImage(this->Canvas);
     if (!this->Pause.isActive())
     {
       this->Pause.start();
@@ -297,22 +291,22 @@ void pqPictureWidget::brush(const QVector<QPointF>& places)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::showStroke()
+void pqImageWidget::showStroke()
 {
-  const QString picture = pqColorFilterPicture::encoded(this->Canvas);
+  const QString image = pqColorFilterImage::encoded(this->Canvas);
   if (this->Edit)
   {
     const QString name = this->proxy()->GetPropertyName(this->property());
-    this->Edit->show({ { name, picture } });
+    this->Edit->show({ { name, image } });
   }
   else
   {
-    this->setPicture(picture);
+    this->setImage(image);
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::endStroke()
+void pqImageWidget::endStroke()
 {
   if (!this->IsPainting)
   {
@@ -330,11 +324,11 @@ void pqPictureWidget::endStroke()
   }
   this->IsPainting = false;
   this->Fetcher->setWaiting(false);
-  this->showPicture();
+  this->showImage();
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::fill()
+void pqImageWidget::fill()
 {
   this->beginStroke();
   if (this->IsPainting)
@@ -353,7 +347,7 @@ void pqPictureWidget::fill()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::paintOnPicture(bool on)
+void pqImageWidget::paintOnImage(bool on)
 {
   if (!on)
   {
@@ -364,14 +358,14 @@ void pqPictureWidget::paintOnPicture(bool on)
   if (vtkSMPropertyHelper(this->proxy(), "Cutoff").GetAsInt() != colorFilter ||
     !this->Painter->start())
   {
-    this->OnPicture->setChecked(false);
-    this->Note->setText(tr("No view shows a picture made with the colour filter. Press Apply, and "
+    this->OnImage->setChecked(false);
+    this->Note->setText(tr("No view shows an image made with the colour filter. Press Apply, and "
                            "show it in a render view."));
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::hideEvent(QHideEvent* event)
+void pqImageWidget::hideEvent(QHideEvent* event)
 {
   if (this->Painter)
   {
@@ -381,11 +375,11 @@ void pqPictureWidget::hideEvent(QHideEvent* event)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::load()
+void pqImageWidget::load()
 {
-  pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Load Picture"), QString(),
-    tr("Pictures (*.png *.jpg *.jpeg *.bmp *.ppm);;All files (*)"), false);
-  dialog.setObjectName("LoadPictureDialog");
+  pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Load Image"), QString(),
+    tr("Images (*.png *.jpg *.jpeg *.bmp *.ppm);;All files (*)"), false);
+  dialog.setObjectName("LoadImageDialog");
   dialog.setFileMode(pqFileDialog::ExistingFile);
   if (dialog.exec() != QDialog::Accepted || dialog.getSelectedFiles().isEmpty())
   {
@@ -397,29 +391,29 @@ void pqPictureWidget::load()
   const QImage read = reader.read();
   if (read.isNull())
   {
-    this->Note->setText(tr("Cannot read '%1': %2. The picture is the one from before.")
+    this->Note->setText(tr("Cannot read '%1': %2. The image is the one from before.")
                           .arg(file, reader.errorString()));
     return;
   }
-  QImage picture = opaque(read);
-  picture.setText(nameKey, QFileInfo(file).fileName());
-  this->setPicture(pqColorFilterPicture::encoded(picture));
+  QImage image = opaque(read);
+  image.setText(nameKey, QFileInfo(file).fileName());
+  this->setImage(pqColorFilterImage::encoded(image));
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::save()
+void pqImageWidget::save()
 {
-  pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Save Picture"), QString(),
+  pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Save Image"), QString(),
     tr("PNG files (*.png)"), false);
-  dialog.setObjectName("SavePictureDialog");
+  dialog.setObjectName("SaveImageDialog");
   dialog.setFileMode(pqFileDialog::AnyFile);
   if (dialog.exec() != QDialog::Accepted || dialog.getSelectedFiles().isEmpty())
   {
     return;
   }
-  const QImage picture = pqColorFilterPicture::decoded(this->Picture);
+  const QImage image = pqColorFilterImage::decoded(this->Image);
   QImageWriter writer(dialog.getSelectedFiles().first(), "PNG");
-  if (!writer.write(opaque(picture.isNull() ? pqColorFilterPicture::paintable(picture) : picture)))
+  if (!writer.write(opaque(image.isNull() ? pqColorFilterImage::paintable(image) : image)))
   {
     this->Note->setText(tr("Cannot write '%1': %2. Choose another folder or name.")
                           .arg(writer.fileName(), writer.errorString()));
@@ -427,4 +421,4 @@ void pqPictureWidget::save()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureWidget::clear() { this->setPicture(QString("")); } // a null one would not be sent
+void pqImageWidget::clear() { this->setImage(QString("")); } // a null one would not be sent

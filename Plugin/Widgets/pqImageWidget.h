@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pqColorFilterPicture.h"
+#include "pqColorFilterImage.h"
 #include "pqPropertyWidget.h"
 
 #include <QString>
@@ -12,40 +12,40 @@
 
 class pqCutoffLightFetcher;
 class pqLiveEdit;
-class pqPicturePainter;
-class pqPictureView;
+class pqImagePainter;
+class pqImageView;
 class QAbstractButton;
 class QGridLayout;
 class QLabel;
 
-/// Shows the picture that a text property names or holds, loads another one into it, or has the user
+/// Shows the image that a text property names or holds, loads another one into it, or has the user
 /// paint one. What is loaded is read where the window runs, and the property then holds all of it as a PNG
 /// ("data:image/png;base64,..."): state files keep it, and servers need not find a file.
 ///
-/// A hint in the XML tells what the picture is laid out over:
+/// A hint in the XML tells what the image is laid out over:
 ///
-///     <SchlierenPicture plane="deflection"/>
+///     <SchlierenImage plane="deflection"/>
 ///
 /// is a colour filter on the cutoff plane, drawn as a square with the axes k eps_u and k eps_v from -1 to
 /// 1; the colour wheel stands there where the property is empty. It can be painted on, here or through the
-/// picture in a view, and each stroke is in the picture at once and undone at once. The eraser brings back
-/// what was there before the first stroke, which is kept in the PNG. Without the hint, the picture is
+/// image in a view, and each stroke is in the image at once and undone at once. The eraser brings back
+/// what was there before the first stroke, which is kept in the PNG. Without the hint, the image is
 /// shown as is.
-class pqPictureWidget : public pqPropertyWidget
+class pqImageWidget : public pqPropertyWidget
 {
   Q_OBJECT
-  Q_PROPERTY(QString picture READ picture WRITE setPicture NOTIFY pictureChanged)
+  Q_PROPERTY(QString image READ image WRITE setImage NOTIFY imageChanged)
 
 public:
-  pqPictureWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
-  ~pqPictureWidget() override;
+  pqImageWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+  ~pqImageWidget() override;
 
   /// A file name, a data URI, or nothing.
-  const QString& picture() const { return this->Picture; }
-  void setPicture(const QString& picture);
+  const QString& image() const { return this->Image; }
+  void setImage(const QString& image);
 
 Q_SIGNALS:
-  void pictureChanged();
+  void imageChanged();
 
 protected:
   void hideEvent(QHideEvent* event) override;
@@ -59,25 +59,25 @@ private Q_SLOTS:
   void showStroke();
   void endStroke();
   void fill();
-  void paintOnPicture(bool on);
+  void paintOnImage(bool on);
   void showLight();
 
 private:
   QAbstractButton* newButton(const char* name, const QString& text, const QString& tip);
   void addPainting(QGridLayout* grid);
-  void showPicture();
+  void showImage();
 
-  QString Picture;
-  pqPictureView* View;
+  QString Image;
+  pqImageView* View;
   QLabel* Note;
-  QAbstractButton *Clear, *Save = nullptr, *Light = nullptr, *OnPicture = nullptr;
+  QAbstractButton *Clear, *Save = nullptr, *Light = nullptr, *OnImage = nullptr;
 
   // Of a colour filter.
-  pqColorFilterPicture::Brush Brush;
+  pqColorFilterImage::Brush Brush;
   QImage Canvas, Underneath;
   bool IsPainting = false;
   QTimer Pause; ///< until what has been painted is shown
   std::unique_ptr<pqLiveEdit> Edit;
   pqCutoffLightFetcher* Fetcher = nullptr;
-  pqPicturePainter* Painter = nullptr;
+  pqImagePainter* Painter = nullptr;
 };

@@ -15,13 +15,13 @@ class vtkSMProxyLocator;
 /// Keeps images displayed as their filters' cutoffs want it, whoever changes a cutoff: grey, twice as
 /// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else. Views of images get
 /// their FXAA back from state files: ParaView itself takes that of its settings then.
-class pqPictureDisplayKeeper : public QObject
+class pqImageDisplayKeeper : public QObject
 {
   Q_OBJECT
 
 public:
-  explicit pqPictureDisplayKeeper(QObject* parent);
-  ~pqPictureDisplayKeeper() override;
+  explicit pqImageDisplayKeeper(QObject* parent);
+  ~pqImageDisplayKeeper() override;
 
 private Q_SLOTS:
   void watch(pqPipelineSource* source);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PicturesInViews.h"
+#include "ImagesInViews.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -55,7 +55,7 @@ void addViews(
 } // namespace
 
 //------------------------------------------------------------------------------
-bool picturesInViews::isSchlieren(pqPipelineSource* source)
+bool imagesInViews::isSchlieren(pqPipelineSource* source)
 {
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
   return name && std::strcmp(name, "Schlieren") == 0 &&
@@ -63,7 +63,7 @@ bool picturesInViews::isSchlieren(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-pqPipelineSource* picturesInViews::filterOf(pqPipelineSource* source)
+pqPipelineSource* imagesInViews::filterOf(pqPipelineSource* source)
 {
   if (!source || isSchlieren(source))
   {
@@ -81,7 +81,7 @@ pqPipelineSource* picturesInViews::filterOf(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-pqRenderView* picturesInViews::scene(pqServer* server)
+pqRenderView* imagesInViews::scene(pqServer* server)
 {
   QList<pqRenderView*> views = model()->findItems<pqRenderView*>(server);
   auto* active = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
@@ -92,7 +92,7 @@ pqRenderView* picturesInViews::scene(pqServer* server)
   vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
   const auto isMeant = [active, layout](pqRenderView* view)
   {
-    return picturesIn(view).empty() &&
+    return imagesIn(view).empty() &&
       (view == active || (layout && layout->ContainsView(view->getProxy())));
   };
   const auto found = std::find_if(views.begin(), views.end(), isMeant);
@@ -100,7 +100,7 @@ pqRenderView* picturesInViews::scene(pqServer* server)
 }
 
 //------------------------------------------------------------------------------
-QList<pqPipelineSource*> picturesInViews::filters()
+QList<pqPipelineSource*> imagesInViews::filters()
 {
   QList<pqPipelineSource*> sources = model()->findItems<pqPipelineSource*>();
   sources.erase(std::remove_if(sources.begin(), sources.end(),
@@ -110,7 +110,7 @@ QList<pqPipelineSource*> picturesInViews::filters()
 }
 
 //------------------------------------------------------------------------------
-QList<QPointer<pqView>> picturesInViews::showing(pqPipelineSource* filter)
+QList<QPointer<pqView>> imagesInViews::showing(pqPipelineSource* filter)
 {
   QSet<pqPipelineSource*> seen;
   QList<QPointer<pqView>> views;
@@ -119,7 +119,7 @@ QList<QPointer<pqView>> picturesInViews::showing(pqPipelineSource* filter)
 }
 
 //------------------------------------------------------------------------------
-QList<pqPipelineSource*> picturesInViews::picturesIn(pqView* view)
+QList<pqPipelineSource*> imagesInViews::imagesIn(pqView* view)
 {
   QList<pqPipelineSource*> shown;
   for (pqRepresentation* item : view->getRepresentations())
@@ -138,7 +138,7 @@ QList<pqPipelineSource*> picturesInViews::picturesIn(pqView* view)
 }
 
 //------------------------------------------------------------------------------
-bool picturesInViews::isFlat(pqView* view)
+bool imagesInViews::isFlat(pqView* view)
 {
   return vtkSMPropertyHelper(view->getProxy(), "InteractionMode", true).GetAsInt() ==
     vtkPVRenderView::INTERACTION_MODE_2D;

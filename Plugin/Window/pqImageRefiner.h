@@ -27,13 +27,13 @@ class vtkSMSourceProxy;
 /// between turns the window does whatever else there is to do, and filters take turns in a circle. So are updates by
 /// the rendering of a view. Outside these a filter that is not finished is ready for more, without a limit: whatever
 /// else updates it (a screenshot, an animation, a script, saving data) gets the complete image.
-class pqPictureRefiner : public QObject
+class pqImageRefiner : public QObject
 {
   Q_OBJECT
 
 public:
   /// The one of this program; made by the first call.
-  static pqPictureRefiner* instance();
+  static pqImageRefiner* instance();
 
   /// Shows the image of a filter, or of one inside of a representation, whose properties have changed and been pushed
   /// (UpdateVTKObjects), in all views that show it.
@@ -61,7 +61,7 @@ public:
 
 Q_SIGNALS:
   /// Views now show another image of the filter.
-  void pictureChanged(vtkSMProxy* filter);
+  void imageChanged(vtkSMProxy* filter);
 
   /// What is being refined for some time now, and how much of it is there; nothing any more: empty.
   void progressed(const QString& what, int percent);
@@ -85,8 +85,8 @@ private:
     QElapsedTimer Since{};
   };
 
-  explicit pqPictureRefiner(QObject* parent);
-  ~pqPictureRefiner() override;
+  explicit pqImageRefiner(QObject* parent);
+  ~pqImageRefiner() override;
 
   /// Returns whether there is more to do.
   bool takeTurn(Job& job);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqPictureDisplayKeeper.h"
+#include "pqImageDisplayKeeper.h"
 
-#include "PictureDisplay.h"
-#include "PicturesInViews.h"
+#include "ImageDisplay.h"
+#include "ImagesInViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
@@ -29,13 +29,13 @@
 namespace
 {
 
-/// A property of a source: PictureDisplay::white() of its cutoff so far.
+/// A property of a source: ImageDisplay::white() of its cutoff so far.
 constexpr const char* lastWhite = "SchlierenWhite";
 
 } // namespace
 
 //------------------------------------------------------------------------------
-pqPictureDisplayKeeper::pqPictureDisplayKeeper(QObject* parentObject)
+pqImageDisplayKeeper::pqImageDisplayKeeper(QObject* parentObject)
   : QObject(parentObject)
 {
   auto* model = pqApplicationCore::instance()->getServerManagerModel();
@@ -45,30 +45,30 @@ pqPictureDisplayKeeper::pqPictureDisplayKeeper(QObject* parentObject)
     this->watch(source);
   }
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, this,
-    &pqPictureDisplayKeeper::onStateLoaded);
+    &pqImageDisplayKeeper::onStateLoaded);
 }
 
 //------------------------------------------------------------------------------
-pqPictureDisplayKeeper::~pqPictureDisplayKeeper() = default;
+pqImageDisplayKeeper::~pqImageDisplayKeeper() = default;
 
 //------------------------------------------------------------------------------
-void pqPictureDisplayKeeper::watch(pqPipelineSource* source)
+void pqImageDisplayKeeper::watch(pqPipelineSource* source)
 {
-  if (picturesInViews::isSchlieren(source))
+  if (imagesInViews::isSchlieren(source))
   {
-    source->setProperty(lastWhite, PictureDisplay::white(source->getProxy()));
+    source->setProperty(lastWhite, ImageDisplay::white(source->getProxy()));
     this->Events->Connect(
       source->getProxy(), vtkCommand::UpdateEvent, this, SLOT(onFilterChanged(vtkObject*)));
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPictureDisplayKeeper::onFilterChanged(vtkObject* filter)
+void pqImageDisplayKeeper::onFilterChanged(vtkObject* filter)
 {
   auto* proxy = static_cast<vtkSMProxy*>(filter);
   auto* source =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(proxy);
-  const double white = PictureDisplay::white(proxy);
+  const double white = ImageDisplay::white(proxy);
   if (!source || source->property(lastWhite).toDouble() == white)
   {
     return;
@@ -77,16 +77,16 @@ void pqPictureDisplayKeeper::onFilterChanged(vtkObject* filter)
   for (pqDataRepresentation* shown : source->getOutputPort(0)->getRepresentations(nullptr))
   {
     vtkSMProxy* representation = shown->getProxy();
-    if (PictureDisplay::isApplied(representation))
+    if (ImageDisplay::isApplied(representation))
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
-      PictureDisplay::apply(representation, proxy);
+      ImageDisplay::apply(representation, proxy);
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPictureDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLocator* locator)
+void pqImageDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLocator* locator)
 {
   vtkPVXMLElement* nested = root->FindNestedElementByName("ServerManagerState");
   vtkPVXMLElement* state = nested ? nested : root;
@@ -105,7 +105,7 @@ void pqPictureDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLoca
       int isOn = 0;
       if (value && value->GetScalarAttribute("value", &isOn) &&
         std::strcmp(property->GetAttributeOrDefault("name", ""), "UseFXAA") == 0 &&
-        !picturesInViews::picturesIn(view).isEmpty())
+        !imagesInViews::imagesIn(view).isEmpty())
       {
         SCOPED_UNDO_EXCLUDE();
         vtkSMPropertyHelper(view->getProxy(), "UseFXAA").Set(isOn);

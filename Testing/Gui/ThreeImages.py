@@ -13,7 +13,7 @@ SIZE = [240, 180]
 CUTOFFS = ("Knife Edge", "Shadowgraph", "Interferogram")
 
 user = ViewsSession(BENCH)
-user.press("ThreePictures")
+user.press("ThreeImages")
 user.python("""
 settle_views()
 assert len(displays()) == 3
@@ -57,7 +57,7 @@ for display, view in zip(shown, in_views):
     seen = pixels_of(view, SIZE)
     assert np.ptp(seen) > 25, display.SchlierenBench.Cutoff
     assert np.abs(seen - filter_like(display, view, SIZE)).max() <= GREY_LEVEL
-check_baseline(list(in_views), "WindowThreePictures.png", SIZE)
+check_baseline(list(in_views), "WindowThreeImages.png", SIZE)
 
 play_trace("traced.pvsm", OPEN_JET)
 assert check_session("traced.pvsm")[2] == made

@@ -19,23 +19,23 @@ class vtkObject;
 class vtkRenderWindowInteractor;
 class vtkSMProxy;
 
-/// Paints on a colour filter by brushing over its picture in the render views that show it: where the rays of the
+/// Paints on a colour filter by brushing over its image in the render views that show it: where the rays of the
 /// brushed pixels meet the cutoff plane, the filter is painted (Brownlee et al. 2011, fig. 9).
-class pqPicturePainter : public QObject
+class pqImagePainter : public QObject
 {
   Q_OBJECT
 
 public:
-  explicit pqPicturePainter(vtkSMProxy* filter, QObject* parent = nullptr);
-  ~pqPicturePainter() override;
+  explicit pqImagePainter(vtkSMProxy* filter, QObject* parent = nullptr);
+  ~pqImagePainter() override;
 
-  /// Takes the left mouse button in the views. False where no view shows the picture.
+  /// Takes the left mouse button in the views. False where no view shows the image.
   bool start();
   void stop();
   bool isOn() const { return !this->Views.isEmpty(); }
 
 public Q_SLOTS:
-  /// As a share of the picture's shorter side.
+  /// As a share of the image's shorter side.
   void setBrushRadius(double radius) { this->BrushRadius = radius; }
 
 Q_SIGNALS:
@@ -64,9 +64,9 @@ private:
   pqView* Pressed = nullptr;
   double BrushRadius = 0.04;
   double K = 0;
-  int FetchedPicture = 0; ///< PictureCount
+  int FetchedImage = 0; ///< PictureCount
   vtkSmartPointer<vtkImageData> Deflection;
-  QPointF Last; ///< place of the mouse in the picture
+  QPointF Last; ///< place of the mouse in the image
   bool HasLast = false;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -11,25 +11,25 @@
 namespace filters
 {
 
-/// A picture that is decoded once, as long as it is asked for again and again.
-class RgbPictureReader
+/// An image that is decoded once, as long as it is asked for again and again.
+class RgbImageReader
 {
 public:
-  /// See readRgbPicture. The same text, or a file with the same content, gives the same picture.
-  std::shared_ptr<const schlieren::RgbPicture> read(
+  /// See readRgbImage. The same text, or a file with the same content, gives the same image.
+  std::shared_ptr<const schlieren::RgbImage> read(
     const std::string& property, const std::string& text);
 
 private:
   std::vector<unsigned char> File;
   std::string Text;
-  std::shared_ptr<const schlieren::RgbPicture> Picture;
+  std::shared_ptr<const schlieren::RgbImage> Image;
 };
 
-/// The picture that `text` stands for: the name of a PNG file, or the content of one as
+/// The image that `text` stands for: the name of a PNG file, or the content of one as
 /// "data:image/png;base64,..." (RFC 2397). Of any kind: grey or coloured, 1 to 16 bits; transparent places
 /// are shown on white. Throws std::runtime_error with a message for the user; `property` is where `text`
 /// was given.
-std::shared_ptr<const schlieren::RgbPicture> readRgbPicture(
+std::shared_ptr<const schlieren::RgbImage> readRgbImage(
   const std::string& property, const std::string& text);
 
 } // namespace filters

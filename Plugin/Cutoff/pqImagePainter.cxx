@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqPicturePainter.h"
+#include "pqImagePainter.h"
 
 #include "pqApplicationCore.h"
-#include "pqColorFilterPicture.h"
+#include "pqColorFilterImage.h"
 #include "pqDataRepresentation.h"
 #include "pqFetchedImage.h"
 #include "pqPipelineSource.h"
@@ -34,7 +34,7 @@
 namespace
 {
 
-constexpr int picturePort = 0;
+constexpr int imagePort = 0;
 constexpr float beforeTheView = 10;  // priority: a view does not turn while one paints
 constexpr double finestPlace = 1024; // of the filter's side: what is told apart
 
@@ -48,10 +48,10 @@ pqServerManagerModel* model() { return pqApplicationCore::instance()->getServerM
 bool shows(pqView* view, vtkSMProxy* filter)
 {
   auto* source = model()->findItem<pqPipelineSource*>(filter);
-  const QList<pqDataRepresentation*> pictures =
-    source ? source->getRepresentations(picturePort, view) : QList<pqDataRepresentation*>();
-  return std::any_of(pictures.begin(), pictures.end(),
-           [](pqDataRepresentation* picture) { return picture->isVisible(); }) ||
+  const QList<pqDataRepresentation*> images =
+    source ? source->getRepresentations(imagePort, view) : QList<pqDataRepresentation*>();
+  return std::any_of(images.begin(), images.end(),
+           [](pqDataRepresentation* image) { return image->isVisible(); }) ||
     pqRepresentationRefiner::benchesIn(view).contains(filter);
 }
 
@@ -103,19 +103,19 @@ bool placeUnder(const int pixel[2], vtkRenderer* renderer, const ImagePlane& pla
 } // namespace
 
 //------------------------------------------------------------------------------
-pqPicturePainter::pqPicturePainter(vtkSMProxy* filter, QObject* parentObject)
+pqImagePainter::pqImagePainter(vtkSMProxy* filter, QObject* parentObject)
   : QObject(parentObject)
   , Filter(filter)
 {
   QObject::connect(
-    model(), &pqServerManagerModel::preViewRemoved, this, &pqPicturePainter::viewRemoved);
+    model(), &pqServerManagerModel::preViewRemoved, this, &pqImagePainter::viewRemoved);
 }
 
 //------------------------------------------------------------------------------
-pqPicturePainter::~pqPicturePainter() { this->stop(); }
+pqImagePainter::~pqImagePainter() { this->stop(); }
 
 //------------------------------------------------------------------------------
-bool pqPicturePainter::start()
+bool pqImagePainter::start()
 {
   for (pqView* view : model()->findItems<pqView*>())
   {
@@ -142,7 +142,7 @@ bool pqPicturePainter::start()
 }
 
 //------------------------------------------------------------------------------
-void pqPicturePainter::stop()
+void pqImagePainter::stop()
 {
   if (!this->isOn())
   {
@@ -159,7 +159,7 @@ void pqPicturePainter::stop()
   }
   this->Views.clear();
   this->Deflection = nullptr;
-  this->FetchedPicture = 0;
+  this->FetchedImage = 0;
   if (this->Pressed)
   {
     this->Pressed = nullptr;
@@ -169,7 +169,7 @@ void pqPicturePainter::stop()
 }
 
 //------------------------------------------------------------------------------
-void pqPicturePainter::viewRemoved(pqView* view)
+void pqImagePainter::viewRemoved(pqView* view)
 {
   if (this->Views.contains(view))
   {
@@ -178,7 +178,7 @@ void pqPicturePainter::viewRemoved(pqView* view)
 }
 
 //------------------------------------------------------------------------------
-bool pqPicturePainter::eventFilter(QObject* watched, QEvent* event)
+bool pqImagePainter::eventFilter(QObject* watched, QEvent* event)
 {
   if ((event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
     static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && !QApplication::activeModalWidget())
@@ -191,25 +191,25 @@ bool pqPicturePainter::eventFilter(QObject* watched, QEvent* event)
 }
 
 //------------------------------------------------------------------------------
-bool pqPicturePainter::fetchDeflection()
+bool pqImagePainter::fetchDeflection()
 {
   for (const char* name : { "PictureCount", "KScaleUsed" })
   {
     this->Filter->UpdatePropertyInformation(this->Filter->GetProperty(name));
   }
-  const int picture = vtkSMPropertyHelper(this->Filter, "PictureCount").GetAsInt();
+  const int image = vtkSMPropertyHelper(this->Filter, "PictureCount").GetAsInt();
   this->K = vtkSMPropertyHelper(this->Filter, "KScaleUsed").GetAsDouble();
-  if (picture != this->FetchedPicture)
+  if (image != this->FetchedImage)
   {
-    this->Deflection = fetchedImage(this->Filter, picturePort, { "Deflection", "BlockedFraction" });
-    this->FetchedPicture = picture;
+    this->Deflection = fetchedImage(this->Filter, imagePort, { "Deflection", "BlockedFraction" });
+    this->FetchedImage = image;
   }
   return this->Deflection && this->Deflection->GetPointData()->GetArray("Deflection") &&
     this->K > 0;
 }
 
 //------------------------------------------------------------------------------
-void pqPicturePainter::mouseEvent(
+void pqImagePainter::mouseEvent(
   vtkObject* caller, unsigned long event, void* client, void*, vtkCommand* command)
 {
   auto* view = static_cast<pqView*>(client);
@@ -245,7 +245,7 @@ void pqPicturePainter::mouseEvent(
 }
 
 //------------------------------------------------------------------------------
-void pqPicturePainter::brush(vtkRenderWindowInteractor* interactor)
+void pqImagePainter::brush(vtkRenderWindowInteractor* interactor)
 {
   QPointF position;
   vtkRenderer* renderer = renderViewOf(this->Pressed)->GetRenderer();
@@ -259,7 +259,7 @@ void pqPicturePainter::brush(vtkRenderWindowInteractor* interactor)
   const double* bounds = this->Deflection->GetBounds();
   const double radius = this->BrushRadius * std::min(bounds[1] - bounds[0], bounds[3] - bounds[2]);
   QVector<QPointF> places;
-  for (const QPointF& at : pqColorFilterPicture::stroke(
+  for (const QPointF& at : pqColorFilterImage::stroke(
          this->HasLast ? this->Last : position, position, std::max(radius, 1e-300)))
   {
     places += this->placesAround(at);
@@ -273,7 +273,7 @@ void pqPicturePainter::brush(vtkRenderWindowInteractor* interactor)
 }
 
 //------------------------------------------------------------------------------
-QVector<QPointF> pqPicturePainter::placesAround(const QPointF& position) const
+QVector<QPointF> pqImagePainter::placesAround(const QPointF& position) const
 {
   vtkDataArray* deflections = this->Deflection->GetPointData()->GetArray("Deflection");
   vtkDataArray* blocked = this->Deflection->GetPointData()->GetArray("BlockedFraction");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pictures of real flows against baselines. No renderer is used: the intensities become grey levels.
+// Images of real flows against baselines. No renderer is used: the intensities become grey levels.
 #include "BallOnLevels.h"
 
 #include "vtkDataSetSurfaceFilter.h"
@@ -23,8 +23,8 @@ namespace
 const std::string data = SCHLIEREN_TEST_DATA;
 
 /// Compares the intensities, of which `white` is white, with a baseline, grey level by grey level.
-/// (vtkTesting::RegressionTest lets pictures pass that are shifted by a pixel, or that differ by less
-/// than 16 levels: even a faint picture turned upside down.)
+/// (vtkTesting::RegressionTest lets images pass that are shifted by a pixel, or that differ by less
+/// than 16 levels: even a faint image turned upside down.)
 void expectBaseline(vtkSchlierenFilter* filter, double white, const std::string& name)
 {
   ASSERT_FALSE(isEmpty(filter));
@@ -80,14 +80,14 @@ vtkSmartPointer<vtkSchlierenFilter> jet()
 
 } // namespace
 
-TEST(Pictures, JetKnifeEdgeAcrossTheAxis)
+TEST(Images, JetKnifeEdgeAcrossTheAxis)
 {
   auto filter = jet();
   filter->Update();
   expectBaseline(filter, 1, "JetKnifeEdge0");
 }
 
-TEST(Pictures, JetKnifeEdgeAlongTheAxis)
+TEST(Images, JetKnifeEdgeAlongTheAxis)
 {
   auto filter = jet();
   filter->SetKnifeEdgeAngle(90);
@@ -95,7 +95,7 @@ TEST(Pictures, JetKnifeEdgeAlongTheAxis)
   expectBaseline(filter, 1, "JetKnifeEdge90");
 }
 
-TEST(Pictures, JetShadowgraph)
+TEST(Images, JetShadowgraph)
 {
   auto filter = jet();
   filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
@@ -147,7 +147,7 @@ vtkSmartPointer<vtkDataObject> bothHalves(vtkDataObject* half)
 
 // The bow shock in plan view: a curvilinear half model, whose fin blocks the light. The steps behind the
 // shock are the cells of the computation, within which the density is linear.
-TEST(Pictures, BluntFinFromAbove)
+TEST(Images, BluntFinFromAbove)
 {
   auto filter = finBench(bluntFin());
   filter->SetFocalPoint(1, 2.5, 2);
@@ -158,7 +158,7 @@ TEST(Pictures, BluntFinFromAbove)
 }
 
 // A ball on three levels of cells. Neither cells nor borders of blocks and levels are to be seen.
-TEST(Pictures, BallOnThreeLevels)
+TEST(Images, BallOnThreeLevels)
 {
   auto filter = bench(ballOnLevels(32, { { 0, 32, true }, { 16, 32, true }, { 48, 32 } }), 200);
   filter->SetDevice(vtkSchlierenFilter::CPU);
@@ -168,7 +168,7 @@ TEST(Pictures, BallOnThreeLevels)
 
 // VTK's own adaptive mesh: 5 x 5 x 5 cells, of which two blocks are refined once. They show faintly, because
 // it gives values at the cells' centres, not means.
-TEST(Pictures, PulseOfVtk)
+TEST(Images, PulseOfVtk)
 {
   auto filter = benchOfPulse({ -0.75, -0.75, 1.25 }, 3, 200);
   filter->SetDevice(vtkSchlierenFilter::CPU);
@@ -178,7 +178,7 @@ TEST(Pictures, PulseOfVtk)
 
 // The lambda shock that the fin drives up the plate's boundary layer (z = 0), seen from the side: through
 // the corners of the box, which the mesh leaves out, as it does the fin; that is given as a surface.
-TEST(Pictures, BluntFinFromTheSide)
+TEST(Images, BluntFinFromTheSide)
 {
   const auto half = bluntFin();
   auto filter = finBench(bothHalves(half));

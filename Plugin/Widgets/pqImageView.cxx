@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqPictureView.h"
+#include "pqImageView.h"
 
 #include "MousePlace.h"
-#include "pqColorFilterPicture.h"
+#include "pqColorFilterImage.h"
 
 #include <QFontMetrics>
 #include <QKeyEvent>
@@ -16,14 +16,14 @@
 namespace
 {
 
-constexpr int pictureSide = 128, filterSide = 192; // pixels
-constexpr double keyStep = 1. / 64;                // of the filter's side
-constexpr int largeStep = 8;                       // times a step
+constexpr int imageSide = 128, filterSide = 192; // pixels
+constexpr double keyStep = 1. / 64;              // of the filter's side
+constexpr int largeStep = 8;                     // times a step
 
 } // namespace
 
 //------------------------------------------------------------------------------
-pqPictureView::pqPictureView(bool isColorFilter, QWidget* parentObject)
+pqImageView::pqImageView(bool isColorFilter, QWidget* parentObject)
   : QWidget(parentObject)
   , IsColorFilter(isColorFilter)
   , Margin(isColorFilter ? this->fontMetrics().height() : 0)
@@ -44,44 +44,44 @@ pqPictureView::pqPictureView(bool isColorFilter, QWidget* parentObject)
 }
 
 //------------------------------------------------------------------------------
-pqPictureView::~pqPictureView() = default;
+pqImageView::~pqImageView() = default;
 
 //------------------------------------------------------------------------------
-QRect pqPictureView::place() const
+QRect pqImageView::place() const
 {
   return this->IsColorFilter ? QRect(this->Margin, this->Margin, filterSide, filterSide)
                              : this->rect();
 }
 
 //------------------------------------------------------------------------------
-QPointF pqPictureView::placeAt(const QPointF& pixel) const
+QPointF pqImageView::placeAt(const QPointF& pixel) const
 {
   const QPointF inside = (pixel - this->place().topLeft()) / (filterSide / 2.);
   return { inside.x() - 1, 1 - inside.y() };
 }
 
 //------------------------------------------------------------------------------
-QPointF pqPictureView::pixelAt(const QPointF& place) const
+QPointF pqImageView::pixelAt(const QPointF& place) const
 {
   return this->place().topLeft() + QPointF(1 + place.x(), 1 - place.y()) * (filterSide / 2.);
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::setPicture(const QImage& picture)
+void pqImageView::setImage(const QImage& image)
 {
-  this->Picture = picture;
+  this->Image = image;
   this->Shown = QImage();
   if (!this->IsColorFilter)
   {
-    this->setFixedSize(picture.isNull()
+    this->setFixedSize(image.isNull()
         ? QSize(1, 1)
-        : picture.size().scaled(pictureSide, pictureSide, Qt::KeepAspectRatio));
+        : image.size().scaled(imageSide, imageSide, Qt::KeepAspectRatio));
   }
   this->update();
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::setLight(const pqCutoffLight& light, double k)
+void pqImageView::setLight(const pqCutoffLight& light, double k)
 {
   this->Light = light;
   this->K = k;
@@ -90,22 +90,22 @@ void pqPictureView::setLight(const pqCutoffLight& light, double k)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::setBrushRadius(double radius)
+void pqImageView::setBrushRadius(double radius)
 {
   this->BrushRadius = radius;
   this->update();
 }
 
 //------------------------------------------------------------------------------
-QImage pqPictureView::shown() const
+QImage pqImageView::shown() const
 {
   const double ratio = this->devicePixelRatioF();
   const QSize size = (QSizeF(this->place().size()) * ratio).toSize();
   if (!this->IsColorFilter)
   {
-    return this->Picture.scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    return this->Image.scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
   }
-  QImage image = pqColorFilterPicture::paintable(this->Picture)
+  QImage image = pqColorFilterImage::paintable(this->Image)
                    .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
   if (!this->Light.isEmpty() && this->K > 0)
   {
@@ -117,7 +117,7 @@ QImage pqPictureView::shown() const
         const QPointF place(
           2 * (column + 0.5) / size.width() - 1, 1 - 2 * (row + 0.5) / size.height());
         line[column] =
-          pqColorFilterPicture::lit(line[column], this->Light.brightnessAt(place / this->K));
+          pqColorFilterImage::lit(line[column], this->Light.brightnessAt(place / this->K));
       }
     }
   }
@@ -125,11 +125,11 @@ QImage pqPictureView::shown() const
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::paintEvent(QPaintEvent*)
+void pqImageView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
   const double ratio = this->devicePixelRatioF();
-  if (this->IsColorFilter || !this->Picture.isNull())
+  if (this->IsColorFilter || !this->Image.isNull())
   {
     if (this->Shown.isNull() || this->Shown.devicePixelRatioF() != ratio)
     {
@@ -146,7 +146,7 @@ void pqPictureView::paintEvent(QPaintEvent*)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::drawAxes(QPainter& painter) const
+void pqImageView::drawAxes(QPainter& painter) const
 {
   const QRect square = this->place();
   const QPoint middle = square.center();
@@ -172,7 +172,7 @@ void pqPictureView::drawAxes(QPainter& painter) const
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::drawBrush(QPainter& painter) const
+void pqImageView::drawBrush(QPainter& painter) const
 {
   if (this->IsBrushShown)
   {
@@ -187,7 +187,7 @@ void pqPictureView::drawBrush(QPainter& painter) const
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::mousePressEvent(QMouseEvent* event)
+void pqImageView::mousePressEvent(QMouseEvent* event)
 {
   if (this->IsColorFilter && event->button() == Qt::LeftButton)
   {
@@ -199,7 +199,7 @@ void pqPictureView::mousePressEvent(QMouseEvent* event)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::mouseMoveEvent(QMouseEvent* event)
+void pqImageView::mouseMoveEvent(QMouseEvent* event)
 {
   if (this->IsColorFilter)
   {
@@ -208,14 +208,14 @@ void pqPictureView::mouseMoveEvent(QMouseEvent* event)
     this->IsBrushShown = true;
     if (this->IsDown)
     {
-      Q_EMIT this->brushed(pqColorFilterPicture::stroke(before, this->Brush, this->BrushRadius));
+      Q_EMIT this->brushed(pqColorFilterImage::stroke(before, this->Brush, this->BrushRadius));
     }
     this->update();
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::mouseReleaseEvent(QMouseEvent* event)
+void pqImageView::mouseReleaseEvent(QMouseEvent* event)
 {
   if (this->IsDown && event->button() == Qt::LeftButton)
   {
@@ -225,7 +225,7 @@ void pqPictureView::mouseReleaseEvent(QMouseEvent* event)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::keyPressEvent(QKeyEvent* event)
+void pqImageView::keyPressEvent(QKeyEvent* event)
 {
   QPointF way;
   switch (event->key())
@@ -267,7 +267,7 @@ void pqPictureView::keyPressEvent(QKeyEvent* event)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::leaveEvent(QEvent* event)
+void pqImageView::leaveEvent(QEvent* event)
 {
   this->IsBrushShown = this->hasFocus();
   this->update();
@@ -275,14 +275,14 @@ void pqPictureView::leaveEvent(QEvent* event)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::focusInEvent(QFocusEvent* event)
+void pqImageView::focusInEvent(QFocusEvent* event)
 {
   this->IsBrushShown = true;
   QWidget::focusInEvent(event);
 }
 
 //------------------------------------------------------------------------------
-void pqPictureView::focusOutEvent(QFocusEvent* event)
+void pqImageView::focusOutEvent(QFocusEvent* event)
 {
   this->IsBrushShown = false;
   QWidget::focusOutEvent(event);

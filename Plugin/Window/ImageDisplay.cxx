@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PictureDisplay.h"
+#include "ImageDisplay.h"
 
 #include "vtkDataObject.h"
 #include "vtkSMPVRepresentationProxy.h"
@@ -50,7 +50,7 @@ void setMapScalars(vtkSMProxy* representation, int value)
 } // namespace
 
 //------------------------------------------------------------------------------
-void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
+void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
   const bool isColored = white(filter) == 0;
   setValue(representation, "UseSeparateColorMap", 1);
@@ -73,7 +73,7 @@ void PictureDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 }
 
 //------------------------------------------------------------------------------
-double PictureDisplay::white(vtkSMProxy* filter)
+double ImageDisplay::white(vtkSMProxy* filter)
 {
   const int cutoff = valueOf(filter, "Cutoff");
   const bool isColored = valueOf(filter, "ColorByField") != 0 ||
@@ -83,7 +83,7 @@ double PictureDisplay::white(vtkSMProxy* filter)
 }
 
 //------------------------------------------------------------------------------
-bool PictureDisplay::isApplied(vtkSMProxy* representation)
+bool ImageDisplay::isApplied(vtkSMProxy* representation)
 {
   if (!representation->GetProperty("ColorArrayName") ||
     !representation->GetProperty("UseSeparateColorMap"))

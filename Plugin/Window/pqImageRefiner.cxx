@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqPictureRefiner.h"
+#include "pqImageRefiner.h"
 
-#include "PicturesInViews.h"
+#include "ImagesInViews.h"
 #include "pqRepresentationRefiner.h"
 
 #include "pqAnimationScene.h"
@@ -85,7 +85,7 @@ void update(vtkSMSourceProxy* filter, pqView* view)
   filter->UpdatePipeline(vtkSMPropertyHelper(view->getProxy(), "ViewTime").GetAsDouble());
 }
 
-vtkIdType pictureCount(vtkSMSourceProxy* filter)
+vtkIdType imageCount(vtkSMSourceProxy* filter)
 {
   filter->UpdatePropertyInformation(filter->GetProperty("PictureCount"));
   return vtkSMPropertyHelper(filter, "PictureCount").GetAsIdType();
@@ -131,21 +131,20 @@ bool isCaptured(pqView* view)
 } // namespace
 
 //------------------------------------------------------------------------------
-pqPictureRefiner::pqPictureRefiner(QObject* parentObject)
+pqImageRefiner::pqImageRefiner(QObject* parentObject)
   : QObject(parentObject)
 {
   this->Timer.setSingleShot(true);
   QObject::connect(&this->Timer, &QTimer::timeout, this, [this]() { this->takeTurn(); });
 
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &pqPictureRefiner::forget);
-  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqPictureRefiner::watch);
+  QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &pqImageRefiner::forget);
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqImageRefiner::watch);
   for (pqView* view : model->findItems<pqView*>())
   {
     this->watch(view);
   }
-  QObject::connect(
-    model, &pqServerManagerModel::proxyAdded, this, &pqPictureRefiner::watchAnimation);
+  QObject::connect(model, &pqServerManagerModel::proxyAdded, this, &pqImageRefiner::watchAnimation);
   for (pqAnimationScene* scene : model->findItems<pqAnimationScene*>())
   {
     this->watchAnimation(scene);
@@ -153,21 +152,21 @@ pqPictureRefiner::pqPictureRefiner(QObject* parentObject)
 }
 
 //------------------------------------------------------------------------------
-pqPictureRefiner::~pqPictureRefiner() = default;
+pqImageRefiner::~pqImageRefiner() = default;
 
 //------------------------------------------------------------------------------
-pqPictureRefiner* pqPictureRefiner::instance()
+pqImageRefiner* pqImageRefiner::instance()
 {
-  static QPointer<pqPictureRefiner> refiner;
+  static QPointer<pqImageRefiner> refiner;
   if (!refiner)
   {
-    refiner = new pqPictureRefiner(pqApplicationCore::instance());
+    refiner = new pqImageRefiner(pqApplicationCore::instance());
   }
   return refiner;
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::watch(pqView* view)
+void pqImageRefiner::watch(pqView* view)
 {
   // Before ParaView looks whether there is anything to update.
   this->Connection->Connect(
@@ -177,7 +176,7 @@ void pqPictureRefiner::watch(pqView* view)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::watchAnimation(pqProxy* item)
+void pqImageRefiner::watchAnimation(pqProxy* item)
 {
   if (auto* scene = qobject_cast<pqAnimationScene*>(item))
   {
@@ -190,7 +189,7 @@ void pqPictureRefiner::watchAnimation(pqProxy* item)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::forget(pqPipelineSource* source)
+void pqImageRefiner::forget(pqPipelineSource* source)
 {
   this->Jobs.erase(std::remove_if(this->Jobs.begin(), this->Jobs.end(),
                      [source](const Job& job) { return job.Filter == source->getProxy(); }),
@@ -199,10 +198,10 @@ void pqPictureRefiner::forget(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::refine(vtkSMProxy* proxy)
+void pqImageRefiner::refine(vtkSMProxy* proxy)
 {
   auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
-  if (!picturesInViews::isSchlieren(sourceOf(filter)))
+  if (!imagesInViews::isSchlieren(sourceOf(filter)))
   {
     pqRepresentationRefiner::renderViewsOf(proxy);
     return;
@@ -217,14 +216,14 @@ void pqPictureRefiner::refine(vtkSMProxy* proxy)
 }
 
 //------------------------------------------------------------------------------
-bool pqPictureRefiner::hasJob(vtkSMSourceProxy* filter) const
+bool pqImageRefiner::hasJob(vtkSMSourceProxy* filter) const
 {
   return std::any_of(this->Jobs.begin(), this->Jobs.end(),
     [filter](const Job& job) { return job.Filter == filter; });
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::wakeUp()
+void pqImageRefiner::wakeUp()
 {
   if (!this->Timer.isActive() && !this->Jobs.isEmpty())
   {
@@ -233,7 +232,7 @@ void pqPictureRefiner::wakeUp()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::takeTurn()
+void pqImageRefiner::takeTurn()
 {
   pqPipelineSource* source = this->Jobs.isEmpty() ? nullptr : sourceOf(this->Jobs.first().Filter);
   if (this->IsBusy || this->IsPlaying || pqRepresentationRefiner::isAnyBeingTurned() ||
@@ -270,7 +269,7 @@ void pqPictureRefiner::takeTurn()
 }
 
 //------------------------------------------------------------------------------
-bool pqPictureRefiner::takeTurn(Job& job)
+bool pqImageRefiner::takeTurn(Job& job)
 {
   const vtkSmartPointer<vtkSMSourceProxy> filter = job.Filter.GetPointer();
   pqPipelineSource* source = sourceOf(filter);
@@ -278,7 +277,7 @@ bool pqPictureRefiner::takeTurn(Job& job)
   {
     return false;
   }
-  const QList<QPointer<pqView>> views = picturesInViews::showing(source);
+  const QList<QPointer<pqView>> views = imagesInViews::showing(source);
   if (views.isEmpty())
   {
     return false;
@@ -286,10 +285,10 @@ bool pqPictureRefiner::takeTurn(Job& job)
   setTimeLimit(filter, timeSlice);
   requestMore(filter);
   // An update takes as long as a slice, whether there is anything to show or not.
-  if (pictureCount(filter) != job.ShownCount || isFinished(filter))
+  if (imageCount(filter) != job.ShownCount || isFinished(filter))
   {
     update(filter, views.front());
-    const vtkIdType count = pictureCount(filter);
+    const vtkIdType count = imageCount(filter);
     // Nothing is what is left of an image that failed.
     if (count != job.ShownCount || filter->GetDataInformation(0)->GetNumberOfPoints() == 0)
     {
@@ -307,7 +306,7 @@ bool pqPictureRefiner::takeTurn(Job& job)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::show(vtkSMSourceProxy* filter, const QList<QPointer<pqView>>& views)
+void pqImageRefiner::show(vtkSMSourceProxy* filter, const QList<QPointer<pqView>>& views)
 {
   for (const QPointer<pqView>& view : views)
   {
@@ -316,11 +315,11 @@ void pqPictureRefiner::show(vtkSMSourceProxy* filter, const QList<QPointer<pqVie
       view->forceRender();
     }
   }
-  Q_EMIT this->pictureChanged(filter);
+  Q_EMIT this->imageChanged(filter);
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::report()
+void pqImageRefiner::report()
 {
   QString what;
   int jobs = 0;
@@ -348,11 +347,11 @@ void pqPictureRefiner::report()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::stop()
+void pqImageRefiner::stop()
 {
   if (this->IsBusy || this->isShort())
   {
-    QTimer::singleShot(0, this, &pqPictureRefiner::stop);
+    QTimer::singleShot(0, this, &pqImageRefiner::stop);
     return;
   }
   const QScopedValueRollback<bool> busy(this->IsBusy, true);
@@ -366,7 +365,7 @@ void pqPictureRefiner::stop()
     }
     {
       const QuietWindow quiet(source);
-      const QList<QPointer<pqView>> views = picturesInViews::showing(source);
+      const QList<QPointer<pqView>> views = imagesInViews::showing(source);
       // What is there is made the filter's output, so that rendering does not request more.
       setTimeLimit(filter, 0.01);
       if (!views.isEmpty())
@@ -390,7 +389,7 @@ void pqPictureRefiner::stop()
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::onStartRender(vtkObject* proxy)
+void pqImageRefiner::onStartRender(vtkObject* proxy)
 {
   auto* view = pqApplicationCore::instance()->getServerManagerModel()->findItem<pqView*>(
     vtkSMProxy::SafeDownCast(proxy));
@@ -398,11 +397,11 @@ void pqPictureRefiner::onStartRender(vtkObject* proxy)
   {
     return;
   }
-  for (pqPipelineSource* source : picturesInViews::filters())
+  for (pqPipelineSource* source : imagesInViews::filters())
   {
     vtkSMSourceProxy* filter = source->getSourceProxy();
     if ((this->hasJob(filter) || view->getViewProxy()->GetNeedsUpdate()) &&
-      picturesInViews::showing(source).contains(view))
+      imagesInViews::showing(source).contains(view))
     {
       this->limit(filter);
     }
@@ -410,7 +409,7 @@ void pqPictureRefiner::onStartRender(vtkObject* proxy)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::onEndRender(vtkObject*)
+void pqImageRefiner::onEndRender(vtkObject*)
 {
   if (!this->isShort())
   {
@@ -419,14 +418,14 @@ void pqPictureRefiner::onEndRender(vtkObject*)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::limit(vtkSMSourceProxy* filter)
+void pqImageRefiner::limit(vtkSMSourceProxy* filter)
 {
   setTimeLimit(filter, timeSlice);
   this->Limited << filter;
 }
 
 //------------------------------------------------------------------------------
-void pqPictureRefiner::unlimit()
+void pqImageRefiner::unlimit()
 {
   for (const vtkWeakPointer<vtkSMSourceProxy>& filter : this->Limited)
   {
@@ -445,13 +444,13 @@ void pqPictureRefiner::unlimit()
 }
 
 //------------------------------------------------------------------------------
-pqPictureRefiner::ShortUpdates::ShortUpdates()
+pqImageRefiner::ShortUpdates::ShortUpdates()
 {
-  pqPictureRefiner* refiner = pqPictureRefiner::instance();
+  pqImageRefiner* refiner = pqImageRefiner::instance();
   if (refiner->NumberOfShortUpdates++ == 0)
   {
     refiner->unlimit();
-    for (pqPipelineSource* source : picturesInViews::filters())
+    for (pqPipelineSource* source : imagesInViews::filters())
     {
       refiner->limit(source->getSourceProxy());
     }
@@ -459,9 +458,9 @@ pqPictureRefiner::ShortUpdates::ShortUpdates()
 }
 
 //------------------------------------------------------------------------------
-pqPictureRefiner::ShortUpdates::~ShortUpdates()
+pqImageRefiner::ShortUpdates::~ShortUpdates()
 {
-  pqPictureRefiner* refiner = pqPictureRefiner::instance();
+  pqImageRefiner* refiner = pqImageRefiner::instance();
   if (--refiner->NumberOfShortUpdates == 0)
   {
     refiner->unlimit();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How many pictures a second of an instrument under one's hands: a new knife edge, a new camera. 512 x 512
+// How many images a second of an instrument under one's hands: a new knife edge, a new camera. 512 x 512
 // pixels; the time of each stage apart.
 #include "Schlieren.h"
 
@@ -73,7 +73,7 @@ Scene interactive()
   return scene;
 }
 
-/// Renders what `change` makes of the scene, picture after picture.
+/// Renders what `change` makes of the scene, image after image.
 template <class Change>
 void renderAgain(benchmark::State& state, const Field& field, Scene scene, const Change& change)
 {
@@ -90,10 +90,10 @@ void renderAgain(benchmark::State& state, const Field& field, Scene scene, const
   }
   const double all =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto pictures = static_cast<double>(state.iterations());
-  state.counters["pictures/s"] = pictures / all;
-  state.counters["trace/ms"] = 1e3 * tracing / pictures;
-  state.counters["other/ms"] = 1e3 * (all - tracing) / pictures;
+  const auto images = static_cast<double>(state.iterations());
+  state.counters["images/s"] = images / all;
+  state.counters["trace/ms"] = 1e3 * tracing / images;
+  state.counters["other/ms"] = 1e3 * (all - tracing) / images;
 }
 
 FilmEstimator estimatorOf(const benchmark::State& state, std::size_t argument)
@@ -134,7 +134,7 @@ BENCHMARK(moveScreen)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// The camera goes round the medium, three degrees a picture.
+/// The camera goes round the medium, three degrees an image.
 void newCamera(benchmark::State& state)
 {
   Scene scene = interactive();

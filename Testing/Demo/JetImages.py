@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The demo as it comes: in all four pictures the jet's features are where physics puts them."""
+"""The demo as it comes: in all four images the jet's features are where physics puts them."""
 
 import os
 from types import SimpleNamespace
@@ -42,7 +42,7 @@ y = frame.bottom + (np.arange(frame.height) + 0.5) * frame.pixel
 edge = np.ix_((y > 0.0055) & (y < 0.0068), (x > 0.005) & (x < 0.015))
 assert horizontal[edge].mean() < 0.45, f"Upper edge of the jet: {horizontal[edge].mean():.3f}"
 
-# The Mach disc, the steepest rise of the density on the axis, is at x = 13.75 mm in each picture.
+# The Mach disc, the steepest rise of the density on the axis, is at x = 13.75 mm in each image.
 axis = np.abs(y) < 0.001
 bright = x[vertical[axis].mean(axis=0).argmax()]
 near = (x > 0.011) & (x < 0.0165)

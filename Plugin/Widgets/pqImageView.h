@@ -8,20 +8,20 @@
 #include <QVector>
 #include <QWidget>
 
-/// A small view of a picture. A colour filter is drawn as a square with the axes k eps_u and k eps_v from
+/// A small view of an image. A colour filter is drawn as a square with the axes k eps_u and k eps_v from
 /// -1 to 1, with the light on it, and tells where a brush paints: the mouse's, or that of the keyboard.
-class pqPictureView : public QWidget
+class pqImageView : public QWidget
 {
   Q_OBJECT
 
 public:
-  explicit pqPictureView(bool isColorFilter, QWidget* parent = nullptr);
-  ~pqPictureView() override;
+  explicit pqImageView(bool isColorFilter, QWidget* parent = nullptr);
+  ~pqImageView() override;
 
   bool isColorFilter() const { return this->IsColorFilter; }
 
-  /// A null image leaves the view empty, or with the wheel that a colour filter without a picture is.
-  void setPicture(const QImage& picture);
+  /// A null image leaves the view empty, or with the wheel that a colour filter without an image is.
+  void setImage(const QImage& image);
 
   /// Of a colour filter: the light to be drawn on it, and k.
   void setLight(const pqCutoffLight& light, double k);
@@ -56,7 +56,7 @@ private:
 
   const bool IsColorFilter;
   const int Margin;
-  QImage Picture;
+  QImage Image;
   mutable QImage Shown; ///< null: has to be made again
   pqCutoffLight Light;
   double K = 0;

@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
-from plugin_testing import Schlieren, picture, simple  # noqa: E402
+from plugin_testing import Schlieren, image_array, simple  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
@@ -33,10 +33,10 @@ writer.SetFileName(FILTER)
 writer.SetInputData(image)
 writer.Write()
 with open(TEXT, "w", encoding="utf-8") as file:
-    file.write("This is no picture.")
+    file.write("This is no image.")
 
 user = Session()
-WIDGET, DIALOG = "ColorFilterImage", "pqClientMainWindow/LoadPictureDialog"
+WIDGET, DIALOG = "ColorFilterImage", "pqClientMainWindow/LoadImageDialog"
 
 
 def check(note, can_clear):
@@ -63,10 +63,10 @@ user.event(DIALOG, "filesSelected", FILTER)
 user.apply()
 user.save_state("loaded.pvsm")
 
-# What is no picture changes nothing.
+# What is no image changes nothing.
 user.click(WIDGET + "/Load")
 user.event(DIALOG, "filesSelected", TEXT)
-check(f"Cannot read '{TEXT}': Unsupported image format. The picture is the one from before.", True)
+check(f"Cannot read '{TEXT}': Unsupported image format. The image is the one from before.", True)
 user.save_state("kept.pvsm")
 
 user.menu("menu_Edit", "actionEditUndo")
@@ -89,7 +89,7 @@ user.save_state("painted.pvsm")
 
 user.choose("Cutoff/ComboBox", "Background Oriented")
 user.choose("BackgroundPattern/ComboBox", "Picture")
-user.check("BackgroundImage/Note", "text", "no picture")
+user.check("BackgroundImage/Note", "text", "no image")
 user.click("BackgroundImage/Load")
 user.event(DIALOG, "filesSelected", FILTER)
 user.check("BackgroundImage/Note", "text", f"quarters.png: {SIDE} x {SIDE} pixels")
@@ -123,15 +123,15 @@ def bench_of(state):
 
 
 def scripted(**properties):
-    """The picture of a filter that a script has set up."""
+    """The image of a filter that a script has set up."""
     flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
     flow.UpdatePipeline()
     bench = Schlieren(Input=flow, ImageSize=[32, 32], GladstoneDaleConstant=1e-6, **properties)
-    return picture(bench, properties.get("Array", "Color"))
+    return image_array(bench, properties.get("Array", "Color"))
 
 
 def held(text):
-    """The picture that a property holds: rows x columns x 3, lowest row first."""
+    """The image that a property holds: rows x columns x 3, lowest row first."""
     head = "data:image/png;base64,"
     assert text.startswith(head), text[:40]
     path = os.path.join(FOLDER, "held.png")
@@ -146,20 +146,20 @@ def held(text):
 
 bench = bench_of("wheel")
 assert bench.ColorFilterImage == ""
-wheel = picture(bench, "Color")
+wheel = image_array(bench, "Color")
 assert np.array_equal(wheel, scripted(Cutoff="Color Filter"))
 
 for state in ("loaded", "kept"):
     bench = bench_of(state)
     assert np.array_equal(held(bench.ColorFilterImage), COLORS)
-    shown = picture(bench, "Color")
+    shown = image_array(bench, "Color")
     assert np.abs(shown.astype(int) - wheel).max() > 100, "The loaded filter changes nothing"
     # The same as the file that a script names.
     assert np.array_equal(shown, scripted(Cutoff="Color Filter", ColorFilterImage=FILTER))
 
 bench = bench_of("cleared")
 assert bench.ColorFilterImage == ""
-assert np.array_equal(picture(bench, "Color"), wheel)
+assert np.array_equal(image_array(bench, "Color"), wheel)
 
 bench = bench_of("painted")
 filter_ = held(bench.ColorFilterImage).astype(int)
@@ -169,7 +169,7 @@ right, up, left = filter_[128, 250], filter_[250, 128], filter_[128, 6]
 assert right[0] > 250 > 60 > right[1] and up[1] > 250 > 60 > up[2] and left[2] > 250 > 60 > left[0]
 bench.AutoKScale = 0
 bench.KScale = 0
-assert (picture(bench, "Color") == (10, 200, 30)).all()
+assert (image_array(bench, "Color") == (10, 200, 30)).all()
 
 assert np.array_equal(held(bench_of("background").BackgroundImage), COLORS)
 

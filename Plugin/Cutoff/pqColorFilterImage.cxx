@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqColorFilterPicture.h"
+#include "pqColorFilterImage.h"
 
 #include <QBuffer>
 #include <QPainter>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pqColorFilterPicture
+namespace pqColorFilterImage
 {
 
 namespace
@@ -39,29 +39,29 @@ QRgb wheelColor(const QPointF& place)
 //------------------------------------------------------------------------------
 QImage wheel()
 {
-  QImage picture(side, side, QImage::Format_RGB32);
+  QImage image(side, side, QImage::Format_RGB32);
   for (int row = 0; row < side; ++row)
   {
     for (int column = 0; column < side; ++column)
     {
-      picture.setPixel(
+      image.setPixel(
         column, row, wheelColor({ 2 * (column + 0.5) / side - 1, 1 - 2 * (row + 0.5) / side }));
     }
   }
-  return picture;
+  return image;
 }
 
 //------------------------------------------------------------------------------
-QRgb colorAt(const QImage& picture, const QPointF& place)
+QRgb colorAt(const QImage& image, const QPointF& place)
 {
-  if (picture.isNull())
+  if (image.isNull())
   {
     return wheelColor(place);
   }
   const auto pixel = [](double share, int size)
   { return static_cast<int>(std::min(limited(share) * size, size - 1.)); };
-  return picture.pixel(
-    pixel((1 + place.x()) / 2, picture.width()), pixel((1 - place.y()) / 2, picture.height()));
+  return image.pixel(
+    pixel((1 + place.x()) / 2, image.width()), pixel((1 - place.y()) / 2, image.height()));
 }
 
 //------------------------------------------------------------------------------
@@ -84,31 +84,31 @@ QImage decoded(const QString& text)
 }
 
 //------------------------------------------------------------------------------
-QString encoded(const QImage& picture)
+QString encoded(const QImage& image)
 {
   QBuffer png;
-  picture.save(&png, "PNG");
+  image.save(&png, "PNG");
   return "data:image/png;base64," + QString::fromLatin1(png.data().toBase64());
 }
 
 //------------------------------------------------------------------------------
-QImage paintable(const QImage& picture)
+QImage paintable(const QImage& image)
 {
-  if (picture.isNull())
+  if (image.isNull())
   {
     return wheel();
   }
   const QSize size =
-    picture.size().expandedTo({ side, side }).boundedTo({ largestSide, largestSide });
-  return picture.convertToFormat(QImage::Format_RGB32)
+    image.size().expandedTo({ side, side }).boundedTo({ largestSide, largestSide });
+  return image.convertToFormat(QImage::Format_RGB32)
     .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }
 
 //------------------------------------------------------------------------------
 void paint(
-  QImage& picture, const QImage& underneath, const Brush& brush, const QVector<QPointF>& places)
+  QImage& image, const QImage& underneath, const Brush& brush, const QVector<QPointF>& places)
 {
-  const double width = picture.width(), height = picture.height();
+  const double width = image.width(), height = image.height();
   QPainterPath dabs;
   dabs.setFillRule(Qt::WindingFill);
   for (const QPointF& place : places)
@@ -117,7 +117,7 @@ void paint(
       brush.Radius * width, brush.Radius * height);
   }
   // Without antialiasing: the eraser leaves no rim.
-  QPainter(&picture).fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
+  QPainter(&image).fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
 }
 
 //------------------------------------------------------------------------------
@@ -133,4 +133,4 @@ QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius)
   return places;
 }
 
-} // namespace pqColorFilterPicture
+} // namespace pqColorFilterImage

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqPictureStatus.h"
+#include "pqImageStatus.h"
 
-#include "PicturesInViews.h"
+#include "ImagesInViews.h"
 #include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
@@ -56,11 +56,11 @@ QString statusOf(vtkSMProxy* filter)
 } // namespace
 
 //------------------------------------------------------------------------------
-pqPictureStatus::pqPictureStatus(QObject* parentObject)
+pqImageStatus::pqImageStatus(QObject* parentObject)
   : QObject(parentObject)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqPictureStatus::watch);
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqImageStatus::watch);
   // A view that is being destroyed still sends signals, but can no longer be asked.
   QObject::connect(model, &pqServerManagerModel::preViewRemoved, this,
     [this](pqView* view) { view->disconnect(this); });
@@ -80,7 +80,7 @@ pqPictureStatus::pqPictureStatus(QObject* parentObject)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureStatus::watch(pqView* item)
+void pqImageStatus::watch(pqView* item)
 {
   if (auto* view = qobject_cast<pqRenderView*>(item))
   {
@@ -92,7 +92,7 @@ void pqPictureStatus::watch(pqView* item)
 }
 
 //------------------------------------------------------------------------------
-void pqPictureStatus::show(pqRenderView* view)
+void pqImageStatus::show(pqRenderView* view)
 {
   QWidget* widget = view->widget();
   if (!widget)
@@ -100,9 +100,9 @@ void pqPictureStatus::show(pqRenderView* view)
     return; // the view is about to go
   }
   QStringList lines;
-  if (picturesInViews::isFlat(view))
+  if (imagesInViews::isFlat(view))
   {
-    for (pqPipelineSource* filter : picturesInViews::picturesIn(view))
+    for (pqPipelineSource* filter : imagesInViews::imagesIn(view))
     {
       lines << statusOf(filter->getProxy());
     }
@@ -131,7 +131,7 @@ void pqPictureStatus::show(pqRenderView* view)
 }
 
 //------------------------------------------------------------------------------
-bool pqPictureStatus::eventFilter(QObject* object, QEvent* event)
+bool pqImageStatus::eventFilter(QObject* object, QEvent* event)
 {
   auto* widget = qobject_cast<QWidget*>(object);
   QLabel* label = widget && event->type() == QEvent::Resize ? labelOf(widget) : nullptr;

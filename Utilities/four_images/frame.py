@@ -40,7 +40,7 @@ class Frame:
         faces = extent[[1, 2, 0]] * extent[[2, 0, 1]]
         self.shadow = min(np.abs(self.direction) @ faces,
                           self.width * self.height * self.pixel ** 2)
-        # Picture coordinates of the left, right, bottom and top edges.
+        # Image coordinates of the left, right, bottom and top edges.
         middle = np.array([self.center @ self.u, self.center @ self.v])
         half = np.array([self.width, self.height]) * self.pixel / 2
         (self.left, self.bottom), (self.right, self.top) = middle - half, middle + half

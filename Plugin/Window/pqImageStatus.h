@@ -9,12 +9,12 @@ class pqView;
 
 /// Writes at the lower left of views how complete the images are that they show: the Status of filters and of those
 /// inside of representations. Not part of what is saved.
-class pqPictureStatus : public QObject
+class pqImageStatus : public QObject
 {
   Q_OBJECT
 
 public:
-  explicit pqPictureStatus(QObject* parent);
+  explicit pqImageStatus(QObject* parent);
 
 protected:
   /// The widgets of views: their size has changed.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Fixtures.h"
-#include "RgbPictures.h"
+#include "RgbImages.h"
 
 #include "vtkBase64Utilities.h"
 #include "vtkPNGWriter.h"
@@ -16,9 +16,9 @@ namespace
 {
 
 using Bytes = std::vector<unsigned char>;
-using Picture = std::shared_ptr<const schlieren::RgbPicture>;
+using Image = std::shared_ptr<const schlieren::RgbImage>;
 
-/// A picture with these values, pixel by pixel, bottom row first.
+/// An image with these values, pixel by pixel, bottom row first.
 template <class Array, class Value>
 vtkSmartPointer<vtkImageData> image(int width, int components, const std::vector<Value>& values)
 {
@@ -38,10 +38,10 @@ vtkSmartPointer<vtkImageData> bytes(int width, int components, const Bytes& valu
   return image<vtkUnsignedCharArray>(width, components, values);
 }
 
-Bytes png(vtkImageData* picture)
+Bytes png(vtkImageData* image)
 {
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(picture);
+  writer->SetInputData(image);
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* file = writer->GetResult();
@@ -55,16 +55,13 @@ std::string text(const Bytes& file)
   return "data:image/png;base64," + std::string(encoded.begin(), encoded.end());
 }
 
-Bytes read(vtkImageData* picture)
-{
-  return readRgbPicture("ColorFilterImage", text(png(picture)))->rgb;
-}
+Bytes read(vtkImageData* image) { return readRgbImage("ColorFilterImage", text(png(image)))->rgb; }
 
 std::string errorOf(const std::string& given)
 {
   try
   {
-    readRgbPicture("ColorFilterImage", given);
+    readRgbImage("ColorFilterImage", given);
   }
   catch (const std::runtime_error& error)
   {
@@ -77,20 +74,20 @@ const Bytes six{ 255, 0, 0, 0, 255, 0, 0, 0, 255, 1, 2, 3, 40, 50, 60, 255, 255,
 
 } // namespace
 
-TEST(RgbPictures, KeepEveryByteBottomRowFirst)
+TEST(RgbImages, KeepEveryByteBottomRowFirst)
 {
-  const Picture picture = readRgbPicture("ColorFilterImage", text(png(bytes(3, 3, six))));
-  EXPECT_EQ(picture->width, 3);
-  EXPECT_EQ(picture->height, 2);
-  EXPECT_EQ(picture->rgb, six);
+  const Image image = readRgbImage("ColorFilterImage", text(png(bytes(3, 3, six))));
+  EXPECT_EQ(image->width, 3);
+  EXPECT_EQ(image->height, 2);
+  EXPECT_EQ(image->rgb, six);
 }
 
-TEST(RgbPictures, GreyIsTheSameInAllChannels)
+TEST(RgbImages, GreyIsTheSameInAllChannels)
 {
   EXPECT_EQ(read(bytes(2, 1, { 7, 200 })), (Bytes{ 7, 7, 7, 200, 200, 200 }));
 }
 
-TEST(RgbPictures, TransparentPlacesShowWhite)
+TEST(RgbImages, TransparentPlacesShowWhite)
 {
   EXPECT_EQ(
     read(bytes(2, 4, { 10, 20, 30, 255, 10, 20, 30, 0 })), (Bytes{ 10, 20, 30, 255, 255, 255 }));
@@ -98,7 +95,7 @@ TEST(RgbPictures, TransparentPlacesShowWhite)
 }
 
 // Light adds up, not its sRGB values: the curve of IEC 61966-2-1 and back.
-TEST(RgbPictures, HalfTransparentPlacesMixTheirLightWithWhite)
+TEST(RgbImages, HalfTransparentPlacesMixTheirLightWithWhite)
 {
   const double alpha = 51 / 255.;
   const Bytes mixed = read(bytes(1, 4, { 100, 50, 200, 51 }));
@@ -110,30 +107,30 @@ TEST(RgbPictures, HalfTransparentPlacesMixTheirLightWithWhite)
   }
 }
 
-TEST(RgbPictures, SixteenBitsAreRoundedToEight)
+TEST(RgbImages, SixteenBitsAreRoundedToEight)
 {
-  const auto picture = image<vtkUnsignedShortArray>(
+  const auto png = image<vtkUnsignedShortArray>(
     2, 3, std::vector<unsigned short>{ 0, 65535, 257 * 100, 128, 129, 257 * 3 + 128 });
-  EXPECT_EQ(read(picture), (Bytes{ 0, 255, 100, 0, 1, 3 }));
+  EXPECT_EQ(read(png), (Bytes{ 0, 255, 100, 0, 1, 3 }));
 }
 
-TEST(RgbPictures, AFileIsReadByItsName)
+TEST(RgbImages, AFileIsReadByItsName)
 {
   const std::string name = SCHLIEREN_TEST_OUTPUT "/six.png";
   const Bytes file = png(bytes(3, 3, six));
   std::ofstream(name, std::ios::binary)
     .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
-  EXPECT_EQ(readRgbPicture("ColorFilterImage", name)->rgb, six);
+  EXPECT_EQ(readRgbImage("ColorFilterImage", name)->rgb, six);
 }
 
-TEST(RgbPictures, LineBreaksInTheTextDoNotMatter)
+TEST(RgbImages, LineBreaksInTheTextDoNotMatter)
 {
   std::string broken = text(png(bytes(3, 3, six)));
   broken.insert(broken.size() / 2, "\n  ");
-  EXPECT_EQ(readRgbPicture("ColorFilterImage", broken + "\n")->rgb, six);
+  EXPECT_EQ(readRgbImage("ColorFilterImage", broken + "\n")->rgb, six);
 }
 
-TEST(RgbPictures, WhatCannotBeReadIsSaid)
+TEST(RgbImages, WhatCannotBeReadIsSaid)
 {
   const std::string whole = text(png(bytes(3, 3, six)));
   EXPECT_NE(errorOf("/nowhere/at all.png").find("'/nowhere/at all.png'"), std::string::npos);
@@ -148,8 +145,8 @@ TEST(RgbPictures, WhatCannotBeReadIsSaid)
   EXPECT_NE(errorOf("data:text/plain;base64,aGVsbG8h").find("no complete PNG"), std::string::npos);
 }
 
-// However a file is damaged, it ends in a picture of its size or in an error.
-TEST(RgbPictures, DamagedFilesDoNoHarm)
+// However a file is damaged, it ends in an image of its size or in an error.
+TEST(RgbImages, DamagedFilesDoNoHarm)
 {
   Bytes values(16 * 16 * 3);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -169,8 +166,8 @@ TEST(RgbPictures, DamagedFilesDoNoHarm)
     damaged[i] = static_cast<unsigned char>(~damaged[i]);
     try
     {
-      const Picture picture = readRgbPicture("ColorFilterImage", text(damaged));
-      EXPECT_EQ(picture->rgb.size(), values.size()) << i;
+      const Image image = readRgbImage("ColorFilterImage", text(damaged));
+      EXPECT_EQ(image->rgb.size(), values.size()) << i;
     }
     catch (const std::runtime_error&)
     {
@@ -178,10 +175,10 @@ TEST(RgbPictures, DamagedFilesDoNoHarm)
   }
 }
 
-TEST(RgbPictures, AreDecodedOnceForTheSameText)
+TEST(RgbImages, AreDecodedOnceForTheSameText)
 {
   const std::string given = text(png(bytes(3, 3, six)));
-  RgbPictureReader reader;
+  RgbImageReader reader;
   const auto first = reader.read("ColorFilterImage", given);
   EXPECT_EQ(reader.read("ColorFilterImage", given), first);
   const Bytes others(six.rbegin(), six.rend());
