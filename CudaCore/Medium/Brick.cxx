@@ -29,10 +29,48 @@ constexpr int marginOfEdges = 2;
 
 constexpr double distanceUnits = 8192;
 
+/// What coefficients may be beyond samples anyway, of the range of all.
+constexpr double overshootByRange = 1e-3;
+
+/// Samples beyond a coefficient's place that tell whether there is a front.
+constexpr int supportOfFronts = 2;
+
 int apronOf(Interpolation interpolation)
 {
   return interpolation == Interpolation::Quadratic || interpolation == Interpolation::Linear ? 1
                                                                                              : 2;
+}
+
+double larger(double a, double b) { return a > b ? a : b; }
+double smaller(double a, double b) { return a < b ? a : b; }
+
+/// How far a coefficient is beyond a sample and those beside it.
+double beyondSamples(const double* at, std::ptrdiff_t stride, double coefficient)
+{
+  const double a = at[-stride], b = at[0], c = at[stride];
+  return larger(coefficient - larger(larger(a, b), c), smaller(smaller(a, b), c) - coefficient);
+}
+
+/// The second difference at a sample, as far as it is not the foot of a front: where it is flat on one side, or bent the
+/// other way. There the spline would overshoot, by up to 7 % of a jump over one cell. At the maximum of a smooth field
+/// it is bent likewise beside it, or steep (as minima of curvatures tell them in Colella & Sekora 2008).
+double smoothBend(const double* at, std::ptrdiff_t stride)
+{
+  const double bend = at[-stride] - 2 * at[0] + at[stride];
+  const auto onSide = [&](std::ptrdiff_t s)
+  {
+    const double next = at[0] - 2 * at[s] + at[2 * s];
+    return 2 * larger(std::abs(at[s] - at[0]), next * bend > 0 ? std::abs(next) : 0);
+  };
+  return smaller(std::abs(bend), smaller(onSide(-stride), onSide(stride)));
+}
+
+/// A coefficient that is no farther beyond a sample and those beside it than this.
+double limited(const double* at, std::ptrdiff_t stride, double coefficient, double beyond)
+{
+  const double a = at[-stride], b = at[0], c = at[stride];
+  return smaller(
+    larger(coefficient, smaller(smaller(a, b), c) - beyond), larger(larger(a, b), c) + beyond);
 }
 
 /// Numbers that are looked at side by side, so that the compiler does so, too.
@@ -134,6 +172,7 @@ struct BrickMaker<Real>::Samples
     }
   }
 
+  void takeOffLayer();
   void findGas();
   void continueGas();
 };
@@ -152,6 +191,10 @@ BrickMaker<Real>::BrickMaker(const MediumSource& source, const Grid& grid, doubl
   , support_(
       interpolation == Interpolation::Quadratic || interpolation == Interpolation::Cubic ? 1 : 0)
 {
+  const MediumSource::Content content = source.contentOf(bounds_);
+  overshoot_ = content.lowest <= content.highest
+    ? overshootByRange * (nuOf(content.highest) - nuOf(content.lowest))
+    : 0;
 }
 
 template <class Real>
@@ -202,6 +245,13 @@ int BrickMaker<Real>::marginOf(bool hasEdges, bool hasFields) const
   return apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
 }
 
+/// What of a remote source is prepared: also what fronts may need.
+template <class Real>
+int BrickMaker<Real>::preparedMarginOf(bool hasEdges, bool hasFields) const
+{
+  return marginOf(hasEdges, hasFields) + (support_ > 0 ? supportOfFronts - support_ : 0);
+}
+
 template <class Real>
 Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
 {
@@ -221,12 +271,29 @@ Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
   return lattice;
 }
 
+/// With values for all points.
 template <class Real>
 typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
-  const NodePlace& place, bool hasEdges, bool hasFields) const
+  const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
+{
+  const int prepared = source_.isRemote() ? preparedMarginOf(hasEdges, hasFields) : margin;
+  Samples samples = valuesAt(place, prepared, hasEdges, hasFields);
+  for (int layers = margin; layers < prepared; ++layers)
+  {
+    samples.takeOffLayer();
+  }
+  samples.findGas();
+  samples.continueGas();
+  return samples;
+}
+
+/// What the source says of a lattice.
+template <class Real>
+typename BrickMaker<Real>::Samples BrickMaker<Real>::valuesAt(
+  const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
 {
   Samples samples;
-  samples.margin = marginOf(hasEdges, hasFields);
+  samples.margin = margin;
   const Lattice lattice = latticeOf(place, samples.margin);
   samples.n = lattice.points[0];
   samples.layers = lattice.points[2];
@@ -262,9 +329,45 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
   {
     value = nuOf(value);
   }
-  samples.findGas();
-  samples.continueGas();
   return samples;
+}
+
+/// The outermost points of the lattice go.
+template <class Real>
+void BrickMaker<Real>::Samples::takeOffLayer()
+{
+  const int first = layers > 1 ? 1 : 0;
+  const auto takeOff = [&](auto& values)
+  {
+    const std::size_t all = index(0, 0, layers);
+    auto to = values.begin();
+    for (std::size_t array = 0; array + all <= values.size(); array += all)
+    {
+      for (int k = first; k < layers - first; ++k)
+      {
+        for (int j = 1; j + 1 < n; ++j)
+        {
+          const auto row = values.begin() + static_cast<std::ptrdiff_t>(array + index(1, j, k));
+          to = std::copy(row, row + (n - 2), to);
+        }
+      }
+    }
+    values.erase(to, values.end());
+  };
+  takeOff(nu);
+  takeOff(places);
+  takeOff(distances);
+  takeOff(fields.values);
+  margin -= 1;
+  n -= 2;
+  layers -= 2 * first;
+  fields.n = n;
+  fields.margin = margin;
+  for (std::size_t axis = 0; axis < (first == 1 ? 3u : 2u); ++axis)
+  {
+    begin[axis] = std::max(0, begin[axis] - 1);
+    end[axis] = std::min(n, end[axis] - 1);
+  }
 }
 
 /// Which points have a value that counts, and the range of these.
@@ -503,32 +606,69 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   }
 }
 
-/// Samples become coefficients, relative to the brick's offset.
+/// Samples become coefficients. False: a front is at the brick's side, and supportOfFronts samples are needed there.
 template <class Real>
-void BrickMaker<Real>::storeCoefficients(Samples& samples, Brick<Real>& brick) const
+bool BrickMaker<Real>::makeCoefficients(Samples& samples) const
 {
-  const int n = samples.n;
-  if (support_ > 0)
+  if (support_ == 0)
   {
-    const double outer = interpolation_ == Interpolation::Cubic ? -1. / 6 : -1. / 8;
-    const double inner = 1 - 2 * outer;
-    std::vector<double> line(samples.nu.size());
-    const std::array<int, 3> strides{ 1, n, n * n };
-    for (std::size_t axis = 0; axis < axes(); ++axis)
-    {
-      // The outermost layers come out wrong, one more with each axis but only along it: none is stored.
-      const std::size_t s = static_cast<std::size_t>(strides[axis]);
-      const double* from = samples.nu.data();
-      for (std::size_t i = s; i + s < line.size(); ++i)
-      {
-        line[i] = inner * from[i] + outer * (from[i - s] + from[i + s]);
-      }
-      std::swap(line, samples.nu);
-    }
+    return true;
   }
+  const int n = samples.n;
+  const double outer = interpolation_ == Interpolation::Cubic ? -1. / 6 : -1. / 8;
+  const double inner = 1 - 2 * outer;
+  const std::array<int, 3> strides{ 1, n, n * n };
+  const int skipped = samples.margin - apron_;
+  std::array<int, 3> low{ 0, 0, 0 },
+    high{ n, n, samples.layers }; // where samples are what they should be
+  std::vector<double> line(samples.nu.size());
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    // Along the axis, the outermost layers come out wrong: none is stored.
+    low[axis] = skipped;
+    high[axis] = n - skipped;
+    const auto s = static_cast<std::ptrdiff_t>(strides[axis]);
+    for (int k = low[2]; k < high[2]; ++k)
+    {
+      for (int j = low[1]; j < high[1]; ++j)
+      {
+        const std::size_t row = samples.index(low[0], j, k);
+        const double* from = samples.nu.data() + row;
+        double* to = line.data() + row;
+        const int count = high[0] - low[0];
+        std::int64_t fronts = 0;
+        for (int i = 0; i < count; ++i)
+        {
+          to[i] = inner * from[i] + outer * (from[i - s] + from[i + s]);
+          fronts += beyondSamples(from + i, s, to[i]) > overshoot_ ? 1 : 0;
+        }
+        const int place = axis == 1 ? j : k;
+        for (int i = 0; fronts > 0 && i < count; ++i)
+        {
+          if (!(beyondSamples(from + i, s, to[i]) > overshoot_))
+          {
+            continue;
+          }
+          const int along = axis == 0 ? low[0] + i : place;
+          if (along < supportOfFronts || along >= n - supportOfFronts)
+          {
+            return false;
+          }
+          to[i] = limited(from + i, s, to[i], larger(overshoot_, -outer * smoothBend(from + i, s)));
+        }
+      }
+    }
+    std::swap(line, samples.nu);
+  }
+  return true;
+}
+
+/// Relative to the brick's offset.
+template <class Real>
+void BrickMaker<Real>::storeCoefficients(const Samples& samples, Brick<Real>& brick) const
+{
   const int stored = edge + 2 * apron_;
   const int skipped = samples.margin - apron_;
-  brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
   brick.samples.resize(static_cast<std::size_t>(samplesPerBrick()));
   Real* to = brick.samples.data();
   for (int k = 0; k < layersOf(stored); ++k)
@@ -712,7 +852,8 @@ void BrickMaker<Real>::prepare(const std::vector<Request>& bricks) const
     const Outline outline = outlineOf(brick.place, brick.negligible);
     if (outline.isSampled)
     {
-      lattices.push_back(latticeOf(brick.place, marginOf(outline.hasEdges, outline.hasFields)));
+      lattices.push_back(
+        latticeOf(brick.place, preparedMarginOf(outline.hasEdges, outline.hasFields)));
     }
   }
   source_.prepareSamples(lattices);
@@ -729,7 +870,7 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   }
   const MediumSource::Content& content = outline.content;
   const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
-  Samples samples = sample(place, hasEdges, hasFields);
+  Samples samples = sample(place, marginOf(hasEdges, hasFields), hasEdges, hasFields);
   brick.kind = Leaf<Real>::Samples;
   const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
   BrickFacts& facts = brick.facts;
@@ -764,6 +905,12 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   }
   if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
   {
+    brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
+    if (!makeCoefficients(samples))
+    {
+      samples = sample(place, preparedMarginOf(hasEdges, hasFields), hasEdges, hasFields);
+      makeCoefficients(samples);
+    }
     storeCoefficients(samples, brick);
     findBounds(place, brick);
     findSlopes(brick);

@@ -121,12 +121,15 @@ private:
   Outline outlineOf(const NodePlace& place, const Negligible& negligible) const;
   Lattice latticeOf(const NodePlace& place, int margin) const;
   int marginOf(bool hasEdges, bool hasFields) const;
-  Samples sample(const NodePlace& place, bool hasEdges, bool hasFields) const;
+  int preparedMarginOf(bool hasEdges, bool hasFields) const;
+  Samples sample(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
+  Samples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content, Samples& samples,
     double negligible, Brick<Real>& brick) const;
   void findErrors(const NodePlace& place, const MediumSource::Content& content,
     const Samples& samples, BrickFacts& facts) const;
-  void storeCoefficients(Samples& samples, Brick<Real>& brick) const;
+  bool makeCoefficients(Samples& samples) const;
+  void storeCoefficients(const Samples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
   void findSlopes(Brick<Real>& brick) const;
   double nuOf(double refractivity) const { return (refractivity - ambient_) / (1 + ambient_); }
@@ -137,7 +140,8 @@ private:
   Grid grid_;
   Box bounds_;
   double ambient_;
-  double smallest_; ///< |nu| of a coefficient that is not 0
+  double smallest_;  ///< |nu| of a coefficient that is not 0
+  double overshoot_; ///< of a coefficient beyond the samples beside it, that is none: nu
   Interpolation interpolation_;
   BrickShape shape_;
   int apron_;

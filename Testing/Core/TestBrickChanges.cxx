@@ -153,6 +153,73 @@ TEST(BrickChanges, CellsThatAlternateAreWithinTolerance)
   }
 }
 
+/// A front within one cell of the data, at a place within it.
+class FrontSource : public AnalyticSource
+{
+public:
+  FrontSource(const Vec3<double>& normal, double cell, double place)
+    : normal_((1 / length(normal)) * normal)
+    , cell_(cell)
+    , place_(place)
+  {
+  }
+  double refractivity(double a, double b, double c) const override
+  {
+    return jump * std::clamp(dot(normal_, Vec3<double>{ a, b, c }) / cell_ - place_ + 0.5, 0., 1.);
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    double middle = 0, half = 0;
+    const double n[3] = { normal_.x, normal_.y, normal_.z };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      middle += n[axis] * 0.5 * (box.low[axis] + box.high[axis]);
+      half += std::abs(n[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
+    }
+    const auto value = [this](double x)
+    { return jump * std::clamp(x / cell_ - place_ + 0.5, 0., 1.); };
+    return { value(middle - half), value(middle + half) };
+  }
+  double cellSizeOver(const Box&) const override { return cell_; }
+
+  static constexpr double jump = 1e-4;
+
+private:
+  Vec3<double> normal_;
+  double cell_, place_;
+};
+
+// By 7 % with all of the second differences.
+TEST(BrickMaker, FrontsHardlyOvershoot)
+{
+  for (const Vec3<double>& normal : { Vec3<double>{ 1, 0, 0 }, Vec3<double>{ 0, 0, 1 },
+         Vec3<double>{ 0.9, 0.3, 0.316 }, Vec3<double>{ 1, 1, 1 } })
+  {
+    for (const double cell : { 0.05, 0.036, 0.023 })
+    {
+      for (const double place : { 0., 0.23, 0.5, 0.81 })
+      {
+        TreeSettings settings;
+        settings.tolerance = 1e-3;
+        MediumTree<float> tree(std::make_shared<FrontSource>(normal, cell, place), 0, settings);
+        tree.refine(everything());
+        double lowest = 0, highest = 0;
+        for (int n = 0; n < 20000; ++n)
+        {
+          const Vec3<double> at{ -0.15 + 0.3 * std::fmod(0.7548 * n, 1.),
+            -0.15 + 0.3 * std::fmod(0.5698 * n, 1.), -0.15 + 0.3 * std::fmod(0.3247 * n, 1.) };
+          const double value =
+            static_cast<double>(sampleAt(tree, Interpolation::Quadratic, at).value);
+          lowest = std::min(lowest, value / FrontSource::jump);
+          highest = std::max(highest, value / FrontSource::jump);
+        }
+        EXPECT_GT(lowest, -0.011) << cell << " " << place << " " << normal.x;
+        EXPECT_LT(highest, 1.011) << cell << " " << place << " " << normal.x;
+      }
+    }
+  }
+}
+
 } // namespace
 
 } // namespace schlieren
