@@ -104,10 +104,12 @@ public:
     const double error = errorOf(node.place, node.facts);
     const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
     const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
-    const bool isFine = node.facts.areEdgesFine || !allows(node.place);
+    // Silhouettes are where walls are, however large cells are. Faces have many small bends, of which few are seen.
+    const bool isSeen = node.facts.hasWallEdge &&
+      !showsWalls(node, node.facts.areEdgesFine ? 0.5 : 0.2) && isEdgeOn(node);
+    const bool isFine = (node.facts.areEdgesFine && !isSeen) || !allows(node.place);
     // A sharp edge is rounded off by a quarter of a voxel.
-    const bool isSharp = node.facts.hasWallEdge && !node.facts.areEdgesFine &&
-      !showsWalls(node, 0.2) && isEdgeOn(node) && allows(node.place, 0.25);
+    const bool isSharp = isSeen && allows(node.place, 0.25);
     const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
     double urgency = node.isWrong || error > allowed().deflection ? error : 0;
     if (const double gathered = errorOf(node.place, ofFields); gathered > allowed().gathered)

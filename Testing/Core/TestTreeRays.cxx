@@ -314,6 +314,42 @@ TEST_P(RaysInATree, ArriveAlongTheSidesOfLeaves)
   }
 }
 
+/// A sphere in cells that are as large as it is.
+class SphereInLargeCells : public SphereSource
+{
+public:
+  double cellSizeOver(const Box&) const override { return 1; }
+};
+
+TEST_P(RaysInATree, EndAtSilhouettesHoweverLargeCellsAre)
+{
+  const auto source = std::make_shared<SphereInLargeCells>();
+  for (const double scale : { 1.5, 0.3, 0.05 })
+  {
+    Scene scene = sceneOf({ 0, 0, -1 }, GetParam());
+    scene.view.viewUp = { 0, 1, 0 };
+    scene.view.parallelScale = scale;
+    scene.view.focalPoint = Vector{ 0.8, 0.6, 0 };
+    const Image image = Bench().render(fieldOf(source), scene);
+    int beside = 0;
+    for (int row = 0; row < image.height; ++row)
+    {
+      for (int column = 0; column < image.width; ++column)
+      {
+        const PixelCentre at = centreOf(image, column, row);
+        const double outside = (std::hypot(at.u, at.v) - 1) / image.frame.pixelSize;
+        beside += std::abs(outside) < 3 ? 1 : 0;
+        if (std::abs(outside) > 0.2)
+        {
+          const float blocked = image.blockedFraction[pixelOf(image, column, row)];
+          EXPECT_EQ(blocked, outside < 0 ? 1.f : 0.f) << outside << " pixels, scale " << scale;
+        }
+      }
+    }
+    EXPECT_GT(beside, 300);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, RaysInATree, bothDevices(), deviceName);
 
 TEST(RaysSideBySideInATree, DoWhatOneDoes)
