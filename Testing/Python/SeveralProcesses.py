@@ -583,7 +583,7 @@ else:
             elif name.startswith("distributed:") and "Blocked" not in name:
                 # Rays are rounded differently, and now and then one takes a step in another leaf.
                 difference = np.abs(one[name] - values) / np.abs(one[name]).max()
-                assert difference.max() <= 1e-2 and difference.mean() <= 1e-5, (name, difference.max(), difference.mean())
+                assert difference.max() <= 1e-2 and difference.mean() <= 2e-5, (name, difference.max(), difference.mean())
                 # But the same on any number of ranks.
                 assert np.array_equal(values, distributed_before.setdefault(name, values)), name
             else:
