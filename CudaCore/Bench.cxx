@@ -112,16 +112,16 @@ private:
 class Watch
 {
 public:
-  explicit Watch(const Monitor& asked)
+  explicit Watch(const Monitor& request)
   {
-    monitor_.progress = asked.progress;
-    if (asked.aborted)
+    monitor_.progress = request.progress;
+    if (request.aborted)
     {
-      monitor_.aborted = [this, &asked] { return isAborted_ = isAborted_ || asked.aborted(); };
+      monitor_.aborted = [this, &request] { return isAborted_ = isAborted_ || request.aborted(); };
     }
-    if (asked.paused)
+    if (request.paused)
     {
-      monitor_.paused = [this, &asked] { return isPaused_ = isPaused_ || asked.paused(); };
+      monitor_.paused = [this, &request] { return isPaused_ = isPaused_ || request.paused(); };
     }
   }
   Watch(const Watch&) = delete;
@@ -156,7 +156,7 @@ struct SharedMedia::Entries
 
     bool isThere() const
     {
-      return std::visit([](const auto& held) { return !held.expired(); }, medium);
+      return std::visit([](const auto& current) { return !current.expired(); }, medium);
     }
   };
   std::mutex mutex;
@@ -225,7 +225,7 @@ struct Bench::Unfinished
   std::int64_t shown = 0;      ///< passes of the last image that was handed out
   bool hasBeenSilent = false;  ///< the last call handed none out
 
-  /// Where the medium has changed under the progressive.
+  /// Where the medium has changed under the image.
   void beginAnew()
   {
     image.emplace(scene);
@@ -255,26 +255,27 @@ struct Bench::Stages
   MediumOfBench<Real>& prepareMedium(
     const Field& field, const Scene& scene, DistributedMedium distribution);
   template <class Real>
-  void distributeMedium(MediumOfBench<Real>& held, const Field& field, const Scene& scene);
+  void distributeMedium(MediumOfBench<Real>& current, const Field& field, const Scene& scene);
   /// What the scene asks for, where it can be had.
-  DistributedMedium distributionFor(const Unfinished& asked) const;
+  DistributedMedium distributionFor(const Unfinished& request) const;
   /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
   /// of other benches.
   template <class Real>
-  bool refineFor(
-    const Column& column, MediumOfBench<Real>& held, const Monitor& monitor, Unfinished& asked);
+  bool refineFor(const Column& column, MediumOfBench<Real>& current, const Monitor& monitor,
+    Unfinished& request);
 
   /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
   template <class Real>
-  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass, MediumOfBench<Real>& held,
-    const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked);
+  bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
+    MediumOfBench<Real>& current, const RayTask<Real>& task, const Monitor& monitor,
+    Unfinished& request);
 
   /// Goes on with an image, until it is finished, aborted or paused.
   template <class Real>
-  Image goOn(Unfinished& asked, const Watch& watch);
+  Image proceed(Unfinished& request, const Watch& watch);
 
   /// The same on the device of its scene, and keeps what is left after a pause.
-  Image render(std::unique_ptr<Unfinished> asked, const Monitor& monitor);
+  Image render(std::unique_ptr<Unfinished> request, const Monitor& monitor);
 
   /// Gives the device's memory back.
   void leaveDevice();
@@ -283,11 +284,11 @@ struct Bench::Stages
   void forgetDistributedMedium();
 };
 
-DistributedMedium Bench::Stages::distributionFor(const Unfinished& asked) const
+DistributedMedium Bench::Stages::distributionFor(const Unfinished& request) const
 {
-  const Field& field = asked.field;
-  const Scene& scene = asked.scene;
-  const bool canDistribute = !workers.empty() && asked.device == Device::Cpu && field.source &&
+  const Field& field = request.field;
+  const Scene& scene = request.scene;
+  const bool canDistribute = !workers.empty() && request.device == Device::Cpu && field.source &&
     field.source->fields() == 0 &&
     canSuspend({ scene.pathModel, scene.integrator, scene.interpolation });
   return canDistribute ? scene.distributedMedium : DistributedMedium::Off;
@@ -306,11 +307,11 @@ std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
 
 template <class Real>
 void Bench::Stages::distributeMedium(
-  MediumOfBench<Real>& held, const Field& field, const Scene& scene)
+  MediumOfBench<Real>& current, const Field& field, const Scene& scene)
 {
-  held = {}; // first: two media at once might not fit
-  held.owners = std::make_shared<BrickChannels>(workers);
-  held.shared = makeMedium<Real>(field, scene, held.owners);
+  current = {}; // first: two media at once might not fit
+  current.owners = std::make_shared<BrickChannels>(workers);
+  current.shared = makeMedium<Real>(field, scene, current.owners);
 }
 
 template <class Real>
@@ -334,24 +335,24 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
-    MediumOfBench<Real> held;
+    MediumOfBench<Real> current;
     if (distribution == DistributedMedium::On)
     {
-      distributeMedium(held, field, scene);
+      distributeMedium(current, field, scene);
     }
     else if (media)
     {
-      held.shared = media->entries_->find<Real>(key);
+      current.shared = media->entries_->find<Real>(key);
     }
-    if (!held.shared)
+    if (!current.shared)
     {
-      held.shared = makeMedium<Real>(field, scene, nullptr);
+      current.shared = makeMedium<Real>(field, scene, nullptr);
       if (media)
       {
-        media->entries_->add(key, held.shared);
+        media->entries_->add(key, current.shared);
       }
     }
-    medium = std::move(held);
+    medium = std::move(current);
     mediumKey = key;
   }
   return std::get<MediumOfBench<Real>>(medium);
@@ -359,7 +360,7 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(
 
 template <class Real>
 bool Bench::Stages::refineFor(
-  const Column& column, MediumOfBench<Real>& held, const Monitor& monitor, Unfinished& asked)
+  const Column& column, MediumOfBench<Real>& current, const Monitor& monitor, Unfinished& request)
 {
   Monitor ofTree;
   ofTree.aborted = monitor.aborted;
@@ -367,12 +368,12 @@ bool Bench::Stages::refineFor(
   {
     ofTree.progress = [&](double fraction)
     {
-      asked.progressOfVoxels = fractionOfVoxels;
+      request.progressOfVoxels = fractionOfVoxels;
       monitor.progress(fractionOfVoxels * fraction);
     };
   }
-  MediumOnDevices<Real>& shared = *held.shared;
-  const Unneeded ofOthers = held.shared.use_count() > 1 ? Unneeded::Stays : Unneeded::Goes;
+  MediumOnDevices<Real>& shared = *current.shared;
+  const Unneeded ofOthers = current.shared.use_count() > 1 ? Unneeded::Stays : Unneeded::Goes;
   if (refine(shared.medium, column, ofTree, ofOthers))
   {
     ++shared.changes;
@@ -383,14 +384,15 @@ bool Bench::Stages::refineFor(
 
 template <class Real>
 bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
-  MediumOfBench<Real>& held, const RayTask<Real>& task, const Monitor& monitor, Unfinished& asked)
+  MediumOfBench<Real>& current, const RayTask<Real>& task, const Monitor& monitor,
+  Unfinished& request)
 {
-  MediumOnDevices<Real>& shared = *held.shared;
+  MediumOnDevices<Real>& shared = *current.shared;
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
-  const std::uint64_t ofGradients = asked.field.gradients.version;
+  const std::uint64_t ofGradients = request.field.gradients.version;
   bool isTraced = false;
-  if (asked.device == Device::Cuda)
+  if (request.device == Device::Cuda)
   {
     if (!shared.cuda)
     {
@@ -400,30 +402,31 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
     isTraced = shared.cuda->trace(task, pass, { ofGradients, shared.mapTolerance },
       isWantedOnHost ? Exits::OnHost : Exits::OnDevice, traced, monitor);
   }
-  else if (held.owners)
+  else if (current.owners)
   {
-    if (!held.distributed)
+    if (!current.distributed)
     {
-      held.distributed = std::make_unique<DistributedTracer<Real>>(shared.medium, *held.owners);
+      current.distributed =
+        std::make_unique<DistributedTracer<Real>>(shared.medium, *current.owners);
     }
-    isTraced = held.distributed->trace(task, pass, traced, asked.scene.threads, monitor);
+    isTraced = current.distributed->trace(task, pass, traced, request.scene.threads, monitor);
   }
   else if (!workers.empty())
   {
-    if (!held.team)
+    if (!current.team)
     {
-      held.team = std::make_unique<TeamTracer<Real>>(shared.medium);
+      current.team = std::make_unique<TeamTracer<Real>>(shared.medium);
     }
-    isTraced = held.team->trace(task, pass, { ofGradients, shared.mapTolerance }, workers, traced,
-      asked.scene.threads, monitor);
+    isTraced = current.team->trace(task, pass, { ofGradients, shared.mapTolerance }, workers,
+      traced, request.scene.threads, monitor);
   }
   else
   {
-    isTraced = traceOnCpu(task, pass, traced, asked.scene.threads, monitor);
+    isTraced = traceOnCpu(task, pass, traced, request.scene.threads, monitor);
   }
-  asked.traceSeconds +=
+  request.traceSeconds +=
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (isTraced || asked.device == Device::Cpu)
+  if (isTraced || request.device == Device::Cpu)
   {
     work.raysTraced += traced.crossed - countedBefore;
   }
@@ -431,85 +434,86 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
 }
 
 template <class Real>
-Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
+Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
 {
   Image aborted;
   aborted.aborted = true;
 
-  const Field& field = asked.field;
-  const Scene& scene = asked.scene;
+  const Field& field = request.field;
+  const Scene& scene = request.scene;
   const View& view = scene.view;
   Image image;
   image.width = view.width;
   image.height = view.height;
   image.frame = frameOf(field.grid, view);
-  image.device = asked.device;
-  image.deviceNote = asked.deviceNote;
+  image.device = request.device;
+  image.deviceNote = request.deviceNote;
   image.threads = threadCount(scene.threads);
-  image.workers = asked.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
+  image.workers = request.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
 
-  const DistributedMedium distribution = distributionFor(asked);
-  MediumOfBench<Real>& held = prepareMedium<Real>(field, scene, distribution);
-  std::optional<InUse<Real>> inUse(std::in_place, *held.shared);
+  const DistributedMedium distribution = distributionFor(request);
+  MediumOfBench<Real>& current = prepareMedium<Real>(field, scene, distribution);
+  std::optional<InUse<Real>> inUse(std::in_place, *current.shared);
   const auto useOwn = [&]
   {
     inUse.reset();
-    held.team.reset();
-    held.distributed.reset();
-    held.owners.reset();
-    held.shared = makeMedium<Real>(field, scene, nullptr);
-    held.changesSeen = noChange;
-    inUse.emplace(*held.shared);
+    current.team.reset();
+    current.distributed.reset();
+    current.owners.reset();
+    current.shared = makeMedium<Real>(field, scene, nullptr);
+    current.changesSeen = noChange;
+    inUse.emplace(*current.shared);
   };
   if (!*inUse)
   {
     useOwn();
   }
-  image.ambient = held.shared->medium.ambient;
+  image.ambient = current.shared->medium.ambient;
   const Light light = lightOf(scene, field.grid, image.frame);
   if (field.source)
   {
     const Column column = columnOf(scene, light, image.frame);
-    if (!refineFor(column, held, watch.monitor(), asked))
+    if (!refineFor(column, current, watch.monitor(), request))
     {
       useOwn();
-      refineFor(column, held, watch.monitor(), asked);
+      refineFor(column, current, watch.monitor(), request);
     }
-    const auto isMemoryShort = [&] { return held.shared->medium.tree->statistics().isMemoryShort; };
-    if (distribution == DistributedMedium::Auto && !held.owners && isMemoryShort() &&
+    const auto isMemoryShort = [&]
+    { return current.shared->medium.tree->statistics().isMemoryShort; };
+    if (distribution == DistributedMedium::Auto && !current.owners && isMemoryShort() &&
       !watch.isAborted())
     {
       inUse.reset();
-      distributeMedium(held, field, scene);
-      inUse.emplace(*held.shared);
-      refineFor(column, held, watch.monitor(), asked);
+      distributeMedium(current, field, scene);
+      inUse.emplace(*current.shared);
+      refineFor(column, current, watch.monitor(), request);
     }
-    image.medium = held.shared->medium.tree->statistics();
+    image.medium = current.shared->medium.tree->statistics();
     if (watch.isAborted())
     {
       return aborted;
     }
   }
-  if (held.changesSeen != held.shared->changes)
+  if (current.changesSeen != current.shared->changes)
   {
-    held.changesSeen = held.shared->changes;
-    held.team.reset();
-    held.distributed.reset();
+    current.changesSeen = current.shared->changes;
+    current.team.reset();
+    current.distributed.reset();
     rays.clear();
-    asked.beginAnew();
+    request.beginAnew();
   }
-  const Medium<Real>& ofHeld = held.shared->medium;
+  const Medium<Real>& tracedMedium = current.shared->medium;
   // What differs by rounding only is homogeneous.
   constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-  const double tolerance =
-    std::max(scene.homogeneityTolerance * ofHeld.rangeOfNu, rounding * ofHeld.largestNu);
-  if (!asked.bound)
+  const double tolerance = std::max(
+    scene.homogeneityTolerance * tracedMedium.rangeOfNu, rounding * tracedMedium.largestNu);
+  if (!request.bound)
   {
     const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
-    asked.bound = boundDisplacement(ofHeld, light, view, scene.stepSize,
+    request.bound = boundDisplacement(tracedMedium, light, view, scene.stepSize,
       maySkip ? steepestOf(scene.interpolation) * tolerance : 0);
   }
-  const DisplacementBound& bound = *asked.bound;
+  const DisplacementBound& bound = *request.bound;
   image.displacementBound = bound.displacement;
   image.displacementWithin = bound.withinMedium;
   const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
@@ -519,15 +523,15 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     ? 0
     : scene.homogeneityTolerance;
   const HomogeneityMap<Real>* map =
-    skips > 0 ? held.shared->mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
+    skips > 0 ? current.shared->mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
   image.skippingBound =
-    map == nullptr ? 0 : skippingBound(ofHeld, light, tolerance, scene.interpolation);
+    map == nullptr ? 0 : skippingBound(tracedMedium, light, tolerance, scene.interpolation);
   const RayTask<Real> task =
-    makeTask<Real>(ofHeld, map, ofHeld.gradientsOf(field), light, settings);
+    makeTask<Real>(tracedMedium, map, tracedMedium.gradientsOf(field), light, settings);
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
-  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, asked.device, {},
-    LightKey::of(scene, filmDistance(scene, image.frame)) };
+  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
+    {}, LightKey::of(scene, filmDistance(scene, image.frame)) };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
@@ -536,15 +540,16 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   const std::int64_t around = rays.margin();
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
-  const DeflectionErrors errors{ noiseFloor(ofHeld, field, light), image.medium.deflectionError };
-  ProgressiveImage& progressive = *asked.image;
+  const DeflectionErrors errors{ noiseFloor(tracedMedium, field, light),
+    image.medium.deflectionError };
+  ProgressiveImage& progressive = *request.image;
   const auto isNewImageThere = [&]
-  { return progressive.isWhole() && progressive.passes() > asked.shown; };
-  bool goesOn = !watch.mayPause() || progressive.completeUndisturbed(watch.monitor());
-  while (goesOn && progressive.passes() < scene.samplesPerPixel)
+  { return progressive.isWhole() && progressive.passes() > request.shown; };
+  bool continues = !watch.mayPause() || progressive.completeUndisturbed(watch.monitor());
+  while (continues && progressive.passes() < scene.samplesPerPixel)
   {
     // What has taken more than a call is shown before the next pass hides it.
-    if (watch.mayPause() && asked.hasBeenSilent && isNewImageThere())
+    if (watch.mayPause() && request.hasBeenSilent && isNewImageThere())
     {
       break;
     }
@@ -555,41 +560,43 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
       ofPass.progress = [&](double fraction)
       {
         const double done = (static_cast<double>(number) + fraction) / scene.samplesPerPixel;
-        watch.monitor().progress(asked.progressOfVoxels + (1 - asked.progressOfVoxels) * done);
+        watch.monitor().progress(request.progressOfVoxels + (1 - request.progressOfVoxels) * done);
       };
     }
     aimPass(pass, number, scene, light);
-    const double tracedBefore = asked.traceSeconds;
-    const TracedPass* traced = rays.raysOf(number, pass, asked.device, field.gradients.count,
-      asked.keepsRays ? scene.memoryBudget : 0,
+    const double tracedBefore = request.traceSeconds;
+    const TracedPass* traced = rays.raysOf(number, pass, request.device, field.gradients.count,
+      request.keepsRays ? scene.memoryBudget : 0,
       [&](TracedPass& place, bool isWantedOnHost)
-      { return trace(place, isWantedOnHost, pass, held, task, ofPass, asked); });
-    const bool hasTraced = asked.traceSeconds > tracedBefore;
+      { return trace(place, isWantedOnHost, pass, current, task, ofPass, request); });
+    const bool hasTraced = request.traceSeconds > tracedBefore;
     if (traced == nullptr || watch.isAborted() || (hasTraced && watch.isPaused()))
     {
-      goesOn = false;
+      continues = false;
       break;
     }
-    asked.momentumDrift = std::max(asked.momentumDrift, traced->worstDrift);
+    request.momentumDrift = std::max(request.momentumDrift, traced->worstDrift);
     const TracedRays ofTraced{ pass, traced->exits.data(), traced->gathered.data() };
     rays.ask(*traced, ofTraced, number, scene, errors);
     if (!progressive.isBegun())
     {
       if (techniqueOf(scene.cutoff).hasK())
       {
-        asked.kScale = scene.kScale
+        request.kScale = scene.kScale
           ? *scene.kScale
           : automaticK(rays.strongDeflection(), techniqueOf(scene.cutoff).fullScale);
       }
       progressive.begin(
-        { cutoffs.cutoffOf(scene, asked.kScale, image.frame.pixelSize),
-          projectionOf(scene, image.frame, light, (1 + ofHeld.ambient) * field.lengthScale), margin,
+        { cutoffs.cutoffOf(scene, request.kScale, image.frame.pixelSize),
+          projectionOf(scene, image.frame, light, (1 + tracedMedium.ambient) * field.lengthScale),
+          margin,
           (view.width + 2 * margin) * (view.height + 2 * margin) *
             passesToHold(scene.samplesPerPixel) },
         rays.tintOf(ofTraced, field, scene));
     }
     ofPass.progress = {};
-    goesOn = progressive.add(*traced, pass, rays.holds(*traced) ? Rays::Stay : Rays::Go, ofPass) &&
+    continues =
+      progressive.add(*traced, pass, rays.holds(*traced) ? Rays::Stay : Rays::Go, ofPass) &&
       (!watch.mayPause() || progressive.completeUndisturbed(ofPass));
     if (watch.isPaused())
     {
@@ -600,12 +607,12 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
   {
     return aborted;
   }
-  image.kScale = asked.kScale;
-  image.momentumDrift = asked.momentumDrift;
-  image.traceSeconds = asked.traceSeconds;
-  image.finished = goesOn && progressive.passes() == scene.samplesPerPixel;
-  asked.hasBeenSilent = !image.finished && !isNewImageThere();
-  if (scene.histogramSize > 0 && !asked.hasBeenSilent)
+  image.kScale = request.kScale;
+  image.momentumDrift = request.momentumDrift;
+  image.traceSeconds = request.traceSeconds;
+  image.finished = continues && progressive.passes() == scene.samplesPerPixel;
+  request.hasBeenSilent = !image.finished && !isNewImageThere();
+  if (scene.histogramSize > 0 && !request.hasBeenSilent)
   {
     image.histogram = rays.histogram();
   }
@@ -618,12 +625,12 @@ Image Bench::Stages::goOn(Unfinished& asked, const Watch& watch)
     rays.finish();
     return image;
   }
-  if (!asked.hasBeenSilent)
+  if (!request.hasBeenSilent)
   {
     progressive.develop(image);
-    asked.shown = progressive.passes();
+    request.shown = progressive.passes();
   }
-  image.samples = static_cast<int>(asked.shown);
+  image.samples = static_cast<int>(request.shown);
   return image;
 }
 
@@ -631,11 +638,11 @@ void Bench::Stages::leaveDevice()
 {
   rays.clear();
   std::visit(
-    [](auto& held)
+    [](auto& current)
     {
-      if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+      if constexpr (!std::is_same_v<std::decay_t<decltype(current)>, std::monostate>)
       {
-        held.shared->cuda.reset();
+        current.shared->cuda.reset();
       }
     },
     medium);
@@ -644,11 +651,11 @@ void Bench::Stages::leaveDevice()
 void Bench::Stages::forgetDistributedMedium()
 {
   const bool isDistributed = std::visit(
-    [](const auto& held)
+    [](const auto& current)
     {
-      if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+      if constexpr (!std::is_same_v<std::decay_t<decltype(current)>, std::monostate>)
       {
-        return held.owners != nullptr;
+        return current.owners != nullptr;
       }
       return false;
     },
@@ -676,7 +683,7 @@ void Bench::setWorkers(std::vector<Channel*> workers) { stages_->workers = std::
 
 void Bench::setMedia(std::shared_ptr<SharedMedia> media) { stages_->media = std::move(media); }
 
-void Bench::giveUp() { stages_->unfinished.reset(); }
+void Bench::cancel() { stages_->unfinished.reset(); }
 
 bool Bench::isUnfinished() const { return stages_->unfinished != nullptr; }
 
@@ -684,7 +691,7 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
 {
   stages_->unfinished.reset();
   validate(field, scene);
-  auto asked = std::make_unique<Unfinished>(field, scene);
+  auto request = std::make_unique<Unfinished>(field, scene);
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
   if (scene.device == Device::Cuda && !hasCuda)
@@ -692,8 +699,8 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
     throw Error("Device is CUDA, but no CUDA device can be used: " + reason +
       ". Set Device to Auto or CPU, or check the driver with nvidia-smi.");
   }
-  asked->device = hasCuda ? Device::Cuda : Device::Cpu;
-  return stages_->render(std::move(asked), monitor);
+  request->device = hasCuda ? Device::Cuda : Device::Cpu;
+  return stages_->render(std::move(request), monitor);
 }
 
 Image Bench::resume(const Monitor& monitor)
@@ -705,32 +712,32 @@ Image Bench::resume(const Monitor& monitor)
   return stages_->render(std::move(stages_->unfinished), monitor);
 }
 
-Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& monitor)
+Image Bench::Stages::render(std::unique_ptr<Unfinished> request, const Monitor& monitor)
 {
   const Watch watch(monitor);
-  const auto goOnWith = [&](Unfinished& begun)
+  const auto proceedWith = [&](Unfinished& one)
   {
-    return begun.scene.precision == Precision::Single ? goOn<float>(begun, watch)
-                                                      : goOn<double>(begun, watch);
+    return one.scene.precision == Precision::Single ? proceed<float>(one, watch)
+                                                    : proceed<double>(one, watch);
   };
   Image image;
   for (bool isDone = false; !isDone;)
   {
     try
     {
-      image = goOnWith(*asked);
+      image = proceedWith(*request);
       isDone = true;
     }
     catch (const DeviceError& failure)
     {
       leaveDevice();
-      auto again = std::make_unique<Unfinished>(asked->field, asked->scene);
-      if (asked->keepsRays && dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr)
+      auto again = std::make_unique<Unfinished>(request->field, request->scene);
+      if (request->keepsRays && dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr)
       {
-        again->device = asked->device;
+        again->device = request->device;
         again->keepsRays = false;
       }
-      else if (asked->device == Device::Cpu || asked->scene.device == Device::Cuda)
+      else if (request->device == Device::Cpu || request->scene.device == Device::Cuda)
       {
         throw;
       }
@@ -738,7 +745,7 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& mo
       {
         again->deviceNote = failure.what();
       }
-      asked = std::move(again);
+      request = std::move(again);
     }
     catch (...)
     {
@@ -748,7 +755,7 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> asked, const Monitor& mo
   }
   if (!image.finished && !image.aborted)
   {
-    unfinished = std::move(asked);
+    unfinished = std::move(request);
   }
   return image;
 }

@@ -97,7 +97,7 @@ enum class SourceShape
 };
 
 /// Where light comes from; sizes in radians, seen from the data. An extended source blurs what is not in focus,
-/// and the share of its image that a knife edge lets pass follows from its shape.
+/// and the fraction of its image that a knife edge lets pass follows from its shape.
 struct LightSource
 {
   /// From a point source to the middle of the data, data units: more than half the depth. Unset: collimated. With a
@@ -224,7 +224,7 @@ struct Scene
 
   Cutoff cutoff = Cutoff::KnifeEdge;
   double knifeEdgeAngle = 0;    ///< degrees; 0 measures the deflection along u, 90 along v
-  double cutoffOffset = 0;      ///< how far the edge is in, as a share of the source's image
+  double cutoffOffset = 0;      ///< how far the edge is in, as a fraction of the source's image
   bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter)
   std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale, about
   /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
@@ -258,10 +258,10 @@ struct Scene
   /// there are solids, no longer than 1.
   double stepSize = 1;
   /// Of Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
-  /// gradient would bend over the same way. 1e-12 ... 1.
+  /// gradient would bend over the same length. 1e-12 ... 1.
   double adaptiveTolerance = 1e-5;
   /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
-  /// share of its range in the whole medium; 0: never. 0 ... 1.
+  /// fraction of its range in the whole medium; 0: never. 0 ... 1.
   double homogeneityTolerance = 0;
   /// Error of the deflection, of the largest one, that the voxels of a Field's source may make, and of what rays gather
   /// of its fields, of the full colour; 0: they are as fine as the data. 0 ... 1.
@@ -276,7 +276,7 @@ struct Scene
   double pathTolerance = 0.01;
   Device device = Device::Auto;
   int threads = 0; ///< CPU threads; 0: all cores this process may use
-  /// Bytes of rays that are held for re-shading. The image does not depend on it.
+  /// Bytes of rays that are cached for re-shading. The image does not depend on it.
   std::size_t memoryBudget = std::size_t{ 1 } << 30;
 };
 
@@ -346,7 +346,7 @@ struct Image
   /// 2 per pixel: at the exit plane, data units; with a perspective, and of Cutoff::Background, where rays go from the
   /// camera on, at the entry plane.
   PixelArray<float> displacement;
-  PixelArray<float> blockedFraction; ///< per pixel: share of rays that a solid stopped
+  PixelArray<float> blockedFraction; ///< per pixel: fraction of rays that a solid stopped
 
   Device device = Device::Cpu; ///< where the rays were traced
   int threads = 0;             ///< on the CPU
@@ -356,7 +356,7 @@ struct Image
   double kScale = 0;                          ///< the k used; 0 where there is no cutoff
   double undisturbedLevel = 1;                ///< intensity of light that nothing bends
   /// Of the rays that start in the image and reach the film: cut off at the darkest or brightest light.
-  double saturatedShare = 0;
+  double saturatedFraction = 0;
   LightBalance light;
   Histogram histogram;
   double ambient = 0;            ///< the ambient refractivity used
@@ -364,7 +364,7 @@ struct Image
   std::int64_t stepsTaken = 0;   ///< integration steps of these rays
   std::int64_t raysBlocked = 0;  ///< rays that a solid stopped
   std::int64_t raysLost = 0;     ///< rays trapped in the medium (step limit) or turned back by it
-  double traceSeconds = 0;       ///< spent tracing for it; 0 when held rays were re-shaded
+  double traceSeconds = 0;       ///< spent tracing for it; 0 when cached rays were re-shaded
   double displacementBound = 0;  ///< no ray of this image is displaced further, data units
   double displacementWithin = 0; ///< the same up to where the medium bends it for the last time
   /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
@@ -438,7 +438,7 @@ public:
   /// development of an image. What Field::gradients points to must still be there. Throws Error.
   Image resume(const Monitor& monitor = {});
   bool isUnfinished() const;
-  void giveUp(); ///< forgets it
+  void cancel(); ///< forgets it
 
   /// Other processes that trace rays for the next images, each with a RayWorker at the other end of its channel. The
   /// images are the same to the last bit.

@@ -46,8 +46,8 @@ double skippingBound(
   const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
 {
   const double steepest = steepestOf(interpolation);
-  const double way = light.depth / light.smallestCosine();
-  return 2 * steepest * tolerance * length(light.indexScale) * way * (1 + medium.largestNu);
+  const double pathLength = light.depth / light.smallestCosine();
+  return 2 * steepest * tolerance * length(light.indexScale) * pathLength * (1 + medium.largestNu);
 }
 
 template <class Real>
@@ -106,16 +106,16 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
     return 1;
   }
   const double depth = frame.exit - frame.entry;
-  double furthest = 0; // data units of the image
+  double largest = 0; // data units of the image
   for (const double film : { scene.screenDistance.value_or(depth),
          focusDistance(frame, scene.focusOffset), focusDistance(frame, 0) })
   {
     const double magnification = magnificationAt(scene, frame, film);
     const double moved = bound.displacement + std::abs(film) * bound.slope;
-    furthest = std::max(furthest, magnification > 0 ? moved / magnification : 0);
+    largest = std::max(largest, magnification > 0 ? moved / magnification : 0);
   }
-  const double pixels = std::ceil(furthest / frame.pixelSize) + 1;
-  const auto most = static_cast<double>(mostMargin(scene.view));
+  const double pixels = std::ceil(largest / frame.pixelSize) + 1;
+  const auto most = static_cast<double>(maxMargin(scene.view));
   return static_cast<std::int64_t>(pixels < most ? pixels : most);
 }
 
@@ -137,7 +137,7 @@ Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
   column.v = light.v;
   const double size[2] = { static_cast<double>(scene.view.width),
     static_cast<double>(scene.view.height) };
-  const auto margin = static_cast<double>(mostMargin(scene.view));
+  const auto margin = static_cast<double>(maxMargin(scene.view));
   for (int i = 0; i < 2; ++i)
   {
     column.middle[i] =

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene asks of each stage, and what the results that are held depend on.
+// What a scene asks of each stage, and what cached results depend on.
 #pragma once
 
 #include "Film/Shading.h"
@@ -17,7 +17,7 @@
 namespace schlieren
 {
 
-/// What a held medium was built from.
+/// What a cached medium was built from.
 struct MediumKey
 {
   std::array<std::int64_t, 3> dimensions;
@@ -40,7 +40,7 @@ struct MediumKey
   }
 };
 
-/// Where the light of held rays came from. What does not matter to it has its default.
+/// Where the light of cached rays came from. What does not matter to it has its default.
 struct LightKey
 {
   bool isOfCamera = false;
@@ -76,7 +76,7 @@ struct LightKey
   }
 };
 
-/// What held rays were traced with, the medium apart.
+/// What cached rays were traced with, the medium apart.
 struct RaysKey
 {
   Frame frame;
@@ -107,7 +107,7 @@ RaySettings settingsOf(
 double steepestOf(Interpolation interpolation);
 
 /// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
-/// each: see NuRange, with the whole way through the grid as the way through cubes.
+/// each: see NuRange, with the whole path through the grid as the path through cubes.
 template <class Real>
 double skippingBound(
   const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation);

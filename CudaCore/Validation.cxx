@@ -120,8 +120,8 @@ void validateCutoff(const Scene& scene)
         ". Set it to an angle in degrees.");
     }
   }
-  constexpr int mostBins = 2048;
-  require(scene.histogramSize >= 0 && scene.histogramSize <= mostBins, "HistogramSize",
+  constexpr int maxBins = 2048;
+  require(scene.histogramSize >= 0 && scene.histogramSize <= maxBins, "HistogramSize",
     scene.histogramSize, ". Set it between 0 (no histogram) and 2048.");
 }
 
@@ -208,8 +208,8 @@ void validateLight(const Scene& scene, const Frame& frame)
   if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
-    constexpr double furthest = 1e30; // displacements are floats
-    require(distance >= 0 && distance <= furthest, "The background is at a distance of ", distance,
+    constexpr double largest = 1e30; // displacements are floats
+    require(distance >= 0 && distance <= largest, "The background is at a distance of ", distance,
       " from the data. Set BackgroundDistance to zero or more, up to 1e30 data units.");
     require(scene.background.period >= 0 && std::isfinite(scene.background.period),
       "BackgroundPeriod is ", scene.background.period,
@@ -284,7 +284,7 @@ void validateColors(const Field& field, const Scene& scene)
     if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
     {
       throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
-                  "as shares of 1.");
+                  "as contributions of 1.");
     }
   }
 }

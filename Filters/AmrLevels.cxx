@@ -22,7 +22,7 @@ namespace
 constexpr double latticeTolerance = 0.02;
 
 /// Cells of the coarsest lattice, in cells of blocks.
-constexpr std::size_t mostEmpty = 8;
+constexpr std::size_t maxEmpty = 8;
 
 bool isNearlyWhole(double x) { return std::abs(x - std::round(x)) < latticeTolerance; }
 
@@ -210,7 +210,7 @@ std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
       cells += volume(block.cells);
     }
   }
-  if (volume(found.levels[0].cells) > mostEmpty * cells)
+  if (volume(found.levels[0].cells) > maxEmpty * cells)
   {
     return std::nullopt;
   }

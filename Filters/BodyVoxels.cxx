@@ -180,26 +180,27 @@ void forVoxelsNear(const Corners& t, const Index& low, const Index& high, const 
   }
 }
 
-/// Whether a triangle lies across the way from a point, from the share `earliest` of it on.
+/// Whether a triangle crosses the segment from a point, from the fraction `earliest` of it on.
 bool isAcross(
-  const Corners& t, const Point& normal, const Point& from, const Point& way, double earliest)
+  const Corners& t, const Point& normal, const Point& from, const Point& segment, double earliest)
 {
   constexpr double slack = 1e-9; // so that no way slips through between two triangles
-  const double rate = dot(normal, way);
-  const double share = dot(normal, t.a - from) / rate;
-  if (!(share >= earliest && share <= 1 + slack)) // NaN, too
+  const double rate = dot(normal, segment);
+  const double fraction = dot(normal, t.a - from) / rate;
+  if (!(fraction >= earliest && fraction <= 1 + slack)) // NaN, too
   {
     return false;
   }
-  const Point at{ from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2] };
+  const Point at{ from[0] + fraction * segment[0], from[1] + fraction * segment[1],
+    from[2] + fraction * segment[2] };
   const double least = -slack * dot(normal, normal);
   return dot(cross(t.b - t.a, at - t.a), normal) >= least &&
     dot(cross(t.c - t.b, at - t.b), normal) >= least &&
     dot(cross(t.a - t.c, at - t.c), normal) >= least;
 }
 
-/// Whether a triangle lies across the way from a grid point to one of its 26 neighbours that is not
-/// inside, in the half of the way that is nearer to the point.
+/// Whether a triangle crosses the segment from a grid point to one of its 26 neighbours that is not
+/// inside, in the half of the segment that is nearer to the point.
 bool isBetween(const Corners& t, const Bits& inside, const Index& at, double earliest)
 {
   const Point normal = cross(t.b - t.a, t.c - t.a);

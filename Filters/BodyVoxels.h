@@ -31,7 +31,7 @@ bool isClosed(const Surface& surface);
 /// - the points inside a closed surface, whichever way its triangles face (of two opposite faces that
 ///   meet grid points, one is counted in);
 /// - where an open surface, or a closed one that is thin, goes between two points that are not inside,
-///   on the way from one to its neighbour along an axis or a diagonal: the nearer one.
+///   on the segment from one to its neighbour along an axis or a diagonal: the nearer one.
 /// So no way that goes from one side to the other in moves of at most one voxel along each axis misses
 /// them. (In 3-D digital geometry: they are 26-separating; Cohen-Or & Kaufman 1995.)
 void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,

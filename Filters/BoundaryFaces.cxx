@@ -37,8 +37,8 @@ Faces withoutSidesAcrossZ(const Faces& all)
 {
   Faces faces;
   faces.points = all.points;
-  faces.firstShares = all.firstShares;
-  faces.shares = all.shares;
+  faces.firstContributions = all.firstContributions;
+  faces.contributions = all.contributions;
   for (std::size_t face = 0; face < all.size(); ++face)
   {
     const auto begin = all.corners.begin() + static_cast<std::ptrdiff_t>(all.starts[face]);
@@ -253,16 +253,16 @@ CutFaces cutsOf(
       }
       const std::int32_t points[2] = { before[i], before[static_cast<std::size_t>(found - begin)] };
       areOthers = areOthers || points[0] != points[1];
-      const Share* of[2];
+      const Contribution* of[2];
       for (int side = 0; side < 2; ++side)
       {
         const auto point = static_cast<std::size_t>(points[side]);
-        if (faces.firstShares[point + 1] != faces.firstShares[point] + 1)
+        if (faces.firstContributions[point + 1] != faces.firstContributions[point] + 1)
         {
           return false; // on a curved cell
         }
-        of[side] = &faces.shares[faces.firstShares[point]];
-        cut.shares.push_back(*of[side]);
+        of[side] = &faces.contributions[faces.firstContributions[point]];
+        cut.contributions.push_back(*of[side]);
       }
       if (of[0]->leaf != of[1]->leaf)
       {
@@ -272,7 +272,8 @@ CutFaces cutsOf(
     }
     if (areOthers)
     {
-      cuts.shares.insert(cuts.shares.end(), cut.shares.begin(), cut.shares.end());
+      cuts.contributions.insert(
+        cuts.contributions.end(), cut.contributions.begin(), cut.contributions.end());
       cuts.places.insert(cuts.places.end(), cut.places.begin(), cut.places.end());
       cuts.starts.push_back(cuts.places.size());
     }
@@ -281,8 +282,8 @@ CutFaces cutsOf(
   pairs.erase(
     std::remove_if(pairs.begin(), pairs.end(), [&](const Pair& pair) { return !isCut(pair); }),
     pairs.end());
-  cuts.firstShares.resize(cuts.shares.size() + 1);
-  std::iota(cuts.firstShares.begin(), cuts.firstShares.end(), std::size_t{ 0 });
+  cuts.firstContributions.resize(cuts.contributions.size() + 1);
+  std::iota(cuts.firstContributions.begin(), cuts.firstContributions.end(), std::size_t{ 0 });
   for (const Pair& pair : pairs)
   {
     Point area{ 0, 0, 0 };
@@ -376,10 +377,11 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
       if (numbers[from] < 0)
       {
         numbers[from] = static_cast<std::int32_t>(result.surface.points.size());
-        result.shares.insert(result.shares.end(),
-          faces.shares.begin() + static_cast<std::ptrdiff_t>(faces.firstShares[from]),
-          faces.shares.begin() + static_cast<std::ptrdiff_t>(faces.firstShares[from + 1]));
-        result.starts.push_back(result.shares.size());
+        result.contributions.insert(result.contributions.end(),
+          faces.contributions.begin() + static_cast<std::ptrdiff_t>(faces.firstContributions[from]),
+          faces.contributions.begin() +
+            static_cast<std::ptrdiff_t>(faces.firstContributions[from + 1]));
+        result.starts.push_back(result.contributions.size());
         result.surface.points.push_back(faces.points[from]);
         points->InsertNextPoint(faces.points[from].data());
       }
@@ -473,11 +475,11 @@ BoundaryFaces boundaryOf(
 
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)
 {
-  return valuesAt(faces.starts, faces.shares, leaves);
+  return valuesAt(faces.starts, faces.contributions, leaves);
 }
 
 std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
-  const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves)
+  const std::vector<Contribution>& contributions, const std::vector<vtkDataSet*>& leaves)
 {
   std::vector<vtkDataArray*> scalars;
   for (vtkDataSet* leaf : leaves)
@@ -489,9 +491,10 @@ std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
   {
     for (std::size_t k = starts[i]; k < starts[i + 1]; ++k)
     {
-      const Share& share = shares[k];
-      values[i] +=
-        scalars[share.leaf] ? share.weight * scalars[share.leaf]->GetComponent(share.point, 0) : 0;
+      const Contribution& fraction = contributions[k];
+      values[i] += scalars[fraction.leaf]
+        ? fraction.weight * scalars[fraction.leaf]->GetComponent(fraction.point, 0)
+        : 0;
     }
   }
   return values;

@@ -43,8 +43,8 @@ enum class Sheets
 struct BoundaryFaces
 {
   Triangles surface;                    ///< normals point into the gas
-  std::vector<std::size_t> starts{ 0 }; ///< of each of its points, in `shares`, and the end
-  std::vector<Share> shares;            ///< of the value there
+  std::vector<std::size_t> starts{ 0 }; ///< of each of its points, in `contributions`, and the end
+  std::vector<Contribution> contributions; ///< of the value there
   std::vector<unsigned char>
     hidesBehind; ///< of each triangle: whether there is a hidden cell on the other side
   Extent extent = Extent::Volume;
@@ -75,8 +75,8 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells,
 
 /// The scalars at the points of the surface, of these leaves or of others on the same mesh.
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);
-/// What shares of the scalars sum up to: those of value i are starts[i] to starts[i + 1].
+/// What contributions of the scalars sum up to: those of value i are starts[i] to starts[i + 1].
 std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
-  const std::vector<Share>& shares, const std::vector<vtkDataSet*>& leaves);
+  const std::vector<Contribution>& contributions, const std::vector<vtkDataSet*>& leaves);
 
 } // namespace filters

@@ -318,14 +318,14 @@ void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
         Vector x;
         mesh.coordinates(point, x.data());
         x = moments.middle - x;
-        const double share = 1. / counts[at];
+        const double fraction = 1. / counts[at];
         for (std::size_t i = 0; i < 3; ++i)
         {
           const std::size_t next = (i + 1) % 3;
-          sums.first[i] += static_cast<float>(share * x[i]);
-          sums.second[i] += static_cast<float>(share * (moments.second[i] + x[i] * x[i]));
+          sums.first[i] += static_cast<float>(fraction * x[i]);
+          sums.second[i] += static_cast<float>(fraction * (moments.second[i] + x[i] * x[i]));
           sums.second[i + 3] +=
-            static_cast<float>(share * (moments.second[i + 3] + x[i] * x[next]));
+            static_cast<float>(fraction * (moments.second[i + 3] + x[i] * x[next]));
         }
         const auto away = static_cast<float>(value - values[point]);
         sums.lowest = std::min(sums.lowest, away);

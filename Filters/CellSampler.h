@@ -17,7 +17,7 @@ namespace filters
 /// more for each of them and for each point.
 struct CellsOfLattice
 {
-  static constexpr std::int64_t mostPoints = 0xffff;
+  static constexpr std::int64_t maxPoints = 0xffff;
 
   std::vector<std::uint32_t> cells;  // by their places in the tree
   std::vector<std::uint16_t> starts; // of each cell's points, and the end
@@ -44,7 +44,7 @@ public:
   explicit CellSampler(const CellTree& tree);
 
   /// Sets `values` and `found`, 1 or 0, at all points of a lattice; values are 0 where no cell is. Fills `cells` where
-  /// that is not null; the lattice then has no more than CellsOfLattice::mostPoints.
+  /// that is not null; the lattice then has no more than CellsOfLattice::maxPoints.
   void sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
     CellsOfLattice* cells = nullptr) const;
 

@@ -30,12 +30,12 @@ constexpr double steps = 1 << 30;
 /// Bits of each coordinate in a place on the Hilbert curve.
 constexpr int curveBits = 21;
 
-// Voxels: the size that a share of cells is smaller than. Proportions nearer than that to cubes are
+// Voxels: the size that a fraction of cells is smaller than. Proportions nearer than that to cubes are
 // cubes'; those of cells are not followed any further than to 1:32.
-constexpr double shareOfSmallerCells = 0.1;
+constexpr double fractionOfSmallerCells = 0.1;
 constexpr double nearlyEqual = 1.5;
 constexpr double flattest = 1. / 32;
-constexpr std::size_t mostCellsMeasured = 100000;
+constexpr std::size_t maxCellsMeasured = 100000;
 
 int dimensionOfType(int type)
 {
@@ -355,7 +355,7 @@ CellTree::Sizes CellTree::measuredSizes() const
 {
   Sizes sizes;
   const std::size_t count = this->Sorted->numbers.size();
-  for (std::size_t i = 0; i < count; i += 1 + count / mostCellsMeasured)
+  for (std::size_t i = 0; i < count; i += 1 + count / maxCellsMeasured)
   {
     const Vector size = this->sizeOf(this->cell(this->Sorted->numbers[i]));
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -379,7 +379,7 @@ Vector CellTree::voxelShapeOf(Sizes sizes)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto place = sizes[axis].begin() +
-      static_cast<std::ptrdiff_t>(shareOfSmallerCells * static_cast<double>(sizes[axis].size()));
+      static_cast<std::ptrdiff_t>(fractionOfSmallerCells * static_cast<double>(sizes[axis].size()));
     std::nth_element(sizes[axis].begin(), place, sizes[axis].end());
     shape[axis] = *place;
   }

@@ -231,7 +231,7 @@ void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkI
         {
           if (places.weights()[k] != 0)
           {
-            faces.shares.push_back(
+            faces.contributions.push_back(
               { leaf, face->GetPointId(static_cast<int>(k)), places.weights()[k] });
           }
         }

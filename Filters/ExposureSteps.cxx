@@ -85,7 +85,7 @@ ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
 //------------------------------------------------------------------------------
 ExposureSteps::~ExposureSteps()
 {
-  while (this->Meeting && hasOtherRanks() && this->GoOn())
+  while (this->Meeting && hasOtherRanks() && this->Resume())
   {
   }
   this->Meeting.reset();
@@ -115,11 +115,11 @@ void ExposureSteps::Meet(std::vector<std::string> arrays)
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::MeetWithAll(double mostCells)
+void ExposureSteps::MeetWithAll(double maxCells)
 {
   this->Meeting->SetOutcome(true); // the other ranks do the same
   this->Meeting.reset();
-  this->Ranks.SetTooFew(mostCells);
+  this->Ranks.SetTooFew(maxCells);
   this->Ranks.Request(this->Filter, this->Inputs);
   this->UpdateInputs();
   this->Meet(this->Arrays);
@@ -141,7 +141,7 @@ void ExposureSteps::UpdateInputs()
 }
 
 //------------------------------------------------------------------------------
-bool ExposureSteps::GoOn()
+bool ExposureSteps::Resume()
 {
   if (this->Step + 1 >= this->Exposure.Steps.size())
   {

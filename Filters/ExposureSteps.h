@@ -46,10 +46,10 @@ public:
   FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
 
   /// Where pieces are too few, see FilterRanks: updates the inputs once more, all of them on rank 0, and meets again.
-  void MeetWithAll(double mostCells);
+  void MeetWithAll(double maxCells);
 
   /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
-  bool GoOn();
+  bool Resume();
 
   /// On rank 0: keeps the data of the step. Throws std::runtime_error with a message for the user, as the next one.
   void Keep();

@@ -16,7 +16,7 @@ schlieren::Grid gridFrom(vtkImageData* image);
 schlieren::Field fieldFrom(vtkImageData* refractivity);
 
 /// Makes one of an image's two masks, with the tracer's values. One that says gas everywhere is removed: it
-/// would only take memory, a fifth of what is held, and be read by the tracer.
+/// would only take memory, a fifth of what is kept, and be read by the tracer.
 void mergeMasks(vtkImageData* refractivity);
 
 } // namespace filters

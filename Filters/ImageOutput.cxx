@@ -143,7 +143,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
     image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
   addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
   addFieldValue<vtkDoubleArray>(output, "UndisturbedLevel", image.undisturbedLevel);
-  addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedShare);
+  addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedFraction);
   addFieldValue<vtkDoubleArray>(output, "LightEmitted", image.light.emitted);
   addFieldValue<vtkDoubleArray>(output, "LightOnFilm", image.light.onFilm);
   addFieldValue<vtkDoubleArray>(output, "LightOutside", image.light.outside);
@@ -174,9 +174,9 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
   std::transform(image.color.begin(), image.color.end(), array->GetPointer(0),
     [white, scale](float light)
     {
-      const float share = std::clamp(light / white, 0.f, 1.f);
+      const float fraction = std::clamp(light / white, 0.f, 1.f);
       return static_cast<unsigned char>(
-        (scale == ColorScale::Srgb ? srgbFromLinear(share) : share) * 255.f + 0.5f);
+        (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
     });
   tellRanges(array);
   output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity

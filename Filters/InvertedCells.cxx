@@ -29,7 +29,7 @@ struct Signs
 using SignsByKind = std::map<std::pair<const MeshArrays*, CellShape>, Signs>;
 
 /// More than this part of all are no mistake, but made so.
-constexpr double mostInverted = 0.1;
+constexpr double maxInverted = 0.1;
 
 /// Which corners the edges in the middle of a cell lead from (-) and to (+), along each parametric coordinate.
 using Weights = std::array<std::array<signed char, 8>, 3>;
@@ -122,7 +122,7 @@ std::string warningOfInvertedCells(const CellTree& cells)
   {
     const std::size_t fewer = std::min(signs.negative, signs.positive);
     const auto both = static_cast<double>(signs.negative + signs.positive);
-    inverted += static_cast<double>(fewer) <= mostInverted * both ? fewer : 0;
+    inverted += static_cast<double>(fewer) <= maxInverted * both ? fewer : 0;
   }
   if (inverted == 0)
   {

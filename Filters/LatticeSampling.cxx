@@ -27,12 +27,12 @@ double crossingOf(
 {
   constexpr double slack = 1e-9; // so that no line slips through between two triangles
   const Point line = to - from;
-  const double share = dot(normal, t[0] - from) / dot(normal, line);
-  if (!(share >= -slack && share <= 1 + slack)) // NaN, too
+  const double fraction = dot(normal, t[0] - from) / dot(normal, line);
+  if (!(fraction >= -slack && fraction <= 1 + slack)) // NaN, too
   {
     return -1;
   }
-  const Point at = from + share * line;
+  const Point at = from + fraction * line;
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -46,7 +46,7 @@ double crossingOf(
       return -1;
     }
   }
-  return std::clamp(share, 0., 1.);
+  return std::clamp(fraction, 0., 1.);
 }
 
 } // namespace
@@ -398,11 +398,11 @@ void LatticeSampling::separate(const Index& low)
       double first = 2, last = -1;
       for (const Near* wall : walls)
       {
-        const double share = crossingOf(wall->corners, wall->normal, places[a], places[b]);
-        if (share >= 0)
+        const double fraction = crossingOf(wall->corners, wall->normal, places[a], places[b]);
+        if (fraction >= 0)
         {
-          first = std::min(first, share);
-          last = std::max(last, share);
+          first = std::min(first, fraction);
+          last = std::max(last, fraction);
         }
       }
       crossing[a][b] = last < 0 ? -1 : 0.5 * (first + last);

@@ -41,7 +41,7 @@ std::shared_ptr<const KnownLattice> LatticesOfMesh::find(
 
 bool LatticesOfMesh::hasRoomFor(const schlieren::Lattice& lattice) const
 {
-  return lattice.size() <= CellsOfLattice::mostPoints && this->bytes() < mostBytes;
+  return lattice.size() <= CellsOfLattice::maxPoints && this->bytes() < maxBytes;
 }
 
 void LatticesOfMesh::keep(const schlieren::Lattice& lattice, KnownLattice known)

@@ -27,13 +27,13 @@ struct KnownLattice
 
 /**
  * What is known of lattices on a mesh, for the next time steps, which ask for the same ones as long as neither the view
- * nor what it sees changes much. Up to `mostBytes`; those that neither of two steps asks for go after them. May be used
+ * nor what it sees changes much. Up to `maxBytes`; those that neither of two steps asks for go after them. May be used
  * from many threads at once.
  */
 class LatticesOfMesh
 {
 public:
-  static constexpr std::size_t mostBytes = std::size_t{ 1 } << 29;
+  static constexpr std::size_t maxBytes = std::size_t{ 1 } << 29;
 
   /// Null: not known.
   std::shared_ptr<const KnownLattice> find(const schlieren::Lattice& lattice, bool hasDistances);

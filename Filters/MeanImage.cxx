@@ -76,7 +76,7 @@ void MeanImage::Add(schlieren::Image&& image)
   approach(mean.opticalPathDifference, image.opticalPathDifference, n);
   approach(mean.displacement, image.displacement, n);
   approach(mean.blockedFraction, image.blockedFraction, n);
-  approach(mean.saturatedShare, image.saturatedShare, n);
+  approach(mean.saturatedFraction, image.saturatedFraction, n);
   approach(mean.light.emitted, image.light.emitted, n);
   approach(mean.light.onFilm, image.light.onFilm, n);
   approach(mean.light.outside, image.light.outside, n);

@@ -24,7 +24,7 @@ constexpr double toleranceOfPlaneFaces = 1e-6;
 constexpr double toleranceOfCurvedFaces = 1e-3;
 
 // Newton's method converges quadratically: after a step as small as this nothing is left.
-constexpr int mostSteps = 15;
+constexpr int maxSteps = 15;
 constexpr double lastStep = 1e-7;
 constexpr double farthest = 1; // from the range
 
@@ -255,7 +255,7 @@ bool MeshCell::isAt(const Vector& x, Vector& step)
 
 bool MeshCell::iterate(const Vector& x)
 {
-  for (int i = 0; i < mostSteps; ++i)
+  for (int i = 0; i < maxSteps; ++i)
   {
     Vector step;
     if (this->isAt(x, step))

@@ -125,7 +125,7 @@ void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3
     {
       Point x;
       data->GetPoint(id, x.data());
-      faces.shares.push_back({ leaf, id, 1 });
+      faces.contributions.push_back({ leaf, id, 1 });
       known = faces.addPoint(x);
     }
     return known;
@@ -238,7 +238,7 @@ void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkId
         const vtkIdType point = origins->GetValue(ids->GetId(i));
         Point x;
         data->GetPoint(point, x.data());
-        faces.shares.push_back({ leaf, point, 1 });
+        faces.contributions.push_back({ leaf, point, 1 });
         number = faces.addPoint(x);
       }
       faces.corners.push_back(number);

@@ -19,7 +19,7 @@ namespace filters
 
 /// What a value is made of: those at points of a leaf, with weights. One with the weight 1, but for points that are
 /// not the leaf's own, on the faces of curved cells.
-struct Share
+struct Contribution
 {
   std::uint32_t leaf;
   vtkIdType point;
@@ -38,8 +38,8 @@ enum class State : unsigned char
 struct Faces
 {
   std::vector<Point> points;
-  std::vector<std::size_t> firstShares{ 0 }; // of each point's value, and the end
-  std::vector<Share> shares;
+  std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
+  std::vector<Contribution> contributions;
   std::vector<std::int32_t> corners;      // of all faces, one after the other
   std::vector<std::size_t> starts{ 0 };   // and the end
   std::vector<Point> owners;              // the middle of the cell
@@ -48,11 +48,11 @@ struct Faces
   std::vector<unsigned char> areParts;    // of the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
-  /// Its shares have been added.
+  /// Its contributions have been added.
   std::int32_t addPoint(const Point& x)
   {
     this->points.push_back(x);
-    this->firstShares.push_back(this->shares.size());
+    this->firstContributions.push_back(this->contributions.size());
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// The face whose corners have been added.

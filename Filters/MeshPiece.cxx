@@ -72,7 +72,7 @@ Faces MeshPiece::faces() const
 
 std::vector<double> MeshPiece::valuesAt(const Faces& faces) const
 {
-  return filters::valuesAt(faces.firstShares, faces.shares, pointersTo(this->Leaves));
+  return filters::valuesAt(faces.firstContributions, faces.contributions, pointersTo(this->Leaves));
 }
 
 bool MeshPiece::meets(const schlieren::Box& box) const

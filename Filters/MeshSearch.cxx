@@ -96,7 +96,7 @@ bool sampleMeshes(const std::vector<vtkDataSet*>& leaves, vtkImageData* grid, in
   }
   const bool isFound = !search.places.empty();
   const bool isKept = !isFound && (search.isSeries || search.isNeededAgain) &&
-    grid->GetNumberOfPoints() <= MeshSearch::mostPointsKept;
+    grid->GetNumberOfPoints() <= MeshSearch::maxPointsKept;
   std::vector<Places> found(isKept ? static_cast<std::size_t>(sampler.pieces()) : 0);
   if (!isFound)
   {

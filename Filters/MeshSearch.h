@@ -22,7 +22,7 @@ namespace filters
 struct MeshSearch
 {
   /// Larger grids are searched again each time: 16 bytes for each point, 1 GB.
-  static constexpr vtkIdType mostPointsKept = vtkIdType{ 1 } << 26;
+  static constexpr vtkIdType maxPointsKept = vtkIdType{ 1 } << 26;
 
   std::uint64_t key = 0;                         // of the last mesh; 0: none
   bool isSeries = false;                         // whether the one before was the same

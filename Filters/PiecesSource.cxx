@@ -72,7 +72,7 @@ void append(const Faces& more, Faces& faces)
   for (const Point& point : more.points)
   {
     // The value of each point is sent with it.
-    faces.shares.push_back({ 0, static_cast<vtkIdType>(faces.points.size()), 1 });
+    faces.contributions.push_back({ 0, static_cast<vtkIdType>(faces.points.size()), 1 });
     faces.addPoint(point);
   }
   for (const std::int32_t corner : more.corners)
@@ -324,9 +324,9 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   BoundaryFaces boundary = boundaryOf(
     std::move(faces), [this](const std::vector<Point>& places) { return this->hold(places); });
   std::vector<double> onSurface;
-  for (const Share& share : boundary.shares)
+  for (const Contribution& fraction : boundary.contributions)
   {
-    onSurface.push_back(values[static_cast<std::size_t>(share.point)]);
+    onSurface.push_back(values[static_cast<std::size_t>(fraction.point)]);
   }
   this->Boundary =
     std::make_unique<GasBoundary>(std::move(boundary), bodies, outside, progress.part(0.8, 1));

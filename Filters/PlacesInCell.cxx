@@ -13,7 +13,7 @@ namespace
 {
 
 // Newton's method converges quadratically: after a step as small as this nothing is left.
-constexpr int mostSteps = 15;
+constexpr int maxSteps = 15;
 constexpr double lastStep = 1e-7;
 constexpr double farthest = 1; // from the range
 constexpr double nearlyAffine = 0.5;

@@ -86,7 +86,7 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
       within(w, 2);
       Mask isDone = zero != zero;
       isFound = isDone;
-      for (int i = 0; i < mostSteps; ++i)
+      for (int i = 0; i < maxSteps; ++i)
       {
         const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
         const Real restX = x - u - b[0][0] * uv - b[0][1] * vw - b[0][2] * uw - b[0][3] * uvw;

@@ -461,7 +461,7 @@ std::vector<double> PointNeighbours::valuesFromCells(
         {
           const auto at = static_cast<std::size_t>(point);
           const CellsAround& cells = around[at];
-          // The corrections nearby, and what gradients nearby make of the way from the cells to the point, which is long
+          // The corrections nearby, and what gradients nearby make of the distance from the cells to the point, which is long
           // at the boundary only.
           const auto along = [&](const Change& change)
           {

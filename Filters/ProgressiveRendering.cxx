@@ -104,19 +104,19 @@ bool vtkSchlierenFilter::WorkOn()
   Internals& inside = *this->Inside;
   this->PassToMedium();
   const vtkMTimeType now = this->GetTimeOfImage();
-  const bool goesOn = inside.UnfinishedOf == now;
-  if (goesOn && inside.Ready)
+  const bool continues = inside.UnfinishedOf == now;
+  if (continues && inside.Ready)
   {
     return true;
   }
-  if (goesOn || this->CanBegin(now))
+  if (continues || this->CanBegin(now))
   {
     try
     {
       schlieren::Monitor monitor;
       monitor.progress = [&inside](double done) { inside.Done = done; };
-      schlieren::Image image = goesOn ? inside.Images.GoOn(this->TimeLimit, monitor)
-                                      : this->Begin(false, this->TimeLimit, monitor);
+      schlieren::Image image = continues ? inside.Images.Resume(this->TimeLimit, monitor)
+                                         : this->Begin(false, this->TimeLimit, monitor);
       inside.UnfinishedOf = now;
       if (!image.finished && image.intensity.empty())
       {
@@ -128,7 +128,7 @@ bool vtkSchlierenFilter::WorkOn()
     }
     catch (const std::exception&) // an update begins again, and says it
     {
-      inside.Images.GiveUp();
+      inside.Images.Cancel();
       inside.UnfinishedOf = 0;
       return true;
     }
@@ -160,7 +160,7 @@ vtkTypeInt64 vtkSchlierenFilter::GetPictureCount() const
 bool vtkSchlierenFilter::GetFinished() { return this->Inside->UnfinishedOf == 0; }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
+bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
@@ -169,7 +169,7 @@ bool vtkSchlierenFilter::GoesOn(vtkDataObject* input, vtkDataObject* bodies)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, bool goesOn)
+bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, bool continues)
 {
   Internals& inside = *this->Inside;
   schlieren::Monitor monitor;
@@ -179,18 +179,18 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     this->Inside->Done = fraction;
     if (!(this->TimeLimit > 0)) // else it would flicker
     {
-      this->Progress(mediumShare + (1 - mediumShare) * fraction);
+      this->Progress(mediumFraction + (1 - mediumFraction) * fraction);
     }
   };
   std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
-  if (goesOn && ready && (this->TimeLimit > 0 || ready->finished))
+  if (continues && ready && (this->TimeLimit > 0 || ready->finished))
   {
     return this->Show(std::move(*ready), output, histogram);
   }
   ready.reset();
-  if (goesOn)
+  if (continues)
   {
-    return this->Show(inside.Images.GoOn(this->TimeLimit, monitor), output, histogram);
+    return this->Show(inside.Images.Resume(this->TimeLimit, monitor), output, histogram);
   }
 
   const LastImage& shown = inside.Shown[IMAGE_PORT];
@@ -285,14 +285,14 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
   schlieren::Monitor monitor;
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
   monitor.progress = [this](double fraction)
-  { this->Progress(mediumShare + (1 - mediumShare) * fraction); };
+  { this->Progress(mediumFraction + (1 - mediumFraction) * fraction); };
   MeanImage mean;
   steps.Keep();
   for (const TimeExposure::Instant& instant : inside.Exposure.Instants)
   {
     while (steps.IsBefore(instant))
     {
-      steps.GoOn();
+      steps.Resume();
       inside.Images.SetWorkers(steps.GetMeeting().GetWorkers());
       steps.Keep();
     }

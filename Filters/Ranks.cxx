@@ -214,10 +214,10 @@ void FilterRanks::CountChanges(vtkAlgorithm* filter)
 }
 
 //------------------------------------------------------------------------------
-void FilterRanks::RequestData(vtkInformation* inInfo, Part part, double mostCells) const
+void FilterRanks::RequestData(vtkInformation* inInfo, Part part, double maxCells) const
 {
   vtkMultiProcessController* controller = controllerOfRanks();
-  if (part == Part::Piece && mostCells < this->TooFew && controller && isDivisible(inInfo))
+  if (part == Part::Piece && maxCells < this->TooFew && controller && isDivisible(inInfo))
   {
     requestPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
     return;
@@ -245,9 +245,9 @@ void FilterRanks::RequestData(vtkInformation* inInfo, Part part, double mostCell
 
 //------------------------------------------------------------------------------
 bool FilterRanks::Request(
-  vtkAlgorithm* filter, vtkInformationVector** inputs, Part part, double mostCells)
+  vtkAlgorithm* filter, vtkInformationVector** inputs, Part part, double maxCells)
 {
-  part = mostCells >= this->TooFew ? Part::All : part;
+  part = maxCells >= this->TooFew ? Part::All : part;
   vtkMultiProcessController* controller = controllerOfRanks();
   if (!this->Inside && controller)
   {
@@ -267,7 +267,7 @@ bool FilterRanks::Request(
     {
       this->Now.timeStep = inInfo->Get(Pipeline::UPDATE_TIME_STEP());
     }
-    this->RequestData(inInfo, port == 0 ? part : Part::All, mostCells);
+    this->RequestData(inInfo, port == 0 ? part : Part::All, maxCells);
   }
   if (part != this->RequestedPart)
   {
@@ -463,18 +463,18 @@ std::vector<schlieren::Channel*> FilterRanks::Meeting::GetChannels() const
 }
 
 //------------------------------------------------------------------------------
-FilterRanks::Inputs FilterRanks::Meeting::Gather(double mostCells)
+FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
 {
   FilterRanks& of = this->Of;
   Inputs all = *this->Own;
-  if (of.Inside && !(of.Compared == of.Now && of.MostCells == mostCells))
+  if (of.Inside && !(of.Compared == of.Now && of.MostCells == maxCells))
   {
     of.Compared = of.Now;
-    of.MostCells = mostCells;
+    of.MostCells = maxCells;
     ++of.Gatherings;
     of.Gathered[0] = of.Gathered[1] = nullptr;
     of.Problem = this->FindAbsent();
-    of.InPieces = of.Problem.empty() && this->CanStayInPieces(mostCells);
+    of.InPieces = of.Problem.empty() && this->CanStayInPieces(maxCells);
     try
     {
       for (int input = of.InPieces ? 1 : 0; input < 2 && of.Problem.empty(); ++input)
@@ -530,7 +530,7 @@ std::vector<Holdings> FilterRanks::Others::HoldingsOf(int input, vtkDataObject* 
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::CanStayInPieces(double mostCells) const
+bool FilterRanks::Meeting::CanStayInPieces(double maxCells) const
 {
   bool areAll = filters::areMeshes(this->Own->data);
   for (const auto& channel : this->Of.Inside->Channels)
@@ -544,11 +544,11 @@ bool FilterRanks::Meeting::CanStayInPieces(double mostCells) const
   {
     cells += holdings[rank][1];
   }
-  return areAll && ranks.size() > 1 && cells > mostCells;
+  return areAll && ranks.size() > 1 && cells > maxCells;
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::AreTooFew(double mostCells) const
+bool FilterRanks::Meeting::AreTooFew(double maxCells) const
 {
   if (!this->Of.Inside || this->Of.RequestedPart != Part::Piece || !this->FindAbsent().empty())
   {
@@ -557,7 +557,7 @@ bool FilterRanks::Meeting::AreTooFew(double mostCells) const
   const std::vector<std::size_t> ranks =
     ranksWithMore(this->Of.Inside->HoldingsOf(0, this->Own->data));
   const bool hasRank0All = ranks.empty() || (ranks.size() == 1 && ranks[0] == 0);
-  return !hasRank0All && !this->CanStayInPieces(mostCells);
+  return !hasRank0All && !this->CanStayInPieces(maxCells);
 }
 
 //------------------------------------------------------------------------------

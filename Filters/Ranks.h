@@ -56,15 +56,15 @@ public:
     Piece // of meshes: each rank one of as many as there are; of bodies and other data, as All
   };
   /// In RequestUpdateExtent. Whether the inputs have changed since the last request, or their time step has. In place of
-  /// pieces, all is requested where no more than `mostCells` are known to have been found too few: see SetTooFew().
+  /// pieces, all is requested where no more than `maxCells` are known to have been found too few: see SetTooFew().
   bool Request(vtkAlgorithm* filter, vtkInformationVector** inputs, Part part = Part::All,
-    double mostCells = 0);
+    double maxCells = 0);
 
   /// Requests the same of data alone.
-  void RequestData(vtkInformation* inInfo, Part part, double mostCells) const;
+  void RequestData(vtkInformation* inInfo, Part part, double maxCells) const;
 
   /// On all ranks: until the inputs change, pieces with so few cells in all that rank 0 had better have all of them.
-  void SetTooFew(double mostCells) { this->TooFew = mostCells; }
+  void SetTooFew(double maxCells) { this->TooFew = maxCells; }
 
   /// What the filter works with.
   struct Inputs
@@ -85,13 +85,13 @@ public:
     Meeting& operator=(const Meeting&) = delete;
 
     /// On rank 0: all of the inputs, some of which other ranks may have sent. Throws std::runtime_error where rank 0
-    /// cannot get them. Meshes of more cells than `mostCells` that several ranks have stay where they are: `data` is what
+    /// cannot get them. Meshes of more cells than `maxCells` that several ranks have stay where they are: `data` is what
     /// rank 0 has of them, see AreInPieces().
-    Inputs Gather(double mostCells = std::numeric_limits<double>::infinity());
+    Inputs Gather(double maxCells = std::numeric_limits<double>::infinity());
 
     /// On rank 0: whether pieces were requested, but are not to stay where they are, see Gather(). Rank 0 had better
     /// request all: pieces that are joined differ a little from that where they meet.
-    bool AreTooFew(double mostCells) const;
+    bool AreTooFew(double maxCells) const;
 
     /// On rank 0: the connections to those that trace rays, and those to all other ranks, null where one has not come.
     std::vector<schlieren::Channel*> GetWorkers() const;
@@ -110,7 +110,7 @@ public:
     void WaitForOthers(Time end);
     void WaitForRank0(Time end);
     std::string FindAbsent() const;
-    bool CanStayInPieces(double mostCells) const;
+    bool CanStayInPieces(double maxCells) const;
     vtkSmartPointer<vtkDataObject> Collect(int input);
 
     FilterRanks& Of;

@@ -34,12 +34,12 @@ namespace
 {
 
 // Grids that are chosen from the input (see SamplingDimensions) are as fine along each axis as the cells
-// that a share of all is smaller than: the smallest such share, from this one on, whose grid fits.
-constexpr double shareOfSmallerCells = 0.1;
-constexpr double mostVoxelsPerPoint = 32;       // so that a few tiny cells do not make a huge grid
-constexpr double fewestVoxels = 64. * 64 * 64;  // of flat data: 64 * 64
-constexpr vtkIdType mostCellsMeasured = 100000; // of a leaf, evenly spread
-constexpr double mostPointsAskedFor = 2048. * 2048 * 2048;
+// that a fraction of all is smaller than: the smallest such fraction, from this one on, whose grid fits.
+constexpr double fractionOfSmallerCells = 0.1;
+constexpr double maxVoxelsPerPoint = 32;       // so that a few tiny cells do not make a huge grid
+constexpr double fewestVoxels = 64. * 64 * 64; // of flat data: 64 * 64
+constexpr vtkIdType maxCellsMeasured = 100000; // of a leaf, evenly spread
+constexpr double maxPointsRequested = 2048. * 2048 * 2048;
 
 bool hasCells(vtkDataSet* data, int dimension)
 {
@@ -75,7 +75,7 @@ std::array<std::vector<double>, 3> sizesOfCells(
   {
     const vtkIdType cells = leaf->GetNumberOfCells();
     // Of a box, too, that few of all cells are in.
-    const vtkIdType each = box.isGiven() ? 1 : 1 + cells / mostCellsMeasured;
+    const vtkIdType each = box.isGiven() ? 1 : 1 + cells / maxCellsMeasured;
     for (vtkIdType i = 0; i < cells; i += each)
     {
       if (dimensionOfCell(leaf, i) == dimension)
@@ -140,15 +140,15 @@ Fineness chooseFineness(const std::array<double, 3>& lengths,
   { return product(dimensionsFor(edge, choice.cells, given)); };
   const bool isFlat = std::find(given.begin(), given.end(), 1) != given.end();
   double least = isFlat ? std::pow(fewestVoxels, 2. / 3) : fewestVoxels;
-  double most = std::clamp(mostVoxelsPerPoint * points, least, mostVoxels);
-  for (double share = shareOfSmallerCells; share < 1; share += 0.01)
+  double most = std::clamp(maxVoxelsPerPoint * points, least, maxVoxels);
+  for (double fraction = fractionOfSmallerCells; fraction < 1; fraction += 0.01)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const std::vector<double>& ofAxis = sizes[axis];
       if (!ofAxis.empty())
       {
-        const auto place = static_cast<std::size_t>(share * static_cast<double>(ofAxis.size()));
+        const auto place = static_cast<std::size_t>(fraction * static_cast<double>(ofAxis.size()));
         choice.cells[axis] = std::max(1., lengths[axis] / ofAxis[place]);
       }
     }
@@ -165,7 +165,7 @@ Fineness chooseFineness(const std::array<double, 3>& lengths,
       const double edge = choice.cells[axis] / (given[axis] - 1);
       choice.edge = least > 0 ? edge : std::min(choice.edge, edge);
       least = 0;
-      most = mostVoxels;
+      most = maxVoxels;
     }
   }
   const double target = std::clamp(voxels(choice.edge), least, most);
@@ -184,22 +184,22 @@ Fineness chooseFineness(const std::array<double, 3>& lengths,
 }
 
 /// What to say where more cells are smaller than a voxel than there should be, of the axis with the most.
-std::string shareOfFinerCells(const std::array<int, 3>& dimensions,
+std::string fractionOfFinerCells(const std::array<int, 3>& dimensions,
   const std::array<double, 3>& lengths, const std::array<std::vector<double>, 3>& sizes)
 {
-  double worst = shareOfSmallerCells + 0.05;
+  double worst = fractionOfSmallerCells + 0.05;
   std::string text;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::vector<double>& ofAxis = sizes[axis];
     const double spacing = lengths[axis] / std::max(1, dimensions[axis] - 1);
     const auto resolved = std::lower_bound(ofAxis.begin(), ofAxis.end(), 0.9 * spacing);
-    const double share = static_cast<double>(resolved - ofAxis.begin()) /
+    const double fraction = static_cast<double>(resolved - ofAxis.begin()) /
       static_cast<double>(std::max<std::size_t>(1, ofAxis.size()));
-    if (share > worst)
+    if (fraction > worst)
     {
-      worst = share;
-      text = "; to bound memory, " + std::to_string(std::lround(100 * share)) +
+      worst = fraction;
+      text = "; to bound memory, " + std::to_string(std::lround(100 * fraction)) +
         " % of them are smaller along " + "xyz"[axis] + " (Sampling Dimensions can be set)";
     }
   }
@@ -311,7 +311,7 @@ std::array<int, 3> requireDimensions(const int samplingDimensions[3])
 
 void requireFits(const std::array<int, 3>& dimensions)
 {
-  if (product(dimensions) > mostPointsAskedFor)
+  if (product(dimensions) > maxPointsRequested)
   {
     throw std::runtime_error("SamplingDimensions asks for " + std::to_string(dimensions[0]) +
       " x " + std::to_string(dimensions[1]) + " x " + std::to_string(dimensions[2]) +
@@ -382,7 +382,7 @@ Resampling planResampling(
   else
   {
     plan.note =
-      "chosen from the sizes of the cells" + shareOfFinerCells(plan.dimensions, lengths, sizes);
+      "chosen from the sizes of the cells" + fractionOfFinerCells(plan.dimensions, lengths, sizes);
   }
   return plan;
 }
@@ -422,10 +422,10 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   vtkNew<vtkDoubleArray> values;
   values->SetNumberOfValues(output->GetNumberOfPoints());
   auto valid = newMask(output->GetNumberOfPoints());
-  const double share = outsideBlocksLight ? 1 : 0.5; // of the search for visible cells
+  const double fraction = outsideBlocksLight ? 1 : 0.5; // of the search for visible cells
   if (!sampleMeshes(
-        leaves, output, plan.flatAxis, search, [&](double done) { return progress(share * done); },
-        values, valid))
+        leaves, output, plan.flatAxis, search,
+        [&](double done) { return progress(fraction * done); }, values, valid))
   {
     return tally;
   }
@@ -434,7 +434,7 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   {
     outside = outsideOf(
       leaves, output, plan.flatAxis, search,
-      [&](double done) { return progress(share + (1 - share) * done); }, valid);
+      [&](double done) { return progress(fraction + (1 - fraction) * done); }, valid);
     if (!outside)
     {
       return tally;

@@ -25,12 +25,12 @@ struct Resampling
 };
 
 /// Most points of a grid that is chosen, not given.
-constexpr double mostVoxels = 256. * 256 * 256;
+constexpr double maxVoxels = 256. * 256 * 256;
 
 /// SamplingDimensions, each 0 or at least 2. Throws where they are not.
 std::array<int, 3> requireDimensions(const int samplingDimensions[3]);
 
-/// Throws where a grid has more points than can be held.
+/// Throws where a grid has more points than fit into memory.
 void requireFits(const std::array<int, 3>& dimensions);
 
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.

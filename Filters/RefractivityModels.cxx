@@ -22,7 +22,7 @@ namespace
 {
 
 /// Fractions (and relative humidities) above 1 by more than rounding and interpolation explain.
-constexpr double mostOfAll = 1.01;
+constexpr double maxOfAll = 1.01;
 
 std::string textOf(double value)
 {
@@ -201,13 +201,13 @@ bool GasMixture::isDoubtful(const double* values) const
   {
     sum += values[i];
   }
-  return sum > mostOfAll;
+  return sum > maxOfAll;
 }
 
-std::string GasMixture::warning(const std::string& share) const
+std::string GasMixture::warning(const std::string& fraction) const
 {
-  return "The fractions of MixtureArrays add up to more than " + textOf(mostOfAll) + " in " +
-    share +
+  return "The fractions of MixtureArrays add up to more than " + textOf(maxOfAll) + " in " +
+    fraction +
     " of the points, which leaves less than nothing to the background gas. Check that they "
     "are fractions of 1 and do not include the background.";
 }
@@ -223,12 +223,12 @@ bool CiddorAir::isDoubtful(const double* values) const
 {
   return !schlieren::isWithinCiddorRange(
            this->temperatureScale * values[0], this->pressureScale * values[1]) ||
-    (this->hasHumidity && values[2] > mostOfAll);
+    (this->hasHumidity && values[2] > maxOfAll);
 }
 
-std::string CiddorAir::warning(const std::string& share) const
+std::string CiddorAir::warning(const std::string& fraction) const
 {
-  return share +
+  return fraction +
     " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
     "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
     "If so many surprise you, check that TemperatureScale and PressureScale give K and "
@@ -365,11 +365,11 @@ std::string warningFrom(const Model& model, const Tally& tally)
   {
     return "";
   }
-  char share[32];
-  std::snprintf(share, sizeof share, "%.3g %%",
+  char fraction[32];
+  std::snprintf(fraction, sizeof fraction, "%.3g %%",
     100 * static_cast<double>(tally.doubtful) / static_cast<double>(tally.all));
   return std::visit(
-    [&share](const auto& chosen) -> std::string
+    [&fraction](const auto& chosen) -> std::string
     {
       if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, Linear>)
       {
@@ -377,7 +377,7 @@ std::string warningFrom(const Model& model, const Tally& tally)
       }
       else
       {
-        return chosen.warning(share);
+        return chosen.warning(fraction);
       }
     },
     model);

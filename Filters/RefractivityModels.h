@@ -16,7 +16,7 @@ class vtkRefractiveIndex;
 /// model says three things:
 ///   refractivity(values)  N; NaN where there can be no such gas
 ///   isDoubtful(values)    whether the user should hear of it
-///   warning(share)        what the user should hear, where the share is text such as "12 %"
+///   warning(fraction)      what the user should hear, where the fraction is text such as "12 %"
 namespace filters
 {
 
@@ -36,7 +36,7 @@ struct GasMixture
 
   double refractivity(const double* values) const;
   bool isDoubtful(const double* values) const;
-  std::string warning(const std::string& share) const;
+  std::string warning(const std::string& fraction) const;
 };
 
 /// Of temperature, pressure and, if hasHumidity, relative humidity.
@@ -49,7 +49,7 @@ struct CiddorAir
 
   double refractivity(const double* values) const;
   bool isDoubtful(const double* values) const;
-  std::string warning(const std::string& share) const;
+  std::string warning(const std::string& fraction) const;
 };
 
 /// All models.

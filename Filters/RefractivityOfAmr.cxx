@@ -207,8 +207,8 @@ std::optional<Amr> planAmr(
   {
     const double ofAll = static_cast<double>(volume(amr.levels[level].cells));
     const double wanted = static_cast<double>(volume(cellsIn(level).size()));
-    const double most = isGiven ? 2 * static_cast<double>(volume(given)) : mostVoxels;
-    return ofAll <= std::max(most, mostVoxels) && wanted <= most;
+    const double most = isGiven ? 2 * static_cast<double>(volume(given)) : maxVoxels;
+    return ofAll <= std::max(most, maxVoxels) && wanted <= most;
   };
   amr.used = amr.levels.size() - 1;
   while (amr.used > 0 && !fits(amr.used))

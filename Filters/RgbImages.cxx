@@ -23,7 +23,7 @@ const std::string scheme = "data:";
 const std::string encoding = ";base64,";
 
 /// Pixels: beyond that an image's size is taken for damage.
-constexpr std::uint64_t mostPixels = std::uint64_t{ 1 } << 28;
+constexpr std::uint64_t maxPixels = std::uint64_t{ 1 } << 28;
 
 using Bytes = std::vector<unsigned char>;
 
@@ -102,7 +102,7 @@ std::shared_ptr<const schlieren::RgbImage> decoded(
   {
     refuse(png.message);
   }
-  if (std::uint64_t{ png.width } * png.height > mostPixels)
+  if (std::uint64_t{ png.width } * png.height > maxPixels)
   {
     refuse("its size would be " + std::to_string(png.width) + " x " + std::to_string(png.height));
   }

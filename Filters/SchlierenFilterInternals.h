@@ -130,8 +130,8 @@ struct vtkSchlierenFilter::Internals
 namespace filters
 {
 
-/// Share of the progress bar that belongs to finding the refractivity.
-inline constexpr double mediumShare = 0.2;
+/// Contribution of the progress bar that belongs to finding the refractivity.
+inline constexpr double mediumFraction = 0.2;
 
 /// Everything of the inputs that the refractivity depends on.
 std::vector<double> describeInputs(

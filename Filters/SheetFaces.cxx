@@ -30,7 +30,7 @@ double jumpOf(
   int count = 0;
   for (std::size_t corner = cuts.starts[face]; corner < cuts.starts[face + 1]; ++corner)
   {
-    const Share* const of = &cuts.shares[2 * corner];
+    const Contribution* const of = &cuts.contributions[2 * corner];
     if (of[0].point == of[1].point)
     {
       continue; // the cut ends there
@@ -69,7 +69,8 @@ std::vector<double> jumpsOf(const CutFaces& cuts, const std::vector<double>& val
 
 std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<vtkDataSet*>& leaves)
 {
-  const std::vector<double> jumps = jumpsOf(cuts, valuesAt(cuts.firstShares, cuts.shares, leaves));
+  const std::vector<double> jumps =
+    jumpsOf(cuts, valuesAt(cuts.firstContributions, cuts.contributions, leaves));
   // Parts, by one of their faces.
   std::vector<std::size_t> roots(cuts.size());
   std::iota(roots.begin(), roots.end(), std::size_t{ 0 });

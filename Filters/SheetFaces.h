@@ -17,10 +17,10 @@ namespace filters
 /// wake cut of a C-grid, across which values are the same; or a wall without thickness, where they are not.
 struct CutFaces
 {
-  std::vector<std::size_t> firstShares{
+  std::vector<std::size_t> firstContributions{
     0
   }; // of each value, and the end; two for each corner, one of each side
-  std::vector<Share> shares;
+  std::vector<Contribution> contributions;
   std::vector<std::int32_t>
     places; // of the corners of all faces: where they are the same they are equal
   std::vector<std::size_t> starts{ 0 }; // of each face's corners, and the end

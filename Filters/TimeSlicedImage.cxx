@@ -47,7 +47,7 @@ schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
 }
 
 //------------------------------------------------------------------------------
-schlieren::Image TimeSlicedImage::GoOn(double seconds, const schlieren::Monitor& monitor)
+schlieren::Image TimeSlicedImage::Resume(double seconds, const schlieren::Monitor& monitor)
 {
   return this->Noted(this->Bench.resume(limited(monitor, seconds)));
 }

@@ -21,9 +21,9 @@ public:
   /// `seconds`: for rays and light, about; 0: no limit. What the image holds then, see schlieren::Image::finished.
   schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene,
     double seconds, const schlieren::Monitor& monitor);
-  schlieren::Image GoOn(double seconds, const schlieren::Monitor& monitor);
+  schlieren::Image Resume(double seconds, const schlieren::Monitor& monitor);
 
-  void GiveUp() { this->Bench.giveUp(); }
+  void Cancel() { this->Bench.cancel(); }
 
   /// Who traces rays, too: see schlieren::Bench.
   void SetWorkers(std::vector<schlieren::Channel*> workers)

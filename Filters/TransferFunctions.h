@@ -13,7 +13,7 @@ namespace filters
 
 struct Leaf;
 
-/// From a field's value to its share of the refractivity: f((x - low) / (high - low)).
+/// From a field's value to its part of the refractivity: f((x - low) / (high - low)).
 class FieldCurve
 {
 public:

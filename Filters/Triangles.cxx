@@ -81,7 +81,7 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
   }
   const std::size_t number = this->Nodes.size();
   this->Nodes.push_back(node);
-  if (end - begin <= mostInLeaf)
+  if (end - begin <= maxInLeaf)
   {
     this->Nodes[number].count = end - begin;
     return;
@@ -234,8 +234,8 @@ double squaredDistance(const Triangles& surface, std::size_t triangle, const Poi
     const Point edge = surface.corner(triangle, (i + 1) % 3) - a, from = place - a;
     isInside = isInside && dot(cross(edge, from), normal) >= 0;
     const double length = dot(edge, edge);
-    const double share = length > 0 ? std::clamp(dot(from, edge) / length, 0., 1.) : 0;
-    const Point miss = from - share * edge;
+    const double fraction = length > 0 ? std::clamp(dot(from, edge) / length, 0., 1.) : 0;
+    const Point miss = from - fraction * edge;
     least = std::min(least, dot(miss, miss));
   }
   if (isInside)

@@ -78,7 +78,7 @@ private:
       first; // of Order; inner nodes: the second child. The first child is the next node.
     std::int32_t count; // 0: an inner node
   };
-  static constexpr std::int32_t mostInLeaf = 4;
+  static constexpr std::int32_t maxInLeaf = 4;
 
   void build(std::int32_t begin, std::int32_t end, const std::vector<Point>& centres);
   void around(std::int32_t triangle, Node& node) const;

@@ -201,7 +201,7 @@ void vtkSchlierenFilter::PassToMedium()
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::OnMediumProgress()
 {
-  this->Progress(mediumShare * this->Medium->GetProgress());
+  this->Progress(mediumFraction * this->Medium->GetProgress());
   if (this->GetAbortExecute())
   {
     this->Medium->AbortExecuteOn();
@@ -456,18 +456,18 @@ int vtkSchlierenFilter::RequestData(
       steps.MeetWithAll(this->GatherLimit);
       serve();
     }
-    while (steps.GoOn())
+    while (steps.Resume())
     {
       serve();
     }
     this->Medium->SetPieceData(nullptr);
     return 1;
   }
-  const double mostCells =
+  const double maxCells =
     this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
-  if (steps.GetMeeting().AreTooFew(mostCells))
+  if (steps.GetMeeting().AreTooFew(maxCells))
   {
-    steps.MeetWithAll(mostCells);
+    steps.MeetWithAll(maxCells);
   }
   const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
 
@@ -502,7 +502,7 @@ int vtkSchlierenFilter::RequestData(
   this->SetAbortExecute(0); // it stays set after an abort
   try
   {
-    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(mostCells);
+    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(maxCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
     if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
@@ -511,20 +511,20 @@ int vtkSchlierenFilter::RequestData(
       this->Status = noIndexYet;
       return 1;
     }
-    const bool goesOn = !isExposure && this->GoesOn(input, bodies);
+    const bool continues = !isExposure && this->Continues(input, bodies);
     inside.UnfinishedOf = 0;
     if (!(this->TimeLimit > 0))
     {
       inside.DropShown(); // there will be a better image, which wants the memory
     }
-    bool isMade = goesOn || isExposure || this->UpdateRefractivity(input, bodies);
-    if (isMade && !goesOn && !isExposure)
+    bool isMade = continues || isExposure || this->UpdateRefractivity(input, bodies);
+    if (isMade && !continues && !isExposure)
     {
       this->UpdateFieldGradients(input);
     }
     isMade = isMade &&
       (isExposure ? this->Expose(steps, output, histogram)
-                  : this->Render(output, histogram, goesOn));
+                  : this->Render(output, histogram, continues));
     if (isMade)
     {
       showLast();
@@ -559,7 +559,7 @@ void vtkSchlierenFilter::ForgetImage()
 {
   Internals& inside = *this->Inside;
   inside.UnfinishedOf = 0;
-  inside.Images.GiveUp();
+  inside.Images.Cancel();
   inside.Ready.reset();
   inside.DropShown();
   this->KScaleUsed = 0;

@@ -961,7 +961,7 @@ private:
   vtkMTimeType GetTimeOfProperties();
   vtkMTimeType GetTimeOfImage();
   /// Whether an update has only to resume the image that is not finished.
-  bool GoesOn(vtkDataObject* input, vtkDataObject* bodies);
+  bool Continues(vtkDataObject* input, vtkDataObject* bodies);
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
   std::vector<char> Respond(const std::vector<char>& message);
   /// Whether data that several ranks have may stay where they are.
@@ -985,7 +985,7 @@ private:
   /// Reports progress of what is being made, or of an instant of it.
   void Progress(double fraction);
   /// Makes the image from the refractivity, or resumes it. False if aborted.
-  bool Render(vtkImageData* output, vtkImageData* histogram, bool goesOn);
+  bool Render(vtkImageData* output, vtkImageData* histogram, bool continues);
   /// Hands out what there is of an image, where there is anything new. False if aborted.
   bool Show(schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram);
   void ForgetImage();

@@ -66,7 +66,7 @@ public:
 
   SCHLIEREN_HD void add(const Cell& cell)
   {
-    constexpr double mostPixels = 4096; // looked at one by one, for one cell
+    constexpr double maxPixels = 4096; // looked at one by one, for one cell
     constexpr double maxSize = 1e9;
     Rest rest;
     rest.column = rest.row = -1;
@@ -92,7 +92,7 @@ public:
       }
       else
       {
-        addShape(cell, columns * rows > mostPixels || size > maxSize, rest);
+        addShape(cell, columns * rows > maxPixels || size > maxSize, rest);
       }
     }
     for (int plane = 0; plane < planes; ++plane)
@@ -165,7 +165,7 @@ private:
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
 
-  /// Whether shares of an area stand out from rounding.
+  /// Whether parts of an area stand out from rounding.
   SCHLIEREN_HD static bool isWide(double area, const Point (&at)[4])
   {
     constexpr double least = 1e-9; // of the square of the extent
@@ -254,9 +254,9 @@ private:
       return false;
     }
     // That of two triangles.
-    const double share = 0.5 * cross(at[0], at[1], at[2]) / area;
-    light.centre = { (at[0].x + at[2].x + share * at[1].x + (1 - share) * at[3].x) / 3,
-      (at[0].y + at[2].y + share * at[1].y + (1 - share) * at[3].y) / 3 };
+    const double fraction = 0.5 * cross(at[0], at[1], at[2]) / area;
+    light.centre = { (at[0].x + at[2].x + fraction * at[1].x + (1 - fraction) * at[3].x) / 3,
+      (at[0].y + at[2].y + fraction * at[1].y + (1 - fraction) * at[3].y) / 3 };
     // From the middle of a side to that of the opposite one: s to the right, t up; s x t is the area.
     const double sx = 0.5 * (firstX - secondX), sy = 0.5 * (firstY - secondY);
     const double tx = 0.5 * (firstX + secondX), ty = 0.5 * (firstY + secondY);
@@ -416,7 +416,7 @@ private:
   }
 
   /// Spreads a cell that has no area, or far too much of it, over points.
-  SCHLIEREN_HD void addPoints(const Cell& cell, double share, Rest& rest)
+  SCHLIEREN_HD void addPoints(const Cell& cell, double fraction, Rest& rest)
   {
     constexpr int perSide = 16;
     constexpr double each = 1. / (perSide * perSide);
@@ -439,7 +439,7 @@ private:
         {
           const double(&light)[4] = cell.light[plane];
           const std::int64_t here =
-            film_.fixed(between(light[0], light[1], light[2], light[3]) * each * share);
+            film_.fixed(between(light[0], light[1], light[2], light[3]) * each * fraction);
           if (isOnIt)
           {
             deposit_.pixel(plane, rest.column, rest.row, here);

@@ -27,7 +27,7 @@ constexpr int threadsPerBlock = tileColumns * tileRows;
 constexpr std::int64_t fewestRows = 16;
 
 /// Of bentKernel, however many cells there are.
-constexpr unsigned mostBlocksOfBent = 1024;
+constexpr unsigned maxBlocksOfBent = 1024;
 
 /// What atomicAdd takes; whole numbers wrap, so that the sum's bits are those of signed ones.
 using Counter = unsigned long long;
@@ -67,12 +67,13 @@ struct DeviceDeposit
         static_cast<Counter>(light));
     }
   }
-  __device__ void block(int plane, std::int64_t column, std::int64_t row, const Shares& shares)
+  __device__ void block(
+    int plane, std::int64_t column, std::int64_t row, const Shares& contributions)
   {
-    anywhere(plane, column, row, shares.lowerLeft);
-    anywhere(plane, column + 1, row, shares.lowerRight);
-    anywhere(plane, column, row + 1, shares.upperLeft);
-    anywhere(plane, column + 1, row + 1, shares.upperRight);
+    anywhere(plane, column, row, contributions.lowerLeft);
+    anywhere(plane, column + 1, row, contributions.lowerRight);
+    anywhere(plane, column, row + 1, contributions.upperLeft);
+    anywhere(plane, column + 1, row + 1, contributions.upperRight);
   }
 
 private:
@@ -296,7 +297,7 @@ void deposit(const ShadedRays<planes>& shaded, FilmEstimator estimator, const Su
   }
   launchKernel(
     depositKernel<FilmEstimator::Sheet, planes>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
-  launchKernel(bentKernel<planes>, std::min(blocks, mostBlocksOfBent), threadsPerBlock, 0, nullptr,
+  launchKernel(bentKernel<planes>, std::min(blocks, maxBlocksOfBent), threadsPerBlock, 0, nullptr,
     shaded, sums);
 }
 

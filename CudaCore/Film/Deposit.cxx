@@ -52,9 +52,9 @@ public:
   {
     of(plane).add(column, row, light);
   }
-  void block(int plane, std::int64_t column, std::int64_t row, const Shares& shares)
+  void block(int plane, std::int64_t column, std::int64_t row, const Shares& contributions)
   {
-    of(plane).add(column, row, shares);
+    of(plane).add(column, row, contributions);
   }
 
 private:

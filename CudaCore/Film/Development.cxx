@@ -16,14 +16,14 @@ namespace schlieren
 {
 
 Films filmsOf(
-  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t mostRays)
+  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t maxRays)
 {
   const View& view = scene.view;
-  Films films(channelsOf(cutoff), std::move(tint), view.width, view.height, mostRays);
+  Films films(channelsOf(cutoff), std::move(tint), view.width, view.height, maxRays);
   if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
   {
     films.samples = std::make_unique<Films>(
-      Shadowgraph::channels, std::nullopt, view.width, view.height, mostRays);
+      Shadowgraph::channels, std::nullopt, view.width, view.height, maxRays);
   }
   return films;
 }
@@ -57,7 +57,7 @@ bool UndisturbedImage::addPass(const Monitor& monitor)
   if (!films_)
   {
     exits_.resize(static_cast<std::size_t>(pass.columns * pass.rows));
-    films_ = filmsOf(scene_, exposure_.cutoff, {}, exposure_.mostRays);
+    films_ = filmsOf(scene_, exposure_.cutoff, {}, exposure_.maxRays);
   }
   pass.offset = pixelOffset(passes_, scene_.seed);
   exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff, exposure_.projection,

@@ -18,7 +18,7 @@ namespace schlieren
 
 /// The films that a scene needs, one of samples among them where its noise filter counts these.
 Films filmsOf(
-  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t mostRays);
+  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t maxRays);
 
 /// Makes of the films of some passes the image: its light, intensity and colour. Returns what filterNoise wants
 /// to know: the samples of each pixel, where they are counted.
@@ -33,7 +33,7 @@ struct Exposure
   Cutoffs cutoff;
   Projection projection{};
   std::int64_t margin = 0;
-  std::int64_t mostRays = 0; ///< see Film
+  std::int64_t maxRays = 0; ///< see Film
 };
 
 /// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the

@@ -33,13 +33,13 @@ RayCounts exposeRows(std::int64_t begin, std::int64_t end, const std::vector<Tra
 
 } // namespace
 
-Films::Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t mostRays)
+Films::Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t maxRays)
   : tintOfRays(std::move(tint))
 {
   const int count = channels == 1 && tintOfRays ? 4 : channels;
   for (int plane = 0; plane < count; ++plane)
   {
-    planes.emplace_back(width, height, mostRays);
+    planes.emplace_back(width, height, maxRays);
   }
 }
 
@@ -107,12 +107,12 @@ RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& pass
 {
   constexpr std::int64_t piecesPerThread = 4;
   constexpr std::int64_t fewestRows = 16;
-  constexpr std::int64_t mostRowsToPause = 64;
+  constexpr std::int64_t maxRowsToPause = 64;
   const std::int64_t rows = films.planes[0].height() + 2 * margin;
   std::int64_t rowsPerPiece = std::max(fewestRows, rows / (piecesPerThread * threadCount(threads)));
   if (monitor.paused)
   {
-    rowsPerPiece = std::min(rowsPerPiece, mostRowsToPause);
+    rowsPerPiece = std::min(rowsPerPiece, maxRowsToPause);
   }
   RayCounts counts;
   std::mutex countsLock;

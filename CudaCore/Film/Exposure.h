@@ -23,7 +23,7 @@ namespace schlieren
 struct Films
 {
   /// `channels` of the cutoff, 1 or 3. `tint`: unset where nothing tints.
-  Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t mostRays);
+  Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t maxRays);
 
   bool isColored() const { return planes.size() > 1; }
 
@@ -79,7 +79,7 @@ struct RayCounts
     saturated += other.saturated;
   }
 
-  double saturatedShare() const
+  double saturatedFraction() const
   {
     return shaded > 0 ? static_cast<double>(saturated) / static_cast<double>(shaded) : 0;
   }

@@ -22,20 +22,20 @@ constexpr std::int64_t bandRows = 64;
 
 } // namespace
 
-Film::Film(int width, int height, std::int64_t mostRays)
+Film::Film(int width, int height, std::int64_t maxRays)
   : width_(width)
   , height_(height)
   , pixels_(static_cast<std::size_t>(width_ * height_))
   , locks_(static_cast<std::size_t>((height_ + rowsPerLock - 1) / rowsPerLock))
 {
   constexpr int usableBits = 63;
-  constexpr int mostFractionBits = 40;
+  constexpr int maxFractionBits = 40;
   int rayBits = 1;
-  while (rayBits < usableBits && (mostRays >> rayBits) != 0)
+  while (rayBits < usableBits && (maxRays >> rayBits) != 0)
   {
     ++rayBits;
   }
-  one_ = std::ldexp(1.0, std::min(mostFractionBits, usableBits - rayBits));
+  one_ = std::ldexp(1.0, std::min(maxFractionBits, usableBits - rayBits));
 }
 
 void Film::add(std::int64_t row, std::int64_t column, const std::int64_t* light, std::int64_t count)
@@ -110,10 +110,10 @@ void FilmBand::merge()
   begin_ = end_ = first_;
 }
 
-void FilmBand::addAlone(std::int64_t column, std::int64_t row, const Shares& shares)
+void FilmBand::addAlone(std::int64_t column, std::int64_t row, const Shares& contributions)
 {
-  const std::int64_t lights[2][2] = { { shares.lowerLeft, shares.lowerRight },
-    { shares.upperLeft, shares.upperRight } };
+  const std::int64_t lights[2][2] = { { contributions.lowerLeft, contributions.lowerRight },
+    { contributions.upperLeft, contributions.upperRight } };
   for (std::int64_t j = 0; j < 2; ++j)
   {
     for (std::int64_t i = 0; i < 2; ++i)

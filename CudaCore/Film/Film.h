@@ -25,9 +25,9 @@ struct LightSums
 class Film
 {
 public:
-  /// `mostRays`: no more light than that of as many rays will be added. It cannot overflow a pixel, nor a sum
+  /// `maxRays`: no more light than that of as many rays will be added. It cannot overflow a pixel, nor a sum
   /// of pixels.
-  Film(int width, int height, std::int64_t mostRays);
+  Film(int width, int height, std::int64_t maxRays);
 
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
@@ -91,19 +91,19 @@ public:
   void addOutside(std::int64_t light) { sums_.outside += light; }
 
   /// Adds to 2 x 2 pixels at (column, row), at least one of which is on the film.
-  void add(std::int64_t column, std::int64_t row, const Shares& shares)
+  void add(std::int64_t column, std::int64_t row, const Shares& contributions)
   {
     if (row >= begin_ && row + 1 < end_)
     {
       std::int64_t* lower = rowOf(row) + column + 1;
       std::int64_t* upper = lower + columns_;
-      lower[0] += shares.lowerLeft;
-      lower[1] += shares.lowerRight;
-      upper[0] += shares.upperLeft;
-      upper[1] += shares.upperRight;
+      lower[0] += contributions.lowerLeft;
+      lower[1] += contributions.lowerRight;
+      upper[0] += contributions.upperLeft;
+      upper[1] += contributions.upperRight;
       return;
     }
-    addAlone(column, row, shares);
+    addAlone(column, row, contributions);
   }
 
   /// Adds to a pixel of the film.
@@ -122,7 +122,7 @@ private:
   {
     return light_.data() + static_cast<std::size_t>((row - first_) * columns_);
   }
-  void addAlone(std::int64_t column, std::int64_t row, const Shares& shares);
+  void addAlone(std::int64_t column, std::int64_t row, const Shares& contributions);
   void merge();
 
   Film& film_;

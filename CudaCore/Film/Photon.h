@@ -27,7 +27,7 @@ struct FilmSize
 /// plane:
 ///   emitted(plane, light)                 before it is shared;
 ///   pixel(plane, column, row, light)      on the film;
-///   block(plane, column, row, shares)     of 2 x 2 pixels, some of which may be outside;
+///   block(plane, column, row, parts)      of 2 x 2 pixels, some of which may be outside;
 ///   outside(plane, light)                 that falls on no pixel.
 /// What is emitted arrives in pixels and outside, to the last bit.
 template <int planes, class Deposit>
@@ -46,7 +46,7 @@ SCHLIEREN_HD void addPhoton(const FilmRay<planes>& ray, const FilmSize& film, De
     if (isNear)
     {
       const Footprint at = footprintOf(column, row);
-      deposit.block(plane, at.column, at.row, sharesOf(at, whole));
+      deposit.block(plane, at.column, at.row, contributionsOf(at, whole));
     }
     else
     {

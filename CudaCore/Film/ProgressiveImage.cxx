@@ -16,7 +16,7 @@ ProgressiveImage::ProgressiveImage(const Scene& scene)
 void ProgressiveImage::begin(const Exposure& exposure, std::optional<Tint> tint)
 {
   exposure_ = exposure;
-  films_ = filmsOf(scene_, exposure.cutoff, std::move(tint), exposure.mostRays);
+  films_ = filmsOf(scene_, exposure.cutoff, std::move(tint), exposure.maxRays);
   if (isOfCamera(scene_.cutoff))
   {
     undisturbed_.emplace(scene_, exposure_);
@@ -87,7 +87,7 @@ void ProgressiveImage::developCounts(Image& image)
   image.stepsTaken = counts_.steps;
   image.raysBlocked = counts_.blocked;
   image.raysLost = counts_.lost;
-  image.saturatedShare = counts_.saturatedShare();
+  image.saturatedFraction = counts_.saturatedFraction();
 }
 
 void ProgressiveImage::develop(Image& image)

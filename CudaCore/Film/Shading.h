@@ -60,9 +60,9 @@ SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displac
   {
     const double sideways = eps[0] * eps[0] + eps[1] * eps[1];
     const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30); // cosine along w
-    const double way = projection.distance / forward;
-    moved[0] += way * eps[0];
-    moved[1] += way * eps[1];
+    const double pathLength = projection.distance / forward;
+    moved[0] += pathLength * eps[0];
+    moved[1] += pathLength * eps[1];
     // 1 / forward - 1, without losing small angles.
     longer = projection.distance * (sideways / (forward * (1 + forward)));
   }
@@ -77,16 +77,16 @@ SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displac
     const double sideways = p[0] * p[0] + p[1] * p[1];
     const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30);
     const double along = -((d[0] + p[0]) * eps[0] + (d[1] + p[1]) * eps[1]) / (forward + cosine);
-    const double way = projection.distance / forward;
+    const double pathLength = projection.distance / forward;
     // tan p - tan d = (eps - tan d eps_w) / p_w.
-    moved[0] += way * (eps[0] - slope[0] * along);
-    moved[1] += way * (eps[1] - slope[1] * along);
+    moved[0] += pathLength * (eps[0] - slope[0] * along);
+    moved[1] += pathLength * (eps[1] - slope[1] * along);
     // 1 - d.p = |p - d|^2 / 2; and the undisturbed light is a sphere around its source.
     const double perRadius = projection.perSourceDistance * cosine;
     const double ahead = d[0] * moved[0] + d[1] * moved[1];
     const double beside = moved[0] * moved[0] + moved[1] * moved[1] - ahead * ahead;
     const double further = 1 + ahead * perRadius;
-    longer = 0.5 * way * (eps[0] * eps[0] + eps[1] * eps[1] + along * along) -
+    longer = 0.5 * pathLength * (eps[0] * eps[0] + eps[1] * eps[1] + along * along) -
       beside * perRadius / (further + sqrt(further * further + beside * perRadius * perRadius));
   }
   return shift;

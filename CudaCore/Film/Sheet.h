@@ -195,7 +195,7 @@ private:
     {
       return false;
     }
-    // Where its sides meet the pixels' borders: as shares of the sides, and from the common corner.
+    // Where its sides meet the pixels' borders: as fractions of the sides, and from the common corner.
     const double s0 = x0 / (x0 + x1), s1 = x3 / (x3 + x2); // of the lower and the upper side
     const double t0 = y0 / (y0 + y3), t1 = y1 / (y1 + y2); // of the left and the right side
     const double down = y0 + s0 * (y1 - y0), up = y3 + s1 * (y2 - y3);
@@ -362,7 +362,7 @@ private:
       deposit_.emitted(plane, whole);
       if (isNear)
       {
-        deposit_.block(plane, at.column, at.row, sharesOf(at, whole));
+        deposit_.block(plane, at.column, at.row, contributionsOf(at, whole));
       }
       else
       {

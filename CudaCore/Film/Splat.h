@@ -42,7 +42,7 @@ struct Shares
 };
 
 /// Shares light (at most 2^52) bilinearly, without losing any to rounding.
-SCHLIEREN_HD Shares sharesOf(const Footprint& footprint, std::int64_t whole)
+SCHLIEREN_HD Shares contributionsOf(const Footprint& footprint, std::int64_t whole)
 {
   const auto part = [](std::int64_t light, double fraction)
   { return static_cast<std::int64_t>(static_cast<double>(light) * fraction); };

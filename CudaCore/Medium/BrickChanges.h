@@ -65,7 +65,7 @@ std::vector<Real> coefficientsOfPart(const Real* of, std::int32_t part, BrickSha
 
 /**
  * How much the deflection of a ray over a part of a box has changed, by axis, when the part got samples of its own, at
- * most. Where there are walls, by the gradients that gas has a share in.
+ * most. Where there are walls, by the gradients that gas has a part in.
  * `box`: the coefficients of the whole box, relative to `offset`.
  */
 template <class Real>

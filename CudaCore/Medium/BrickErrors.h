@@ -66,8 +66,8 @@ struct InnerCube
 inline double largestThirdDifference(const double* values, const std::vector<unsigned char>& counts,
   const InnerCube& cube, std::size_t axis)
 {
-  constexpr std::size_t mostPoints = 64;
-  std::array<double, mostPoints> most{};
+  constexpr std::size_t maxPoints = 64;
+  std::array<double, maxPoints> most{};
   const bool isLayer = cube.shape == BrickShape::Layer;
   const int firstLayer = isLayer ? 0 : cube.first;
   std::array<int, 3> to{ cube.points, cube.points, isLayer ? 1 : cube.points };

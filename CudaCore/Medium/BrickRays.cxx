@@ -21,7 +21,7 @@ namespace
 constexpr int latticeEdge = 48;
 
 /// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
-constexpr double mostOfSums = 2;
+constexpr double maxOfSums = 2;
 
 constexpr int brickEdge = BrickMaker<float>::edge;
 
@@ -168,7 +168,7 @@ LeafSums sumUpWith(const BrickLayout& layout, const Real* samples, const std::in
   const LeafSegment& segment, const Visit& visit)
 {
   LeafSums sums;
-  const double step = segment.way / segment.steps;
+  const double step = segment.pathLength / segment.steps;
   const Real* brick = samples + segment.brick * layout.samplesPerBrick;
   for (int n = 0; n < segment.steps; ++n)
   {
@@ -213,7 +213,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   {
     const std::int32_t found = medium.finder.at({ at(s, 0), at(s, 1), at(s, 2) });
     const Leaf<Real>& leaf = medium.leaves[found];
-    double local[3], along[3], way = ray.exit - s, fastest = 0;
+    double local[3], along[3], pathLength = ray.exit - s, fastest = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
       local[axis] = (at(s, axis) - leaf.first[axis]) * leaf.perIndex;
@@ -226,7 +226,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       if (along[axis] != 0)
       {
         const double side = along[axis] > 0 ? 15.5 : -0.5;
-        way = std::min(way, std::max(0., (side - local[axis]) / along[axis]));
+        pathLength = std::min(pathLength, std::max(0., (side - local[axis]) / along[axis]));
       }
     }
     // Into the next leaf, whatever rounding does.
@@ -237,13 +237,13 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       bend.isBlocked = true;
       break;
     }
-    bend.opticalPath += static_cast<double>(leaf.offset) * way;
+    bend.opticalPath += static_cast<double>(leaf.offset) * pathLength;
     const auto difference = static_cast<double>(medium.differences[found]);
     const auto edgeOf = [&](double voxel) { return voxel * brickEdge / leaf.perIndex; };
     const auto [shortest, longest] =
       std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
     const auto squared = [](double x) { return x * x; };
-    const double edges = way / edgeOf(*longest);
+    const double edges = pathLength / edgeOf(*longest);
     const double error = edges * static_cast<double>(medium.errors[found]);
     bend.error += squared(error);
     if (error > 0)
@@ -256,22 +256,23 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     }
     const double ofFields =
       medium.fieldDifferences != nullptr ? static_cast<double>(medium.fieldDifferences[found]) : 0;
-    if ((difference > 0 || ofFields > 0) && way > 0)
+    if ((difference > 0 || ofFields > 0) && pathLength > 0)
     {
       // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
       const double edge = edgeOf(*shortest);
-      bend.neglected.push_back({ found, static_cast<float>(difference * way / edge),
-        static_cast<float>(0.5 * difference * way), static_cast<float>(ofFields * way / edge) });
-      bend.error += squared(difference * way / edge);
-      bend.errorOfGathered += squared(ofFields * way / edge);
+      bend.neglected.push_back({ found, static_cast<float>(difference * pathLength / edge),
+        static_cast<float>(0.5 * difference * pathLength),
+        static_cast<float>(ofFields * pathLength / edge) });
+      bend.error += squared(difference * pathLength / edge);
+      bend.errorOfGathered += squared(ofFields * pathLength / edge);
     }
-    if (leaf.kind != Leaf<Real>::Constant && way > 0)
+    if (leaf.kind != Leaf<Real>::Constant && pathLength > 0)
     {
-      const LeafSums ofLeaf =
-        sumsOf(LeafSegment{ { local[0], local[1], local[2] }, { along[0], along[1], along[2] }, way,
-                 leaf.perIndex, std::max(1, static_cast<int>(std::ceil(way * fastest))), found,
-                 leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
-          sums);
+      const LeafSums ofLeaf = sumsOf(
+        LeafSegment{ { local[0], local[1], local[2] }, { along[0], along[1], along[2] }, pathLength,
+          leaf.perIndex, std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), found,
+          leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
+        sums);
       bend.opticalPath += ofLeaf.opticalPath;
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -283,7 +284,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
         break;
       }
     }
-    s += way + beyond;
+    s += pathLength + beyond;
   }
   const Grid& grid = medium.grid;
   const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
@@ -496,7 +497,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         bend.neglected, tolerance * findings.opticalPath, findings.coarse);
       addLargest<&Neglected::gathered>(
         bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
-      addLargest<&Wrong::deflection>(bend.wrong, mostOfSums * allowed, findings.wrong);
+      addLargest<&Wrong::deflection>(bend.wrong, maxOfSums * allowed, findings.wrong);
     }
   }
   makeUnique(findings.coarse);

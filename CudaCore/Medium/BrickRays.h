@@ -38,7 +38,7 @@ struct Column
 struct LeafSegment
 {
   double local[3], along[3]; ///< from where, local coordinates; and these by data unit
-  double way;                ///< data units
+  double pathLength;         ///< data units
   double perIndex;           ///< of the leaf
   std::int32_t steps;
   std::int32_t leaf;

@@ -14,7 +14,7 @@ namespace
 {
 
 /// Address space that is asked for at once; what is not used of it costs nothing.
-constexpr std::size_t mostReserved = std::size_t{ 1 } << 30;
+constexpr std::size_t maxReserved = std::size_t{ 1 } << 30;
 
 /// The numbers that are used, in this order, and then all others below `count`.
 std::vector<std::int32_t> completed(std::vector<std::int32_t> used, std::size_t count)
@@ -63,7 +63,7 @@ void BrickStore<Value>::reserve(std::size_t values)
   {
     return;
   }
-  const std::size_t atOnce = std::min(layout_.usual, mostReserved) / sizeof(Value);
+  const std::size_t atOnce = std::min(layout_.usual, maxReserved) / sizeof(Value);
   try
   {
     values_.reserve(std::max({ values, atOnce, 2 * values_.size() }));

@@ -168,7 +168,7 @@ template <class Real>
 HomogeneityMap<Real> buildHomogeneityMap(
   const Medium<Real>& medium, Interpolation interpolation, Real tolerance, int threads);
 
-// One cube's share of the work, the same on host and device.
+// One cube's part of the work, the same on host and device.
 
 /// Whether any of the `count` <= 32 bits from `at` on is 1.
 SCHLIEREN_HD bool anyBit(const std::uint32_t* bits, std::int64_t at, int count)

@@ -150,14 +150,14 @@ double Mixture::constantByVolume(const double* fractions) const
   double refraction = 0, mass = 0, rest = 1; // per mole of the mixture
   for (std::size_t i = 0; i < species.size(); ++i)
   {
-    const double share = species[i].molarMass * fractions[i];
-    refraction += species[i].constant * share;
-    mass += share;
+    const double fraction = species[i].molarMass * fractions[i];
+    refraction += species[i].constant * fraction;
+    mass += fraction;
     rest -= fractions[i];
   }
-  const double share = background.molarMass * rest;
-  mass += share;
-  return mass > 0 ? (refraction + background.constant * share) / mass : notANumber;
+  const double fraction = background.molarMass * rest;
+  mass += fraction;
+  return mass > 0 ? (refraction + background.constant * fraction) / mass : notANumber;
 }
 
 namespace

@@ -21,7 +21,7 @@ namespace
 
 /// Root cells along the longest axis. More where the data are that much longer than wide.
 constexpr double fewestRoots = 4;
-constexpr double mostRoots = 16;
+constexpr double maxRoots = 16;
 
 /// One along z where nothing depends on it.
 std::array<std::int32_t, 3> rootCellsOf(const MediumSource& source)
@@ -47,7 +47,7 @@ std::array<std::int32_t, 3> rootCellsOf(const MediumSource& source)
   }
   const double longest = *std::max_element(length.begin(), length.end());
   const double shortest = *std::min_element(length.begin(), length.end());
-  const double most = std::clamp(std::round(longest / shortest), fewestRoots, mostRoots);
+  const double most = std::clamp(std::round(longest / shortest), fewestRoots, maxRoots);
   std::array<std::int32_t, 3> cells{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

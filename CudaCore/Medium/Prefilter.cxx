@@ -29,7 +29,7 @@ namespace
 {
 
 /// One axis of a B-spline's equations, with s the samples and c the coefficients. Inside,
-/// c_{i-1} + diagonal c_i + c_{i+1} = (diagonal + 2) s_i: a sample is its coefficient and a share of the
+/// c_{i-1} + diagonal c_i + c_{i+1} = (diagonal + 2) s_i: a sample is its coefficient and a fraction of the
 /// coefficients' second difference, c''. That the coefficients go on as a polynomial makes the rows at an
 /// end:
 ///   degree 2, through the last three: c'' is the same at both last points, so c_0 - c_1 = s_0 - s_1;
@@ -81,13 +81,13 @@ void solveLines(
   }
   else
   {
-    const Real share = 1 / (diagonal + 2);
+    const Real fraction = 1 / (diagonal + 2);
     for (std::int64_t x = 0; x < width; ++x)
     {
       const Real low = first[x + stride];
       const Real high = last[x - stride];
-      const Real lowBend = share * (first[x] - 2 * low + first[x + 2 * stride]);
-      const Real highBend = share * (last[x] - 2 * high + last[x - 2 * stride]);
+      const Real lowBend = fraction * (first[x] - 2 * low + first[x + 2 * stride]);
+      const Real highBend = fraction * (last[x] - 2 * high + last[x - 2 * stride]);
       first[x] = 2 * low + diagonal * lowBend; // c_0 + c_2
       last[x] = 2 * high + diagonal * highBend;
       first[x + stride] = low - lowBend;

@@ -55,8 +55,8 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
   }
   const View view(*this);
   bool hasChanged = false;
-  bool goesOn = true;
-  while (goesOn)
+  bool continues = true;
+  while (continues)
   {
     if (work_.tasksDone == work_.tasks.size())
     {
@@ -73,7 +73,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
       work_.isFinished = work_.tasks.empty();
     }
     const std::size_t before = work_.tasksDone;
-    goesOn = !work_.isFinished && doTasks(view, monitor);
+    continues = !work_.isFinished && doTasks(view, monitor);
     hasChanged = hasChanged || work_.tasksDone != before;
   }
   isArranged_ = isArranged_ && !hasChanged;

@@ -60,10 +60,10 @@ struct ColorImage
       {
         const double left = static_cast<double>(pixels[3 * column.first + channel]);
         const double right = static_cast<double>(pixels[3 * column.second + channel]);
-        return left + column.way * (right - left);
+        return left + column.fraction * (right - left);
       };
       const double low = along(lower);
-      light[channel] = low + row.way * (along(upper) - low);
+      light[channel] = low + row.fraction * (along(upper) - low);
     }
   }
   SCHLIEREN_HD bool saturates(const double (&eps)[2]) const
@@ -72,11 +72,11 @@ struct ColorImage
   }
 
 private:
-  /// Two neighbouring pixels of a row or column, and the way from one's centre to the other's.
+  /// Two neighbouring pixels of a row or column, and the fraction of the distance between their centres.
   struct Between
   {
     std::int64_t first, second;
-    double way;
+    double fraction;
   };
 
   SCHLIEREN_HD static Between between(double place, int size)

@@ -20,7 +20,7 @@ struct CutoffAxis
 {
   double k;         ///< focal length by width of the source, f/a
   double normal[2]; ///< (cos angle, sin angle)
-  double offset;    ///< how far the edge is in, as a share of the source's image
+  double offset;    ///< how far the edge is in, as a fraction of the source's image
 
   /// `degrees`: 0 measures the deflection along u, 90 along v. Exact at right angles, so that an edge
   /// along one axis sees nothing of the other.
@@ -32,7 +32,7 @@ struct CutoffAxis
     return { k, { cosine, sine }, offset };
   }
 
-  /// 1/2 - offset + k e: the share of an evenly bright image of the source, as wide everywhere, that is
+  /// 1/2 - offset + k e: the fraction of an evenly bright image of the source, as wide everywhere, that is
   /// past the edge. Beyond 0 ... 1 all of it is on one side.
   SCHLIEREN_HD double placeOf(const double (&eps)[2]) const
   {
@@ -40,7 +40,7 @@ struct CutoffAxis
   }
 };
 
-/// Knife edge (Settles 2001, ch. 3: dI/I = f eps / a, k = f/a): the share of the source's image that the
+/// Knife edge (Settles 2001, ch. 3: dI/I = f eps / a, k = f/a): the fraction of the source's image that the
 /// edge lets pass. Of a point or a slit along the edge it is I = 1/2 - offset + k e, clamped to 0 ... 1;
 /// of a disc, whose diameter is a, the area of a segment of a circle.
 struct KnifeEdge
@@ -59,14 +59,14 @@ struct KnifeEdge
 
   SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
   {
-    double share = limited(axis.placeOf(ray.deflection));
+    double fraction = limited(axis.placeOf(ray.deflection));
     if (isOfDisc)
     {
-      const double sine = 2 * share - 1; // of the angle under which the edge meets the circle
+      const double sine = 2 * fraction - 1; // of the angle under which the edge meets the circle
       const double cosine = sqrt(1 - sine * sine);
-      share = limited(0.5 + (sine * cosine + angleOf(cosine, sine)) / pi);
+      fraction = limited(0.5 + (sine * cosine + angleOf(cosine, sine)) / pi);
     }
-    light[0] = inverted ? 1 - share : share;
+    light[0] = inverted ? 1 - fraction : fraction;
   }
 
   /// Whether bending this ray a little more would change nothing.
@@ -88,8 +88,8 @@ struct GradedFilter
 
   SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
   {
-    const double share = interpolate(table, axis.placeOf(ray.deflection));
-    light[0] = inverted ? 1 - share : share;
+    const double fraction = interpolate(table, axis.placeOf(ray.deflection));
+    light[0] = inverted ? 1 - fraction : fraction;
   }
 
   SCHLIEREN_HD bool saturates(const double (&eps)[2]) const

@@ -41,8 +41,8 @@ struct Dots
     const double contrast = patternContrast(period);
     const double x = (ray.position[0] - centre[0]) / period;
     const double y = (ray.position[1] - centre[1]) / period;
-    constexpr double furthest = 1e15; // where cells are still told apart
-    if (!(contrast > 0 && fabs(x) < furthest && fabs(y) < furthest))
+    constexpr double largest = 1e15; // where cells are still told apart
+    if (!(contrast > 0 && fabs(x) < largest && fabs(y) < largest))
     {
       return;
     }
@@ -82,8 +82,9 @@ private:
     constexpr double perBit = 1. / 4294967296;
     const double besideX = x - perBit * static_cast<double>(bits >> 32);
     const double besideY = y - perBit * static_cast<double>(bits & 0xffffffffu);
-    const double way = limited((sqrt(besideX * besideX + besideY * besideY) - radius) / edge + 0.5);
-    return way * way * (3 - 2 * way);
+    const double fraction =
+      limited((sqrt(besideX * besideX + besideY * besideY) - radius) / edge + 0.5);
+    return fraction * fraction * (3 - 2 * fraction);
   }
 };
 

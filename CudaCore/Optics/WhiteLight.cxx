@@ -49,7 +49,7 @@ WhiteLight WhiteLight::of(
   constexpr double lowest = 1 / 780e-9, highest = 1 / 380e-9; // wavenumbers, 1 / metres
   constexpr double width = (highest - lowest) / bands;
   WhiteLight light{};
-  light.leastDispersion = light.mostDispersion = 1;
+  light.minDispersion = light.maxDispersion = 1;
   // One more on either side, for differences.
   std::array<double, bands + 2> wavenumbers, turns;
   std::array<Triple, bands + 2> energies;
@@ -65,8 +65,8 @@ WhiteLight WhiteLight::of(
         " nm, so white light has no fringes. Choose an index model that covers 370 to 800 nm, or "
         "switch WhiteLight off.");
     }
-    light.leastDispersion = std::min(light.leastDispersion, factor);
-    light.mostDispersion = std::max(light.mostDispersion, factor);
+    light.minDispersion = std::min(light.minDispersion, factor);
+    light.maxDispersion = std::max(light.maxDispersion, factor);
     turns[n] = factor * wavenumbers[n];
     energies[n] = colorMatching(wavelengthHere);
     for (double& energy : energies[n])
@@ -105,9 +105,9 @@ WhiteLight WhiteLight::of(
     const double whole = row[0] + row[1] + row[2]; // 1, but for the rounding of the matrix
     for (std::size_t band = 0; band < bands; ++band)
     {
-      const double share = row[0] * xyz[band][0] / sum[0] + row[1] * xyz[band][1] / sum[1] +
+      const double fraction = row[0] * xyz[band][0] / sum[0] + row[1] * xyz[band][1] / sum[1] +
         row[2] * xyz[band][2] / sum[2];
-      light.share[channel][band] = static_cast<float>(0.5 * share / whole);
+      light.fraction[channel][band] = static_cast<float>(0.5 * fraction / whole);
     }
   }
   return light;
@@ -116,8 +116,8 @@ WhiteLight WhiteLight::of(
 bool WhiteLightTable::canDo(const WhiteLight& light)
 {
   // Of other gases, which are none, fringes would be wider or closer than the table is made for.
-  return light.carrier.isNone() ? light.leastDispersion > 0.8 && light.mostDispersion < 1.25
-                                : light.leastDispersion == 1 && light.mostDispersion == 1;
+  return light.carrier.isNone() ? light.minDispersion > 0.8 && light.maxDispersion < 1.25
+                                : light.minDispersion == 1 && light.maxDispersion == 1;
 }
 
 std::vector<float> WhiteLightTable::colorsOf(WhiteLight light)

@@ -32,10 +32,10 @@ struct WhiteLight
   double turnsPerCarrier[bands]; ///< by wavelength, of turns at Scene::wavelength
   float fadePerPath[groups];     ///< w of a metre
   float fadePerCarrier;          ///< w of a turn at Scene::wavelength
-  float share[channels]
-             [bands]; ///< of all light, linear sRGB; they add up to 1 / 2, and some are negative
-  Carrier carrier;    ///< at Scene::wavelength
-  double leastDispersion, mostDispersion;
+  float fraction[channels]
+                [bands]; ///< of all light, linear sRGB; they add up to 1 / 2, and some are negative
+  Carrier carrier;       ///< at Scene::wavelength
+  double minDispersion, maxDispersion;
 
   /// `dispersion`: see Fringes; may be empty. Throws Error where it gives no number.
   static WhiteLight of(
@@ -85,7 +85,7 @@ struct WhiteLight
         for (int n = 0; n < perGroup; ++n)
         {
           const int band = group * perGroup + n;
-          sums[n] += share[channel][band] * fringes[band];
+          sums[n] += fraction[channel][band] * fringes[band];
         }
       }
       light[channel] = 0.5 + static_cast<double>((sums[0] + sums[1]) + (sums[2] + sums[3]));
@@ -130,13 +130,13 @@ struct WhiteLightTable
     const double at = path * ((places - 1) / reach);
     const bool isFringe = at < places - 1; // not of NaN
     const int first = isFringe ? static_cast<int>(at) : 0;
-    const double way = at - first;
+    const double fraction = at - first;
     const float* color = colors.values + channels * first;
     for (int channel = 0; channel < channels; ++channel)
     {
       const double here = static_cast<double>(color[channel]);
       const double next = static_cast<double>(color[channel + channels]);
-      light[channel] = isFringe ? limited(here + way * (next - here)) : 0.5;
+      light[channel] = isFringe ? limited(here + fraction * (next - here)) : 0.5;
     }
   }
   SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }

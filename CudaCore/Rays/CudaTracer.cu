@@ -263,10 +263,10 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   /// Of the rows from this one on.
   const auto launch = [&](std::int64_t number, std::int64_t firstRow)
   {
-    constexpr std::int64_t mostBlocks = 65535; // along a grid's second axis
+    constexpr std::int64_t maxBlocks = 65535; // along a grid's second axis
     const std::int64_t rows = std::min(pass.rows - firstRow,
       blockRows *
-        std::clamp<std::int64_t>(memory_->pace->rays() / pass.columns / blockRows, 1, mostBlocks));
+        std::clamp<std::int64_t>(memory_->pace->rays() / pass.columns / blockRows, 1, maxBlocks));
     auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
     const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
       static_cast<unsigned>((rows + blockRows - 1) / blockRows));

@@ -19,10 +19,10 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 constexpr DisplacementBound noBound{ unknown, unknown, unknown, unknown };
 
 /// Cells along u, v and w.
-constexpr std::array<std::size_t, 3> mostCells{ 48, 48, 96 };
+constexpr std::array<std::size_t, 3> maxCells{ 48, 48, 96 };
 
 /// Boxes whose places decide where cells are.
-constexpr std::size_t mostLooks = 4096;
+constexpr std::size_t maxLooks = 4096;
 
 /// In units of the light's length, along u (from the ray through pixel (0, 0)), v and w (from the entry plane).
 struct SteepBox
@@ -113,7 +113,7 @@ public:
   {
     std::size_t seen = 0;
     boxes.forEach([&](const SteepBox& box) { seen += isSeen(box) ? 1 : 0; });
-    const std::size_t each = seen / mostLooks + 1;
+    const std::size_t each = seen / maxLooks + 1;
     std::size_t number = 0;
     std::vector<float> sides[3];
     boxes.forEach(
@@ -201,7 +201,7 @@ private:
     std::sort(sides.begin(), sides.end());
     std::vector<float>& edges = edges_[axis];
     edges.push_back(low);
-    const std::size_t cells = axis == 2 || areApart_ ? mostCells[axis] : 1;
+    const std::size_t cells = axis == 2 || areApart_ ? maxCells[axis] : 1;
     for (std::size_t n = 1; n < cells && !sides.empty(); ++n)
     {
       const float side = sides[n * sides.size() / cells];
@@ -371,7 +371,7 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
     return simple;
   }
   const double pixel = length(scaled(light.unitsPerIndex, light.perColumn));
-  const auto margin = static_cast<double>(mostMargin(view)) + 1;
+  const auto margin = static_cast<double>(maxMargin(view)) + 1;
   const std::array<Range, 3> ranges{ { { -margin * pixel, (view.width - 1 + margin) * pixel },
     { -margin * pixel, (view.height - 1 + margin) * pixel }, { 0, light.depth } } };
   const bool isOfLayer = medium.tree && medium.tree->shape() == BrickShape::Layer;
@@ -385,8 +385,8 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
   DisplacementBound bound = noBound;
   constexpr double ofView = 0.004; // a fifth of a column, as a first guess
   double reach = ofView * pixel * std::min(view.width, view.height);
-  constexpr int mostAttempts = 8;
-  for (int attempt = 0; attempt < mostAttempts; ++attempt)
+  constexpr int maxAttempts = 8;
+  for (int attempt = 0; attempt < maxAttempts; ++attempt)
   {
     columns.fill(reach, everywhere);
     const DisplacementBound found = boundOf(columns, medium.largestNu, cosine);

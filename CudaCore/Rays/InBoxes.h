@@ -46,8 +46,8 @@ template <class Real, class Box>
 SCHLIEREN_HD Real wayOut(const Real& x, const Real& along, const Box& low, const Box& high)
 {
   const Real side = along > 0 ? Real{} + high : Real{} + low;
-  const Real way = (side - x) / along;
-  return along == 0 ? Real{} + infinite<NumberOf<Real>> : way;
+  const Real distance = (side - x) / along;
+  return along == 0 ? Real{} + infinite<NumberOf<Real>> : distance;
 }
 
 template <class Real, class Box>

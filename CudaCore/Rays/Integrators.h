@@ -32,9 +32,9 @@ struct Ray
   Real path;   ///< of the optical path difference; with pathError a compensated sum (Kahan 1965)
   Real pathError;
 
-  SCHLIEREN_HD void addPath(const Real& share)
+  SCHLIEREN_HD void addPath(const Real& fraction)
   {
-    const Real more = share - pathError;
+    const Real more = fraction - pathError;
     const Real sum = path + more;
     pathError = (sum - path) - more;
     path = sum;

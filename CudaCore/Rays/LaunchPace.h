@@ -18,7 +18,7 @@ class LaunchPace
 {
 public:
   static constexpr double target = 0.025; ///< seconds; so what comes may take four times as long
-  static constexpr std::int64_t mostRays = std::int64_t{ 1 } << 22;
+  static constexpr std::int64_t maxRays = std::int64_t{ 1 } << 22;
 
   /// `steps`: of a ray that crosses the medium, in those of Leapfrog in single precision.
   explicit LaunchPace(double steps)
@@ -43,7 +43,7 @@ public:
 private:
   void setRays(double rays)
   {
-    rays_ = static_cast<std::int64_t>(std::clamp(rays, 1.0, static_cast<double>(mostRays)));
+    rays_ = static_cast<std::int64_t>(std::clamp(rays, 1.0, static_cast<double>(maxRays)));
   }
 
   std::int64_t rays_ = 1;

@@ -241,7 +241,7 @@ Light lightFrom(
   {
     light.inclination.atOrigin[i] = -axis[i] * light.inclination.perPixel;
     light.steepest[i] =
-      (axis[i] + 0.5 + static_cast<double>(mostMargin(view))) * light.inclination.perPixel +
+      (axis[i] + 0.5 + static_cast<double>(maxMargin(view))) * light.inclination.perPixel +
       reach / light.magnification;
   }
   return light;
@@ -259,7 +259,7 @@ double Light::fastest(const Vec3<double>& scale) const
   return most;
 }
 
-std::int64_t mostMargin(const View& view)
+std::int64_t maxMargin(const View& view)
 {
   return std::max(16, std::max(view.width, view.height) / 8);
 }

@@ -33,7 +33,7 @@ struct Inclination
 
 /// For a point of the image, the straight line in the grid's index coordinates that light follows there
 /// before anything bends it. With X the point's place from the axis in the image's plane, which is that
-/// through the middle of the data, and zeta the way along w from there, the line is
+/// through the middle of the data, and zeta the distance along w from there, the line is
 ///   P(zeta) = X (1 + zeta / R) + t (zeta - z),
 /// R being the distance of the source, z the film's plane, and t the tilt of the light of one point of an
 /// extended source (Pass). So all light of X meets the film at X (1 + z / R), wherever it comes from.
@@ -51,8 +51,9 @@ struct Light
   Vec3<double> perLength; ///< index coordinates per unit of length along w
   Vec3<double> lengthPer; ///< its inverse, axis by axis; infinite where it is 0
 
-  Vec3<double> u, v, w;    ///< the image's axes in the grid's axes; w: the way that rays are traced
-  Vec3<double> indexScale; ///< index coordinates per unit of length along each grid axis
+  Vec3<double> u, v,
+    w; ///< the image's axes in the grid's axes; w: the direction that rays are traced in
+  Vec3<double> indexScale;    ///< index coordinates per unit of length along each grid axis
   Vec3<double> unitsPerIndex; ///< its inverse, axis by axis
   double depth;               ///< entry plane to exit plane
   double unit;                ///< the unit of length, data units
@@ -97,7 +98,7 @@ std::array<double, 2> sourcePoint(
   const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed);
 
 /// Pixels around the image that rays may start from, at most.
-std::int64_t mostMargin(const View& view);
+std::int64_t maxMargin(const View& view);
 
 /// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).
 /// Pass 0 is the centre; later passes follow the two-dimensional golden-ratio sequence R2 (Roberts

@@ -179,7 +179,7 @@ bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   constexpr double secondsOfTiles =
     0.02; // that a worker is given at once, so that a pause waits for no longer
   constexpr std::size_t givenAtOnce = 2; // one is on its way while the other is traced
-  constexpr int mostFailures = 2;
+  constexpr int maxFailures = 2;
 
   State& state = *state_;
   state.locate(medium_);
@@ -234,7 +234,7 @@ bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   };
   const auto give = [&](Channel& channel, typename State::Worker& worker)
   {
-    while (channel.isOpen() && worker.failures < mostFailures && worker.given.size() < givenAtOnce)
+    while (channel.isOpen() && worker.failures < maxFailures && worker.given.size() < givenAtOnce)
     {
       const std::int64_t fair =
         tiles.left().count() / (2 * static_cast<std::int64_t>(workers.size() + 1));

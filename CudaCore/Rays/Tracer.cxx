@@ -85,7 +85,7 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
     std::min(trappedFactor * straightSteps * slow * shorter, largestLimit));
   task.metresPerUnit = (1 + medium.ambient) * settings.lengthScale * light.unit;
   task.kernel = settings.kernel;
-  // By what the steepest gradient would bend a ray over the same way, and no less than what rounding makes.
+  // By what the steepest gradient would bend a ray over the same length, and no less than what rounding makes.
   const double steepest = length(scaled(medium.slope, light.indexScale));
   const double rounding =
     16 * medium.largestNu * static_cast<double>(std::numeric_limits<Real>::epsilon());

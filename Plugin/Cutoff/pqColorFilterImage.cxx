@@ -20,7 +20,7 @@ constexpr int largestSide = 512; // pixels, of what is painted on
 constexpr double colorWithoutLight = 0.35;
 constexpr int grey = 128;
 
-double limited(double share) { return std::min(1., std::max(0., share)); }
+double limited(double fraction) { return std::min(1., std::max(0., fraction)); }
 
 } // namespace
 
@@ -58,8 +58,8 @@ QRgb colorAt(const QImage& image, const QPointF& place)
   {
     return wheelColor(place);
   }
-  const auto pixel = [](double share, int size)
-  { return static_cast<int>(std::min(limited(share) * size, size - 1.)); };
+  const auto pixel = [](double fraction, int size)
+  { return static_cast<int>(std::min(limited(fraction) * size, size - 1.)); };
   return image.pixel(
     pixel((1 + place.x()) / 2, image.width()), pixel((1 - place.y()) / 2, image.height()));
 }
@@ -67,9 +67,9 @@ QRgb colorAt(const QImage& image, const QPointF& place)
 //------------------------------------------------------------------------------
 QRgb lit(QRgb color, double light)
 {
-  const double share = colorWithoutLight + (1 - colorWithoutLight) * light;
-  const auto mixed = [share](int value)
-  { return static_cast<int>(std::lround(grey + share * (value - grey))); };
+  const double fraction = colorWithoutLight + (1 - colorWithoutLight) * light;
+  const auto mixed = [fraction](int value)
+  { return static_cast<int>(std::lround(grey + fraction * (value - grey))); };
   return qRgb(mixed(qRed(color)), mixed(qGreen(color)), mixed(qBlue(color)));
 }
 
@@ -123,12 +123,13 @@ void paint(
 //------------------------------------------------------------------------------
 QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius)
 {
-  const QPointF way = to - from;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(way.x(), way.y()) / radius)));
+  const QPointF line = to - from;
+  const int steps =
+    std::max(1, static_cast<int>(std::ceil(std::hypot(line.x(), line.y()) / radius)));
   QVector<QPointF> places;
   for (int step = 1; step <= steps; ++step)
   {
-    places.append(from + way * step / steps);
+    places.append(from + line * step / steps);
   }
   return places;
 }

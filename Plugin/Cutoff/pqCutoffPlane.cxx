@@ -11,13 +11,13 @@ namespace
 {
 
 constexpr double reach = 8;           // pixels, of the mouse
-constexpr double turnShare = 0.84;    // of half the square's side
+constexpr double turnFraction = 0.84; // of half the square's side
 constexpr int digitsOfK = 4;          // of numbers that a mouse sets
 constexpr double offsetSteps = 1000;  // in the source's image
 constexpr double angleStep = 0.1;     // degrees
 constexpr double largeAngleStep = 15; // degrees
 
-double limited(double share) { return std::min(1., std::max(0., share)); }
+double limited(double fraction) { return std::min(1., std::max(0., fraction)); }
 
 double sizeOf(const pqCutoff& cutoff, const QPointF& deflection)
 {
@@ -83,17 +83,17 @@ double pqCutoff::transmission(const QPointF& deflection) const
     default:
       return 1;
   }
-  double share = limited(this->placeOf(deflection));
+  double fraction = limited(this->placeOf(deflection));
   if (this->Kind == GradedFilter)
   {
-    share = this->Graded ? limited(this->Graded(share)) : share;
+    fraction = this->Graded ? limited(this->Graded(fraction)) : fraction;
   }
   else if (this->IsOfDisc)
   {
-    const double sine = 2 * share - 1; // the segment of a circle that an edge leaves open
-    share = limited(0.5 + (sine * std::sqrt(1 - sine * sine) + std::asin(sine)) / M_PI);
+    const double sine = 2 * fraction - 1; // the segment of a circle that an edge leaves open
+    fraction = limited(0.5 + (sine * std::sqrt(1 - sine * sine) + std::asin(sine)) / M_PI);
   }
-  return this->Inverted ? 1 - share : share;
+  return this->Inverted ? 1 - fraction : fraction;
 }
 
 //------------------------------------------------------------------------------
@@ -120,7 +120,7 @@ QPointF pqCutoffPlane::deflectionAt(const QPointF& pixel) const
 }
 
 //------------------------------------------------------------------------------
-double pqCutoffPlane::turnRadius() const { return turnShare * this->Square.width() / 2; }
+double pqCutoffPlane::turnRadius() const { return turnFraction * this->Square.width() / 2; }
 
 //------------------------------------------------------------------------------
 QPointF pqCutoffPlane::turnHandle(const pqCutoff& cutoff) const
@@ -171,12 +171,12 @@ pqCutoff pqCutoffPlane::dragged(
 {
   pqCutoff cutoff = start;
   const double pixel = this->deflectionPerPixel();
-  const double way =
+  const double shift =
     QPointF::dotProduct(this->deflectionAt(to) - this->deflectionAt(from), start.normal());
   switch (handle)
   {
     case EdgeLine:
-      cutoff.Offset = std::round((start.Offset + start.K * way) * offsetSteps) / offsetSteps;
+      cutoff.Offset = std::round((start.Offset + start.K * shift) * offsetSteps) / offsetSteps;
       break;
     case DarkLine:
     case BrightLine:
@@ -188,7 +188,7 @@ pqCutoff pqCutoffPlane::dragged(
       if (std::abs(before) > 1e-6 / start.K)
       {
         const double sign = before < 0 ? -1 : 1;
-        const double after = std::max(pixel, sign * (before + way));
+        const double after = std::max(pixel, sign * (before + shift));
         cutoff = withSensitivity(start, rounded(start.K * sign * before / after, digitsOfK));
       }
       break;

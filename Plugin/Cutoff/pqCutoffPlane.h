@@ -24,7 +24,7 @@ struct pqCutoff
   bool HasEdge = false; ///< a straight one, else it is a circle or a square
   double K = 0;
   double Angle = 0;      ///< degrees
-  double Offset = 0;     ///< of the edge, as a share of the source's image
+  double Offset = 0;     ///< of the edge, as a fraction of the source's image
   bool Inverted = false; ///< knife edge and graded filter
   bool IsOfDisc = false; ///< the source's image is a disc
   bool IsSquare = false; ///< a colour filter that is an image, not the wheel
@@ -40,7 +40,7 @@ struct pqCutoff
   /// The deflection along the normal that has this place.
   double deflectionOf(double place) const;
 
-  /// Of all kinds but the colour filter: the share of the light that passes.
+  /// Of all kinds but the colour filter: the fraction of the light that passes.
   double transmission(const QPointF& deflection) const;
 };
 

@@ -44,9 +44,9 @@ Unit unitFor(double range)
   return range >= 1e-6 ? Unit{ QString::fromUtf8("µrad"), 1e-6 } : Unit{ "nrad", 1e-9 };
 }
 
-int blend(double a, double b, double share)
+int blend(double a, double b, double fraction)
 {
-  return static_cast<int>(std::lround(a + share * (b - a)));
+  return static_cast<int>(std::lround(a + fraction * (b - a)));
 }
 
 } // namespace
@@ -460,8 +460,8 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   }
   else if (moves)
   {
-    const double way = (right ? 1 : -1) * edgeStep * this->Range;
-    cutoff.Offset = rounded(cutoff.Offset + cutoff.K * way, 3);
+    const double shift = (right ? 1 : -1) * edgeStep * this->Range;
+    cutoff.Offset = rounded(cutoff.Offset + cutoff.K * shift, 3);
   }
   else
   {

@@ -90,11 +90,11 @@ bool placeUnder(const int pixel[2], vtkRenderer* renderer, const ImagePlane& pla
   }
   const double before = vtkMath::Dot(ends[0], plane.Normal) - plane.Height;
   const double behind = vtkMath::Dot(ends[1], plane.Normal) - plane.Height;
-  const double way = before / (before - behind);
+  const double fraction = before / (before - behind);
   const auto along = [&](const double axis[3])
   {
     const double first = vtkMath::Dot(ends[0], axis);
-    return first + way * (vtkMath::Dot(ends[1], axis) - first);
+    return first + fraction * (vtkMath::Dot(ends[1], axis) - first);
   };
   place = { along(plane.Right), along(plane.Up) };
   return std::isfinite(place.x()) && std::isfinite(place.y());

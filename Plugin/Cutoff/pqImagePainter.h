@@ -35,7 +35,7 @@ public:
   bool isOn() const { return !this->Views.isEmpty(); }
 
 public Q_SLOTS:
-  /// As a share of the image's shorter side.
+  /// As a fraction of the image's shorter side.
   void setBrushRadius(double radius) { this->BrushRadius = radius; }
 
 Q_SIGNALS:

@@ -347,7 +347,7 @@ void pqFieldsWidget::rowSelected(int row)
   this->Title->setVisible(used || row < 0);
   this->Title->setText(row < 0
       ? tr("Add a field to begin.")
-      : tr("Share of the refractivity over %1, from the low to the high end of its range:")
+      : tr("Contribution of the refractivity over %1, from the low to the high end of its range:")
           .arg(this->Fields.value(row).toString()));
 }
 

@@ -227,20 +227,20 @@ void pqImageView::mouseReleaseEvent(QMouseEvent* event)
 //------------------------------------------------------------------------------
 void pqImageView::keyPressEvent(QKeyEvent* event)
 {
-  QPointF way;
+  QPointF direction;
   switch (event->key())
   {
     case Qt::Key_Left:
-      way = { -1, 0 };
+      direction = { -1, 0 };
       break;
     case Qt::Key_Right:
-      way = { 1, 0 };
+      direction = { 1, 0 };
       break;
     case Qt::Key_Up:
-      way = { 0, 1 };
+      direction = { 0, 1 };
       break;
     case Qt::Key_Down:
-      way = { 0, -1 };
+      direction = { 0, -1 };
       break;
     case Qt::Key_Space:
       break;
@@ -252,7 +252,7 @@ void pqImageView::keyPressEvent(QKeyEvent* event)
   {
     return;
   }
-  if (way.isNull())
+  if (direction.isNull())
   {
     Q_EMIT this->strokeBegan();
     Q_EMIT this->brushed({ this->Brush });
@@ -260,7 +260,7 @@ void pqImageView::keyPressEvent(QKeyEvent* event)
     return;
   }
   const int steps = event->modifiers() & Qt::ShiftModifier ? largeStep : 1;
-  const QPointF to = this->Brush + way * (2 * keyStep * steps);
+  const QPointF to = this->Brush + direction * (2 * keyStep * steps);
   this->Brush = { qBound(-1., to.x(), 1.), qBound(-1., to.y(), 1.) };
   this->IsBrushShown = true;
   this->update();

@@ -27,7 +27,7 @@ public:
   void setLight(const pqCutoffLight& light, double k);
 
 public Q_SLOTS:
-  /// As a share of the filter's side.
+  /// As a fraction of the filter's side.
   void setBrushRadius(double radius);
 
 Q_SIGNALS:

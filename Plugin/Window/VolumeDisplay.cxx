@@ -78,9 +78,9 @@ double withinRange(double value, const std::array<double, 2>& range)
 void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double ambient)
 {
   constexpr double most = 0.5;
-  const double furthest = std::max(range[1] - ambient, ambient - range[0]);
+  const double largest = std::max(range[1] - ambient, ambient - range[0]);
   const auto opacityAt = [&](double value)
-  { return furthest > 0 ? most * std::abs(value - ambient) / furthest : 0; };
+  { return largest > 0 ? most * std::abs(value - ambient) / largest : 0; };
   std::vector<double> nodes;
   for (const double value : { range[0], ambient, range[1] })
   {

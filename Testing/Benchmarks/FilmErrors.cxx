@@ -208,7 +208,7 @@ void convergence(const Jet& jet)
 {
   constexpr double radius = 6;
   std::printf(
-    "\nJet, knife edge, 192 x 108 pixels: RMS difference of the intensity, as a share of full "
+    "\nJet, knife edge, 192 x 108 pixels: RMS difference of the intensity, as a fraction of full "
     "scale (black to white), between images of n and of 10 n samples a pixel. Cone filter "
     "of radius %g pixels, that is %.0f samples\n\n"
     "| | 1 and 10 | 10 and 100 | 100 and 1000 |\n|---|---|---|---|\n",

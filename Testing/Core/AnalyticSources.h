@@ -128,7 +128,7 @@ struct Ball
   double width, height; ///< N = height exp(-(r / width)^2)
 };
 
-/// Balls with Gaussian profiles. Cells are a share of a ball's width in it, and large elsewhere.
+/// Balls with Gaussian profiles. Cells are a fraction of a ball's width in it, and large elsewhere.
 class BallsSource : public AnalyticSource
 {
 public:

@@ -25,7 +25,7 @@ inline void expectSameImage(const Image& a, const Image& b)
   EXPECT_EQ(a.blockedFraction, b.blockedFraction);
   EXPECT_EQ(a.kScale, b.kScale);
   EXPECT_EQ(a.undisturbedLevel, b.undisturbedLevel);
-  EXPECT_EQ(a.saturatedShare, b.saturatedShare);
+  EXPECT_EQ(a.saturatedFraction, b.saturatedFraction);
   EXPECT_EQ(a.light.emitted, b.light.emitted);
   EXPECT_EQ(a.light.onFilm, b.light.onFilm);
   EXPECT_EQ(a.light.outside, b.light.outside);

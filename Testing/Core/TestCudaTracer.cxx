@@ -104,7 +104,7 @@ struct Bundle
 struct Differences
 {
   double worst = 0;
-  double share = 0; ///< of rays that differ by more than was allowed
+  double fraction = 0; ///< of rays that differ by more than was allowed
 
   template <class ValuesOf>
   Differences(const TracedPass& host, const TracedPass& device, double allowed, const ValuesOf& of)
@@ -126,7 +126,7 @@ struct Differences
         here = std::max(here, std::abs(a[n] - b[n]) / largest);
       }
       worst = std::max(worst, here);
-      share += here > allowed ? 1. / static_cast<double>(host.exits.size()) : 0;
+      fraction += here > allowed ? 1. / static_cast<double>(host.exits.size()) : 0;
     }
     EXPECT_GT(largest, 0);
   }
@@ -164,9 +164,9 @@ void expectAgreement(const KernelChoice& kernel, double allowed, double toleranc
   const Differences opticalPath(host, device, allowed, opticalPathOf);
   if (mayBranch(kernel) || tolerance > 0)
   {
-    EXPECT_LT(deflection.share, 0.02);
+    EXPECT_LT(deflection.fraction, 0.02);
     EXPECT_LT(deflection.worst, 0.05);
-    EXPECT_LT(opticalPath.share, 0.02);
+    EXPECT_LT(opticalPath.fraction, 0.02);
     EXPECT_LT(opticalPath.worst, 0.005);
   }
   else
@@ -271,7 +271,7 @@ TEST_F(HostAndDeviceRays, EndInTheSameBodies)
   EXPECT_GT(blocked(host), 20);
   // A ray may graze a body by rounding alone.
   const Differences deflection(host, device, 1e-12, deflectionOf);
-  EXPECT_LT(deflection.share, 0.005);
+  EXPECT_LT(deflection.fraction, 0.005);
 }
 
 TEST_F(HostAndDeviceRays, AreTrappedAtTheSameStep)
@@ -360,7 +360,7 @@ void expectAgreementInATree(Interpolation interpolation, double allowed)
         tracer.trace(task, pass, { 1, 1 }, CudaTracer<Real>::Exits::OnHost, device, {});
         ASSERT_EQ(host.exits.size(), device.exits.size());
         const Differences deflection(host, device, allowed, deflectionOf);
-        EXPECT_LT(deflection.share, 0.02); // steps begin at leaves, where rounding may decide
+        EXPECT_LT(deflection.fraction, 0.02); // steps begin at leaves, where rounding may decide
         EXPECT_LT(deflection.worst, 0.05);
         ASSERT_EQ(host.gathered.size(), device.gathered.size());
         for (std::size_t n = 0; n < host.gathered.size(); ++n)

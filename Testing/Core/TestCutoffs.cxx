@@ -500,8 +500,8 @@ TEST_F(WeakBlob, TellsTheShareOfSaturatedRays)
         saturated += isSaturated ? 1 : 0;
       }
       const double pixels = static_cast<double>(image.intensity.size());
-      EXPECT_NEAR(image.saturatedShare, saturated / pixels, 1e-9);
-      EXPECT_EQ(image.saturatedShare > 0.02, cutoff != Cutoff::Interferogram);
+      EXPECT_NEAR(image.saturatedFraction, saturated / pixels, 1e-9);
+      EXPECT_EQ(image.saturatedFraction > 0.02, cutoff != Cutoff::Interferogram);
     }
   }
 }

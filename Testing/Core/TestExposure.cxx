@@ -115,11 +115,11 @@ TEST(Exposure, IsTheSumOfAllRays)
             0.5 + 400 * (exit.deflection[0] * std::sqrt(0.75) + exit.deflection[1] * 0.5), 0., 1.);
           for (std::int64_t j = 0; j < height; ++j)
           {
-            const double share = 1 - std::abs(y - static_cast<double>(j));
-            for (std::int64_t i = 0; share > 0 && i < width; ++i)
+            const double fraction = 1 - std::abs(y - static_cast<double>(j));
+            for (std::int64_t i = 0; fraction > 0 && i < width; ++i)
             {
               expected[static_cast<std::size_t>(j * width + i)] +=
-                light * share * std::max(0., 1 - std::abs(x - static_cast<double>(i)));
+                light * fraction * std::max(0., 1 - std::abs(x - static_cast<double>(i)));
             }
           }
         });

@@ -81,7 +81,7 @@ public:
     {
       const Footprint at = footprintOf(column, row);
       band_.cover(at.row, at.row);
-      band_.add(at.column, at.row, sharesOf(at, std::llround(light * film_.one())));
+      band_.add(at.column, at.row, contributionsOf(at, std::llround(light * film_.one())));
     }
   }
 
@@ -179,7 +179,7 @@ TEST(Film, BandsChangeNothing)
         {
           band.cover(std::max<std::int64_t>(-1, at.row - covered), at.row + covered / 2);
         }
-        band.add(at.column, at.row, sharesOf(at, std::llround(film.one())));
+        band.add(at.column, at.row, contributionsOf(at, std::llround(film.one())));
       }
     }
     images.push_back(film.develop(1, 2));
@@ -201,7 +201,7 @@ TEST(Light, FirstRayOfEachPixelIsItsCentre)
   EXPECT_NE(pixelOffset(1, 1).column, pixelOffset(1, 2).column);
 }
 
-/// A low-discrepancy sequence: each of 8 x 8 squares gets its share of 1024 rays, nearly.
+/// A low-discrepancy sequence: each of 8 x 8 squares gets its fraction of 1024 rays, nearly.
 TEST(Light, PassesFillThePixelEvenly)
 {
   for (const std::uint32_t seed : { 1u, 5u })

@@ -324,7 +324,7 @@ TEST(Ciddor, HoldsNoMoreVapourThanItsPressure)
       }
     }
   }
-  // Above the boiling point, humidity is the share of the total pressure.
+  // Above the boiling point, humidity is the fraction of the total pressure.
   EXPECT_EQ(waterVapourFraction(400, 101325, 0.25), 0.25);
   EXPECT_EQ(waterVapourFraction(293.15, 100, 0.25), 0.25);
   // Above boiling, saturated air is steam.

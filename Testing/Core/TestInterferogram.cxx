@@ -201,7 +201,7 @@ TEST(WhiteLight, IsTheSameOnBothSides)
 struct Spectrum
 {
   std::vector<double> wavenumbers;
-  std::vector<Color> shares;
+  std::vector<Color> contributions;
 };
 
 double lobe(double x, double height, double centre, double below, double above)
@@ -230,15 +230,15 @@ Spectrum fineSpectrum()
   }
   for (const Color& here : xyz)
   {
-    Color share{ 0, 0, 0 };
+    Color fraction{ 0, 0, 0 };
     for (std::size_t channel = 0; channel < 3; ++channel)
     {
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        share[channel] += matrix[channel][axis] * here[axis] / sum[axis];
+        fraction[channel] += matrix[channel][axis] * here[axis] / sum[axis];
       }
     }
-    spectrum.shares.push_back(share);
+    spectrum.contributions.push_back(fraction);
   }
   return spectrum;
 }
@@ -248,12 +248,12 @@ template <class Phase>
 Color integral(const Spectrum& spectrum, const Phase& turnsOf)
 {
   Color light{ 0.5, 0.5, 0.5 };
-  for (std::size_t n = 0; n < spectrum.shares.size(); ++n)
+  for (std::size_t n = 0; n < spectrum.contributions.size(); ++n)
   {
     const double fringe = std::cos(2 * pi * turnsOf(spectrum.wavenumbers[n])) / 2;
     for (std::size_t channel = 0; channel < 3; ++channel)
     {
-      light[channel] += spectrum.shares[n][channel] * fringe;
+      light[channel] += spectrum.contributions[n][channel] * fringe;
     }
   }
   std::transform(light.begin(), light.end(), light.begin(),

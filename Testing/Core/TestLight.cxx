@@ -324,7 +324,7 @@ class ExtendedSource : public OnDevice
 {
 };
 
-/// The share of a source's light that passes an edge, `beyond` it in half widths of the source's shadow.
+/// The fraction of a source's light that passes an edge, `beyond` it in half widths of the source's shadow.
 double passedOf(SourceShape shape, double beyond)
 {
   const double x = std::clamp(beyond, -1., 1.);

@@ -14,7 +14,7 @@ namespace schlieren
 namespace
 {
 
-constexpr double mostPerVolume = 1.365;
+constexpr double maxPerVolume = 1.365;
 
 enum class Body
 {
@@ -72,7 +72,7 @@ TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
         SCOPED_TRACE(testing::PrintToString(static_cast<int>(body)));
         const double peak = peakOf(field.field, interpolation, 2);
         EXPECT_GT(peak, volume); // or else nothing was counted
-        EXPECT_LE(peak, mostPerVolume * volume);
+        EXPECT_LE(peak, maxPerVolume * volume);
       }
     }
   }
@@ -100,7 +100,7 @@ TEST(Memory, OfAImageIsThatOfTheSamplesAndAThird)
   ++scene.view.height; // more rays than before
   bench.render(field.field, scene);
   EXPECT_GT(static_cast<double>(peak.bytes()), volume);
-  EXPECT_LE(static_cast<double>(peak.bytes()), mostPerVolume * volume);
+  EXPECT_LE(static_cast<double>(peak.bytes()), maxPerVolume * volume);
 }
 
 } // namespace

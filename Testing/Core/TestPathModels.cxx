@@ -140,7 +140,7 @@ TEST_P(PathModels, AbelPair)
   }
 }
 
-/// What a line of sight leaves out is of second order: by the share (bend times depth^2) / (size of what
+/// What a line of sight leaves out is of second order: by the fraction (bend times depth^2) / (size of what
 /// bends), here about 7 A.
 TEST_P(PathModels, StraightDiffersAtSecondOrder)
 {

@@ -258,7 +258,7 @@ TEST_P(RayExtremes, AdaptiveTracesTheFaintest)
 {
   for (const Precision precision : bothPrecisions)
   {
-    std::vector<double> shares;
+    std::vector<double> contributions;
     for (const double peak : { 1e-3, 1e-6, 1e-9, 1e-14, 1e-18 })
     {
       SCOPED_TRACE(std::string(name(precision)) + " " + std::to_string(std::log10(peak)));
@@ -271,10 +271,10 @@ TEST_P(RayExtremes, AdaptiveTracesTheFaintest)
       scene.precision = precision;
       const Image image = Bench().render(field.field, scene);
       EXPECT_EQ(image.raysLost, 0);
-      shares.push_back(image.deflection[0] / peak);
+      contributions.push_back(image.deflection[0] / peak);
       // The ball's line integral, with a tenth of the gradient's error and of what the box cuts off.
-      EXPECT_NEAR(shares.back() / (-std::sqrt(pi) * 4 * 0.3 * std::exp(-4 * 0.1)), 1, 0.02);
-      EXPECT_NEAR(shares.back() / shares.front(), 1, 2e-3);
+      EXPECT_NEAR(contributions.back() / (-std::sqrt(pi) * 4 * 0.3 * std::exp(-4 * 0.1)), 1, 0.02);
+      EXPECT_NEAR(contributions.back() / contributions.front(), 1, 2e-3);
     }
   }
 }
@@ -303,10 +303,10 @@ void RayExtremes::expectTrapped(Integrator integrator) const
     EXPECT_GT(image.raysLost, 0);
   }
   // Thinner matter and shorter steps than the others' are reasons to take more.
-  const double mostSteps = integrator == Integrator::Adaptive ? 1000 : 500;
+  const double maxSteps = integrator == Integrator::Adaptive ? 1000 : 500;
   const double straightSteps = 64 + 1;
   EXPECT_LT(static_cast<double>(image.stepsTaken),
-    mostSteps * straightSteps * static_cast<double>(image.raysTraced));
+    maxSteps * straightSteps * static_cast<double>(image.raysTraced));
 }
 
 TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime)

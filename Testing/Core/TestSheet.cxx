@@ -38,16 +38,16 @@ struct Recorder
     pixels.at(static_cast<std::size_t>(plane)).at(static_cast<std::size_t>(row * width + column)) +=
       light;
   }
-  void block(int plane, std::int64_t column, std::int64_t row, const Shares& shares)
+  void block(int plane, std::int64_t column, std::int64_t row, const Shares& contributions)
   {
     const auto add = [&](std::int64_t i, std::int64_t j, std::int64_t light) {
       i >= 0 && i < width&& j >= 0 && j < height ? pixel(plane, i, j, light)
                                                  : outside(plane, light);
     };
-    add(column, row, shares.lowerLeft);
-    add(column + 1, row, shares.lowerRight);
-    add(column, row + 1, shares.upperLeft);
-    add(column + 1, row + 1, shares.upperRight);
+    add(column, row, contributions.lowerLeft);
+    add(column + 1, row, contributions.lowerRight);
+    add(column, row + 1, contributions.upperLeft);
+    add(column + 1, row + 1, contributions.upperRight);
   }
 
   double at(int column, int row, std::size_t plane = 0) const

@@ -60,7 +60,7 @@ protected:
 };
 
 /// Cosines one by one: the bound is that of each.
-double mostChanged(const Image& a, const Image& b)
+double maxChanged(const Image& a, const Image& b)
 {
   double most = 0;
   for (std::size_t i = 0; i < a.deflection.size(); ++i)
@@ -97,7 +97,7 @@ void Skipping::expectWithinTheBound(
         for (const double shorter : { 0.117, 0.109, 0.102 })
         {
           here.stepSize = shorter;
-          ofSteps = std::max(ofSteps, 3 * mostChanged(full, bench.render(field.field, here)));
+          ofSteps = std::max(ofSteps, 3 * maxChanged(full, bench.render(field.field, here)));
         }
         here.stepSize = 0.125;
         double last = 0;
@@ -108,7 +108,7 @@ void Skipping::expectWithinTheBound(
             name(integrator) + " " + name(model) + " " + std::to_string(tolerance));
           here.homogeneityTolerance = tolerance;
           const Image skipped = bench.render(field.field, here);
-          const double changed = mostChanged(full, skipped);
+          const double changed = maxChanged(full, skipped);
           EXPECT_LE(changed, skipped.skippingBound + ofSteps);
           EXPECT_GE(skipped.skippingBound, last);
           EXPECT_LE(skipped.stepsTaken, steps);

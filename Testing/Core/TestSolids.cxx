@@ -305,7 +305,7 @@ TEST(FillSolids, TakesTheMeanOfTheLayerOutside)
   for (const std::array<std::int64_t, 3>& n : { std::array<std::int64_t, 3>{ 2, 2, 2 },
          { 31, 3, 4 }, { 63, 4, 3 }, { 64, 5, 2 }, { 65, 3, 9 }, { 128, 3, 3 }, { 193, 2, 5 } })
   {
-    for (const double share : { 0.02, 0.5, 0.99 })
+    for (const double fraction : { 0.02, 0.5, 0.99 })
     {
       std::vector<double> values;
       std::vector<bool> solid;
@@ -314,7 +314,7 @@ TEST(FillSolids, TakesTheMeanOfTheLayerOutside)
       {
         const std::int64_t i = at % n[0];
         values.push_back(any(random));
-        solid.push_back(at > 0 && any(random) - 1 < share);
+        solid.push_back(at > 0 && any(random) - 1 < fraction);
         if (!solid.back())
         {
           mask.row(at / n[0] % n[1], at / n[0] / n[1])[i >> 6] &= ~(std::uint64_t{ 1 } << (i & 63));

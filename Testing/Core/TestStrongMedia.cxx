@@ -126,7 +126,7 @@ TEST(ClosedForms, LensesImageAsTheyShould)
 /// The leapfrog's own error. In an oscillator dx/dtau = p, dp/dtau = -k^2 x it is exactly solvable: one
 /// step of h turns phase space by the angle arccos(1 - k^2 h^2 / 2) = k h (1 + k^2 h^2 / 24 + ...), on
 /// the ellipse p = -k x sqrt(1 - k^2 h^2 / 4)^-1... So after tau the phase is off by k^3 h^2 tau / 24 and
-/// the amplitude of p by a share of k^2 h^2 / 8.
+/// the amplitude of p by a fraction of k^2 h^2 / 8.
 TEST(ClosedForms, LeapfrogErrorIsAsDerived)
 {
   const double k = rodIndex;

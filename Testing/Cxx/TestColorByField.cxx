@@ -53,12 +53,12 @@ vtkSmartPointer<vtkSchlierenFilter> tinted(vtkDataObject* input,
   return filter;
 }
 
-Color mix(const Color& a, double share, const Color& b)
+Color mix(const Color& a, double fraction, const Color& b)
 {
   Color mixed;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    mixed[i] = share * a[i] + (1 - share) * b[i];
+    mixed[i] = fraction * a[i] + (1 - fraction) * b[i];
   }
   return mixed;
 }

@@ -166,10 +166,10 @@ TEST(CurvedCells, FacesWithinAMeshAreNoBoundary)
       {
         EXPECT_LT(toCube(faces.points[i]), 1e-12);
         double value = 0;
-        for (std::size_t k = faces.firstShares[i]; k < faces.firstShares[i + 1]; ++k)
+        for (std::size_t k = faces.firstContributions[i]; k < faces.firstContributions[i + 1]; ++k)
         {
-          value += faces.shares[k].weight *
-            one->GetPointData()->GetArray("N")->GetComponent(faces.shares[k].point, 0);
+          value += faces.contributions[k].weight *
+            one->GetPointData()->GetArray("N")->GetComponent(faces.contributions[k].point, 0);
         }
         EXPECT_NEAR(value, linear(faces.points[i]), 1e-13);
       }

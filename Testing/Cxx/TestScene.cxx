@@ -99,7 +99,7 @@ TEST_F(Scene, HasWhatIsSet)
   EXPECT_EQ(made.histogramSize, 17);
 }
 
-// k = f / a and the offset is a share of a, whatever AutoKScale and KScale say.
+// k = f / a and the offset is a fraction of a, whatever AutoKScale and KScale say.
 TEST_F(Scene, SensitivityFollowsFromOptics)
 {
   this->filter->SetKFromOptics(true);

@@ -111,10 +111,10 @@ std::vector<double> progressOf(vtkSchlierenFilter* filter)
 }
 
 /// Stops the filter once it has come so far. Removed with removeObserver(tag).
-unsigned long abortAt(vtkSchlierenFilter* filter, double* share)
+unsigned long abortAt(vtkSchlierenFilter* filter, double* fraction)
 {
   vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(share);
+  watch->SetClientData(fraction);
   watch->SetCallback(
     [](vtkObject* caller, unsigned long, void* at, void* value)
     {
@@ -516,13 +516,13 @@ TEST(Slices, AbortLeavesNothing)
     filter->Update();
     EXPECT_FALSE(filter->GetFinished());
     filter->SetTimeLimit(limit);
-    double share = 0.3; // while rays are traced
+    double fraction = 0.3; // while rays are traced
     if (limit > 0)
     {
-      share = 0.01; // while the refractivity is found
+      fraction = 0.01; // while the refractivity is found
       image->GetPointData()->GetArray("N")->Modified();
     }
-    const unsigned long tag = abortAt(filter, &share);
+    const unsigned long tag = abortAt(filter, &fraction);
     filter->Refine();
     filter->Update();
     EXPECT_TRUE(isEmpty(filter)) << limit;
@@ -676,12 +676,12 @@ TEST(Slices, ShowNoProgressButThatOfTheMedium)
   auto filter = smallBench(columnImage());
   filter->SetTimeLimit(shortest);
   const std::vector<double> first = progressOf(filter);
-  EXPECT_GT(std::count_if(
-              first.begin(), first.end(), [](double share) { return share > 0 && share < 0.2; }),
+  EXPECT_GT(std::count_if(first.begin(), first.end(),
+              [](double fraction) { return fraction > 0 && fraction < 0.2; }),
     0);
   filter->Refine();
-  for (const double share : progressOf(filter))
+  for (const double fraction : progressOf(filter))
   {
-    EXPECT_TRUE(share == 0 || share == 1) << share;
+    EXPECT_TRUE(fraction == 0 || fraction == 1) << fraction;
   }
 }

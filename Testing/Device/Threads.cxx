@@ -223,7 +223,7 @@ unsigned arrive(Barrier& barrier, int expected, int line)
   return generation;
 }
 
-bool mayGoOn(const Fiber& fiber)
+bool mayResume(const Fiber& fiber)
 {
   return fiber.thread >= 0 && fiber.waitsAt->generation != fiber.generation;
 }
@@ -248,7 +248,7 @@ void runBlock()
     bool progress = false;
     for (std::size_t n = 0; n < used; ++n)
     {
-      if (mayGoOn(*engine.fibers[n]))
+      if (mayResume(*engine.fibers[n]))
       {
         resume(*engine.fibers[n]);
         progress = true;
