@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/Brick.h"
 
+#include "Medium/BrickCoefficients.h"
 #include "Medium/BrickErrors.h"
-#include "Medium/Solids.h"
+#include "Medium/BrickSamples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,150 +33,13 @@ constexpr double distanceUnits = 8192;
 /// What coefficients may be beyond samples anyway, of the range of all.
 constexpr double overshootByRange = 1e-3;
 
-/// Samples beyond a coefficient's place that tell whether there is a front.
-constexpr int supportOfFronts = 2;
-
 int apronOf(Interpolation interpolation)
 {
   return interpolation == Interpolation::Quadratic || interpolation == Interpolation::Linear ? 1
                                                                                              : 2;
 }
 
-double larger(double a, double b) { return a > b ? a : b; }
-double smaller(double a, double b) { return a < b ? a : b; }
-
-/// How far a coefficient is beyond a sample and those beside it.
-double beyondSamples(const double* at, std::ptrdiff_t stride, double coefficient)
-{
-  const double a = at[-stride], b = at[0], c = at[stride];
-  return larger(coefficient - larger(larger(a, b), c), smaller(smaller(a, b), c) - coefficient);
-}
-
-/// The second difference at a sample, as far as it is not the foot of a front: where it is flat on one side, or bent the
-/// other way. There the spline would overshoot, by up to 7 % of a jump over one cell. At the maximum of a smooth field
-/// it is bent likewise beside it, or steep (as minima of curvatures tell them in Colella & Sekora 2008).
-double smoothBend(const double* at, std::ptrdiff_t stride)
-{
-  const double bend = at[-stride] - 2 * at[0] + at[stride];
-  const auto onSide = [&](std::ptrdiff_t s)
-  {
-    const double next = at[0] - 2 * at[s] + at[2 * s];
-    return 2 * larger(std::abs(at[s] - at[0]), next * bend > 0 ? std::abs(next) : 0);
-  };
-  return smaller(std::abs(bend), smaller(onSide(-stride), onSide(stride)));
-}
-
-/// A coefficient that is no farther beyond a sample and those beside it than this.
-double limited(const double* at, std::ptrdiff_t stride, double coefficient, double beyond)
-{
-  const double a = at[-stride], b = at[0], c = at[stride];
-  return smaller(
-    larger(coefficient, smaller(smaller(a, b), c) - beyond), larger(larger(a, b), c) + beyond);
-}
-
-/// Numbers that are looked at side by side, so that the compiler does so, too.
-constexpr std::size_t lanes = 8;
-
-struct Range
-{
-  double lowest, highest;
-};
-
-/// Of all values; not finite where one of them is not.
-Range rangeOf(const std::vector<double>& values)
-{
-  std::array<double, lanes> lowest{}, highest{}, defects{};
-  lowest.fill(values.front());
-  highest.fill(values.front());
-  const auto look = [&](std::size_t lane, double value)
-  {
-    lowest[lane] = value < lowest[lane] ? value : lowest[lane];
-    highest[lane] = value > highest[lane] ? value : highest[lane];
-    defects[lane] += value - value; // NaN where it is not finite
-  };
-  std::size_t n = 0;
-  for (; n + lanes <= values.size(); n += lanes)
-  {
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-    {
-      look(lane, values[n + lane]);
-    }
-  }
-  for (; n < values.size(); ++n)
-  {
-    look(0, values[n]);
-  }
-  const double defect = std::accumulate(defects.begin(), defects.end(), 0.);
-  return { *std::min_element(lowest.begin(), lowest.end()) + defect,
-    *std::max_element(highest.begin(), highest.end()) + defect };
-}
-
 } // namespace
-
-/// A lattice around a box.
-template <class Real>
-struct BrickMaker<Real>::Samples
-{
-  int margin;                       ///< points beyond the box
-  int n;                            ///< points along each axis
-  int layers;                       ///< along z; 1: there is no margin either
-  std::array<int, 3> begin, end;    ///< those that are within the domain
-  std::vector<double> nu;           ///< everywhere, in the end
-  std::vector<Place> places;        ///< only where there may be others than gas
-  std::vector<float> distances;     ///< likewise
-  std::vector<unsigned char> isGas; ///< empty: all are
-  double lowest = std::numeric_limits<double>::infinity(); ///< nu of the gas
-  double highest = -std::numeric_limits<double>::infinity();
-  FieldSamples fields; ///< empty: not wanted
-
-  std::size_t index(int i, int j, int k) const
-  {
-    return static_cast<std::size_t>((k * n + j) * n + i);
-  }
-  bool isWithin(int i, int j, int k) const
-  {
-    return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] &&
-      (layers == 1 || (k >= begin[2] && k < end[2]));
-  }
-  std::array<int, 3> nearestWithin(std::array<int, 3> at) const
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      at[axis] = std::clamp(at[axis], begin[axis], std::max(begin[axis], end[axis] - 1));
-    }
-    return at;
-  }
-  bool isAllWithin() const
-  {
-    return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, layers };
-  }
-  bool hasGas() const { return lowest <= highest; }
-  /// What linear interpolation of distances misses half a voxel away from a point: an eighth of second differences.
-  float bendAt(int i, int j, int k) const
-  {
-    const float* at = &distances[index(i, j, k)];
-    float sum = 0;
-    for (const std::ptrdiff_t stride : { 1, n, layers > 1 ? n * n : 0 })
-    {
-      sum += std::abs(at[stride] - 2 * at[0] + at[-stride]);
-    }
-    return sum / 8;
-  }
-  void addNormal(int i, int j, int k, std::array<std::array<float, 2>, 3>& normals) const
-  {
-    const float* at = &distances[index(i, j, k)];
-    const std::ptrdiff_t strides[3] = { 1, n, layers > 1 ? n * n : 0 };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const float slope = (at[strides[axis]] - at[-strides[axis]]) / 2;
-      normals[axis] = { std::min(normals[axis][0], slope), std::max(normals[axis][1], slope) };
-    }
-  }
-
-  void takeOffLayer();
-  void findGas();
-  void continueGas();
-};
 
 template <class Real>
 BrickMaker<Real>::BrickMaker(const MediumSource& source, const Grid& grid, double ambient,
@@ -273,11 +137,11 @@ Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
 
 /// With values for all points.
 template <class Real>
-typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
+BrickSamples BrickMaker<Real>::sample(
   const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
 {
   const int prepared = source_.isRemote() ? preparedMarginOf(hasEdges, hasFields) : margin;
-  Samples samples = valuesAt(place, prepared, hasEdges, hasFields);
+  BrickSamples samples = valuesAt(place, prepared, hasEdges, hasFields);
   for (int layers = margin; layers < prepared; ++layers)
   {
     samples.takeOffLayer();
@@ -289,10 +153,10 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::sample(
 
 /// What the source says of a lattice.
 template <class Real>
-typename BrickMaker<Real>::Samples BrickMaker<Real>::valuesAt(
+BrickSamples BrickMaker<Real>::valuesAt(
   const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
 {
-  Samples samples;
+  BrickSamples samples;
   samples.margin = margin;
   const Lattice lattice = latticeOf(place, samples.margin);
   samples.n = lattice.points[0];
@@ -332,141 +196,11 @@ typename BrickMaker<Real>::Samples BrickMaker<Real>::valuesAt(
   return samples;
 }
 
-/// The outermost points of the lattice go.
-template <class Real>
-void BrickMaker<Real>::Samples::takeOffLayer()
-{
-  const int first = layers > 1 ? 1 : 0;
-  const auto takeOff = [&](auto& values)
-  {
-    const std::size_t all = index(0, 0, layers);
-    auto to = values.begin();
-    for (std::size_t array = 0; array + all <= values.size(); array += all)
-    {
-      for (int k = first; k < layers - first; ++k)
-      {
-        for (int j = 1; j + 1 < n; ++j)
-        {
-          const auto row = values.begin() + static_cast<std::ptrdiff_t>(array + index(1, j, k));
-          to = std::copy(row, row + (n - 2), to);
-        }
-      }
-    }
-    values.erase(to, values.end());
-  };
-  takeOff(nu);
-  takeOff(places);
-  takeOff(distances);
-  takeOff(fields.values);
-  margin -= 1;
-  n -= 2;
-  layers -= 2 * first;
-  fields.n = n;
-  fields.margin = margin;
-  for (std::size_t axis = 0; axis < (first == 1 ? 3u : 2u); ++axis)
-  {
-    begin[axis] = std::max(0, begin[axis] - 1);
-    end[axis] = std::min(n, end[axis] - 1);
-  }
-}
-
-/// Which points have a value that counts, and the range of these.
-template <class Real>
-void BrickMaker<Real>::Samples::findGas()
-{
-  // As a rule there is nothing else.
-  bool areAllGas = isAllWithin() &&
-    std::all_of(places.begin(), places.end(), [](Place place) { return place == Place::Gas; });
-  if (areAllGas)
-  {
-    const Range range = rangeOf(nu);
-    areAllGas = std::isfinite(range.lowest) && std::isfinite(range.highest);
-    if (areAllGas)
-    {
-      lowest = range.lowest;
-      highest = range.highest;
-      return;
-    }
-  }
-  isGas.resize(nu.size());
-  for (int k = 0; k < layers; ++k)
-  {
-    for (int j = 0; j < n; ++j)
-    {
-      const bool isRowWithin = j >= begin[1] && j < end[1] && k >= begin[2] && k < end[2];
-      for (int i = 0; i < n; ++i)
-      {
-        const std::size_t at = index(i, j, k);
-        const bool is = isRowWithin && i >= begin[0] && i < end[0] && places[at] == Place::Gas &&
-          std::isfinite(nu[at]);
-        isGas[at] = is ? 1 : 0;
-        lowest = is && nu[at] < lowest ? nu[at] : lowest;
-        highest = is && nu[at] > highest ? nu[at] : highest;
-      }
-    }
-  }
-}
-
-/// Gives values to the points that have none: within the domain those of the gas around, beyond its faces
-/// parabolas through the last three.
-template <class Real>
-void BrickMaker<Real>::Samples::continueGas()
-{
-  if (isGas.empty() || !hasGas())
-  {
-    return;
-  }
-  bool hasHoles = false;
-  for (int k = begin[2]; k < end[2]; ++k)
-  {
-    for (int j = begin[1]; j < end[1]; ++j)
-    {
-      for (int i = begin[0]; i < end[0]; ++i)
-      {
-        hasHoles = hasHoles || isGas[index(i, j, k)] == 0;
-      }
-    }
-  }
-  if (hasHoles)
-  {
-    continueValues(nu, n, layers, isGas);
-  }
-  // Axis by axis; the later axes carry what the earlier ones have made along.
-  std::array<int, 3> from = begin;
-  std::array<int, 3> to = end;
-  const std::array<int, 3> strides{ 1, n, n * n };
-  const std::array<int, 3> points{ n, n, layers };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::size_t a = (axis + 1) % 3;
-    const std::size_t b = (axis + 2) % 3;
-    for (int p = from[a]; p < to[a]; ++p)
-    {
-      for (int q = from[b]; q < to[b]; ++q)
-      {
-        double* line = nu.data() + p * strides[a] + q * strides[b];
-        const int stride = strides[axis];
-        const auto at = [&](int i) -> double& { return line[i * stride]; };
-        for (int i = begin[axis] - 1; i >= 0; --i)
-        {
-          at(i) = 3 * (at(i + 1) - at(i + 2)) + at(i + 3);
-        }
-        for (int i = end[axis]; i < points[axis]; ++i)
-        {
-          at(i) = 3 * (at(i - 1) - at(i - 2)) + at(i - 3);
-        }
-      }
-    }
-    from[axis] = 0;
-    to[axis] = points[axis];
-  }
-}
-
 /// The kind of a leaf that may have walls or windows, its map and what it needs to be finer. Returns whether gas
 /// or a window ends in it.
 template <class Real>
 bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Content& content,
-  Samples& samples, double negligible, Brick<Real>& brick) const
+  BrickSamples& samples, double negligible, Brick<Real>& brick) const
 {
   bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
   double besideEdge = 0;
@@ -574,7 +308,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
 /// The errors that finer samples would lessen.
 template <class Real>
 void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Content& content,
-  const Samples& samples, BrickFacts& facts) const
+  const BrickSamples& samples, BrickFacts& facts) const
 {
   const std::array<double, 3> voxel = voxelOf(place.level);
   for (std::size_t axis = 0; axis < axes(); ++axis)
@@ -606,66 +340,9 @@ void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Co
   }
 }
 
-/// Samples become coefficients. False: a front is at the brick's side, and supportOfFronts samples are needed there.
-template <class Real>
-bool BrickMaker<Real>::makeCoefficients(Samples& samples) const
-{
-  if (support_ == 0)
-  {
-    return true;
-  }
-  const int n = samples.n;
-  const double outer = interpolation_ == Interpolation::Cubic ? -1. / 6 : -1. / 8;
-  const double inner = 1 - 2 * outer;
-  const std::array<int, 3> strides{ 1, n, n * n };
-  const int skipped = samples.margin - apron_;
-  std::array<int, 3> low{ 0, 0, 0 },
-    high{ n, n, samples.layers }; // where samples are what they should be
-  std::vector<double> line(samples.nu.size());
-  for (std::size_t axis = 0; axis < axes(); ++axis)
-  {
-    // Along the axis, the outermost layers come out wrong: none is stored.
-    low[axis] = skipped;
-    high[axis] = n - skipped;
-    const auto s = static_cast<std::ptrdiff_t>(strides[axis]);
-    for (int k = low[2]; k < high[2]; ++k)
-    {
-      for (int j = low[1]; j < high[1]; ++j)
-      {
-        const std::size_t row = samples.index(low[0], j, k);
-        const double* from = samples.nu.data() + row;
-        double* to = line.data() + row;
-        const int count = high[0] - low[0];
-        std::int64_t fronts = 0;
-        for (int i = 0; i < count; ++i)
-        {
-          to[i] = inner * from[i] + outer * (from[i - s] + from[i + s]);
-          fronts += beyondSamples(from + i, s, to[i]) > overshoot_ ? 1 : 0;
-        }
-        const int place = axis == 1 ? j : k;
-        for (int i = 0; fronts > 0 && i < count; ++i)
-        {
-          if (!(beyondSamples(from + i, s, to[i]) > overshoot_))
-          {
-            continue;
-          }
-          const int along = axis == 0 ? low[0] + i : place;
-          if (along < supportOfFronts || along >= n - supportOfFronts)
-          {
-            return false;
-          }
-          to[i] = limited(from + i, s, to[i], larger(overshoot_, -outer * smoothBend(from + i, s)));
-        }
-      }
-    }
-    std::swap(line, samples.nu);
-  }
-  return true;
-}
-
 /// Relative to the brick's offset.
 template <class Real>
-void BrickMaker<Real>::storeCoefficients(const Samples& samples, Brick<Real>& brick) const
+void BrickMaker<Real>::storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const
 {
   const int stored = edge + 2 * apron_;
   const int skipped = samples.margin - apron_;
@@ -870,7 +547,7 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   }
   const MediumSource::Content& content = outline.content;
   const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
-  Samples samples = sample(place, marginOf(hasEdges, hasFields), hasEdges, hasFields);
+  BrickSamples samples = sample(place, marginOf(hasEdges, hasFields), hasEdges, hasFields);
   brick.kind = Leaf<Real>::Samples;
   const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
   BrickFacts& facts = brick.facts;
@@ -906,10 +583,12 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
   {
     brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
-    if (!makeCoefficients(samples))
+    const CoefficientRule rule{ interpolation_ == Interpolation::Cubic ? 1. / 6 : 1. / 8, apron_,
+      axes(), overshoot_ };
+    if (support_ > 0 && !makeCoefficients(samples, rule))
     {
       samples = sample(place, preparedMarginOf(hasEdges, hasFields), hasEdges, hasFields);
-      makeCoefficients(samples);
+      makeCoefficients(samples, rule);
     }
     storeCoefficients(samples, brick);
     findBounds(place, brick);

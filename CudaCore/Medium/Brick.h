@@ -77,6 +77,8 @@ struct Brick
   FieldBrick fields;
 };
 
+struct BrickSamples;
+
 /// What needs no samples.
 struct Negligible
 {
@@ -114,7 +116,6 @@ public:
   std::array<double, 3> voxelOf(int level) const; ///< of one layer: as deep as the domain
 
 private:
-  struct Samples;
   struct Outline;
 
   Box boxWithApron(const NodePlace& place) const;
@@ -122,14 +123,13 @@ private:
   Lattice latticeOf(const NodePlace& place, int margin) const;
   int marginOf(bool hasEdges, bool hasFields) const;
   int preparedMarginOf(bool hasEdges, bool hasFields) const;
-  Samples sample(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
-  Samples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
-  bool findEdges(const NodePlace& place, const MediumSource::Content& content, Samples& samples,
-    double negligible, Brick<Real>& brick) const;
+  BrickSamples sample(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
+  BrickSamples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
+  bool findEdges(const NodePlace& place, const MediumSource::Content& content,
+    BrickSamples& samples, double negligible, Brick<Real>& brick) const;
   void findErrors(const NodePlace& place, const MediumSource::Content& content,
-    const Samples& samples, BrickFacts& facts) const;
-  bool makeCoefficients(Samples& samples) const;
-  void storeCoefficients(const Samples& samples, Brick<Real>& brick) const;
+    const BrickSamples& samples, BrickFacts& facts) const;
+  void storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
   void findSlopes(Brick<Real>& brick) const;
   double nuOf(double refractivity) const { return (refractivity - ambient_) / (1 + ambient_); }
