@@ -79,7 +79,7 @@ struct CoverageRows
 
 private:
   /// Adds `sign` times what is to the right of a piece of an edge, from left to right.
-  SCHLIEREN_APART void addWithinRow(
+  SCHLIEREN_NOINLINE void addWithinRow(
     Moments* row, double sign, double x0, double y0, double x1, double y1) const
   {
     if (x0 < 0)

@@ -260,7 +260,7 @@ private:
 
   /// There are none of a cell that is not bent, or if not all rays belong together.
   template <class Around>
-  SCHLIEREN_APART static Halves halvesOf(const SheetRay<planes>& lowerLeft,
+  SCHLIEREN_NOINLINE static Halves halvesOf(const SheetRay<planes>& lowerLeft,
     const SheetRay<planes>& lowerRight, const SheetRay<planes>& upperLeft,
     const SheetRay<planes>& upperRight, const Around& around)
   {
@@ -290,7 +290,7 @@ private:
   }
 
   /// All that addOther does of a cell that has halves.
-  SCHLIEREN_APART void addQuarters(const Ray& lowerLeft, const Ray& lowerRight,
+  SCHLIEREN_NOINLINE void addQuarters(const Ray& lowerLeft, const Ray& lowerRight,
     const Ray& upperLeft, const Ray& upperRight, const Halves& halves)
   {
     const Ray left = between(lowerLeft, upperLeft, halves.left);
@@ -372,7 +372,7 @@ private:
   }
 
   /// Any other cell.
-  SCHLIEREN_APART void addBent(
+  SCHLIEREN_NOINLINE void addBent(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
   {
     Polygons(film_, deposit_).add(cellOf(lowerLeft, lowerRight, upperLeft, upperRight));

@@ -16,7 +16,7 @@
 /// Marks function templates that are not to be compiled into their callers; on the device, where a call
 /// would keep the medium's view in memory, they are.
 #ifdef __CUDACC__
-#define SCHLIEREN_APART inline __host__ __device__
+#define SCHLIEREN_NOINLINE inline __host__ __device__
 #else
-#define SCHLIEREN_APART __attribute__((noinline))
+#define SCHLIEREN_NOINLINE __attribute__((noinline))
 #endif

@@ -97,7 +97,7 @@ struct RaysInBlock
 /// Puts the rays that are under way into a block with all leaves that they look at. Returns whether there is one.
 /// `reach`: local coordinates that a step may lead to at most.
 template <class Real>
-SCHLIEREN_APART bool takeBlock(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
   const NumberOf<Real> (&perLength)[3][lanesOf<Real>], const NumberOf<Real>& reach,
   LeavesOfPack<Real>& in, BlockOfLeaves<Real>& block, RaysInBlock<Real>& rays)
 {
@@ -246,7 +246,7 @@ SCHLIEREN_APART bool takeBlock(const MediumView<NumberOf<Real>>& medium,
 
 /// Puts the rays into the leaves where they are. `x`: in local coordinates of those where they have been.
 template <class Real>
-SCHLIEREN_APART void leaveBlock(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE void leaveBlock(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
   LeavesOfPack<Real>& in, RaysInBlock<Real>& rays)
 {

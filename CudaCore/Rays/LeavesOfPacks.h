@@ -201,7 +201,7 @@ struct LeavesOfPack
 
 /// Puts all rays into the leaves where they enter the domain, at `index`.
 template <class Real>
-SCHLIEREN_APART void enterLeaves(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE void enterLeaves(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const double (&index)[3][lanesOf<Real>],
   const NumberOf<Real> (&perLength)[3][lanesOf<Real>], LeavesOfPack<Real>& in, Vec3<Real>& start)
 {
@@ -258,7 +258,7 @@ SCHLIEREN_HD void readLeaves(const MediumView<NumberOf<Real>>& medium,
 /// Moves the rays in question into the leaves of the middle of their next step; see LeavesOfRays::change. Whether any
 /// ray has changed its leaf.
 template <class Real>
-SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
   LeavesOfPack<Real>& in, RaysBetweenLeaves<Real>& rays)
 {
@@ -322,7 +322,7 @@ SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
 
 /// See PlacesElsewhere.
 template <class Real>
-SCHLIEREN_APART void findElsewhere(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE void findElsewhere(const MediumView<NumberOf<Real>>& medium,
   const LeavesOfPack<Real>& in, const Vec3<Real>& at, PlacesElsewhere<Real>& to)
 {
   using Leaves = LeavesOfPack<Real>;

@@ -170,7 +170,7 @@ SCHLIEREN_HD void toArrays(const Vec3<Real>& from, NumberOf<Real> (&to)[3][lanes
 
 /// `step`: the steps so far, 0 for rays that are not under way.
 template <class Real>
-SCHLIEREN_APART void readLeaves(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE void readLeaves(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const LeavesOfRays<Real>& in, const Real& step,
   LeavesInPacks<Real>& to)
 {
@@ -225,7 +225,7 @@ struct RaysBetweenLeaves
 
 /// See LeavesOfRays::change. Whether any ray has changed its leaf.
 template <class Real>
-SCHLIEREN_APART bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
   LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays)
 {
@@ -273,7 +273,7 @@ struct PlacesElsewhere
   Real finer;    ///< these local coordinates by those of the rays' leaves
 };
 template <class Real>
-SCHLIEREN_APART void findElsewhere(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE void findElsewhere(const MediumView<NumberOf<Real>>& medium,
   const LeavesOfRays<Real>& in, const Vec3<Real>& at, PlacesElsewhere<Real>& to)
 {
   using Number = NumberOf<Real>;
@@ -351,7 +351,7 @@ SCHLIEREN_HD bool meetsWallBesideMiddle(const MediumView<Number>& medium, const 
 /// Sets `inGas` (1 or 0) of the rays that are under way and take a step in their leaves, from its middle `half` to
 /// either end; returns 1 for those that meet a wall, 0 for others.
 template <class Real>
-SCHLIEREN_APART Real meetWalls(const MediumView<NumberOf<Real>>& medium,
+SCHLIEREN_NOINLINE Real meetWalls(const MediumView<NumberOf<Real>>& medium,
   const std::int32_t (&leaf)[lanesOf<Real>], const Vec3<Real>& middle, const Vec3<Real>& half,
   const Real& isUnderWay, Real& inGas)
 {

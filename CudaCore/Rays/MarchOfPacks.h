@@ -102,7 +102,7 @@ struct MarchInBlock
   }
 
   /// Sees to it that the pack is in a block with all leaves that it looks at. Returns whether it is.
-  SCHLIEREN_APART bool enter(Ray<Real>& ray)
+  SCHLIEREN_NOINLINE bool enter(Ray<Real>& ray)
   {
     RaysInBlock<Real> rays{ middle(ray), Path::along(ray, march.light), march.cruise, ray.start,
       ray.length, {}, {}, false, {} };
@@ -116,7 +116,7 @@ struct MarchInBlock
     return isIn;
   }
 
-  SCHLIEREN_APART void leave(const Ray<Real>& ray)
+  SCHLIEREN_NOINLINE void leave(const Ray<Real>& ray)
   {
     march.ray = ray;
     RaysInBlock<Real> rays{ Path::position(ray, march.light), {}, march.cruise, ray.start,

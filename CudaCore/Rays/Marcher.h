@@ -88,7 +88,7 @@ struct SchemeOfTask
 
 /// A function of its own where a step takes several samples: in line, their code would be too much.
 template <class Scheme, class Real>
-SCHLIEREN_APART Sample<Real> sampleApart(
+SCHLIEREN_NOINLINE Sample<Real> sampleApart(
   const RayTask<NumberOf<Real>>& task, const std::int64_t* base, const Vec3<Real>& at)
 {
   if constexpr (std::is_base_of_v<SchemeOfTask, Scheme>)
@@ -510,7 +510,7 @@ struct March
     return onlyGas(found);
   }
 
-  SCHLIEREN_APART Real valueApart(const Vec3<Real>& at) const { return sample(at).value; }
+  SCHLIEREN_NOINLINE Real valueApart(const Vec3<Real>& at) const { return sample(at).value; }
 
   SCHLIEREN_HD Sample<Real> onlyGas(const Sample<Real>& found) const
   {
@@ -752,7 +752,7 @@ struct March
   }
 
   /// One step of all rays that are under way.
-  SCHLIEREN_APART void takeStep()
+  SCHLIEREN_NOINLINE void takeStep()
   {
     if (isTrapped())
     {
