@@ -531,7 +531,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
 
   const std::int64_t margin = marginFor(bound, scene, image.frame);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
-    {}, LightKey::of(scene, filmDistance(scene, image.frame)) };
+    {}, LightKey::of(scene, image.frame, filmDistance(scene, image.frame)) };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;

@@ -211,7 +211,8 @@ struct View
   std::optional<Vector> focalPoint; ///< unset: centre of the grid
   /// Half height of the image in the plane of the focal point, data units; 0: fit the grid.
   double parallelScale = 0;
-  /// Between the lower and upper side of the image seen from the pupil, degrees, less than 170; 0: orthographic.
+  /// Between the lower and upper side of the image seen from the pupil, degrees, less than 170; 0: orthographic, as
+  /// always where the grid has a single layer of cells (2-D data).
   double viewAngle = 0;
   int width = 512;  ///< pixels
   int height = 512; ///< pixels

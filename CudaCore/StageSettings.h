@@ -52,7 +52,7 @@ struct LightKey
 
   auto tie() const { return std::tie(isOfCamera, distance, shape, width, length, angle, film); }
 
-  static LightKey of(const Scene& scene, double film)
+  static LightKey of(const Scene& scene, const Frame& frame, double film)
   {
     LightKey key;
     key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
@@ -60,7 +60,7 @@ struct LightKey
     {
       return key;
     }
-    key.distance = scene.view.viewAngle > 0 ? std::nullopt : scene.source.distance;
+    key.distance = frame.pupil > 0 ? std::nullopt : scene.source.distance;
     key.shape = scene.source.shape;
     if (key.shape != SourceShape::Point)
     {

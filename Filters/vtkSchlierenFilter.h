@@ -299,7 +299,8 @@ public:
    * Degrees between the lower and the upper side of the image, seen from the camera, less than 170; 0 (the default):
    * parallel light. Else it is that of a point source in the camera's pupil, which diverges from there through the flow
    * to what is behind it: each pixel has its own direction, as the surfaces that such a vtkCamera sees. Of data that
-   * reach beyond the camera nothing counts that is behind it.
+   * reach beyond the camera nothing counts that is behind it. In 2-D data, whose depth is none of theirs, light stays
+   * parallel.
    */
   vtkSetMacro(ViewAngle, double);
   vtkGetMacro(ViewAngle, double);

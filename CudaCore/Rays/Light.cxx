@@ -169,8 +169,11 @@ Frame frameOf(const Grid& grid, const View& view)
 
   const double aspect = static_cast<double>(view.width) / view.height;
   const double fit = std::max(halfExtent(grid, v), halfExtent(grid, u) / aspect);
+  // 2-D data have a depth that is none of theirs: a perspective would show it.
+  const bool isLayer =
+    std::find(grid.dimensions.begin(), grid.dimensions.end(), 2) != grid.dimensions.end();
   // With a perspective the data's nearest end has to fit.
-  const double perDistance = std::tan(0.5 * view.viewAngle * radiansPerDegree);
+  const double perDistance = isLayer ? 0 : std::tan(0.5 * view.viewAngle * radiansPerDegree);
   const double halfHeight =
     view.parallelScale > 0 ? view.parallelScale : fit + halfExtent(grid, w) * perDistance;
   frame.pixelSize = 2 * halfHeight / view.height;
@@ -186,7 +189,7 @@ Frame frameOf(const Grid& grid, const View& view)
     dot(focal, v) - 0.5 * (view.height - 1) * frame.pixelSize };
   frame.entry = dot(centre, w) - halfExtent(grid, w);
   frame.exit = dot(centre, w) + halfExtent(grid, w);
-  if (view.viewAngle > 0)
+  if (perDistance > 0)
   {
     frame.pupil = halfHeight / perDistance;
     frame.focus = dot(focal, w);

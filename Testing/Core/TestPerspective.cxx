@@ -346,8 +346,8 @@ TEST_P(Perspective, SilhouettesAreThoseOfTangentCones)
   Scene scene;
   scene.device = GetParam();
   scene.kScale = 0; // half of all light, where a wall does not stop it
-  scene.samplesPerPixel = 16;
-  scene.view = raysAround({ 0, 0, 0.4 }, 200, 200, 0.02);
+  scene.samplesPerPixel = 4;
+  scene.view = raysAround({ 0, 0, 0.4 }, 100, 100, 0.04);
   for (const double distance : { 30., 4., 2. })
   {
     SCOPED_TRACE(distance);
@@ -405,6 +405,26 @@ TEST_P(Perspective, MovesThePatternBehindTheFlow)
     }
   }
   EXPECT_LT(worst, 5e-3 * largest);
+}
+
+/// One layer of cells is as deep as it has been made: its light is parallel, that of a source's distance, too.
+TEST_P(Perspective, IsNoneOfTwoDimensionalData)
+{
+  Grid grid = cube(33, 1);
+  grid.dimensions[2] = 2;
+  const SampledField<float> layer(
+    grid, [](double x, double y, double) { return 1e-4 * std::exp(-4 * (x * x + y * y)); });
+  Scene scene = perspectiveScene(GetParam(), 2, { 0, 0, 0 });
+  Scene parallel = scene;
+  parallel.view.viewAngle = 0;
+  Bench bench;
+  for (const std::optional<double> distance : { std::optional<double>(), std::optional(5.) })
+  {
+    scene.source.distance = parallel.source.distance = distance;
+    const Image image = bench.render(layer.field, scene);
+    EXPECT_EQ(image.frame.pupil, 0);
+    EXPECT_EQ(image.deflection, Bench().render(layer.field, parallel).deflection);
+  }
 }
 
 TEST(PerspectiveMistakes, SayWhatToDo)
