@@ -318,6 +318,27 @@ inline std::ostream& operator<<(std::ostream& out, const Worst& worst)
              << ", optical path " << worst.opticalPathDifference;
 }
 
+/// The largest differences from the truth, in all pixels, and the largest values that are true.
+struct Comparison
+{
+  Worst error, size;
+};
+template <class TruthOf>
+Comparison compared(const Image& image, const TruthOf& truthOf)
+{
+  Comparison all;
+  for (int row = 0; row < image.height; ++row)
+  {
+    for (int column = 0; column < image.width; ++column)
+    {
+      const Reading truth = truthOf(column, row);
+      all.error.include(truth, readingOf(image, pixelOf(image, column, row)));
+      all.size.include(truth);
+    }
+  }
+  return all;
+}
+
 /// Largest differences between two images.
 inline Worst differences(const Image& a, const Image& b)
 {

@@ -66,24 +66,10 @@ Reading truthOf(const ClosedForm& form, const Image& image, const Scene& scene, 
     end.path - dot(end.position - start.position, d) };
 }
 
-/// The largest difference from the truth, in all pixels, and the largest values that are true.
-struct Comparison
-{
-  Worst error, size;
-};
 Comparison compare(const ClosedForm& form, const Image& image, const Scene& scene, const Grid& grid)
 {
-  Comparison all;
-  for (int row = 0; row < image.height; ++row)
-  {
-    for (int column = 0; column < image.width; ++column)
-    {
-      const Reading truth = truthOf(form, image, scene, grid, column, row);
-      all.error.include(truth, readingOf(image, pixelOf(image, column, row)));
-      all.size.include(truth);
-    }
-  }
-  return all;
+  return compared(
+    image, [&](int column, int row) { return truthOf(form, image, scene, grid, column, row); });
 }
 
 Scene divergingScene(Device device)

@@ -60,25 +60,6 @@ Reading truthOf(const ClosedForm& form, const Image& image, const Scene& scene, 
     end.path - dot(end.position - start.position, d) };
 }
 
-struct Comparison
-{
-  Worst error, size;
-};
-Comparison compare(const ClosedForm& form, const Image& image, const Scene& scene, const Grid& grid)
-{
-  Comparison all;
-  for (int row = 0; row < image.height; ++row)
-  {
-    for (int column = 0; column < image.width; ++column)
-    {
-      const Reading truth = truthOf(form, image, scene, boxOf(grid), column, row);
-      all.error.include(truth, readingOf(image, pixelOf(image, column, row)));
-      all.size.include(truth);
-    }
-  }
-  return all;
-}
-
 /// A pupil at such a distance from the focal point.
 void setPupil(View& view, double distance)
 {
@@ -122,7 +103,9 @@ TEST_P(Perspective, IsBentAsTheEquationOfRaysSays)
         scene.stepSize = 0.5;
         const Image image = bench.render(field, scene);
         EXPECT_NEAR(image.frame.pupil, distance, 1e-9 * distance);
-        const Comparison found = compare(form, image, scene, grid);
+        const Comparison found = compared(image,
+          [&](int column, int row)
+          { return truthOf(form, image, scene, boxOf(grid), column, row); });
         EXPECT_GT(found.size.deflection, 0);
         EXPECT_LE(found.size.displacement, image.displacementBound);
         constexpr double allowed = 2e-4;
