@@ -264,13 +264,13 @@ struct Bench::Stages
   bool refineFor(const Column& column, MediumOfBench<Real>& current, const Monitor& monitor,
     Unfinished& request);
 
-  /// Traces a pass, or goes on with it, where `asked` wants that. False if aborted or paused.
+  /// Traces a pass, or resumes it, where `request` wants that. False if aborted or paused.
   template <class Real>
   bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
     MediumOfBench<Real>& current, const RayTask<Real>& task, const Monitor& monitor,
     Unfinished& request);
 
-  /// Goes on with an image, until it is finished, aborted or paused.
+  /// Works on an image until it is finished, aborted or paused.
   template <class Real>
   Image proceed(Unfinished& request, const Watch& watch);
 

@@ -433,7 +433,7 @@ public:
   /// The image of `field` on the bench `scene`. Throws Error.
   Image render(const Field& field, const Scene& scene, const Monitor& monitor = {});
 
-  /// Goes on with the image that the monitor paused in the last call, which is given up by any other: the
+  /// Resumes the image that the monitor paused in the last call, which any other call cancels: the
   /// same image, to the last bit, that render would have made without a pause. Each call makes some progress,
   /// however soon it is paused again: what is not cut into pieces is the medium, a pass on the GPU, and the
   /// development of an image. What Field::gradients points to must still be there. Throws Error.

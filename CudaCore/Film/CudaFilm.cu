@@ -68,7 +68,7 @@ struct DeviceDeposit
     }
   }
   __device__ void block(
-    int plane, std::int64_t column, std::int64_t row, const Shares& contributions)
+    int plane, std::int64_t column, std::int64_t row, const Contributions& contributions)
   {
     anywhere(plane, column, row, contributions.lowerLeft);
     anywhere(plane, column + 1, row, contributions.lowerRight);

@@ -52,7 +52,7 @@ public:
   {
     of(plane).add(column, row, light);
   }
-  void block(int plane, std::int64_t column, std::int64_t row, const Shares& contributions)
+  void block(int plane, std::int64_t column, std::int64_t row, const Contributions& contributions)
   {
     of(plane).add(column, row, contributions);
   }

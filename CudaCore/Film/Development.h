@@ -50,7 +50,7 @@ public:
 
   std::int64_t passes() const { return passes_; }
 
-  /// False if aborted or paused before all of the pass is on the films: the next call goes on with it.
+  /// False if aborted or paused before all of the pass is on the films: the next call resumes it.
   bool addPass(const Monitor& monitor);
 
   PixelArray<float> develop() const;

@@ -110,7 +110,7 @@ void FilmBand::merge()
   begin_ = end_ = first_;
 }
 
-void FilmBand::addAlone(std::int64_t column, std::int64_t row, const Shares& contributions)
+void FilmBand::addAlone(std::int64_t column, std::int64_t row, const Contributions& contributions)
 {
   const std::int64_t lights[2][2] = { { contributions.lowerLeft, contributions.lowerRight },
     { contributions.upperLeft, contributions.upperRight } };

@@ -91,7 +91,7 @@ public:
   void addOutside(std::int64_t light) { sums_.outside += light; }
 
   /// Adds to 2 x 2 pixels at (column, row), at least one of which is on the film.
-  void add(std::int64_t column, std::int64_t row, const Shares& contributions)
+  void add(std::int64_t column, std::int64_t row, const Contributions& contributions)
   {
     if (row >= begin_ && row + 1 < end_)
     {
@@ -122,7 +122,7 @@ private:
   {
     return light_.data() + static_cast<std::size_t>((row - first_) * columns_);
   }
-  void addAlone(std::int64_t column, std::int64_t row, const Shares& contributions);
+  void addAlone(std::int64_t column, std::int64_t row, const Contributions& contributions);
   void merge();
 
   Film& film_;

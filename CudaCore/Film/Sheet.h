@@ -224,8 +224,8 @@ private:
       const auto third = static_cast<std::int64_t>(w2 * scale);
       const auto fourth = static_cast<std::int64_t>(w3 * scale);
       deposit_.emitted(plane, whole);
-      deposit_.block(
-        plane, column, row, Shares{ whole - second - third - fourth, second, fourth, third });
+      deposit_.block(plane, column, row,
+        Contributions{ whole - second - third - fourth, second, fourth, third });
     }
     return true;
   }

@@ -36,13 +36,13 @@ SCHLIEREN_HD Footprint footprintOf(double column, double row)
 }
 
 /// Fixed-point light of the pixels of a footprint.
-struct Shares
+struct Contributions
 {
   std::int64_t lowerLeft, lowerRight, upperLeft, upperRight;
 };
 
-/// Shares light (at most 2^52) bilinearly, without losing any to rounding.
-SCHLIEREN_HD Shares contributionsOf(const Footprint& footprint, std::int64_t whole)
+/// Distributes light (at most 2^52) bilinearly, without losing any to rounding.
+SCHLIEREN_HD Contributions contributionsOf(const Footprint& footprint, std::int64_t whole)
 {
   const auto part = [](std::int64_t light, double fraction)
   { return static_cast<std::int64_t>(static_cast<double>(light) * fraction); };

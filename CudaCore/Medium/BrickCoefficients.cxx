@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/BrickCoefficients.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace schlieren
 {
@@ -38,9 +42,8 @@ double smoothBend(const double* at, std::ptrdiff_t stride)
 /// A coefficient that is no farther beyond a sample and those beside it than this.
 double limited(const double* at, std::ptrdiff_t stride, double coefficient, double beyond)
 {
-  const double a = at[-stride], b = at[0], c = at[stride];
-  return smaller(
-    larger(coefficient, smaller(smaller(a, b), c) - beyond), larger(larger(a, b), c) + beyond);
+  const auto [lowest, highest] = std::minmax({ at[-stride], at[0], at[stride] });
+  return std::clamp(coefficient, lowest - beyond, highest + beyond);
 }
 
 } // namespace
@@ -75,14 +78,13 @@ bool makeCoefficients(BrickSamples& samples, const CoefficientRule& rule)
           to[i] = inner * from[i] + outer * (from[i - s] + from[i + s]);
           fronts += beyondSamples(from + i, s, to[i]) > rule.overshoot ? 1 : 0;
         }
-        const int place = axis == 1 ? j : k;
         for (int i = 0; fronts > 0 && i < count; ++i)
         {
           if (!(beyondSamples(from + i, s, to[i]) > rule.overshoot))
           {
             continue;
           }
-          const int along = axis == 0 ? low[0] + i : place;
+          const int along = std::array{ low[0] + i, j, k }[axis];
           if (along < supportOfFronts || along >= n - supportOfFronts)
           {
             return false;

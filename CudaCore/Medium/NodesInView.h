@@ -51,9 +51,7 @@ public:
   }
   bool allows(const NodePlace& place, double pixels = 1) const
   {
-    const double finest = pixels * pixelAt(place);
-    return allows(place.level, 0, finest) || allows(place.level, 1, finest) ||
-      allows(place.level, 2, finest);
+    return allows(place.level, pixels * pixelAt(place));
   }
 
   /// How long a ray is in a leaf, by the leaf's edge, as far as that is not about 1: in one as deep as the domain.
@@ -184,12 +182,7 @@ public:
   double progressAt(double ofRound) const
   {
     int levels = 1;
-    const auto isWanted = [&](int level)
-    {
-      return allows(level, 0, column_.finest) || allows(level, 1, column_.finest) ||
-        allows(level, 2, column_.finest);
-    };
-    while (levels < usualLevels && isWanted(levels))
+    while (levels < usualLevels && allows(levels, column_.finest))
     {
       ++levels;
     }
@@ -209,6 +202,10 @@ private:
     constexpr double rounding = 1 - 1e-9;
     return level < finestLevelOfAll && axis < tree_.maker_.axes() &&
       tree_.maker_.voxelOf(level + 1)[axis] >= rounding * finest;
+  }
+  bool allows(int level, double finest) const
+  {
+    return allows(level, 0, finest) || allows(level, 1, finest) || allows(level, 2, finest);
   }
 
   /// The size of a pixel where a node is nearest to the pupil, or beside that a small part of it, data units.

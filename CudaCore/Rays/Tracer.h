@@ -276,7 +276,7 @@ bool hasSimd(Simd simd);
 /// The best ones of this processor.
 Simd bestSimd();
 
-/// Traces a pass on the CPU into `traced`, which has its size, or goes on with it. Returns false if aborted or
+/// Traces a pass on the CPU into `traced`, which has its size, or resumes it. Returns false if aborted or
 /// paused; the same call then does the rest. `simd` must be one that the processor has.
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // How many images of 512 x 512 pixels a second the filter makes: with another knife edge, and with
-// another camera; the pipeline's and the output arrays' share included.
+// another camera; the pipeline's and the output arrays' part included.
+#include "TimedImages.h"
+
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -70,20 +72,13 @@ vtkSmartPointer<vtkSchlierenFilter> filterOf(vtkDataObject* input, benchmark::St
 template <class Change>
 void updateAgain(benchmark::State& state, vtkSchlierenFilter* filter, const Change& change)
 {
-  double tracing = 0;
-  const auto start = std::chrono::steady_clock::now();
-  for (auto _ : state)
-  {
-    change(filter);
-    filter->Update();
-    tracing += filter->GetOutput()->GetFieldData()->GetArray("TraceSeconds")->GetComponent(0, 0);
-  }
-  const double all =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto images = static_cast<double>(state.iterations());
-  state.counters["images/s"] = images / all;
-  state.counters["trace/ms"] = 1e3 * tracing / images;
-  state.counters["other/ms"] = 1e3 * (all - tracing) / images;
+  timeImages(state,
+    [&]
+    {
+      change(filter);
+      filter->Update();
+      return filter->GetOutput()->GetFieldData()->GetArray("TraceSeconds")->GetComponent(0, 0);
+    });
 }
 
 void turnKnife(vtkSchlierenFilter* filter)
@@ -156,7 +151,7 @@ BENCHMARK(filterHurries)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// An image of so many samples per pixel in slices of so many microseconds; 0: in one go. Its rays are new.
+/// An image of so many samples per pixel, in time slices of so many microseconds; 0: at once. Its rays are new.
 void filterRefines(benchmark::State& state)
 {
   auto filter = filterOf(ball(256), state);

@@ -3,10 +3,10 @@
 // How many images a second of an instrument under one's hands: a new knife edge, a new camera. 512 x 512
 // pixels; the time of each stage apart.
 #include "Schlieren.h"
+#include "TimedImages.h"
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -79,21 +79,14 @@ void renderAgain(benchmark::State& state, const Field& field, Scene scene, const
 {
   Bench bench;
   bench.render(field, scene);
-  double tracing = 0;
-  const auto start = std::chrono::steady_clock::now();
-  for (auto _ : state)
-  {
-    change(scene);
-    const Image image = bench.render(field, scene);
-    tracing += image.traceSeconds;
-    benchmark::DoNotOptimize(image.intensity.data());
-  }
-  const double all =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto images = static_cast<double>(state.iterations());
-  state.counters["images/s"] = images / all;
-  state.counters["trace/ms"] = 1e3 * tracing / images;
-  state.counters["other/ms"] = 1e3 * (all - tracing) / images;
+  timeImages(state,
+    [&]
+    {
+      change(scene);
+      const Image image = bench.render(field, scene);
+      benchmark::DoNotOptimize(image.intensity.data());
+      return image.traceSeconds;
+    });
 }
 
 FilmEstimator estimatorOf(const benchmark::State& state, std::size_t argument)

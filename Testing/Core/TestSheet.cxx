@@ -38,7 +38,7 @@ struct Recorder
     pixels.at(static_cast<std::size_t>(plane)).at(static_cast<std::size_t>(row * width + column)) +=
       light;
   }
-  void block(int plane, std::int64_t column, std::int64_t row, const Shares& contributions)
+  void block(int plane, std::int64_t column, std::int64_t row, const Contributions& contributions)
   {
     const auto add = [&](std::int64_t i, std::int64_t j, std::int64_t light) {
       i >= 0 && i < width&& j >= 0 && j < height ? pixel(plane, i, j, light)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Images that are made in slices of time, and what is shown in between.
+// Time-sliced images, and what is shown in between.
 #include "Fixtures.h"
 #include "Series.h"
 

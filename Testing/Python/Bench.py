@@ -70,7 +70,7 @@ def check(find=simple.FindSource):
 
 check()
 
-# What k and offset optics have is told before there is an image.
+# What k and offset optics have is known before there is an image.
 made.UpdatePropertyInformation()
 assert made.GetProperty("KScaleOfOptics").GetData() == 4000
 assert made.GetProperty("CutoffOffsetOfOptics").GetData() == 0.5

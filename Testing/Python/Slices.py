@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images in slices of time, as a window asks for them through proxies: the jet, and what is told of it."""
+"""Time-sliced images, as a window requests them through proxies: the jet, and what is reported of it."""
 
 import os
 
@@ -49,7 +49,7 @@ bench.InvokeCommand("Refine")
 bench.UpdatePipeline()
 assert told("PictureCount") == 4
 
-# An image that is hurried, and then whole again without tracing all of it in between.
+# A preview, and then the whole image again without tracing all of it in between.
 bench.PreviewReduction = 4
 assert image_array(bench, "Intensity").shape == (16, 24)
 bench.PreviewReduction = 1
