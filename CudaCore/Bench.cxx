@@ -201,7 +201,7 @@ int SharedMedia::count() const
   return static_cast<int>(entries_->all.size());
 }
 
-/// What has been asked for, and as much of it as there is.
+/// What has been requested, and as much of it as there is.
 struct Bench::Unfinished
 {
   Unfinished(const Field& ofField, const Scene& ofScene)
@@ -256,7 +256,7 @@ struct Bench::Stages
     const Field& field, const Scene& scene, DistributedMedium distribution);
   template <class Real>
   void distributeMedium(MediumOfBench<Real>& current, const Field& field, const Scene& scene);
-  /// What the scene asks for, where it can be had.
+  /// What the scene needs, where it can be had.
   DistributedMedium distributionFor(const Unfinished& request) const;
   /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
   /// of other benches.
@@ -331,7 +331,7 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(
     before != nullptr && before->owners && before->owners->channels() != workers;
   if (!mediumKey || mediumKey->tie() != key.tie() || haveOwnersChanged)
   {
-    // Given up first: two media at once might not fit.
+    // Freed first: two media at once might not fit.
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
@@ -577,7 +577,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
     }
     request.momentumDrift = std::max(request.momentumDrift, traced->worstDrift);
     const TracedRays ofTraced{ pass, traced->exits.data(), traced->gathered.data() };
-    rays.ask(*traced, ofTraced, number, scene, errors);
+    rays.request(*traced, ofTraced, number, scene, errors);
     if (!progressive.isBegun())
     {
       if (techniqueOf(scene.cutoff).hasK())

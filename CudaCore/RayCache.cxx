@@ -14,7 +14,7 @@ bool RayCache::prepare(RaysKey key, std::int64_t margin)
 {
   if (key_ && !key.gradients)
   {
-    key.gradients = key_->gradients; // more was gathered than is asked for
+    key.gradients = key_->gradients; // more was gathered than is requested
   }
   if (key_ && key_->tie() == key.tie() && margin_ >= margin)
   {
@@ -93,7 +93,7 @@ const TracedPass* RayCache::raysOf(std::int64_t number, const Pass& pass, Device
   return &scratch_;
 }
 
-void RayCache::ask(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
+void RayCache::request(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
   const Scene& scene, const DeflectionErrors& errors)
 {
   if (number == 0 && scene.histogramSize > 0 &&

@@ -40,7 +40,7 @@ public:
 
   /// Learns from the rays of a pass what has not been requested of them before: how strongly they are bent, for
   /// automatic k, and where they meet the cutoff plane.
-  void ask(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
+  void request(const TracedPass& traced, const TracedRays& rays, std::int64_t number,
     const Scene& scene, const DeflectionErrors& errors);
   double strongDeflection() const { return *strong_; }
   Histogram histogram() const { return histogram_->histogram(); }

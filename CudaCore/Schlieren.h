@@ -29,7 +29,7 @@ namespace schlieren
 
 using Vector = std::array<double, 3>;
 
-/// A mistake in what the caller asked for. what() is written for the user: problem, why, what to do.
+/// A mistake in what the caller requested. what() is written for the user: problem, why, what to do.
 class Error : public std::runtime_error
 {
 public:
@@ -183,7 +183,7 @@ struct FieldGradients
 constexpr unsigned char transparent = 2;
 
 /// Refractivity N = n - 1. On a grid, x fastest: the arrays belong to the caller and are read during Bench::render
-/// only; exactly one of the two sample pointers is set. Or of a source, which is asked as finely as the view and
+/// only; exactly one of the two sample pointers is set. Or of a source, which is queried as finely as the view and
 /// Scene::mediumTolerance want it: then `grid` is coarsestGrid() of the source, and there are no arrays.
 struct Field
 {
@@ -322,11 +322,11 @@ struct MediumStatistics
   double largestDeflection = 0; ///< of straight rays of the last view
   /// Of the deflection of a ray of the last view, of the largest one, or of what it gathers of fields, of the full
   /// colour: the largest sum of what the leaves along a ray lack, as far as finer voxels would mend it. Voxels of the size
-  /// of cells, or as fine as the view asks, lack nothing.
+  /// of cells, or as fine as the view needs, lack nothing.
   double estimatedError = 0;
   double deflectionError = 0; ///< the same of deflections alone, not divided by the largest one
   int processes = 1;          ///< that have a part each
-  bool isMemoryShort = false; ///< for what the tolerance asks for
+  bool isMemoryShort = false; ///< for what the tolerance needs
 };
 
 /// The image and what is known about it. Arrays are row-major, bottom row first.
@@ -371,13 +371,13 @@ struct Image
   /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
   /// because it is elsewhere then, which is of second order.
   double skippingBound = 0;
-  /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it tells
+  /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it shows
   /// the error of steps and interpolation.
   double momentumDrift = 0;
   MediumStatistics medium; ///< of a Field's source
-  bool aborted = false;    ///< the monitor asked to stop; all arrays are empty
+  bool aborted = false;    ///< the monitor stopped it; all arrays are empty
 
-  /// False where the monitor has paused it, and Bench::resume goes on. The arrays then hold the image of
+  /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.
   bool finished = true;
   int samples = 0; ///< per pixel, that the image is of

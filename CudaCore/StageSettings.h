@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene asks of each stage, and what cached results depend on.
+// What a scene needs of each stage, and what cached results depend on.
 #pragma once
 
 #include "Film/Shading.h"
@@ -99,7 +99,7 @@ struct RaysKey
 };
 
 /// How a scene's rays are to be traced where no ray is displaced further than `bound`. What does not matter
-/// to them has its default, so that changing it traces nothing.
+/// to them has its default, so that changing it needs no re-tracing.
 RaySettings settingsOf(
   const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame);
 
@@ -123,8 +123,8 @@ double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& l
 double filmDistance(const Scene& scene, const Frame& frame);
 
 /// Pixels around the image from which light may be bent into it, at most an eighth of its longer
-/// side (or 16). At least one, because the film shares a ray among four pixels. The same for all
-/// cutoffs, so that changing the cutoff traces nothing, but for a camera's rays, which stay in their pixel.
+/// side (or 16). At least one, because the film distributes a ray over four pixels. The same for all
+/// cutoffs, so that changing the cutoff needs no re-tracing, but for a camera's rays, which stay in their pixel.
 std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame);
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame);

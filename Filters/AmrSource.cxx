@@ -477,7 +477,7 @@ schlieren::MediumSource::Content AmrSource::contentOf(const schlieren::Box& box)
         {
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
-            // The spline tells more than one voxel of the size of a cell shows.
+            // The spline has more detail than one voxel of the size of a cell shows.
             content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
           }
         }

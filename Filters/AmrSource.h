@@ -20,7 +20,7 @@ namespace filters
 /**
  * The refractivity of adaptive meshes whose cells hold the values, box by box, for the tracer.
  *
- * What is asked for is made of cells of one level at a time: the coarsest that is no coarser than the lattice. As in
+ * What is requested is made of cells of one level at a time: the coarsest that is no coarser than the lattice. As in
  * RefractivityOfAmr, a cell under finer blocks has the mean of the finer cells, and one that no block of its level
  * holds has the mean over its place of a polynomial through the next coarser level; so the borders of blocks and levels
  * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.

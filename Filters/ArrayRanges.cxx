@@ -34,14 +34,14 @@ struct Range
   }
 };
 
-struct Teller
+struct RangeSetter
 {
   template <class Array>
   void operator()(Array* array) const;
 };
 
 template <class Array>
-void Teller::operator()(Array* array) const
+void RangeSetter::operator()(Array* array) const
 {
   const int components = array->GetNumberOfComponents();
   if (array->GetNumberOfValues() == 0)
@@ -92,6 +92,6 @@ void Teller::operator()(Array* array) const
 } // namespace
 
 //------------------------------------------------------------------------------
-void tellRanges(vtkDataArray* array) { vtkArrayDispatch::Dispatch::Execute(array, Teller{}); }
+void setRanges(vtkDataArray* array) { vtkArrayDispatch::Dispatch::Execute(array, RangeSetter{}); }
 
 } // namespace filters

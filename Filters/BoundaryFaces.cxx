@@ -144,7 +144,7 @@ struct Kept
   std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
   Sides sides;
   bool hidesBehind;
-  bool isPart; // of a larger face: one place tells whether it is covered
+  bool isPart; // of a larger face: one place decides whether it is covered
 };
 
 /// A face, seen from its cell.

@@ -146,7 +146,7 @@ public:
   const Vector& origin() const { return this->Sorted->origin; }
   const Vector& step() const { return this->Sorted->step; }
 
-  /// Calls enter(box), whether to go on, for groups and cells, and visit(place of a cell), in an order that
+  /// Calls enter(box), whether to continue, for groups and cells, and visit(place of a cell), in an order that
   /// depends on the tree only.
   template <class Enter, class Visit>
   void walk(const Enter& enter, const Visit& visit) const

@@ -51,7 +51,7 @@ std::vector<char> ChannelRanks::Respond(const std::vector<char>& request)
   return answer;
 }
 
-std::vector<std::vector<char>> ChannelRanks::Ask(std::vector<std::vector<char>> requests)
+std::vector<std::vector<char>> ChannelRanks::Request(std::vector<std::vector<char>> requests)
 {
   for (std::size_t rank = 1; rank < requests.size(); ++rank)
   {

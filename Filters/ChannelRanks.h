@@ -14,7 +14,7 @@
 namespace filters
 {
 
-/// Ranks that are asked through channels; the first one is this process.
+/// Ranks that are queried through channels; the first one is this process.
 class ChannelRanks : public PieceRanks
 {
 public:
@@ -31,7 +31,7 @@ public:
   std::vector<char> Respond(const std::vector<char>& request);
 
   std::size_t Count() const override { return this->Channels.size() + 1; }
-  std::vector<std::vector<char>> Ask(std::vector<std::vector<char>> requests) override;
+  std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) override;
 
 private:
   PieceWorker Own;

@@ -147,7 +147,7 @@ bool ExposureSteps::Resume()
   {
     return false;
   }
-  this->Meeting.reset(); // the other ranks go on, too
+  this->Meeting.reset(); // the other ranks continue, too
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
   this->Ranks.Request(this->Filter, this->Inputs);

@@ -328,7 +328,7 @@ std::array<int, 3> structureOf(vtkDataSet* data)
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
 {
   static std::array<std::atomic<int>, 256>
-    known; // one more than the dimension; 0: not yet asked for
+    known; // one more than the dimension; 0: not yet requested
   const auto type = static_cast<unsigned char>(data->GetCellType(cell));
   if (known[type] == 0)
   {

@@ -12,7 +12,7 @@
 namespace filters
 {
 
-/// 0 to 3. vtkCellTypeUtilities::GetDimension makes a cell to ask it: for all cells of a mesh, that takes longer
+/// 0 to 3. vtkCellTypeUtilities::GetDimension makes a cell to query it: for all cells of a mesh, that takes longer
 /// than to resample it.
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell);
 

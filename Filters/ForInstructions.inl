@@ -3,7 +3,7 @@
 //
 // Compiles SCHLIEREN_CODE_FOR_PACKS, a file of functions for packs of `lanes` numbers, for packs of two, and for four and
 // eight with the instructions of AVX2 and AVX-512, each in a namespace of its own. Which of them a processor has, the
-// caller asks where SCHLIEREN_HAS_AVX is defined.
+// caller checks where SCHLIEREN_HAS_AVX is defined.
 
 // For functions with packs as arguments.
 #define SCHLIEREN_INLINE inline __attribute__((always_inline))

@@ -132,12 +132,12 @@ std::function<double(double)> dispersionOfGases(vtkRefractiveIndex* self, double
 std::string noteOnGases(vtkRefractiveIndex* self)
 {
   std::string notes;
-  std::set<std::string_view> told;
+  std::set<std::string_view> reported;
   for (const std::string& name : namesUsed(self))
   {
     const schlieren::Gas* gas = isCustom(name) ? nullptr : schlieren::findGas(name);
     const double wavelength = 1e-9 * self->GetWavelength();
-    if (gas && !isMeasuredNear(*gas, wavelength) && told.insert(gas->name).second)
+    if (gas && !isMeasuredNear(*gas, wavelength) && reported.insert(gas->name).second)
     {
       notes += (notes.empty() ? "" : " ") + noteOn(*gas, wavelength);
     }

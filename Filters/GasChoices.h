@@ -16,7 +16,7 @@ namespace filters
 /// Whether the name stands for a gas that is not of the table: "Custom" or nothing.
 bool isCustom(const std::string& name);
 
-/// The gas of this name or formula; null for a custom one. Throws std::runtime_error, which tells what
+/// The gas of this name or formula; null for a custom one. Throws std::runtime_error, which says what
 /// there is to choose from, for a name that is not in the table. `property` is where it was chosen.
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);
 

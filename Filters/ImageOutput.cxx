@@ -56,11 +56,11 @@ vtkSmartPointer<Array> newArray(
     array->SetComponentName(1, "v");
   }
   setUnit(array, unit);
-  tellRanges(array);
+  setRanges(array);
   return array;
 }
 
-void tellRanges(vtkAbstractArray*) {} // of strings
+void setRanges(vtkAbstractArray*) {} // of strings
 
 template <class Array, class Value>
 void addFieldValue(vtkImageData* output, const char* name, const Value& value)
@@ -68,7 +68,7 @@ void addFieldValue(vtkImageData* output, const char* name, const Value& value)
   vtkNew<Array> array;
   array->SetName(name);
   array->InsertNextValue(value);
-  tellRanges(array);
+  setRanges(array);
   output->GetFieldData()->AddArray(array);
 }
 
@@ -178,7 +178,7 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
       return static_cast<unsigned char>(
         (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
     });
-  tellRanges(array);
+  setRanges(array);
   output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
   output->GetPointData()->SetActiveScalars("Color");
 }
@@ -262,7 +262,7 @@ void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
   rays->SetNumberOfValues(static_cast<vtkIdType>(histogram.rays.size()));
   std::copy(histogram.rays.begin(), histogram.rays.end(), rays->GetPointer(0));
   setUnit(rays, "1");
-  tellRanges(rays);
+  setRanges(rays);
   output->GetPointData()->SetScalars(rays);
 }
 

@@ -79,7 +79,7 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
       std::memcpy(made, old + static_cast<std::size_t>(pixel) * bytes, bytes);
       made += bytes;
     }
-    tellRanges(array);
+    setRanges(array);
   }
   this->Image->ShallowCopy(output); // the next slice will want the same
 }

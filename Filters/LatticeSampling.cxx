@@ -209,7 +209,7 @@ void LatticeSampling::findGaps()
     });
 }
 
-/// Outside points that are known tell those beside them that are not.
+/// Outside points that are known decide for those beside them that are not.
 void LatticeSampling::spread(std::vector<Index>& known)
 {
   for (std::size_t next = 0; next < known.size(); ++next)

@@ -26,7 +26,7 @@ public:
   /// Surfaces in the gas. Whether there are any within reach.
   bool addBodies(const Triangles& surface, const TriangleTree& tree);
 
-  /// `isInBody`: empty where no point is. `kindAt` tells what there is at a place outside from the faces beyond
+  /// `isInBody`: empty where no point is. `kindAt` returns what is at a place outside from the faces beyond
   /// reach.
   void run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
     const std::function<Place(const Point&)>& kindAt, Place* places, float* distances);

@@ -22,12 +22,12 @@ struct KnownLattice
 {
   CellsOfLattice cells;
   std::vector<schlieren::Place> places; // empty: gas everywhere
-  std::vector<float> distances;         // empty: nobody has asked
+  std::vector<float> distances;         // empty: not requested yet
 };
 
 /**
- * What is known of lattices on a mesh, for the next time steps, which ask for the same ones as long as neither the view
- * nor what it sees changes much. Up to `maxBytes`; those that neither of two steps asks for go after them. May be used
+ * What is known of lattices on a mesh, for the next time steps, which need the same ones as long as neither the view
+ * nor what it sees changes much. Up to `maxBytes`; those that neither of two steps needs go after them. May be used
  * from many threads at once.
  */
 class LatticesOfMesh
@@ -41,7 +41,7 @@ public:
   bool hasRoomFor(const schlieren::Lattice& lattice) const;
   void keep(const schlieren::Lattice& lattice, KnownLattice known);
 
-  /// What the last two steps have not asked for goes.
+  /// What the last two steps have not needed goes.
   void beginStep();
 
   std::size_t bytes() const;

@@ -22,7 +22,7 @@ enum class Copies
   Neighbours ///< only what is known of points depends on them
 };
 
-/// How values go on around a point, and between which limits, counted from its own value.
+/// How values continue around a point, and between which limits, counted from its own value.
 struct PointTrend
 {
   float gradient[3] = {};

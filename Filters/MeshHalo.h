@@ -38,7 +38,7 @@ inline bool operator==(const PointName& a, const PointName& b)
   return a.place == b.place && a.number == b.number;
 }
 
-/// Where another part may go on: of a mesh the points that are on its surface; of a curvilinear grid its extent.
+/// Where another part may continue: of a mesh the points that are on its surface; of a curvilinear grid its extent.
 struct Outline
 {
   using Extent = std::array<int, 6>;

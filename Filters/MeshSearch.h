@@ -35,13 +35,13 @@ struct MeshSearch
 };
 
 /// The grid's values and which are valid, for the scalars of `leaves` (see MeshSampler); searches only if
-/// it has to. Returns false, with nothing useful in the arrays, if it was told to stop.
+/// it has to. Returns false, with nothing useful in the arrays, if it was stopped.
 bool sampleMeshes(const std::vector<vtkDataSet*>& leaves, vtkImageData* grid, int flatAxis,
   MeshSearch& search, const Progress& progress, vtkDoubleArray* values,
   vtkUnsignedCharArray* valid);
 
 /// The points that lie neither in visible nor in hidden cells of `leaves`, after sampleMeshes() with the same
-/// arguments. Null if it was told to stop.
+/// arguments. Null if it was stopped.
 vtkSmartPointer<vtkUnsignedCharArray> outsideOf(const std::vector<vtkDataSet*>& leaves,
   vtkImageData* grid, int flatAxis, MeshSearch& search, const Progress& progress,
   vtkUnsignedCharArray* valid);

@@ -169,7 +169,7 @@ private:
     return t;
   }
 
-  /// Of the hull: what hangs together in one plane and does not go on smoothly to other hull.
+  /// Of the hull: what hangs together in one plane and does not continue smoothly to other hull.
   std::vector<unsigned char> findFlatSides()
   {
     resetRoots();

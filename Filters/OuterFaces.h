@@ -18,8 +18,8 @@ namespace filters
  * their symmetry plane, fins, steps and holes, also where they reach to the side of the domain.
  *
  * The others hang together at their edges (of two of them). Such a part is outer as a whole
- * - if it goes on smoothly (by less than 35 degrees) from curved triangles of the hull: the inner side of an
- *   elbow. What goes on from flat sides of the domain is a body: a ramp, a bump in the floor;
+ * - if it continues smoothly (by less than 35 degrees) from curved triangles of the hull: the inner side of an
+ *   elbow. What continues from flat sides of the domain is a body: a ramp, a bump in the floor;
  * - or if it touches the domain's bounding box where the hull does not face that side of the box: the wall of a
  *   nozzle, whose inlet is at its widest place.
  *

@@ -152,12 +152,12 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       this->Release();
       break;
     default:
-      throw std::runtime_error("Rank 0 asks for what this version of the plugin does not know. "
+      throw std::runtime_error("Rank 0 requests what this version of the plugin does not know. "
                                "Use the same version on all ranks.");
   }
 }
 
-/// Of each mesh its slot and where others may go on.
+/// Of each mesh its slot and where others may continue.
 void PieceWorker::GiveOutline(std::vector<char>& answer)
 {
   this->Release();

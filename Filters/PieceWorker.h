@@ -17,7 +17,7 @@ class vtkRefractiveIndex;
 namespace filters
 {
 
-/// Answers what a PiecesSource, on rank 0, asks a rank about its piece of the data.
+/// Answers what a PiecesSource, on rank 0, requests of a rank about its piece of the data.
 class PieceWorker
 {
 public:
@@ -78,7 +78,7 @@ private:
   std::uint64_t Number = 0; // of the piece
 };
 
-/// A message that asks for something, as yet without what.
+/// A message that requests something, as yet without what.
 std::vector<char> pieceRequest(PieceWorker::Kind kind);
 
 } // namespace filters

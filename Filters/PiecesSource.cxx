@@ -139,9 +139,9 @@ std::vector<char> PiecesSource::request(PieceWorker::Kind kind) const
   return request;
 }
 
-std::vector<std::vector<char>> PiecesSource::ask(std::vector<std::vector<char>> requests) const
+std::vector<std::vector<char>> PiecesSource::request(std::vector<std::vector<char>> requests) const
 {
-  return this->Ranks->Ask(std::move(requests));
+  return this->Ranks->Request(std::move(requests));
 }
 
 /// Finds where the parts of one mesh on several ranks meet, and gives each rank the others' cells there: adds them to
@@ -162,7 +162,7 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
   std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> points;
   std::map<Slot, std::vector<Grid>> grids;
   const auto outlines =
-    this->ask(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
+    this->request(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
   {
     Reader reader = readerOf(outlines[rank]);
@@ -238,7 +238,7 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
     put(cells.extent, request);
     putAll(cells.points, request);
   }
-  const auto answers = this->ask(std::move(requests));
+  const auto answers = this->request(std::move(requests));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
   {
     if (answers[rank].empty())
@@ -273,7 +273,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   this->All = nothing;
   this->Bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   std::string lacking;
-  for (const std::vector<char>& answer : this->ask(std::move(requests)))
+  for (const std::vector<char>& answer : this->request(std::move(requests)))
   {
     this->BoundsOfRanks.push_back(
       { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
@@ -347,7 +347,7 @@ std::vector<unsigned char> PiecesSource::hold(const std::vector<Point>& places) 
   std::vector<char> request = this->request(PieceWorker::Hold);
   putAll(places, request);
   for (const std::vector<char>& answer :
-    this->ask(std::vector<std::vector<char>>(this->Ranks->Count(), request)))
+    this->request(std::vector<std::vector<char>>(this->Ranks->Count(), request)))
   {
     const auto ofRank = readerOf(answer).GetAll<std::vector<unsigned char>>();
     for (std::size_t i = 0; i < are.size(); ++i)
@@ -358,7 +358,7 @@ std::vector<unsigned char> PiecesSource::hold(const std::vector<Point>& places) 
   return are;
 }
 
-/// Asks each rank about those items whose boxes meet its cells, and calls take(answer, these items).
+/// Queries each rank about those items whose boxes meet its cells, and calls take(answer, these items).
 template <class Item, class BoxOf, class Take>
 void PiecesSource::askAbout(PieceWorker::Kind kind, const std::vector<Item>& items,
   const BoxOf& boxOf, const Take& take) const
@@ -376,7 +376,7 @@ void PiecesSource::askAbout(PieceWorker::Kind kind, const std::vector<Item>& ite
       putAll(ofRanks[rank], requests[rank]);
     }
   }
-  const auto answers = this->ask(std::move(requests));
+  const auto answers = this->request(std::move(requests));
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
     if (!ofRanks[rank].empty())

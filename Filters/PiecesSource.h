@@ -28,9 +28,9 @@ public:
   virtual ~PieceRanks() = default;
 
   virtual std::size_t Count() const = 0;
-  /// One request for each rank, and its answer; both are empty for ranks that nothing is asked of. Throws
+  /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. Throws
   /// std::runtime_error where a rank does not answer.
-  virtual std::vector<std::vector<char>> Ask(std::vector<std::vector<char>> requests) = 0;
+  virtual std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) = 0;
 };
 
 /**
@@ -70,7 +70,7 @@ private:
   static LatticeKey keyOf(const schlieren::Lattice& lattice);
 
   void giveCopies(std::vector<std::vector<char>>& ofOthers) const;
-  std::vector<std::vector<char>> ask(std::vector<std::vector<char>> requests) const;
+  std::vector<std::vector<char>> request(std::vector<std::vector<char>> requests) const;
   std::vector<char> request(PieceWorker::Kind kind) const;
   std::vector<unsigned char> hold(const std::vector<Point>& places) const;
   template <class Item, class BoxOf, class Take>

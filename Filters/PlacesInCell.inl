@@ -16,7 +16,7 @@ SCHLIEREN_INLINE void store(const Real& pack, double* to)
   __builtin_memcpy(to, &pack, sizeof(pack));
 }
 
-SCHLIEREN_INLINE void greater(const Real& a, const Real& b, Real& result)
+SCHLIEREN_INLINE void maximum(const Real& a, const Real& b, Real& result)
 {
   result = a > b ? a : b;
 }
@@ -116,8 +116,8 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
 
         {
           const Real absA = a < 0 ? -a : a, absC = c < 0 ? -c : c, absD = d < 0 ? -d : d;
-          greater(absA, absC, size);
-          greater(size, absD, size);
+          maximum(absA, absC, size);
+          maximum(size, absD, size);
         };
         Real rest, step;
         sizeOf(restX, restY, restZ, rest);
@@ -144,25 +144,25 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
 
     const Real r = u + middle[0], s = v + middle[1], t = w + middle[2];
     Real miss = zero;
-    greater(-r, miss, miss);
-    greater(-s, miss, miss);
-    greater(-t, miss, miss);
+    maximum(-r, miss, miss);
+    maximum(-s, miss, miss);
+    maximum(-t, miss, miss);
     if (isTetrahedron)
     {
-      greater(r + s + t - 1, miss, miss);
+      maximum(r + s + t - 1, miss, miss);
     }
     else
     {
       if (isSimplex)
       {
-        greater(r + s - 1, miss, miss);
+        maximum(r + s - 1, miss, miss);
       }
       else
       {
-        greater(r - 1, miss, miss);
-        greater(s - 1, miss, miss);
+        maximum(r - 1, miss, miss);
+        maximum(s - 1, miss, miss);
       }
-      greater(t - 1, miss, miss);
+      maximum(t - 1, miss, miss);
     }
     const Real infinite = zero + std::numeric_limits<double>::infinity();
     choose(isFound, miss, infinite, miss);

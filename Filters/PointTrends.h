@@ -13,7 +13,7 @@ namespace filters
 {
 
 /**
- * How a dataset's values go on around its points; nothing is known of points of no cell.
+ * How a dataset's values continue around its points; nothing is known of points of no cell.
  *
  * Gradients are those of the quadratic polynomial that fits the values at the points of the same cells best
  * (where these are few, those around them, too), so those of a quadratic field are exact. Where it does not
@@ -35,7 +35,7 @@ public:
 
   /// The values at the points that are right for a mesh whose values are means over cells (see CellsAround): those of
   /// the polynomials whose means fit these best. Beyond the values of the cells around it goes only a point where all
-  /// others nearby do so, too, at a smooth extremum, or where the field goes on evenly, at the boundary: so there is no
+  /// others nearby do so, too, at a smooth extremum, or where the field continues evenly, at the boundary: so there is no
   /// overshoot beside a shock.
   std::vector<double> valuesFromCells(
     const MeshArrays& mesh, const WorkProgress& progress = WorkProgress()) const;

@@ -62,7 +62,7 @@ bool vtkSchlierenFilter::RefineOnRank0()
   if (this->GetStopped())
   {
     const vtkMTimeType stopped = std::exchange(inside.StoppedOf, 0);
-    if (inside.FailedAt == stopped) // there is nothing to go on with
+    if (inside.FailedAt == stopped) // there is nothing to continue
     {
       inside.FailedAt = 0;
     }
@@ -244,7 +244,7 @@ std::optional<double> vtkSchlierenFilter::KeptAmbient()
 
 //------------------------------------------------------------------------------
 schlieren::Image vtkSchlierenFilter::Begin(
-  bool isHurried, double seconds, const schlieren::Monitor& monitor)
+  bool isPreview, double seconds, const schlieren::Monitor& monitor)
 {
   Internals& inside = *this->Inside;
   inside.Done = 0;
@@ -271,7 +271,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
     field.gradients = { static_cast<int>(fields),
       inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
   }
-  if (isHurried)
+  if (isPreview)
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }

@@ -102,7 +102,7 @@ public:
 
     /// Answers a message; empty: it is for somebody else.
     using Responder = std::function<std::vector<char>(const std::vector<char>& message)>;
-    /// On other ranks: does what rank 0 asks for, until its meeting is over. False where rank 0 does not come.
+    /// On other ranks: does what rank 0 requests, until its meeting is over. False where rank 0 does not come.
     bool Serve(int threads, const Responder& respond = nullptr);
 
   private:

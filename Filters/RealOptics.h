@@ -31,7 +31,7 @@ double offsetOfOptics(const OpticsSettings& optics);
 /// Sets k and the cutoff's offset: those given, those of the optics, or none, which lets the tracer choose.
 void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene);
 
-/// What vtkSchlierenFilter::GetSensitivity tells of an image made with this k, which may have been kept from an earlier
+/// What vtkSchlierenFilter::GetSensitivity returns for an image made with this k, which may have been kept from an earlier
 /// one; empty for k = 0.
 std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept = false);
 

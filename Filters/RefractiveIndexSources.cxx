@@ -212,7 +212,7 @@ void vtkRefractiveIndex::ReleasePieces()
   {
     try
     {
-      this->Pieces->Ask(
+      this->Pieces->Request(
         std::vector<std::vector<char>>(this->Pieces->Count(), pieceRequest(PieceWorker::Forget)));
     }
     catch (const std::runtime_error&)

@@ -313,7 +313,7 @@ void requireFits(const std::array<int, 3>& dimensions)
 {
   if (product(dimensions) > maxPointsRequested)
   {
-    throw std::runtime_error("SamplingDimensions asks for " + std::to_string(dimensions[0]) +
+    throw std::runtime_error("SamplingDimensions requests " + std::to_string(dimensions[0]) +
       " x " + std::to_string(dimensions[1]) + " x " + std::to_string(dimensions[2]) +
       " points, which is too many. Give fewer.");
   }

@@ -341,7 +341,7 @@ std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
       }
       if (selections.empty())
       {
-        selections.push_back({ "Fields", "" }); // to be told so
+        selections.push_back({ "Fields", "" }); // for the message
       }
       break;
     default:

@@ -96,7 +96,7 @@ std::string nameOf(vtkDataArray* array, const Selection& selection)
     "instance with Cell Data to Point Data.");
 }
 
-/// The datasets that have all arrays. Looks at the association that was asked for with the first of
+/// The datasets that have all arrays. Looks at the association that was requested with the first of
 /// them, then at the other one.
 std::vector<Leaf> leavesWith(
   const std::vector<Selection>& selections, const std::vector<vtkDataSet*>& dataSets)
@@ -185,7 +185,7 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   {
     throw ArraysMissing("No array is chosen for " + property + ". Choose one of: " + names + "." +
       (property == "Density"
-          ? " A temperature tells no density without a pressure; with both, compute one or use "
+          ? " A temperature gives no density without a pressure; with both, compute one or use "
             "IndexModel Ciddor (Documentation/density.md)."
           : ""));
   }
@@ -227,7 +227,7 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
 }
 
 /// The refractivity that was computed before, if the image is to be used as it stands: IndexModel does
-/// not ask for an index or for fields by name, and its first array is missing, not chosen or the refractivity itself.
+/// not request an index or for fields by name, and its first array is missing, not chosen or the refractivity itself.
 vtkDataArray* computedBefore(
   vtkRefractiveIndex* self, vtkImageData* image, const Selection& selection)
 {
@@ -252,7 +252,7 @@ void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSet
   if (!std::isfinite(self->GetMaskThreshold()))
   {
     throw std::runtime_error(
-      "MaskThreshold is not a finite number, so nothing tells what Mask hides. Set it, for "
+      "MaskThreshold is not a finite number, so Mask hides nothing. Set it, for "
       "instance to 0.5.");
   }
   bool isFound = false;

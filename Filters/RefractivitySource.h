@@ -66,7 +66,7 @@ std::vector<std::string> arraysOf(vtkRefractiveIndex* self);
 /// How each of them was chosen: equal texts mean the same choices.
 std::string choicesOfArrays(vtkRefractiveIndex* self);
 
-/// Whether the values of an image will belong to its cells: as the user asked, unless its data, where
+/// Whether the values of an image will belong to its cells: as the user chose, unless its data, where
 /// they are there already, say otherwise.
 bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image);
 

@@ -11,7 +11,7 @@
 namespace filters
 {
 
-/// An image that is decoded once, as long as it is asked for again and again.
+/// An image that is decoded once, as long as it is requested again and again.
 class RgbImageReader
 {
 public:

@@ -76,7 +76,7 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   vtkMTimeType MediumTime = 0;
 
-  // A source has fields only where it needs them: its voxels are as fine as these ask for.
+  // A source has fields only where it needs them: its voxels are as fine as these need.
   bool holdsRefractivityOf(
     const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsFields) const
   {

@@ -22,13 +22,13 @@ bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
   return a.time && b.time && *a.time != *b.time;
 }
 
-/// Those of an exposure are of several times: only their sources and its own time tell them.
+/// Those of an exposure are of several times: only their sources and its own time identify them.
 bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
 {
   return a.data && b.data ? *a.data == *b.data : a.upstream == b.upstream && a.time == b.time;
 }
 
-/// Whether they are the same, whenever they were asked for.
+/// Whether they are the same, whenever they were requested.
 bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 {
   return a.data.has_value() == b.data.has_value() && haveSameData(a, b) &&

@@ -31,7 +31,7 @@ public:
   /// hold any more.
   std::optional<double> For(int mode, const ImageCircumstances& now);
 
-  /// The k that was found for the last image asked for.
+  /// The k that was found for the last image requested.
   void Found(double k);
 
   /// A k from elsewhere, which holds for the next image whatever it is of; unset: none.

@@ -20,13 +20,13 @@ struct Stopped
 {
 };
 
-/// A part of what a Progress tells of, for work that ends by an exception where it is cancelled.
+/// A part of a Progress, for work that ends by an exception where it is cancelled.
 class WorkProgress
 {
 public:
   WorkProgress() = default; // reports to nobody
-  explicit WorkProgress(Progress tell)
-    : Tell(std::move(tell))
+  explicit WorkProgress(Progress report)
+    : Report(std::move(report))
   {
   }
 
@@ -41,14 +41,14 @@ public:
   /// In the thread that began the work.
   void reach(double done) const
   {
-    if (this->Tell && !this->Tell(this->From + done * (this->To - this->From)))
+    if (this->Report && !this->Report(this->From + done * (this->To - this->From)))
     {
       throw Stopped();
     }
   }
 
 private:
-  Progress Tell;
+  Progress Report;
   double From = 0, To = 1;
 };
 

@@ -5,7 +5,7 @@
  * @brief   the gases that vtkRefractiveIndex knows by name
  *
  * For each gas its Gladstone-Dale constant K(wavelength), molar mass and the source of both. A gas is
- * asked for by its name ("helium") or chemical formula ("He"), spelled as in the table. For a gas
+ * found by its name ("helium") or chemical formula ("He"), spelled as in the table. For a gas
  * that the table does not hold, texts are empty and numbers are NaN.
  *
  * In Python, with the plugin's folder in PYTHONPATH:

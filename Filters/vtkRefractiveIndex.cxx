@@ -336,8 +336,8 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
   }
   catch (const std::exception&)
   {
-    // Nobody can tell before the input's points and arrays are there; RequestData will. Every grid that
-    // is resampled to holds this one, so that nobody asks for more than there will be.
+    // It is not known before the input's points and arrays are there; RequestData will. Every grid that
+    // is resampled to holds this one, so that nobody requests more than there will be.
     grid->SetDimensions(2, 2, 2);
     if (*std::min_element(this->SamplingDimensions, this->SamplingDimensions + 3) > 1)
     {
@@ -373,7 +373,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   output->Initialize();
   setComplete(outputVector);
 
-  // An empty output lets the pipeline ask again and again, on rank 0 alone: one message is enough.
+  // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
   const auto latestChange = [this]() {
     return std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
   };
@@ -402,10 +402,10 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     }
     if (this->GetAbortExecute())
     {
-      this->FailedAt = latestChange(); // whoever asks again need not wait again
+      this->FailedAt = latestChange(); // further requests need not wait again
       return 1;
     }
-    // Where RequestInformation could not tell it. Without the second, VTK would crop the output.
+    // Where RequestInformation could not know it. Without the second, VTK would crop the output.
     tellGrid(output, outInfo);
     outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
     setComplete(outputVector);

@@ -483,7 +483,7 @@ public:
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
 
   /**
-   * The refractivity of a mesh for the tracer, which asks it box by box as finely as a view wants it. `warning`: what
+   * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
    * what else there is is to be made a grid by Convert(): images, and where SamplingDimensions are given. If
    * AbortExecute is set meanwhile, the result is null.
@@ -519,7 +519,7 @@ public:
   ///@{
   /**
    * The same of meshes that stay on several ranks, on rank 0, while the channels to all other ranks (null: one that
-   * has not come) are set, as they have to be whenever the source is asked for anything. `input`: what rank 0 has.
+   * has not come) are set, as they have to be whenever anything is requested of the source. `input`: what rank 0 has.
    * CanUsePieces(): whether the properties are for that. On the other ranks SetPieceData() says what they have, and
    * RespondForPiece() answers messages; empty: a message is for somebody else.
    */

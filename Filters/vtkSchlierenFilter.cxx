@@ -79,7 +79,7 @@ bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
 
 const char* const noIndexYet = "No image: the refractive index is not known yet";
 
-/// Tells the executive where the outputs lie.
+/// Gives the executive the extents of the outputs.
 void tellPlaces(vtkInformationVector* outputs)
 {
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
@@ -436,7 +436,7 @@ int vtkSchlierenFilter::RequestData(
   const bool isExposure = !inside.Exposure.IsNone();
   inside.Instant = 0;
   inside.FirstInstant.reset();
-  // An empty output lets the pipeline ask again and again, on rank 0 alone: one message is enough.
+  // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
   const vtkMTimeType now = this->GetTimeOfImage();
   if (inside.FailedAt == now)
   {

@@ -978,7 +978,7 @@ private:
   std::optional<double> KeptK();
   std::optional<double> KeptAmbient();
   filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
-  schlieren::Image Begin(bool isHurried, double seconds, const schlieren::Monitor& monitor);
+  schlieren::Image Begin(bool isPreview, double seconds, const schlieren::Monitor& monitor);
   /// Makes the image of an exposure over time. False if aborted.
   bool Expose(filters::ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
   /// Hands what was found for the last image that was begun to the locks.

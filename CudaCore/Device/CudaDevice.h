@@ -31,7 +31,7 @@ inline std::optional<int> numberInEnvironment(const char* name)
   return number;
 }
 
-/// The rank among the processes of this machine, as launchers of MPI tell it; 0 where none does.
+/// The rank among the processes of this machine, as launchers of MPI give it; 0 where none does.
 inline int localRank()
 {
   for (const char* name : { "OMPI_COMM_WORLD_LOCAL_RANK", "MV2_COMM_WORLD_LOCAL_RANK",

@@ -229,7 +229,7 @@ __device__ void addSums(const DeviceDeposit<planes>& deposit)
   }
 }
 
-/// Brings the light of shaded rays to the film; of a sheet, that of plain cells. All threads of a block come to its
+/// Deposits the light of shaded rays on the film; of a sheet, that of plain cells. All threads of a block come to its
 /// end.
 template <FilmEstimator estimator, int planes>
 __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
@@ -326,7 +326,7 @@ struct CudaFilm::DeviceMemory
     }
   }
 
-  /// A table's copy on the device, as long as none is asked for that lies elsewhere.
+  /// A table's copy on the device, as long as none is requested that lies elsewhere.
   Table copyOf(const Table& table)
   {
     if (!copied || onHost != table.values)

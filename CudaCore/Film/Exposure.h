@@ -91,7 +91,7 @@ RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
   const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
   Films& films);
 
-/// The same in pieces, of rays from row `firstRow` on (0 at first), which becomes the one to go on with: 0 once all
+/// The same in pieces, of rays from row `firstRow` on (0 at first), which becomes the one to continue with: 0 once all
 /// is done. The films hold whole passes only then. At least some rows are done, whatever the monitor says.
 RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& passes,
   const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, FilmEstimator estimator,

@@ -60,7 +60,7 @@ private:
   std::vector<std::mutex> locks_; ///< of some rows each
 };
 
-/// For how many rays of each pass a film is to have room where `samples` passes are asked for: the scale, and
+/// For how many rays of each pass a film is to have room where `samples` passes are requested: the scale, and
 /// thus the last bit of a sum, is the same for all common numbers.
 inline std::int64_t passesToHold(int samples)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in for CudaFilm.cu in builds without CUDA.
+// Takes the place of CudaFilm.cu in builds without CUDA.
 #include "Film/CudaFilm.h"
 
 namespace schlieren

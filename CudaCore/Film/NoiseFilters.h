@@ -23,7 +23,7 @@ bool countsSamples(NoiseFilter filter, double radius);
 /// - Mean: 1 up to d = radius.
 /// - Cone: 1 - d / r (Jensen 1996, eq. 9 and below). The disc of radius r is the smallest around the pixel that
 ///   holds as many samples as one of `radius` does at one a pixel, pi radius^2; r is at most twice `radius`.
-/// `samples`: for each pixel how many rays brought light; of the cone only.
+/// `samples`: for each pixel how many rays gave light; of the cone only.
 PixelArray<float> filtered(PixelArray<float> image, int width, int height, NoiseFilter filter,
   double radius, const PixelArray<float>& samples, int threads);
 

@@ -11,7 +11,7 @@
 namespace schlieren
 {
 
-/// What light is brought to, in fixed point. `one`: the value of a full ray.
+/// What light is deposited in, in fixed point. `one`: the value of a full ray.
 struct FilmSize
 {
   std::int64_t columns, rows;
@@ -23,7 +23,7 @@ struct FilmSize
   }
 };
 
-/// The photon estimator: shares the light of a ray among the four pixels around. A `Deposit` takes it plane by
+/// Splatting (FilmEstimator::Photon): distributes the light of a ray over the four pixels around. A `Deposit` takes it plane by
 /// plane:
 ///   emitted(plane, light)                 before it is shared;
 ///   pixel(plane, column, row, light)      on the film;

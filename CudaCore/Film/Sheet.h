@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The sheet estimator. Four neighbouring rays of a pass have the light of one pixel between them; where they
+// The ray-tube estimator (FilmEstimator::Sheet). Four neighbouring rays of a pass have the light of one pixel between them; where they
 // land it is spread evenly over the quadrilateral that they span, and each pixel gets what falls on it. So
 // brightness is the ratio of areas, I/I0 = 1 / |det(dx'/dx)|, and folds add up.
 #pragma once
@@ -145,7 +145,7 @@ public:
   }
 
   /// The light between four neighbouring rays. Where some of them do not arrive, or do not cross the medium, the
-  /// others bring a quarter each, spread over the quarter of a cell on their side as if nothing were bent there:
+  /// others give a quarter each, spread over the quarter of a cell on their side as if nothing were bent there:
   /// so even light is even up to where a shadow begins or the medium ends.
   SCHLIEREN_HD void addCell(
     const Ray& lowerLeft, const Ray& lowerRight, const Ray& upperLeft, const Ray& upperRight)
@@ -236,7 +236,7 @@ private:
   {
     constexpr double straight = 0.02; ///< pixels
     constexpr double tangled =
-      8; ///< where rays are too far from each other to tell what is between
+      8; ///< where rays are too far from each other to know what is between
     const double bend =
       larger(larger(lowerLeft.bend, lowerRight.bend), larger(upperLeft.bend, upperRight.bend));
     return bend > straight && bend < tangled;

@@ -16,7 +16,7 @@ namespace schlieren
 struct Footprint
 {
   std::int64_t column, row; ///< of the lower left pixel
-  double right, high;       ///< 0...1, of the way to the pixel on the right and to that above
+  double right, high;       ///< 0...1, of the distance to the pixel on the right and to that above
 };
 
 /// Whether light at a point adds to any pixel of a film. False for NaN.

@@ -276,7 +276,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
     {
       for (int i = 0; i < stored; ++i)
       {
-        // Where gas ends with the domain there is no edge: rounding would tell where rays that end there are.
+        // Where gas ends with the domain there is no edge: rounding would decide where rays that end there are.
         const std::array<int, 3> nearest =
           samples.nearestWithin({ i + skipped, j + skipped, isLayer ? 0 : k + skipped });
         const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);

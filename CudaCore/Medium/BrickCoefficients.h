@@ -7,7 +7,7 @@
 namespace schlieren
 {
 
-/// Samples beyond a coefficient's place that tell whether there is a front.
+/// Samples on both sides of a coefficient's place that decide whether there is a front.
 inline constexpr int supportOfFronts = 2;
 
 /// How samples become the coefficients of a B-spline: by c = N - outer d2, d2 being second differences along each axis

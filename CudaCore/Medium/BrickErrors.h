@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What tells how fine a box of the medium's tree needs to be: of N, and of the fields whose gradients rays gather.
+// What decides how fine a box of the medium's tree needs to be: of N, and of the fields whose gradients rays gather.
 #pragma once
 
 #include "Medium/Leaves.h"

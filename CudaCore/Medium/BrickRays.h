@@ -92,7 +92,7 @@ struct LeavesView
 /// The sums of segments whose samples other processes have.
 using SumsElsewhere = std::function<std::vector<LeafSums>(const std::vector<LeafSegment>&)>;
 
-/// What straight rays tell: those on a lattice over the column, and those through some places (index coordinates)
+/// What straight rays find: those on a lattice over the column, and those through some places (index coordinates)
 /// as far as they are in it. Of rays that no wall stops; where walls stop all, of these.
 struct RayFindings
 {

@@ -13,7 +13,7 @@ namespace schlieren
 namespace
 {
 
-/// Address space that is asked for at once; what is not used of it costs nothing.
+/// Address space that is reserved at once; what is not used of it costs nothing.
 constexpr std::size_t maxReserved = std::size_t{ 1 } << 30;
 
 /// The numbers that are used, in this order, and then all others below `count`.
@@ -67,7 +67,7 @@ void BrickStore<Value>::reserve(std::size_t values)
   try
   {
     values_.reserve(std::max({ values, atOnce, 2 * values_.size() }));
-    askForHugePages(values_.data(), values_.capacity() * sizeof(Value));
+    requestHugePages(values_.data(), values_.capacity() * sizeof(Value));
   }
   catch (const std::bad_alloc&)
   {

@@ -192,7 +192,7 @@ FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldS
     }
     for (std::size_t i = 0; i < storedPoints; ++i)
     {
-      // What goes on straight may become less than nothing.
+      // What continues as a line may become less than nothing.
       brick.gradients[i * fields.size() + number] = std::max(0.f, static_cast<float>(gradients[i]));
     }
   }

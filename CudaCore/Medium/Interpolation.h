@@ -28,7 +28,7 @@ struct MediumView
   Vec3<double> last; ///< far corner of the domain, in index coordinates; the near one is 0
   /// One bit per point of an image, 1 in solids, laid out like the samples; null where there are no solids.
   const std::uint32_t* solid = nullptr;
-  /// From a sample to what the ray that looks at it will look at some steps later: a processor can be told
+  /// From a sample to what the ray that looks at it will look at some steps later: a processor can be informed
   /// to fetch that in time.
   std::int64_t ahead = 0;
 
@@ -40,7 +40,7 @@ struct MediumView
   const std::int16_t* gasDistances = nullptr;
 };
 
-/// Local coordinates along z that leaves of one layer reach to, which is beyond any domain; floats still tell voxels.
+/// Local coordinates along z that leaves of one layer reach to, which is beyond any domain; floats still distinguish voxels.
 constexpr int depthOfLayers = 1 << 22;
 
 /// Of bricks with `apron` ghost points around each; `samples`: the first of them. Those of one layer have no ghost

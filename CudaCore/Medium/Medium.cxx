@@ -360,7 +360,7 @@ void findBounds(Medium<Real>& medium, int threads)
 }
 
 /// Linear's derivative on the grid's far faces is that of the last cells, Central's is of second order there
-/// as it is inside, and the B-splines go on as they do in the prefilter.
+/// as it is inside, and the B-splines continue as they do in the prefilter.
 int degreeOfGhosts(Interpolation interpolation)
 {
   switch (interpolation)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the tracer asks of data that are no regular grid: meshes, AMR, several blocks. The medium's tree
-// (MediumTree) asks it box by box, from several threads at once.
+// What the tracer requests of data that are no regular grid: meshes, AMR, several blocks. The medium's tree
+// (MediumTree) queries it box by box, from several threads at once.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ public:
   /// Proportions that voxels should have, e.g. (1, 0.1, 1) where cells are ten times finer along y.
   virtual std::array<double, 3> voxelShape() const { return { 1, 1, 1 }; }
 
-  /// Whether nothing depends on z: along it, bounds() tell a depth and nothing else. Then lattices to be sampled
+  /// Whether nothing depends on z: along it, bounds() give a depth and nothing else. Then lattices to be sampled
   /// have one layer, in the middle of the depth, and along z the larger one of their spacings.
   virtual bool isFlat() const { return false; }
 

@@ -58,7 +58,7 @@ std::array<std::int32_t, 3> rootCellsOf(const MediumSource& source)
   return cells;
 }
 
-/// Where nothing depends on z, two points apart by the depth tell it.
+/// Where nothing depends on z, two points, the depth apart, represent it.
 Grid gridOf(const MediumSource& source, std::int64_t brickEdge)
 {
   const Box box = source.bounds();

@@ -40,7 +40,7 @@ enum class Unneeded
   Stays ///< for the views of others
 };
 
-/// The medium of a source: nu = (N - N_ref) / (1 + N_ref), as fine as data and views ask for. It does not depend
+/// The medium of a source: nu = (N - N_ref) / (1 + N_ref), as fine as data and views need. It does not depend
 /// on the number of threads.
 ///
 /// A leaf is refined where what finer voxels would change, as a deflection over the leaf, is more than the
@@ -61,7 +61,7 @@ public:
     std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings);
 
   /// Makes the leaves that a view needs and that are not there; keeps the others while memory allows. Returns
-  /// whether anything has changed. Where `monitor` says stop, what has been made stays, and the same call goes on: to
+  /// whether anything has changed. Where `monitor` says stop, what has been made stays, and the same call continues: to
   /// the last bit as if there had been no stop.
   bool refine(
     const Column& column, const Monitor& monitor = {}, Unneeded unneeded = Unneeded::Goes);
@@ -82,7 +82,7 @@ public:
   const std::vector<Real>& samples() const { return samples_.values(); }
   std::int64_t samplesPerBrick() const { return maker_.samplesPerBrick(); }
   /// One for each sample of the maps of Leaf::Mixed, laid out like the samples: the distance to where gas ends, in
-  /// 1/8192 of a voxel, positive in gas; the lowest bit tells what is outside: 0 a wall, 1 a window.
+  /// 1/8192 of a voxel, positive in gas; the lowest bit is what is outside: 0 a wall, 1 a window.
   const std::vector<std::int16_t>& gasDistances() const { return maps_.values(); }
   /// The gradients of the source's fields, laid out like the samples but with bricks of their own, `count` values for
   /// each sample. Leaves with gradients are never Leaf::Constant.
@@ -113,7 +113,7 @@ private:
   {
     NodePlace place;
     std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
-    bool isKnown = false;       ///< otherwise a leaf that no view has asked for
+    bool isKnown = false;       ///< otherwise a leaf that no view has needed
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
     std::int16_t owner = 0;     ///< of its brick and map; 0 where there are none
     bool isWrong = false;       ///< its error is too large beside those of others along a ray

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in for CudaHomogeneityMap.cu in builds without CUDA.
+// Takes the place of CudaHomogeneityMap.cu in builds without CUDA.
 #include "Medium/CudaHomogeneityMap.h"
 
 namespace schlieren

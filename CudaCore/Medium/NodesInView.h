@@ -14,7 +14,7 @@
 namespace schlieren
 {
 
-/// A column, and what it asks of nodes.
+/// A column, and what it needs of nodes.
 template <class Real>
 class MediumTree<Real>::View
 {
@@ -155,7 +155,7 @@ public:
     return least <= limit && most >= -limit;
   }
 
-  /// Of what a level's leaves have, as facts of them tell it.
+  /// Of what a level's leaves have, by their facts.
   Negligible negligible(int level) const
   {
     const double perLength = 1 / lengthIn(level);

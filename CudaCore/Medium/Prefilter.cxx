@@ -14,7 +14,7 @@
 namespace schlieren
 {
 
-void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)
+void requestHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)
 {
 #ifdef MADV_HUGEPAGE
   constexpr std::size_t page = std::size_t{ 1 } << 21;
@@ -30,7 +30,7 @@ namespace
 
 /// One axis of a B-spline's equations, with s the samples and c the coefficients. Inside,
 /// c_{i-1} + diagonal c_i + c_{i+1} = (diagonal + 2) s_i: a sample is its coefficient and a fraction of the
-/// coefficients' second difference, c''. That the coefficients go on as a polynomial makes the rows at an
+/// coefficients' second difference, c''. That the coefficients continue as a polynomial makes the rows at an
 /// end:
 ///   degree 2, through the last three: c'' is the same at both last points, so c_0 - c_1 = s_0 - s_1;
 ///   degree 3, through the last four: c'' is a straight line there, so that c_1'' = s_1'' and with it c_1

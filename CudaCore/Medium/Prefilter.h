@@ -15,9 +15,9 @@
 namespace schlieren
 {
 
-/// Asks the system for pages of 2 MiB, where it has them and the memory holds some: a volume of 256^3
+/// Requests pages of 2 MiB, where it has them and the memory holds some: a volume of 256^3
 /// floats is made in 3/4 (Linear) to 9/10 (Quadratic) of the time.
-void askForHugePages(void* memory, std::size_t bytes);
+void requestHugePages(void* memory, std::size_t bytes);
 
 /// Leaves numbers as it finds them in memory: whoever makes a volume writes all of it anyway, and the
 /// system hands out pages on the first write, to many threads faster than to one.
@@ -38,7 +38,7 @@ struct UninitialisedAllocator : std::allocator<T>
   T* allocate(std::size_t count)
   {
     T* memory = std::allocator<T>::allocate(count);
-    askForHugePages(memory, count * sizeof(T));
+    requestHugePages(memory, count * sizeof(T));
     return memory;
   }
 
@@ -83,7 +83,7 @@ struct PaddedVolume
 
 /// Replaces samples by the coefficients of the quadratic B-spline through them (Unser, Aldroubi &
 /// Eden 1993, "B-spline signal processing", eq. 2.3 for n = 2: s_i = (c_{i-1} + 6 c_i + c_{i+1}) / 8),
-/// solved exactly line by line. At both ends the coefficients go on as a parabola through the last
+/// solved exactly line by line. At both ends the coefficients continue as a parabola through the last
 /// three, which keeps the order of the interpolation (a mirror would force the gradient to 0 there).
 template <class Real>
 void prefilterQuadratic(PaddedVolume<Real>& volume, int threads);

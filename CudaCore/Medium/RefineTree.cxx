@@ -356,7 +356,7 @@ void MediumTree<Real>::fetchBoxes()
   }
 }
 
-/// A brick with what is wrong with it, also as far as the box tells that it is a part of.
+/// A brick with what is wrong with it, also what comparison with the box shows that it is a part of.
 template <class Real>
 Brick<Real> MediumTree<Real>::makeBrick(std::size_t request) const
 {
@@ -691,7 +691,7 @@ void MediumTree<Real>::forgetBelow(std::int32_t at)
   children = -1;
 }
 
-/// Makes unknown what is outside of the view or finer than it asks for.
+/// Makes unknown what is outside of the view or finer than it needs.
 template <class Real>
 bool MediumTree<Real>::forgetUnneeded(const View& view)
 {

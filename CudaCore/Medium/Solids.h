@@ -56,7 +56,7 @@ struct PointMask
   std::vector<std::uint64_t> words;
 };
 
-/// How values go on where there is no gas.
+/// How values continue where there is no gas.
 enum class Continuation
 {
   Constant,
@@ -70,7 +70,7 @@ template <class Real>
 void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads,
   Continuation continuation = Continuation::Constant);
 
-/// Gives values to the points of a brick, n by n by `layers` of them, of which no value is known: they go on linearly.
+/// Gives values to the points of a brick, n by n by `layers` of them, of which no value is known: they continue linearly.
 /// n is below 64.
 void continueValues(
   std::vector<double>& values, int n, int layers, const std::vector<unsigned char>& isKnown);

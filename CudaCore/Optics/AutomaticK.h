@@ -19,7 +19,7 @@ struct DeflectionErrors
 /// image whose rays crossed the medium and reached the film. 0 where nothing bends at all. At least
 /// - `errors.rounding`: smaller deflections do not count as signal;
 /// - 50 times `errors.medium`, so that the medium's error is 2 % of full scale, but for that no more than a tenth of the
-///   largest |eps|. Voxels are as fine as the largest deflection asks. Where the gas is undisturbed in nearly all of an
+///   largest |eps|. Voxels are as fine as the largest deflection needs. Where the gas is undisturbed in nearly all of an
 ///   image, as in a whole far field, the percentile is a hundredth of that or less, and the edges of leaves, whose
 ///   errors are within the tolerance, would be seen. An image that flow fills has its percentile above a tenth, and keeps
 ///   it.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What is behind the flow of a background-oriented schlieren image (Meier 2002; Richard & Raffel 2001). A
-// camera's ray brings the light of the place where it meets the pattern.
+// camera's ray has the light of the place where it meets the pattern.
 #pragma once
 
 #include "Math/HostDevice.h"
@@ -41,7 +41,7 @@ struct Dots
     const double contrast = patternContrast(period);
     const double x = (ray.position[0] - centre[0]) / period;
     const double y = (ray.position[1] - centre[1]) / period;
-    constexpr double largest = 1e15; // where cells are still told apart
+    constexpr double largest = 1e15; // where cells are still distinct
     if (!(contrast > 0 && fabs(x) < largest && fabs(y) < largest))
     {
       return;

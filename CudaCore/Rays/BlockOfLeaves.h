@@ -80,7 +80,7 @@ struct BlockOfLeaves
   }
 };
 
-/// A pack that goes on in a block.
+/// A pack that continues in a block.
 template <class Real>
 struct RaysInBlock
 {

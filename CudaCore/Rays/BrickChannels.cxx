@@ -55,7 +55,8 @@ void BrickChannels::put(std::int32_t owner, const std::vector<char>& bricks)
 std::vector<std::vector<LeafSums>> BrickChannels::sumUp(
   const std::vector<std::vector<LeafSegment>>& ofOwners)
 {
-  const std::vector<std::vector<char>> answers = ask(RayWorker::SumUp, ofOwners, sizeof(LeafSums));
+  const std::vector<std::vector<char>> answers =
+    request(RayWorker::SumUp, ofOwners, sizeof(LeafSums));
   std::vector<std::vector<LeafSums>> sums(answers.size());
   for (std::size_t owner = 0; owner < answers.size(); ++owner)
   {
@@ -71,13 +72,13 @@ std::vector<std::vector<LeafSums>> BrickChannels::sumUp(
 std::vector<std::vector<char>> BrickChannels::fetch(
   const std::vector<std::vector<std::int32_t>>& ofOwners)
 {
-  return ask(RayWorker::FetchBricks, ofOwners,
+  return request(RayWorker::FetchBricks, ofOwners,
     static_cast<std::size_t>(layout_.samplesPerBrick) * bytesOfReal_);
 }
 
 /// Of each owner but this process so many bytes for each item.
 template <class Item>
-std::vector<std::vector<char>> BrickChannels::ask(
+std::vector<std::vector<char>> BrickChannels::request(
   std::uint32_t kind, const std::vector<std::vector<Item>>& ofOwners, std::size_t bytesOfAnswer)
 {
   BricksMessage head;

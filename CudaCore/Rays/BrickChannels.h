@@ -35,7 +35,7 @@ public:
 
 private:
   template <class Item>
-  std::vector<std::vector<char>> ask(
+  std::vector<std::vector<char>> request(
     std::uint32_t kind, const std::vector<std::vector<Item>>& ofOwners, std::size_t bytesOfAnswer);
 
   std::vector<Channel*> channels_;

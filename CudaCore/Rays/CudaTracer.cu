@@ -190,7 +190,7 @@ struct CudaTracer<Real>::DeviceMemory
   }
 
   /// The task with what it points to on the device. Sends what is new.
-  RayTask<Real> bring(const RayTask<Real>& task, const TaskVersions& versions)
+  RayTask<Real> upload(const RayTask<Real>& task, const TaskVersions& versions)
   {
     RayTask<Real> onDevice = task;
     onDevice.medium = view;
@@ -235,7 +235,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
   checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
-  const RayTask<Real> onDevice = memory_->bring(task, versions);
+  const RayTask<Real> onDevice = memory_->upload(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again
   if (!there || there->size() != rays)

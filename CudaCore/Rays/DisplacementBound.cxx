@@ -40,7 +40,7 @@ struct Range
 class BoxesAlongLight
 {
 public:
-  /// `layerDepth`: index coordinates along z of blocks that are of one layer, which do not ask for steps along it; 0:
+  /// `layerDepth`: index coordinates along z of blocks that are of one layer, which do not need steps along it; 0:
   /// they are cubes.
   BoxesAlongLight(
     const SlopeBlocks& blocks, const Light& light, double stepVoxels, double layerDepth)

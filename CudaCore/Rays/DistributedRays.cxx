@@ -14,7 +14,7 @@ namespace schlieren
 namespace
 {
 
-/// Takes a ray through resident leaves. Whether it has ended there; otherwise `ray` is as it goes on elsewhere.
+/// Takes a ray through resident leaves. Whether it has ended there; otherwise `ray` is as it continues elsewhere.
 template <class Kernel, class Number>
 bool advanceRay(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& ray,
   RayExit& exit, double& drift)

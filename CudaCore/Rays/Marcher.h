@@ -168,7 +168,7 @@ struct March
   std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
 
-  // Rays are told apart by masks, or in arrays, but never by an index into a pack: that would keep the
+  // Rays are distinguished by masks, or in arrays, but never by an index into a pack: that would keep the
   // pack in memory, in every step.
 
   /// `suspended`: where the march has ended on another process; null: it begins.
@@ -522,7 +522,7 @@ struct March
     return clampTo(at, task.medium.leafLow, task.medium.leafHigh);
   }
 
-  struct Sampler // a lambda could not be told to be compiled into its caller
+  struct Sampler // a lambda cannot be forced to be compiled into its caller
   {
     const March& rays;
     SCHLIEREN_HD Sample<Real> operator()(const Vec3<Real>& at) const { return rays.sample(at); }
@@ -791,7 +791,7 @@ struct March
   }
 
   /// Takes steps as takeAllSteps(), but none in a leaf that is not resident. Whether the ray has come to one, which
-  /// `suspended` then tells, with all that the march needs to go on as if nothing had happened.
+  /// `suspended` then says so, with all that the march needs to continue as if nothing had happened.
   SCHLIEREN_HD bool takeStepsInResidentLeaves(SuspendedRay<Number>& suspended)
   {
     static_assert(!isAdaptive && !Integrator::samplesBeyond);
@@ -855,7 +855,7 @@ struct March
   }
 
   /// Takes all steps. There is one piece of code for a step, whether there is anything to look at or not: on a GPU,
-  /// rays that look and rays that do not go on together.
+  /// rays that look and rays that do not continue together.
   SCHLIEREN_HD void takeAllSteps()
   {
     std::int32_t inside = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in for CudaPass.cu and CudaTracer.cu in builds without CUDA.
+// Takes the place of CudaPass.cu and CudaTracer.cu in builds without CUDA.
 #include "Rays/CudaPass.h"
 #include "Rays/CudaTracer.h"
 

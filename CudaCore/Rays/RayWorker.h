@@ -30,11 +30,11 @@ public:
     PutBricks,   ///< to a worker: of a tree
     SumUp,       ///< to a worker: segments in these
     FetchBricks, ///< to a worker: numbers of some
-    Found        ///< from a worker: what SumUp and FetchBricks ask for
+    Found        ///< from a worker: what SumUp and FetchBricks request
   };
   static std::uint32_t kindOf(const std::vector<char>& message);
 
-  /// Does what a message of a TeamTracer or a DistributedTracer asks for, and answers. Throws nothing.
+  /// Does what a message of a TeamTracer or a DistributedTracer requests, and answers. Throws nothing.
   void answer(std::vector<char> message, Channel& channel, int threads);
 
 private:

@@ -50,7 +50,7 @@ struct TilesHead
 {
   std::uint32_t kind = RayWorker::Tiles;
   std::uint32_t bytesOfReal = 0;
-  std::uint64_t number = 0; ///< of the trace that asks for them
+  std::uint64_t number = 0; ///< of the trace that requests them
   TileQueue::Tiles tiles{ 0, 0 };
 };
 

@@ -17,7 +17,7 @@ namespace
 {
 
 /// Index coordinates that steps are to be measured in, by the light's unit of length. Where nothing depends on z, only
-/// the bending of rays asks for steps along it: by one of d, leapfrog takes a ray's deflection wrong by
+/// the bending of rays needs steps along it: by one of d, leapfrog takes a ray's deflection wrong by
 /// d^2 |nu''| / 6, which shall be a thousandth. |nu''| is no more than twice the steepest gradient by a smallest voxel.
 template <class Real>
 Vec3<double> scaleOfSteps(const Medium<Real>& medium, const Light& light, PathModel path)

@@ -240,7 +240,7 @@ struct TracedPass
   /// From the first and from the last tile on, where a pause has interrupted tracing on the CPU; else 0.
   std::int64_t tilesDone = 0, tilesDoneAtEnd = 0;
 
-  /// What there is to trace on the CPU, where it begins or goes on. keepTilesLeft(): whether it is all done.
+  /// What there is to trace on the CPU, where it begins or resumes. keepTilesLeft(): whether it is all done.
   TileQueue tilesLeft(const Pass& pass);
   bool keepTilesLeft(const TileQueue& tiles, const Pass& pass);
 

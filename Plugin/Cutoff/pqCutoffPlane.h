@@ -73,7 +73,7 @@ public:
   Handle handleAt(const pqCutoff& cutoff, const QPointF& pixel) const;
 
   /// The cutoff that was `start` when the mouse took a handle of it `from` a pixel `to` another. Rounded to
-  /// what a pixel can tell. With `inSteps`, angles are multiples of 15 degrees.
+  /// what a pixel resolves. With `inSteps`, angles are multiples of 15 degrees.
   pqCutoff dragged(const pqCutoff& start, Handle handle, const QPointF& from, const QPointF& to,
     bool inSteps) const;
 

@@ -66,7 +66,7 @@ pqCutoffView::pqCutoffView(QWidget* parentObject)
     "The light on the cutoff plane: how far it is deflected to the right and up. Blue is where the "
     "cutoff stops it.\nDrag the edge, the dashed lines of full scale, or the round handle that "
     "turns "
-    "it (Shift: multiples of 15 degrees). Escape gives up.\nKeys: Left and Right move the edge, "
+    "it (Shift: multiples of 15 degrees). Escape cancels.\nKeys: Left and Right move the edge, "
     "with "
     "Shift they turn it; Up and Down change the sensitivity k; + and - zoom, Home shows all.\n"
     "The wheel zooms once the plane has been clicked; a double click shows all.");

@@ -29,7 +29,7 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
   return filter;
 }
 
-/// Updates end soon while it lives: an unfinished image goes on, but not to its end.
+/// Updates end soon while it lives: an unfinished image is continued, but not to its end.
 class ShortUpdates
 {
 public:

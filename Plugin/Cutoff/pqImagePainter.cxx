@@ -36,7 +36,7 @@ namespace
 
 constexpr int imagePort = 0;
 constexpr float beforeTheView = 10;  // priority: a view does not turn while one paints
-constexpr double finestPlace = 1024; // of the filter's side: what is told apart
+constexpr double finestPlace = 1024; // of the filter's side: what is distinguished
 
 vtkSMRenderViewProxy* renderViewOf(pqView* view)
 {

@@ -33,7 +33,7 @@ namespace
 constexpr double previewSeconds = 0.04;
 constexpr int coarsest = 16;
 
-/// The coarsest that the bench makes: one pixel tells whether there is an image.
+/// The coarsest that the bench makes: one pixel shows whether there is an image.
 constexpr int reductionAtFirst = 64;
 
 /// Degrees; the bench takes no more.
@@ -397,7 +397,7 @@ int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
   {
     return 0;
   }
-  // ParaView's views ask for 5 images per second while they are turned, else for 0.002.
+  // ParaView's views request 5 images per second while they are turned, else for 0.002.
   const int occasion = this->IsForScreenshot                  ? SCREENSHOT
     : renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1 ? TURNED
                                                               : STILL;

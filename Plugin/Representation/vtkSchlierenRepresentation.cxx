@@ -28,7 +28,7 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/// vtkPVView knows whether it is rendered for a screenshot, but tells only those derived from it.
+/// vtkPVView knows whether it is rendered for a screenshot, but only classes derived from it can read that.
 struct Captured : vtkPVView
 {
   static bool Is(vtkPVView* view) { return (view->*(&Captured::GetInCaptureScreenshot))(); }

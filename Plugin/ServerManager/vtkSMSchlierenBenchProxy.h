@@ -5,7 +5,7 @@
  * @brief   the proxy of the filter inside of a representation, which the servers alone make use of
  *
  * ParaView creates proxies that are values of a representation's property wherever the representation is, the client
- * included. There the filter has no input, and would be the one that answers what information properties ask.
+ * included. There the filter has no input, and would be the one that answers what information properties request.
  */
 #ifndef vtkSMSchlierenBenchProxy_h
 #define vtkSMSchlierenBenchProxy_h

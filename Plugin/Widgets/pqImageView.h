@@ -9,7 +9,7 @@
 #include <QWidget>
 
 /// A small view of an image. A colour filter is drawn as a square with the axes k eps_u and k eps_v from
-/// -1 to 1, with the light on it, and tells where a brush paints: the mouse's, or that of the keyboard.
+/// -1 to 1, with the light on it, and signals where a brush paints: the mouse's, or that of the keyboard.
 class pqImageView : public QWidget
 {
   Q_OBJECT

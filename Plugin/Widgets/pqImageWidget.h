@@ -22,7 +22,7 @@ class QLabel;
 /// paint one. What is loaded is read where the window runs, and the property then holds all of it as a PNG
 /// ("data:image/png;base64,..."): state files keep it, and servers need not find a file.
 ///
-/// A hint in the XML tells what the image is laid out over:
+/// A hint in the XML names what the image is laid out over:
 ///
 ///     <SchlierenImage plane="deflection"/>
 ///

@@ -35,9 +35,10 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(smProxy);
   if (this->Source)
   {
-    // ParaView itself asks when the output's extent is asked for, before the filter has run.
+    // ParaView itself updates it when the output's extent is requested, before the filter has run.
     QObject::connect(this->Source.data(),
-      QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this, &pqNoteWidget::ask);
+      QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this,
+      &pqNoteWidget::refresh);
   }
   else // a filter inside of a representation
   {
@@ -46,7 +47,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
       {
         if (changed == this->proxy())
         {
-          this->ask();
+          this->refresh();
         }
       });
   }
@@ -68,12 +69,12 @@ void pqNoteWidget::changeEvent(QEvent* event)
 }
 
 //------------------------------------------------------------------------------
-void pqNoteWidget::ask() { this->proxy()->UpdatePropertyInformation(this->property()); }
+void pqNoteWidget::refresh() { this->proxy()->UpdatePropertyInformation(this->property()); }
 
 //------------------------------------------------------------------------------
 void pqNoteWidget::showText()
 {
-  // As long as it does not tell the window of its updates, there are more to come soon. Each new text makes the
+  // As long as it does not signal its updates to the window, there are more to come soon. Each new text makes the
   // panel arrange all its rows again.
   if (this->Source && this->Source->signalsBlocked())
   {

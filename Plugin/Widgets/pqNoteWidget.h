@@ -12,7 +12,7 @@ class QLabel;
 class pqPipelineSource;
 class vtkEventQtSlotConnect;
 
-/// Shows what a filter tells in a text property, to be read and copied but not changed: ParaView would
+/// Shows a filter's text property, to be read and copied but not changed: ParaView would
 /// show a line for typing.
 class pqNoteWidget : public pqPropertyWidget
 {
@@ -26,7 +26,7 @@ protected:
   void changeEvent(QEvent* event) override;
 
 private Q_SLOTS:
-  void ask();
+  void refresh();
   void showText();
 
 private:

@@ -43,7 +43,7 @@ protected:
     return qobject_cast<Widget*>(this->cellWidget(row, column));
   }
 
-  /// Tells of changes of one list or several by the user.
+  /// Signals changes of one list or several by the user.
   virtual void emitChanges() = 0;
 
   virtual int rows() const = 0;

@@ -167,19 +167,19 @@ bool isFraction(const FlowArray& array, Fraction& fraction)
     return false;
   }
   std::vector<std::string> rest;
-  bool isTold = false;
+  bool isGiven = false;
   bool ofVolume = false;
   for (const std::string& word : Name(array.name).words)
   {
     const std::string small = lowered(word);
     if (small == "y" || small == "mass" || small == "massfraction")
     {
-      isTold = true;
+      isGiven = true;
     }
     else if (small == "x" || small == "mole" || small == "molar" || small == "volume" ||
       small == "molefraction" || small == "volumefraction")
     {
-      isTold = ofVolume = true;
+      isGiven = ofVolume = true;
     }
     else if (small != "fraction" && small != "of" && small != "mean")
     {
@@ -198,7 +198,7 @@ bool isFraction(const FlowArray& array, Fraction& fraction)
     text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
     fraction.gas = gasOf(text);
   }
-  if (fraction.gas.empty() && rest.size() == 1 && !isTold && text.size() > 1 &&
+  if (fraction.gas.empty() && rest.size() == 1 && !isGiven && text.size() > 1 &&
     std::string("YyXx").find(text[0]) != std::string::npos)
   {
     fraction.gas = gasOf(text.substr(1));
@@ -435,7 +435,7 @@ private:
     const bool isOfAtmosphere =
       temperature->range[0] > 150 && temperature->range[1] < 350 && pressure->range[1] < 1100;
     const bool hasUnit =
-      !Name(pressure->name).unit.empty() || pascals != 1; // where none is told, 1 is assumed
+      !Name(pressure->name).unit.empty() || pascals != 1; // where none is given, 1 is assumed
     if (!hasUnit && isOfAtmosphere && pressure->range[1] > 500)
     {
       pascals = 100;
@@ -525,12 +525,12 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
   none.isSure = false;
   if (choosers[0].isEmpty() && choosers[1].isEmpty())
   {
-    none.message = "There is no array with one value at a point or cell, so nothing tells the "
+    none.message = "There is no array with one value at a point or cell, so nothing gives the "
                    "refractive index. Load or compute a density.";
     return none;
   }
   none.message = choosers[0].Note + choosers[1].Note +
-    "There is no density, nor a temperature together with a pressure, so nothing tells the "
+    "There is no density, nor a temperature together with a pressure, so nothing gives the "
     "refractive "
     "index. Load or compute one (Documentation/density.md says how), or choose an array yourself "
     "in "

@@ -21,7 +21,7 @@ QString problemOfFlow(pqOutputPort* port);
 
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 
-/// The range of an array; {0, -1} where there is none. Field data too: as for any filter that tells a
+/// The range of an array; {0, -1} where there is none. Field data too: as for any filter that gives a
 /// number in it.
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 

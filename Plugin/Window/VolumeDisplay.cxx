@@ -74,7 +74,7 @@ double withinRange(double value, const std::array<double, 2>& range)
   return value > range[0] + margin && value < range[1] ? value : range[0];
 }
 
-/// Clear at the ambient value, dim where the field is furthest from it.
+/// Clear at the ambient value, dim where the field differs most from it.
 void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double ambient)
 {
   constexpr double most = 0.5;

@@ -153,7 +153,7 @@ void pqImageProgress::show(const QString& what, int percent)
 //------------------------------------------------------------------------------
 void pqImageProgress::enableAbort(pqProgressWidget* bar, bool isEnabled)
 {
-  // ParaView 6.1 tells nobody else that the button was pressed.
+  // ParaView 6.1 signals to nobody else that the button was pressed.
   QObject::connect(
     bar, &pqProgressWidget::abortPressed, this, &pqImageProgress::abort, Qt::UniqueConnection);
   bar->enableAbort(isEnabled);

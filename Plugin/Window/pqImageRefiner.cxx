@@ -117,7 +117,7 @@ void requestMore(vtkSMProxy* filter)
   filter->InvokeCommand("Refine");
 }
 
-/// vtkPVView knows whether it is rendered for a screenshot, but tells only those derived from it.
+/// vtkPVView knows whether it is rendered for a screenshot, but only classes derived from it can read that.
 struct Captured : vtkPVView
 {
   static bool is(vtkPVView* view) { return view && (view->*(&Captured::GetInCaptureScreenshot))(); }

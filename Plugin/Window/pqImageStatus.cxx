@@ -61,7 +61,7 @@ pqImageStatus::pqImageStatus(QObject* parentObject)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqImageStatus::watch);
-  // A view that is being destroyed still sends signals, but can no longer be asked.
+  // A view that is being destroyed still sends signals, but can no longer be queried.
   QObject::connect(model, &pqServerManagerModel::preViewRemoved, this,
     [this](pqView* view) { view->disconnect(this); });
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this,

@@ -59,7 +59,7 @@ QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& tex
   button->setAccessibleDescription(hint);
   this->Arrangements.append(action);
   QObject::connect(action, &QAction::triggered, this,
-    [this, arrangement]() { this->tell(SchlierenViews::add(arrangement)); });
+    [this, arrangement]() { this->showResult(SchlierenViews::add(arrangement)); });
   return action;
 }
 
@@ -96,7 +96,7 @@ void pqSchlierenToolBar::makeRoom()
 }
 
 //------------------------------------------------------------------------------
-void pqSchlierenToolBar::tell(const SchlierenViews::Result& result)
+void pqSchlierenToolBar::showResult(const SchlierenViews::Result& result)
 {
   if (!result.isMade)
   {

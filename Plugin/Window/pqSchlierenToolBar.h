@@ -30,7 +30,7 @@ private:
 
   /// Moves to the last row of toolbars, where there is room, unless the user has placed it before.
   void makeRoom();
-  void tell(const SchlierenViews::Result& result);
+  void showResult(const SchlierenViews::Result& result);
 
   QList<QAction*> Arrangements;
   QPointer<QMessageBox> Message;

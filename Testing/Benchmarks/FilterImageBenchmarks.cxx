@@ -132,7 +132,7 @@ BENCHMARK(filterHasNewCamera)
   ->Unit(benchmark::kMillisecond);
 
 /// The same in images of fewer pixels.
-void filterHurries(benchmark::State& state)
+void filterPreviews(benchmark::State& state)
 {
   double angle = 0;
   auto filter = filterOf(ball(256), state);
@@ -144,7 +144,7 @@ void filterHurries(benchmark::State& state)
       turned->SetViewDirection(-std::sin(angle), -0.3, -std::cos(angle));
     });
 }
-BENCHMARK(filterHurries)
+BENCHMARK(filterPreviews)
   ->ArgNames({ "samples", "threads", "reduction" })
   ->ArgsProduct({ { 1 }, { 2 }, { 1, 2, 4, 8 } })
   ->MeasureProcessCPUTime()

@@ -94,7 +94,7 @@ FilmEstimator estimatorOf(const benchmark::State& state, std::size_t argument)
   return state.range(argument) == 1 ? FilmEstimator::Sheet : FilmEstimator::Photon;
 }
 
-/// Held rays meet another knife edge, nothing is traced.
+/// Cached rays meet another knife edge, nothing is traced.
 void shadeAgain(benchmark::State& state)
 {
   Scene scene = interactive();

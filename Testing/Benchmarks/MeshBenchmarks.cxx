@@ -362,7 +362,7 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
   std::vector<std::size_t> found;
   const auto build = [&]
   { tree = std::make_unique<filters::CellTree>(std::vector<vtkDataSet*>{ mesh }, reconstruction); };
-  const auto ask = [&]
+  const auto query = [&]
   {
     all.clear();
     addBricks(*tree, { tree->bounds().low, tree->bounds().high }, column, finest, all);
@@ -385,7 +385,7 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
     found.assign(all.size(), 0);
     vtkSMPTools::For(0, static_cast<vtkIdType>(all.size()), 16, sampleSome);
   };
-  double built = 1e30, buildProcessors = 1e30, asked = 1e30, sampled = 1e30, processors = 1e30;
+  double built = 1e30, buildProcessors = 1e30, queried = 1e30, sampled = 1e30, processors = 1e30;
   const vtkSMPTools::Config threads(static_cast<int>(state.range(0)), "STDThread", false);
   for (auto _ : state)
   {
@@ -394,7 +394,7 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
       {
         built = std::min(built, secondsOf(build));
         buildProcessors = std::min(buildProcessors, processorSecondsOf(build));
-        asked = std::min(asked, secondsOf(ask));
+        queried = std::min(queried, secondsOf(query));
         sampled = std::min(sampled, secondsOf(sample));
         processors = std::min(processors, processorSecondsOf(sample));
       });
@@ -404,7 +404,7 @@ void bricks(benchmark::State& state, const std::function<Mesh()>& make, double c
   state.counters["build/s*cores"] = buildProcessors;
   state.counters["bytes/cell"] =
     static_cast<double>(tree->bytes()) / static_cast<double>(tree->size());
-  state.counters["ask/s"] = asked;
+  state.counters["query/s"] = queried;
   state.counters["bricks"] = static_cast<double>(all.size());
   state.counters["found"] =
     static_cast<double>(std::accumulate(found.begin(), found.end(), std::size_t{ 0 })) / points;

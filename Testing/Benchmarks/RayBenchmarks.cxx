@@ -52,15 +52,15 @@ const Field& blob()
 template <class Real>
 const Medium<Real>& mediumFor(Interpolation interpolation)
 {
-  static std::unique_ptr<Medium<Real>> held;
-  static Interpolation heldFor;
-  if (!held || heldFor != interpolation)
+  static std::unique_ptr<Medium<Real>> cached;
+  static Interpolation cachedFor;
+  if (!cached || cachedFor != interpolation)
   {
-    held.reset();
-    held = std::make_unique<Medium<Real>>(buildMedium<Real>(blob(), interpolation, 0));
-    heldFor = interpolation;
+    cached.reset();
+    cached = std::make_unique<Medium<Real>>(buildMedium<Real>(blob(), interpolation, 0));
+    cachedFor = interpolation;
   }
-  return *held;
+  return *cached;
 }
 
 enum Direction

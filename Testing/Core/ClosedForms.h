@@ -274,11 +274,11 @@ inline Reading readingOf(
   const RayState& start, const RayState& end, const Frame& frame, double indexAround = 1)
 {
   const Point u = asPoint(frame.u), v = asPoint(frame.v), w = asPoint(frame.w);
-  const Point p = end.momentum, way = end.position - start.position;
+  const Point p = end.momentum, path = end.position - start.position;
   const double rest = (frame.exit - dot(end.position, w)) / dot(p, w);
   return { { dot(p, u) / length(p), dot(p, v) / length(p) },
-    { dot(way, u) + rest * dot(p, u), dot(way, v) + rest * dot(p, v) },
-    end.path - start.path - indexAround * dot(way, w) };
+    { dot(path, u) + rest * dot(p, u), dot(path, v) + rest * dot(p, v) },
+    end.path - start.path - indexAround * dot(path, w) };
 }
 
 inline Reading readingOf(const Image& image, std::size_t pixel)

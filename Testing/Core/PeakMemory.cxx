@@ -9,7 +9,7 @@
 namespace
 {
 
-std::atomic<std::size_t> held{ 0 };
+std::atomic<std::size_t> allocated{ 0 };
 std::atomic<std::size_t> most{ 0 };
 
 /// Before each block stands its size.
@@ -23,7 +23,7 @@ void* allocate(std::size_t size) noexcept
     return nullptr;
   }
   *static_cast<std::size_t*>(block) = size;
-  const std::size_t now = held += size;
+  const std::size_t now = allocated += size;
   std::size_t before = most;
   while (before < now && !most.compare_exchange_weak(before, now))
   {
@@ -46,7 +46,7 @@ void release(void* memory) noexcept
   if (memory != nullptr)
   {
     void* block = static_cast<char*>(memory) - header;
-    held -= *static_cast<std::size_t*>(block);
+    allocated -= *static_cast<std::size_t*>(block);
     std::free(block);
   }
 }
@@ -69,7 +69,7 @@ namespace schlieren
 {
 
 PeakMemory::PeakMemory()
-  : before_(held)
+  : before_(allocated)
 {
   most = before_;
 }

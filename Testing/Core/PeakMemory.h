@@ -7,14 +7,14 @@
 namespace schlieren
 {
 
-/// Counts what this program holds through operator new, which PeakMemory.cxx replaces: bytes asked for,
+/// Counts what this program holds through operator new, which PeakMemory.cxx replaces: bytes requested,
 /// so that the count is the same everywhere. One at a time.
 class PeakMemory
 {
 public:
   PeakMemory();
 
-  /// The most that was held at once since the constructor, beyond what was held then.
+  /// The most that was allocated at once since the constructor, beyond what was allocated then.
   std::size_t bytes() const;
 
 private:

@@ -261,7 +261,7 @@ TEST(RaysOfACamera, AreTracedOnce)
   EXPECT_EQ(bench.work().raysTraced, traced);
 }
 
-TEST(BackgroundMistakes, AreTold)
+TEST(BackgroundMistakes, AreReported)
 {
   const SampledField<float> field(cube(8, 1), [](double x, double, double) { return 1e-4 * x; });
   const auto expectError = [&](const BackgroundPattern& background, const char* part)

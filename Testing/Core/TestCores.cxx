@@ -25,7 +25,7 @@ TEST(Cores, OfAQuota)
   }
 }
 
-TEST(Cores, ThreadsAreAsManyAsAreAskedFor)
+TEST(Cores, ThreadsAreAsManyAsRequested)
 {
   EXPECT_EQ(threadCount(7), 7);
   EXPECT_GE(threadCount(0), 1);

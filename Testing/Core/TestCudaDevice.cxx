@@ -77,7 +77,7 @@ TEST_F(CudaDevice, IsTheOneThatTheEnvironmentNumbers)
   }
 }
 
-/// The same image, and what was begun on a device goes on there.
+/// The same image, and what was begun on a device is continued there.
 TEST_F(CudaDevice, MakesTheSameImage)
 {
   const SampledField<float> field(

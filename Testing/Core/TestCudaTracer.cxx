@@ -438,7 +438,7 @@ TEST_F(HostAndDeviceRays, FindNewMapsAndGradientsOnTheDevice)
   EXPECT_NE(second.gathered, first.gathered);
 }
 
-TEST_F(HostAndDeviceRays, TooMuchForTheDeviceIsToldWithNumbers)
+TEST_F(HostAndDeviceRays, TooMuchForTheDeviceIsReportedWithNumbers)
 {
   constexpr std::size_t farTooMany = std::size_t{ 1 } << 42;
   try
@@ -474,7 +474,7 @@ void expectSameImage(const Image& a, const Image& b)
   EXPECT_EQ(a.stepsTaken, b.stepsTaken);
 }
 
-/// Held rays, whether on the device or (where something tints) on the host.
+/// Cached rays, whether on the device or (where something tints) on the host.
 TEST_F(HostAndDeviceRays, ServeForTheNextImage)
 {
   const Bundle<float> bundle(
@@ -507,7 +507,7 @@ TEST_F(HostAndDeviceRays, ServeForTheNextImage)
 
   field.gradients = FieldGradients{};
   scene.fieldColors.clear();
-  scene.samplesPerPixel = 4; // of which three are held, on the host
+  scene.samplesPerPixel = 4; // of which three are cached, on the host
   Bench freshMore;
   expectSameImage(render(bench, field, scene), render(freshMore, field, scene));
 }

@@ -81,7 +81,7 @@ TEST(KnifeEdge, SeesNothingAlongItself)
   }
 }
 
-TEST(KnifeEdge, OffsetTakesItsShareAndInvertingTheRest)
+TEST(KnifeEdge, OffsetTakesItsFractionAndInvertingTheRest)
 {
   for (const double offset : { -0.3, 0., 0.1, 0.5 })
   {
@@ -154,7 +154,7 @@ TEST(Circular, DarkensWithTheDeflectionWhateverItsDirection)
   EXPECT_EQ(lightOf(CircularComplement{ 1e12 }, 0, 0), 0);
 }
 
-TEST(GradedFilter, IsReadWhereTheKnifeEdgesShareIs)
+TEST(GradedFilter, IsReadWhereTheKnifeEdgesFractionIs)
 {
   Scene scene;
   scene.cutoff = Cutoff::GradedFilter;
@@ -478,7 +478,7 @@ TEST_F(WeakBlob, IsSeenThroughEveryCutoffAndTracedOnce)
   EXPECT_EQ(bench.work().raysTraced, Bench().render(blob.field, scene).raysTraced);
 }
 
-TEST_F(WeakBlob, TellsTheShareOfSaturatedRays)
+TEST_F(WeakBlob, CountsSaturatedRays)
 {
   scene.kScale = 1e8;
   for (const Cutoff cutoff :

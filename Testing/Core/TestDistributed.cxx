@@ -69,7 +69,7 @@ struct Setting
   PathModel path = PathModel::Refracted;
   Interpolation interpolation = Interpolation::Quadratic;
   double tolerance = 0.01;
-  double finest = 0.005; ///< voxels that the view asks for
+  double finest = 0.005; ///< voxels that the view needs
   std::size_t memory = std::size_t{ 1 } << 30;
 };
 
@@ -157,7 +157,7 @@ struct Team
   const MediumTree<Real>& tree() const { return *traced->medium.tree; }
 };
 
-/// To the last bit, for several numbers of processes. Returns how often rays have gone on in another part, per ray.
+/// To the last bit, for several numbers of processes. Returns how often rays have continued in another part, per ray.
 template <class Real>
 double expectSame(const Setting& setting, const Traced<Real>& alone)
 {

@@ -158,7 +158,7 @@ TEST(Estimators, ImagesDoNotDependOnThreads)
   }
 }
 
-/// Rays that are not held are traced again, for the same image.
+/// Rays that are not cached are traced again, for the same image.
 TEST(Estimators, ImagesDoNotDependOnTheMemoryBudget)
 {
   Bodies bodies(1e-3, true);
@@ -168,20 +168,20 @@ TEST(Estimators, ImagesDoNotDependOnTheMemoryBudget)
   {
     scene.filmEstimator = estimator;
     scene.samplesPerPixel = 5;
-    const Image held = Bench().render(bodies.gas.field, scene);
+    const Image cached = Bench().render(bodies.gas.field, scene);
     for (const std::size_t budget :
       { std::size_t{ 0 }, std::size_t{ 200000 }, std::size_t{ 400000 }, std::size_t{ 1 } << 40 })
     {
       scene.memoryBudget = budget;
       Bench bench;
       const Image image = bench.render(bodies.gas.field, scene);
-      EXPECT_EQ(image.intensity, held.intensity);
-      EXPECT_EQ(image.deflection, held.deflection);
-      EXPECT_EQ(image.opticalPathDifference, held.opticalPathDifference);
-      EXPECT_EQ(image.raysTraced, held.raysTraced);
+      EXPECT_EQ(image.intensity, cached.intensity);
+      EXPECT_EQ(image.deflection, cached.deflection);
+      EXPECT_EQ(image.opticalPathDifference, cached.opticalPathDifference);
+      EXPECT_EQ(image.raysTraced, cached.raysTraced);
       // A second image.
       const std::int64_t traced = bench.work().raysTraced;
-      EXPECT_EQ(bench.render(bodies.gas.field, scene).intensity, held.intensity);
+      EXPECT_EQ(bench.render(bodies.gas.field, scene).intensity, cached.intensity);
       if (budget == 0)
       {
         EXPECT_EQ(bench.work().raysTraced, 2 * traced);
@@ -199,7 +199,7 @@ TEST(Estimators, ImagesDoNotDependOnTheMemoryBudget)
   }
 }
 
-TEST(Estimators, MoreSamplesAddPassesToThoseHeld)
+TEST(Estimators, MoreSamplesAddPassesToThoseCached)
 {
   Bodies bodies(1e-3, true);
   Scene& scene = bodies.scene;

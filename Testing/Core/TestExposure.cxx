@@ -81,7 +81,7 @@ Exposed exposed(const std::vector<TracedRays>& rays, const Cutoffs& cutoff,
 
 } // namespace
 
-/// Bilinear shares, ray by ray in double precision; rays that land near and far from where they start.
+/// Bilinear contributions, ray by ray in double precision; rays that land near and far from where they start.
 TEST(Exposure, IsTheSumOfAllRays)
 {
   for (const double spread : { 0.1, 20., 300. })
@@ -170,7 +170,7 @@ TEST(PixelMeans, AreThoseOfTheRaysThatStartThere)
   }
 }
 
-/// Passes that are not held come one by one.
+/// Passes that are not cached come one by one.
 TEST(PixelMeans, DoNotDependOnWhichPassesComeAtOnce)
 {
   const InventedRays invented(5, 1);

@@ -90,7 +90,7 @@ private:
   FilmBand band_;
 };
 
-TEST(Film, SharesARayAmongFourPixels)
+TEST(Film, DistributesARayOverFourPixels)
 {
   Film film(4, 3, 1);
   Splatter{ film }(1.25, 0.5, 1);

@@ -181,7 +181,7 @@ TEST(Ciddor, KeepsTheNearestDispersionOutsideItsWavelengths)
   EXPECT_FALSE(isWithinCiddorWavelengths(notANumber));
 }
 
-TEST(Ciddor, TellsWhereItHolds)
+TEST(Ciddor, KnowsWhereItHolds)
 {
   EXPECT_TRUE(isWithinCiddorRange(293.15, 101325));
   EXPECT_TRUE(isWithinCiddorRange(233.15, 80e3));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What cannot be done is told in one message, and the bench works on afterwards.
+// What cannot be done is reported in one message, and the bench works on afterwards.
 #include "Fields.h"
 
 #include <algorithm>
@@ -148,7 +148,7 @@ std::vector<Mistake> mistakes()
   };
 }
 
-TEST(Input, EachMistakeIsToldAndForgotten)
+TEST(Input, EachMistakeIsReportedAndForgotten)
 {
   const SampledField<float> good(cube(8, 1), [](double x, double, double) { return 1e-4 * x; });
   Scene scene;

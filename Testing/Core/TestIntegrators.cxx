@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // How the error of each integrator falls with its step, against what the same grid gives in the limit of
-// short steps, so that the grid's own error is out of it; and what the drift of |p| tells.
+// short steps, so that the grid's own error is out of it; and what the drift of |p| shows.
 #include "ClosedForms.h"
 
 #include <map>
@@ -134,7 +134,7 @@ TEST_P(Integrators, AdaptiveKeepsItsTolerance)
 {
   Lens lensOnBench(GetParam());
   const Image truth = lensOnBench.take(Integrator::Rk4, 0.25);
-  const double way = 2 * lensHalf.z;
+  const double length = 2 * lensHalf.z;
   std::vector<double> errors;
   std::vector<double> steps;
   for (const double tolerance : { 1e-2, 1e-3, 1e-4, 1e-5 })
@@ -143,9 +143,9 @@ TEST_P(Integrators, AdaptiveKeepsItsTolerance)
     lensOnBench.scene.adaptiveTolerance = tolerance;
     const Image image = lensOnBench.take(Integrator::Adaptive, 16);
     const Worst worst = differences(image, truth);
-    EXPECT_LT(worst.deflection, 2 * tolerance * lensBend * way);
-    EXPECT_LT(worst.displacement, 2 * tolerance * lensBend * way * way);
-    EXPECT_LT(worst.opticalPathDifference, 2 * tolerance * lensBend * way * way);
+    EXPECT_LT(worst.deflection, 2 * tolerance * lensBend * length);
+    EXPECT_LT(worst.displacement, 2 * tolerance * lensBend * length * length);
+    EXPECT_LT(worst.opticalPathDifference, 2 * tolerance * lensBend * length * length);
     errors.push_back(worst.displacement);
     steps.push_back(static_cast<double>(image.stepsTaken));
   }
@@ -160,7 +160,7 @@ TEST_P(Integrators, AdaptiveKeepsItsTolerance)
 }
 
 /// |p| = n holds along exact rays, and nothing in the integration forces it.
-TEST_P(Integrators, MomentumDriftTellsTheError)
+TEST_P(Integrators, MomentumDriftShowsTheError)
 {
   Lens lensOnBench(GetParam());
   const auto drift = [&](Integrator integrator, double step)

@@ -329,7 +329,7 @@ TEST(WhiteLight, DispersionScalesThePathOfEachWavelength)
         integral(spectrum, [&](double s) { return path * s * dispersion(1 / s); }), 4e-3);
     }
   }
-  // It is told apart from light without.
+  // It differs from light without.
   const WhiteLight dispersed =
     WhiteLight::of(heliumNeon, [](double lambda) { return 1 + 8 * (likeAir(lambda) - 1); }, {});
   EXPECT_GT(std::abs(lightOf(dispersed, behind(2e-6))[1] - whiteLightAt(2e-6)[1]), 0.05);
@@ -409,7 +409,7 @@ TEST(WhiteLightTable, IsNotTakenForGasesThatItIsNotMadeFor)
   }
 }
 
-TEST(WhiteLight, DispersionThatIsNoNumberIsTold)
+TEST(WhiteLight, DispersionThatIsNoNumberIsReported)
 {
   EXPECT_THROW(WhiteLight::of(heliumNeon, [](double) { return std::nan(""); }, {}), Error);
 }

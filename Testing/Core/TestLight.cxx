@@ -427,7 +427,7 @@ TEST(SourcePoints, FillTheSourceEvenly)
 }
 
 /// A point source is the same for all films and knives; an extended one is not.
-TEST(LightOfHeldRays, IsTracedAgainOnlyWhereItDiffers)
+TEST(LightOfCachedRays, IsTracedAgainOnlyWhereItDiffers)
 {
   const SampledField<float> field(cube(16, 1), [](double x, double, double) { return 1e-4 * x; });
   Scene scene;
@@ -529,7 +529,7 @@ void expectError(const Scene& scene, const char* part)
   }
 }
 
-TEST(LightMistakes, AreTold)
+TEST(LightMistakes, AreReported)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Scene scene;

@@ -257,7 +257,7 @@ TEST(MediumTree, SpendsVoxelsWhereTheyAreNeeded)
   {
     ASSERT_EQ(tree.samples()[n], 0);
   }
-  // Each lattice of samples is asked for once, and few are thrown away.
+  // Each lattice of samples is requested once, and few are thrown away.
   EXPECT_LT(
     source->lattices, 1.3 * static_cast<double>(statistics.bricks + statistics.constantLeaves));
 }
@@ -917,7 +917,7 @@ TEST(MediumTree, NoSampleIsDenormal)
   }
 }
 
-TEST(MediumTree, StopsWhereTheMonitorSaysAndGoesOn)
+TEST(MediumTree, StopsWhereTheMonitorSaysAndContinues)
 {
   const auto source = std::make_shared<SphereSource>();
   const Column column = around(0, 0, 1.5, 0.02);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of sight and bent rays: where they agree, where they cannot, and how Auto tells.
+// Lines of sight and bent rays: where they agree, where they cannot, and how Auto decides.
 #include "ClosedForms.h"
 
 #include <random>
@@ -213,14 +213,14 @@ TEST_P(PathModels, NoRayIsDisplacedBeyondTheBound)
           Scene scene = sceneOf(model, view);
           scene.interpolation = interpolation;
           const Image image = Bench().render(field.field, scene);
-          double furthest = 0;
+          double largest = 0;
           for (std::size_t pixel = 0; pixel < 40 * 40; ++pixel)
           {
             const Reading ray = readingOf(image, pixel);
-            furthest = std::max(furthest, std::hypot(ray.displacement[0], ray.displacement[1]));
+            largest = std::max(largest, std::hypot(ray.displacement[0], ray.displacement[1]));
           }
-          EXPECT_GT(furthest, 0);
-          EXPECT_LE(furthest, image.displacementBound * (1 + 1e-6));
+          EXPECT_GT(largest, 0);
+          EXPECT_LE(largest, image.displacementBound * (1 + 1e-6));
         }
       }
     }

@@ -149,7 +149,7 @@ TEST(Pausing, ChangesNoBitOfAnyRays)
   expectSameInPieces(flow.field, scene);
 }
 
-TEST(Pausing, ChangesNoBitWhereRaysAreNotHeld)
+TEST(Pausing, ChangesNoBitWhereRaysAreNotCached)
 {
   const Flow flow;
   for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Background })
@@ -191,7 +191,7 @@ TEST(Pausing, NoPauseFinishesWhatWasBegun)
   }
 }
 
-// Each shows all samples so far, as if no more had been asked for.
+// Each shows all samples so far, as if no more had been requested.
 TEST(Pausing, ShowsTheImageOfTheSamplesSoFar)
 {
   const Flow flow;
@@ -226,8 +226,8 @@ TEST(Pausing, ShowsTheImageOfTheSamplesSoFar)
   }
 }
 
-// Where all rays are held, passes may come faster than calls end; none is hidden for ever.
-TEST(Pausing, HeldRaysAreShownToo)
+// Where all rays are cached, passes may come faster than calls end; none is hidden for ever.
+TEST(Pausing, CachedRaysAreShownToo)
 {
   const Flow flow;
   Scene scene = smallScene();

@@ -43,8 +43,8 @@ Reading truthOf(const ClosedForm& form, const Image& image, const Scene& scene, 
   const Point first = box.contains(pupil) ? pupil
                                           : leaving(
                                               box,
-                                              [&](double way) {
-                                                return RayState{ place - way * d, d, 0 };
+                                              [&](double path) {
+                                                return RayState{ place - path * d, d, 0 };
                                               },
                                               1. / 64)
                                               .position;

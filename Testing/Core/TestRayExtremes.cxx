@@ -138,7 +138,7 @@ TEST_P(RayExtremes, PlasmaReflectsAsItShould)
 }
 
 /// Turning points just before and just behind the far face: a ray leaves through it almost along it, or
-/// turns and comes back. All are told from each other, and none gets lost in between.
+/// turns and comes back. All are distinguished, and none gets lost in between.
 TEST_P(RayExtremes, RaysGrazeTheTurningPoint)
 {
   const ClosedForm plasma = linearMedium(0, { 0, 0, -1 });
@@ -181,7 +181,7 @@ TEST_P(RayExtremes, RaysGrazeTheTurningPoint)
   }
 }
 
-/// Head on to where the index vanishes, n^2 = 1 - z: light slows down and gets through or is given up.
+/// Head on to where the index vanishes, n^2 = 1 - z: light slows down and gets through or is abandoned.
 TEST_P(RayExtremes, LightIntoAVanishingIndexComesToAnEnd)
 {
   const ClosedForm plasma = linearMedium(0, { 0, 0, -1 });
@@ -229,7 +229,7 @@ TEST_P(RayExtremes, LightCrossesThinMatter)
   }
 }
 
-/// Where nothing bends there is no error to tell by how long a step may be.
+/// Where nothing bends there is no error that would limit a step.
 TEST_P(RayExtremes, AdaptiveCrossesWhatIsUniform)
 {
   for (const double nu : { 0., 1e-3, 0.5, -0.5 })
@@ -280,7 +280,7 @@ TEST_P(RayExtremes, AdaptiveTracesTheFaintest)
 }
 
 /// Light that is guided in zigzags of ever steeper angle, up to going nowhere at all: what takes too long
-/// is given up and counted, after a number of steps that is bounded.
+/// is abandoned and counted, after a number of steps that is bounded.
 void RayExtremes::expectTrapped(Integrator integrator) const
 {
   // n = 0.02 ... 4, smooth and even at the sides.

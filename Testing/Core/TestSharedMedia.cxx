@@ -217,7 +217,7 @@ TEST(SharedMedia, AnImageInPiecesIsTheSameWhateverOthersDoMeanwhile)
   }
 }
 
-TEST(SharedMedia, CutoffsTraceNothingUntilVoxelsAreNew)
+TEST(SharedMedia, CutoffsNeedNoTracingUntilVoxelsAreNew)
 {
   const Field field = fieldOf(balls());
   Together together;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The sheet estimator's cells, one by one and as lattices, against areas and integrals found in other ways.
+// The ray-tube estimator's cells, one by one and as lattices, against areas and integrals found in other ways.
 #include "Film/Sheet.h"
 
 #include <gtest/gtest.h>
@@ -260,7 +260,7 @@ TEST(Sheet, LinearMapsGiveTheirDeterminant)
   }
 }
 
-/// Each pixel's share of a cell of any convex shape is that of the area.
+/// Each pixel's fraction of a cell of any convex shape is that of the area.
 TEST(Sheet, ConvexCellsAreCutExactly)
 {
   std::mt19937 random(3);
@@ -504,7 +504,7 @@ TEST(SheetRay, TakesNothingFromNeighboursThatDoNotArrive)
   EXPECT_FALSE(sheetRay(none, here, here, here, here).arrives);
 }
 
-/// Cubics go on where straight lines would cut a corner: quadratic maps are followed to the second order.
+/// Cubics continue where straight lines would cut a corner: quadratic maps are followed to the second order.
 TEST(SheetRay, BentCellsAreRefined)
 {
   const auto lands = [](double x, double y)

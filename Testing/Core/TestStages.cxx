@@ -138,7 +138,7 @@ TEST(Stages, MoreSamplesContinueTheSequence)
   expectSameImage(grown, fresh.render(blob.field, scene));
   EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced);
   EXPECT_GT(bench.work().raysTraced, 2 * rays);
-  // Going back shows the first image again and traces nothing.
+  // Going back shows the first image again and needs no re-tracing.
   const std::int64_t all = bench.work().raysTraced;
   scene.samplesPerPixel = 3;
   const Image back = bench.render(blob.field, scene);

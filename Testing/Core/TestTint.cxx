@@ -420,7 +420,7 @@ TEST(Tint, ColoursCutoffAndSwitchingOffTraceNothing)
   EXPECT_EQ(bench.work().mediumBuilds, 1);
 }
 
-TEST(Tint, MistakesAreTold)
+TEST(Tint, MistakesAreReported)
 {
   const TintedField tinted(cube(9, 1), vacuum, { [](double x, double, double) { return x; } });
   EXPECT_THROW(Bench().render(tinted.field, sceneOf({})), Error);

@@ -289,8 +289,8 @@ TEST_P(RaysInATree, GoStraightOnWhereThereIsNoGas)
   scene.mediumTolerance = 1e-3;
   const Image image = Bench().render(field, scene);
   const std::size_t middle = pixelOf(image, image.width / 2, image.height / 2);
-  const double way = 1 + border;
-  EXPECT_NEAR(image.deflection[2 * middle + 1], way * slope, slope * image.medium.smallestVoxel);
+  const double path = 1 + border;
+  EXPECT_NEAR(image.deflection[2 * middle + 1], path * slope, slope * image.medium.smallestVoxel);
   EXPECT_EQ(image.blockedFraction[middle], 0);
 }
 
@@ -383,7 +383,7 @@ TEST(ViewsOfATree, AddLeavesAndTraceAnew)
   scene.kScale = 100;
   scene.cutoff = Cutoff::KnifeEdge;
   bench.render(field, scene);
-  EXPECT_EQ(bench.work().raySets, 1); // another cutoff traces nothing
+  EXPECT_EQ(bench.work().raySets, 1); // another cutoff needs no re-tracing
   scene.view.parallelScale = 0.05;
   scene.view.focalPoint = Vector{ -0.37, 0.44, -0.5 };
   const Image near = bench.render(field, scene);

@@ -211,7 +211,7 @@ TEST(TreeTint, GathersALinearFieldExactlyAcrossLevels)
   }
 }
 
-// In gas that is the same everywhere: leaves are as fine as the field asks.
+// In gas that is the same everywhere: leaves are as fine as the field needs.
 TEST(TreeTint, TheErrorIsWithinTheTolerance)
 {
   const std::array<double, 3> centre{ 0.2, -0.1, 0.15 };

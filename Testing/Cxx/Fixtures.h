@@ -208,7 +208,7 @@ void expectOneMessage(
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   make(filter);
   filter->Update();
-  filter->Update(); // a view that is drawn again asks again
+  filter->Update(); // a view that is drawn again requests again
   EXPECT_TRUE(isEmpty(filter));
   ASSERT_EQ(complaints->Errors.size(), 1u);
   EXPECT_TRUE(complaints->Warnings.empty());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Ranges that are told in advance are those that VTK finds.
+// Ranges that are set in advance are those that VTK finds.
 #include "ArrayRanges.h"
 #include "Fixtures.h"
 
@@ -38,18 +38,18 @@ void fill(Array* array, int components, double extra)
 template <class Array>
 void expectTheSame(int components, double extra)
 {
-  vtkNew<Array> told, found;
-  fill(told.Get(), components, extra);
+  vtkNew<Array> given, found;
+  fill(given.Get(), components, extra);
   fill(found.Get(), components, extra);
-  tellRanges(told);
+  setRanges(given);
   for (int component = -1; component < components; ++component)
   {
     double by[2], of[2];
-    told->GetRange(by, component);
+    given->GetRange(by, component);
     found->GetRange(of, component);
     EXPECT_DOUBLE_EQ(by[0], of[0]) << component;
     EXPECT_DOUBLE_EQ(by[1], of[1]) << component;
-    told->GetFiniteRange(by, component);
+    given->GetFiniteRange(by, component);
     found->GetFiniteRange(of, component);
     EXPECT_DOUBLE_EQ(by[0], of[0]) << component;
     EXPECT_DOUBLE_EQ(by[1], of[1]) << component;
@@ -79,8 +79,8 @@ TEST(ArrayRanges, AreUsedAndGoWithTheValues)
 {
   vtkNew<vtkFloatArray> array;
   fill(array.Get(), 2, 0.25);
-  tellRanges(array);
-  // Behind its back, without Modified(): what was told counts.
+  setRanges(array);
+  // Behind its back, without Modified(): what was set counts.
   array->GetPointer(0)[0] = 77;
   EXPECT_LT(array->GetRange(0)[1], 26);
   EXPECT_LT(array->GetRange(-1)[1], 40);
@@ -92,9 +92,9 @@ TEST(ArrayRanges, AreUsedAndGoWithTheValues)
 TEST(ArrayRanges, AreLeftToVtkOtherwise)
 {
   vtkNew<vtkFloatArray> empty;
-  tellRanges(empty);
+  setRanges(empty);
   vtkNew<vtkSOADataArrayTemplate<float>> apart;
   apart->InsertNextValue(3);
-  tellRanges(apart);
+  setRanges(apart);
   EXPECT_EQ(apart->GetRange(0)[1], 3);
 }

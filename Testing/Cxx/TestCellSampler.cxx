@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Values in cells on lattices: against closed forms, and against MeshCell, which asks each cell.
+// Values in cells on lattices: against closed forms, and against MeshCell, which queries each cell.
 #include "CellMeshes.h"
 
 #include "CellSampler.h"

@@ -148,7 +148,7 @@ TEST(Cutoffs, AGradedFilterIsItsCurve)
 }
 
 // Hue is the direction, saturation the size of k eps (Brownlee et al. 2011, eq. 17), in all quadrants.
-TEST(Cutoffs, AColorWheelTellsTheDirection)
+TEST(Cutoffs, AColorWheelShowsTheDirection)
 {
   for (const double degrees : { 0., 50., 90., 130., 180., 215., 270., 340. })
   {

@@ -799,7 +799,7 @@ TEST_F(ExposureTime, CanBeAborted)
   watch.progress.pop_back(); // VTK's, of the end
   EXPECT_LT(watch.progress.back(), 0.8);
 
-  // As the window does, which lets it go on.
+  // As the window does, which lets it continue.
   this->filter->SetTimeLimit(1);
   this->filter->Modified();
   this->filter->UpdateTimeStep(1);

@@ -214,7 +214,7 @@ TEST(FlatFlows, OutsideIsAWindowAndTheBodyAWall)
   }
 }
 
-// Obliquely, the sides of the layer are no walls, and nothing tells where its front and back are but the light that
+// Obliquely, the sides of the layer are no walls, and nothing shows where its front and back are but the light that
 // crosses it longer.
 TEST(FlatFlows, ALayerIsSeenObliquely)
 {

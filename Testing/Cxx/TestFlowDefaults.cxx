@@ -153,7 +153,7 @@ TEST(FlowDefaults, PressureUnits)
   EXPECT_EQ(scaleOf(scalar("total pressure", 9e4, 1e5)), 0);
 }
 
-TEST(FlowDefaults, TemperaturesInCelsiusAreTold)
+TEST(FlowDefaults, TemperaturesInCelsiusAreReported)
 {
   const FlowDefaults chosen = flowDefaults({ scalar("T", 15, 80), scalar("p", 9e4, 1e5) });
   EXPECT_TRUE(chosen.arrays.empty());
@@ -204,7 +204,7 @@ TEST(FlowDefaults, WhatTheFilterMadeIsTakenAsItIs)
   EXPECT_EQ(chosen.arrays, (Arrays{ { "IndexArray", "Refractivity" } }));
 }
 
-TEST(FlowDefaults, AGuessIsTold)
+TEST(FlowDefaults, AGuessIsReported)
 {
   const FlowDefaults chosen = flowDefaults(
     { velocity, scalar("vtkGhostType", 0, 1), scalar("Mach", 0, 2), scalar("k", 0, 1) });

@@ -1001,7 +1001,7 @@ TEST(GasBoundary, AmbientIsThatOfTheFarField)
 }
 
 // Where blocks meet there is gas, also if their points differ, and if curved sides leave gaps.
-TEST(GasBoundary, GasGoesOnFromBlockToBlock)
+TEST(GasBoundary, GasContinuesFromBlockToBlock)
 {
   const auto ring = [](double from, double to, int around)
   {

@@ -207,7 +207,7 @@ TEST(GasByName, IsPassedOnByTheBench)
   EXPECT_NEAR(path / (2 * rho * vtkGasTable::GetConstant("Ar", 632.8)), 1, 1e-3);
 }
 
-// Told once: not for each time step, but again for another gas.
+// Reported once: not for each time step, but again for another gas.
 TEST(GasByName, NotMeasuredAtTheWavelengthIsWarnedOfOnce)
 {
   auto filter = filterOf(Index::GLADSTONE_DALE);
@@ -246,7 +246,7 @@ TEST(GasByName, NotMeasuredAtTheWavelengthIsWarnedOfOnce)
   EXPECT_TRUE(warningsOf(filter).empty());
 }
 
-TEST(GasByName, MistakesAreToldOnce)
+TEST(GasByName, MistakesAreReportedOnce)
 {
   const auto set = [](const char* gas) { return [gas](Index* f) { f->SetGas(gas); }; };
   expectOneMessage(filterOf(Index::GLADSTONE_DALE).Get(), set("phlogiston"),

@@ -41,7 +41,7 @@ const Extent whole{ 2, 9, -3, 4, 1, 11 };
 
 double valueAt(const double* x) { return std::sin(3 * x[0]) + x[1] * x[2] / 3; }
 
-/// An array of points or cells, whose values tell where they are.
+/// An array of points or cells, whose values are their places.
 void addValues(vtkDataSet* data, const char* name)
 {
   vtkNew<vtkDoubleArray> ofPoints, ofCells;

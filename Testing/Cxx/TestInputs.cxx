@@ -190,7 +190,7 @@ TEST(Inputs, AnArrayIsFoundUnderTheOtherAssociation)
 {
   auto image = cube(33);
   addCellArray(image, "N", GaussianColumn());
-  auto filter = bench(image, 16); // asks for a point array
+  auto filter = bench(image, 16); // requests a point array
   Complaints* complaints = new Complaints(filter);
   filter->Update();
   EXPECT_TRUE(complaints->Errors.empty());

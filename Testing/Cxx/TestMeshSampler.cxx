@@ -290,7 +290,7 @@ TEST(MeshSampler, WhatChangesTheMeshIsSearchedFor)
     EXPECT_EQ(changed.valid, expected.valid) << what;
   };
   expectKept("first");
-  mesh->GetPoints()->SetPoint(3000, 0.31, 0.33, 0.29); // and not told: no Modified()
+  mesh->GetPoints()->SetPoint(3000, 0.31, 0.33, 0.29); // and not announced: no Modified()
   expectFresh("point");
 
   expectKept("point");

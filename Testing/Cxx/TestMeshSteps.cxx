@@ -516,8 +516,8 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
   }
 }
 
-// From the second step on; and what no step asks for any more goes.
-TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreAskedFor)
+// From the second step on; and what no step needs any more goes.
+TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreNeeded)
 {
   const auto kind = linearKinds()[0];
   const auto leavesAt = [&kind](double time)

@@ -81,7 +81,7 @@ TEST(Pipeline, OutputIsAsDocumented)
   EXPECT_TRUE(vtkStringArray::SafeDownCast(field->GetAbstractArray("PathModel")));
 }
 
-TEST(Pipeline, InformationTellsTheGeometryBeforehand)
+TEST(Pipeline, InformationHasTheGeometryBeforehand)
 {
   auto filter = bench(columnImage(32), 20);
   filter->UpdateInformation();
@@ -204,7 +204,7 @@ TEST(Pipeline, NothingIsDoneTwice)
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
   EXPECT_TRUE(workOfUpdate(filter) == none);
 
-  // What turns rays into light and dark traces nothing.
+  // What turns rays into light and dark needs no re-tracing.
   filter->SetKnifeEdgeAngle(90);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   filter->SetInvertCutoff(true);
@@ -242,7 +242,7 @@ TEST(Pipeline, NothingIsDoneTwice)
   image->GetPointData()->GetArray("N")->Modified();
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
 
-  // Values that were changed in place, told by the dataset alone.
+  // Values that were changed in place, announced by the dataset alone.
   image->GetPointData()->GetArray("N")->SetComponent(0, 0, 3e-5);
   image->Modified();
   EXPECT_EQ(workOfUpdate(filter).builds, 1);

@@ -542,7 +542,7 @@ TEST(CellMeans, QuadraticFieldsAreExact)
   }
 }
 
-// Up to the boundary: values go on as far as the points, not only to the cells' middles.
+// Up to the boundary: values continue as far as the points, not only to the cells' middles.
 TEST(CellMeans, LinearFieldsReachTheBoundary)
 {
   const auto field = [](const Vec& x) { return 2 + x[0] - 0.5 * x[1] + 0.25 * x[2]; };
@@ -561,7 +561,7 @@ TEST(CellMeans, LinearFieldsReachTheBoundary)
   }
 }
 
-// But for the boundary, where two cells in a row do not tell a shock from a slope.
+// But for the boundary, where two cells in a row do not distinguish a shock from a slope.
 TEST(CellMeans, ShocksHaveNoOvershoots)
 {
   for (const double jump : { 0.5, 0.45, 0.61 })
@@ -633,7 +633,7 @@ TEST(CellMeans, AreKept)
   }
 }
 
-// One layer of cells tells nothing of what changes across it, however its thickness varies.
+// One layer of cells knows nothing of what changes across it, however its thickness varies.
 TEST(CellMeans, OneLayerOfCellsIsUniformAcross)
 {
   const auto field = [](const Vec& x) { return std::sin(9 * x[1]) + std::cos(7 * x[0]); };

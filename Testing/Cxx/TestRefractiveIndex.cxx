@@ -230,7 +230,7 @@ TEST(RefractiveIndex, AnImageKeepsItsGrid)
       EXPECT_EQ(output->GetSpacing()[axis], image->GetSpacing()[axis]);
     }
     EXPECT_TRUE(std::equal(rotation, rotation + 9, output->GetDirectionMatrix()->GetData()));
-    // What the pipeline was told beforehand.
+    // What the pipeline was given beforehand.
     EXPECT_TRUE(std::equal(output->GetExtent(), output->GetExtent() + 6,
       filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
   }
@@ -448,7 +448,7 @@ TEST(RefractiveIndex, SamplingDimensionsOfOneAreAMistake)
   EXPECT_EQ(outputOf(filter)->GetNumberOfPoints(), 200);
 }
 
-// The grid of the cells' centres is one point shorter than what a reader tells before it has read.
+// The grid of the cells' centres is one point shorter than what a reader announces before it has read.
 TEST(RefractiveIndex, SourceNeedNotHaveBeenUpdated)
 {
   auto image = cube(9);
@@ -476,7 +476,7 @@ TEST(RefractiveIndex, SourceNeedNotHaveBeenUpdated)
   }
 }
 
-// How many points a mesh is resampled to is not known before it is there. The grid that is told until
+// How many points a mesh is resampled to is not known before it is there. The grid that is announced until
 // then must not crop the output or have it made again and again.
 TEST(RefractiveIndex, MeshNeedNotHaveBeenUpdated)
 {
@@ -490,7 +490,7 @@ TEST(RefractiveIndex, MeshNeedNotHaveBeenUpdated)
   filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  vtkNew<vtkThreshold> consumer; // asks for exactly the grid that it was told
+  vtkNew<vtkThreshold> consumer; // requests exactly the grid that was announced
   consumer->SetInputConnection(filter->GetOutputPort());
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   consumer->Update();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the filter's properties ask of the tracer.
+// What the filter's properties mean to the tracer.
 #include "Fixtures.h"
 #include "RealOptics.h"
 #include "RgbImages.h"
@@ -119,10 +119,10 @@ TEST_F(Scene, SensitivityFollowsFromOptics)
   this->filter->SetKFromOptics(false);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 1000);
   EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
-  EXPECT_DOUBLE_EQ(this->filter->GetKScaleOfOptics(), 3000); // told all the same
+  EXPECT_DOUBLE_EQ(this->filter->GetKScaleOfOptics(), 3000); // known all the same
 }
 
-TEST_F(Scene, SensitivityIsToldInWords)
+TEST_F(Scene, SensitivityIsStatedInWords)
 {
   this->filter->SetFocalLength(2);
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000),

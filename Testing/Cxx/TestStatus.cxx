@@ -63,7 +63,7 @@ TEST(Status, SaysWhatStraightRaysLeaveOut)
   }
 }
 
-TEST(Status, TellsTheSpeedOfTheLastTracingWhereNothingIsTraced)
+TEST(Status, ShowsTheSpeedOfTheLastTracingWhereNothingIsTraced)
 {
   auto image = cube(32);
   addPointArray(image, "N", GaussianColumn());

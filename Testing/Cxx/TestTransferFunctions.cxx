@@ -316,7 +316,7 @@ TEST(TransferFunctions, MovingAPointCountsAsAChange)
   EXPECT_GT(largest(valuesOf(filter, "Deflection")), 1.9 * largest(before));
 }
 
-TEST(TransferFunctions, AreHeldAndLetGo)
+TEST(TransferFunctions, AreReferencedAndReleased)
 {
   vtkWeakPointer<vtkPiecewiseFunction> watched;
   auto filter = mean(fiveFields(), { "A" });

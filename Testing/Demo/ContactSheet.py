@@ -69,7 +69,7 @@ for name, expected in (
 both = light("knife 90") + light("inverted")
 check_below("circular + complement", np.abs(light("circular") + light("complement") - both).max(), 1e-4)
 check_below("all light, knife edge", abs(both[inner].mean() - 1), 1e-3)
-# Of a disc, an edge at the share t of its radius passes this, in place of (1 + t) / 2.
+# Of a disc, an edge at the fraction t of its radius passes this, in place of (1 + t) / 2.
 t = np.clip(2 * k * v, -1, 1)
 disc = 0.5 + (t * np.sqrt(1 - t**2) + np.arcsin(t)) / np.pi
 check_below("disc knife", rms((light("disc knife") - disc)[inner]), 0.03)
@@ -120,8 +120,8 @@ for i, j in np.ndindex(FINE, FINE):  # all rays at this place of their pixels
     y, x = np.mgrid[:HEIGHT - 1, :WIDTH - 1] + np.array([row, column])[:, None, None]
     y, x = np.clip(y + moved[..., 1], 0, HEIGHT - 1.001), np.clip(x + moved[..., 0], 0, WIDTH - 1.001)
     for low, left in np.ndindex(2, 2):
-        share = (np.abs(1 - low - y % 1) * np.abs(1 - left - x % 1)).ravel() / FINE**2
-        np.add.at(expected, ((y.astype(int) + low).ravel(), (x.astype(int) + left).ravel()), share)
+        fraction = (np.abs(1 - low - y % 1) * np.abs(1 - left - x % 1)).ravel() / FINE**2
+        np.add.at(expected, ((y.astype(int) + low).ravel(), (x.astype(int) + left).ravel()), fraction)
 correlation = np.corrcoef(expected[inner].ravel(), light("near")[inner].ravel())[0, 1]
 print(f"near: correlation with rays drawn by their deflections {correlation:.3f}")
 assert correlation > 0.9

@@ -37,7 +37,7 @@ again = vtk_to_numpy(color).reshape(200, 240, 3)[::-1]
 # Resampling rounds points between cells differently with the threads' order.
 assert np.abs(again - made).max() <= 2, "The state file makes another image"
 
-# Moving a node changes the image; the colours alone trace nothing.
+# Moving a node changes the image; the colours alone need no re-tracing.
 schlieren.TransferFunctions[4].Points = [0, 0, 0.5, 0, 1, 1, 0.5, 0]
 schlieren.UpdatePipeline()
 color = schlieren.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Color")

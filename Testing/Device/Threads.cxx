@@ -60,7 +60,7 @@ struct Fiber
   static constexpr std::size_t guardBytes = 64 << 10; ///< below: a stack that overflows is noticed
 
   void* stack = nullptr;
-  void* place[5] = {}; ///< where it goes on, of __builtin_setjmp
+  void* place[5] = {}; ///< where it continues, of __builtin_setjmp
   int thread = -1;     ///< in its block; -1: none
   const Barrier* waitsAt = nullptr;
   unsigned generation = 0;   ///< that it waits for the end of

@@ -11,7 +11,7 @@ namespace emulated
 [[noreturn]] void fail(const char* what, int line = 0);
 
 /// Runs all threads of a kernel, block after block. EMULATED_ORDER in the environment says in which order
-/// blocks and the threads of a block begin and go on after a barrier: "forward" (as if it were not set),
+/// blocks and the threads of a block begin and continue after a barrier: "forward" (as if it were not set),
 /// "backward", or a number, the seed of a shuffle.
 void run(const Launch& launch);
 

@@ -53,9 +53,9 @@ reader = PLOT3DReader(FileName=names["fin"].FileName, QFileName=names["fin"].QFi
                       FunctionFileName="")
 reader.Functions = [110, 120]
 reader.UpdatePipeline()
-for made, told in zip(arrays(names["temperature"], "p", "T"),
+for made, given in zip(arrays(names["temperature"], "p", "T"),
                       arrays(reader, "Pressure", "Temperature")):
-    check_near(made, told, 1e-6)
+    check_near(made, given, 1e-6)
 
 ranges = [proxy.PointData["Density"].GetRange() for proxy in (names["wing"], original)]
 check_near(np.array(ranges[0]), np.array(ranges[1]), 0.005)  # ParaView's writer joined some points

@@ -17,7 +17,7 @@ water = Calculator(mesh, ResultArrayName="N", Function="0.331418 + " + SHIFT)
 water.UpdatePipeline()
 
 # The coil is a hole in the mesh, and reaches out of it. It blocks light; what is outside of the round container does
-# not, also where the coil would go on.
+# not, also where the coil would continue.
 schlieren = Schlieren(Input=water, IndexModel="Refractivity", IndexArray=["POINTS", "N"],
                       LengthScale=0.1, AutoAmbientRefractivity=0, AmbientRefractivity=0.331418,
                       MediumTolerance=0.005, **EVERY_VOXEL, ImageSize=[240, 270],
@@ -41,7 +41,7 @@ rows, columns = rows[free], columns[free]
 begin = np.stack([x[columns], -np.sqrt(1 - x[columns]**2), z[rows]], axis=1)
 total, length = sums_along(data, "shift", begin, begin * [1, -1, 1], 301)
 assert (length > 0.97 * 2 * -begin[:, 1]).all()
-# Outside of the container light goes on as at its wall: compare where that is as cold as the water
+# Outside of the container light continues as at its wall: compare where that is as cold as the water
 # around, which has no shift.
 cold = np.ones(rows.size, bool)
 for end in (begin, begin * [1, -1, 1]):

@@ -50,8 +50,8 @@ def solved(level):
     rho = rho.reshape(lines, columns)[12:31]
     after = (rho > level).argmax(axis=1)
     before = rho[np.arange(19), after - 1]
-    share = (level - before) / (rho[np.arange(19), after] - before)
-    return np.degrees(np.arctan(np.polyfit(after - 1 + share, np.arange(19), 1)[0]))
+    fraction = (level - before) / (rho[np.arange(19), after] - before)
+    return np.degrees(np.arctan(np.polyfit(after - 1 + fraction, np.arange(19), 1)[0]))
 
 
 # In each row the shock lies where the light is deflected.

@@ -82,8 +82,8 @@ def sums_along(data, array, starts, ends, samples=1000):
     ends (rays x 3). vtkProbeFilter at the middles of `samples` pieces: nothing of ours is in it.
     """
     starts, ends = np.array(starts, float), np.array(ends, float)
-    share = (np.arange(samples) + 0.5) / samples
-    places = starts[:, None] + share[:, None] * (ends - starts)[:, None]
+    fraction = (np.arange(samples) + 0.5) / samples
+    places = starts[:, None] + fraction[:, None] * (ends - starts)[:, None]
     points = vtkPoints()
     points.SetDataTypeToDouble()
     points.SetData(numpy_to_vtk(places.reshape(-1, 3), deep=True))

@@ -190,7 +190,7 @@ double secondsOf(const std::chrono::steady_clock::time_point& start)
 }
 
 /// By the largest value. With Linear, whose gradient jumps from cell to cell, rounding puts single rays
-/// into the next cell: the root mean square tells more there.
+/// into the next cell: the root mean square shows more there.
 struct Differences
 {
   double rms, worst;

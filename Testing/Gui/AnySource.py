@@ -14,7 +14,7 @@ for button in ("OneImage", "ThreeImages", "Comparison"):
 
 user.python('SetActiveSource(Sphere(registrationName="ball"))')
 user.press("OneImage")
-user.check_message("'ball': There is no array with one value at a point or cell, so nothing tells the "
+user.check_message("'ball': There is no array with one value at a point or cell, so nothing gives the "
                    "refractive index. Load or compute a density.")
 user.python("""
 warm = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="T", Function="250 + RTData"),
@@ -23,7 +23,7 @@ warm.UpdatePipeline()
 SetActiveSource(warm)
 """)
 user.press("OneImage")
-user.check_message("'warm': There is no density, nor a temperature together with a pressure, so nothing tells the "
+user.check_message("'warm': There is no density, nor a temperature together with a pressure, so nothing gives the "
                    "refractive index. Load or compute one (Documentation/density.md says how), or choose an "
                    "array yourself in the filter of the menu Filters > Schlieren.")
 user.python(MESH + """

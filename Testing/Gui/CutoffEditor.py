@@ -62,7 +62,7 @@ user.check(PLANE, "enabled", "true")
 user.size_plane(SIDE)
 user.check(PLANE, "range", RANGE)
 
-# The edge: 21 pixels to the right. On the way there 40; the image is there before the mouse is released.
+# The edge: 21 pixels to the right. In between 40; the image is there before the mouse is released.
 edge, on_the_way = round(K * 21 * PIXEL, 3), round(K * 40 * PIXEL, 3)
 x, y = (MIDDLE + (0, -30)).astype(int)
 user.event(f"{PROPERTIES}/{PLANE}", "mousePress", f"1,1,0,{x},{y}")
@@ -79,7 +79,7 @@ drag((R, 0), (R * np.cos(np.radians(63)) - R, R * np.sin(np.radians(63))), modif
 user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 60)
 expect("turned", KnifeEdgeAngle=60)
 
-# A click and what is given up change nothing; nor does it make a step that can be undone.
+# A click and what is cancelled change nothing; nor does it make a step that can be undone.
 drag((0, 0), (0, 0))
 expect("clicked")
 
@@ -180,8 +180,8 @@ for name, properties in saved.items():
     simple.LoadState(os.path.join(FOLDER, name + ".pvsm"))
     bench = simple.FindSource("bench")
     for key, value in properties.items():
-        held = bench.GetPropertyValue(key)
-        assert held == value or np.isclose(held, value, rtol=1e-12), (name, key, held, value)
+        found = bench.GetPropertyValue(key)
+        assert found == value or np.isclose(found, value, rtol=1e-12), (name, key, found, value)
     shown = image_array(bench, "Intensity")
     assert np.array_equal(shown, image_array(scripted(**properties), "Intensity")), name
     assert shown.std() > 0.01

@@ -91,7 +91,7 @@ finally:
     server.kill()
 
 
-def held(state):
+def values_of(state):
     """What is set on its filter, the image that the window had, and the one of the state."""
     load(state + ".pvsm")
     (bench,) = filters().values()
@@ -101,7 +101,7 @@ def held(state):
     return values(bench), shown
 
 
-steps = [[held(name + step) for step in ("first", "dragged", "painted", "brushed")]
+steps = [[values_of(name + step) for step in ("first", "dragged", "painted", "brushed")]
          for name in ("", "served ")]
 for (here, image_here), (there, image_there) in zip(*steps):
     assert here == there, [(name, here[name], there[name]) for name in here if here[name] != there[name]]

@@ -55,7 +55,7 @@ user.key(WIDGET + "/Load", "Space")
 user.event(DIALOG, "filesSelected", FILTER)
 check(f"quarters.png: {SIDE} x {SIDE} pixels", True)
 
-# Given up, then kept.
+# Cancelled, then kept.
 user.reset()
 check("the colour wheel", False)
 user.click(WIDGET + "/Load")
@@ -130,11 +130,11 @@ def scripted(**properties):
     return image_array(bench, properties.get("Array", "Color"))
 
 
-def held(text):
+def decoded(text):
     """The image that a property holds: rows x columns x 3, lowest row first."""
     head = "data:image/png;base64,"
     assert text.startswith(head), text[:40]
-    path = os.path.join(FOLDER, "held.png")
+    path = os.path.join(FOLDER, "decoded.png")
     with open(path, "wb") as file:
         file.write(base64.b64decode(text[len(head):]))
     reader = vtkPNGReader()
@@ -151,7 +151,7 @@ assert np.array_equal(wheel, scripted(Cutoff="Color Filter"))
 
 for state in ("loaded", "kept"):
     bench = bench_of(state)
-    assert np.array_equal(held(bench.ColorFilterImage), COLORS)
+    assert np.array_equal(decoded(bench.ColorFilterImage), COLORS)
     shown = image_array(bench, "Color")
     assert np.abs(shown.astype(int) - wheel).max() > 100, "The loaded filter changes nothing"
     # The same as the file that a script names.
@@ -162,7 +162,7 @@ assert bench.ColorFilterImage == ""
 assert np.array_equal(image_array(bench, "Color"), wheel)
 
 bench = bench_of("painted")
-filter_ = held(bench.ColorFilterImage).astype(int)
+filter_ = decoded(bench.ColorFilterImage).astype(int)
 assert filter_.shape == (256, 256, 3) and (filter_[128, 128] == (10, 200, 30)).all()
 assert 100 < (filter_ == (10, 200, 30)).all(axis=2).sum() < 2000
 right, up, left = filter_[128, 250], filter_[250, 128], filter_[128, 6]
@@ -171,7 +171,7 @@ bench.AutoKScale = 0
 bench.KScale = 0
 assert (image_array(bench, "Color") == (10, 200, 30)).all()
 
-assert np.array_equal(held(bench_of("background").BackgroundImage), COLORS)
+assert np.array_equal(decoded(bench_of("background").BackgroundImage), COLORS)
 
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
@@ -180,4 +180,4 @@ flow = simple.Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
 flow.UpdatePipeline()
 simple.SetActiveSource(Schlieren(Input=flow, registrationName="bench", ImageSize=[32, 32]))
 exec(script, {})  # pylint: disable=exec-used
-assert np.array_equal(held(simple.FindSource("bench").ColorFilterImage), COLORS)
+assert np.array_equal(decoded(simple.FindSource("bench").ColorFilterImage), COLORS)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Automatic k switched off in the properties panel: K Scale begins with the k in use, so that the image stays as it
-is; before Apply, given up, undone, traced and kept. A script that switches it off sets nothing else."""
+is; before Apply, cancelled, undone, traced and kept. A script that switches it off sets nothing else."""
 
 import os
 

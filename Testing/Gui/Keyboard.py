@@ -24,7 +24,7 @@ user.save_state("added.pvsm")
 user.check(PLANE, "enabled", "true")
 user.size_plane(SIDE)
 
-# What a drag changes before it is given up, and what there is then.
+# What a drag changes before it is cancelled, and what there is then.
 LOOK = f"""
 (display,) = displays()
 bench = display.SchlierenBench

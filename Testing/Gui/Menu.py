@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A filter from the menu: made without a question for its optional input, it tells the grid and the k
+"""A filter from the menu: made without a question for its optional input, it shows the grid and the k
 that it uses."""
 
 import os
@@ -21,7 +21,7 @@ user.apply()
 user.check("Grid/Note", "text", "17 x 17 x 17 points: the data's own")
 user.save_state("menu.pvsm")
 
-# What notes tell is of the image that Apply makes.
+# What notes show is of the image that Apply makes.
 user.event(f"{PROPERTIES}/KFromOptics/CheckBox", "set_boolean", "true")
 user.type("FocalLength/DoubleLineEdit0", "2")
 user.apply()

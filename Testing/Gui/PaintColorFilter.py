@@ -125,7 +125,7 @@ def seen(name):
     return str(file["text"]), file["Color"].reshape(PIXELS, PIXELS, 3).astype(int)
 
 
-def held(text):
+def decoded(text):
     return png_of_text(text)
 
 
@@ -154,24 +154,24 @@ text, before = seen("wheel")
 assert text == ""
 
 text, shown = seen("stroke")
-colored = (held(text) == COLOR).all(axis=2)
+colored = (decoded(text) == COLOR).all(axis=2)
 shift = u[colored].mean(), v[colored].mean() - 0.25
 assert np.hypot(*shift) < 8 / HALF
 far = np.hypot(np.maximum(np.abs(u - shift[0]) - 0.5, 0), v - shift[1] - 0.25)
-check_brushed(held(text), far)
+check_brushed(decoded(text), far)
 assert np.abs(shown - before).max() > 100
 assert seen("undone")[0] == seen("back")[0] == text
 assert np.array_equal(seen("undone")[1], shown)
-by_keys = held(seen("keys")[0])
+by_keys = decoded(seen("keys")[0])
 by_key = np.hypot(u - shift[0] - (0.5 - 32 / 64), v - shift[1] - (0.25 + 2 / 64))
 check_brushed(by_keys, np.minimum(far, by_key))
 
 text_erased, shown_erased = seen("erased")
-assert np.abs(held(text_erased) - WHEEL).max() <= 1
+assert np.abs(decoded(text_erased) - WHEEL).max() <= 1
 assert np.abs(shown_erased - before).max() <= 2  # an image's wheel, not the formula's
-assert np.array_equal(png(SAVED), held(text))
-assert (held(seen("filled")[0]) == COLOR).all() and (seen("filled")[1] == COLOR).all()
-assert np.array_equal(held(seen("loaded")[0]), held(text))
+assert np.array_equal(png(SAVED), decoded(text))
+assert (decoded(seen("filled")[0]) == COLOR).all() and (seen("filled")[1] == COLOR).all()
+assert np.array_equal(decoded(seen("loaded")[0]), decoded(text))
 assert np.array_equal(seen("loaded")[1], shown)
 
 # On the image: the rays of the pixels in the brush's circle, times k.
@@ -192,7 +192,7 @@ def distances(centres, points):
 # at the circle's rim may be in or out.
 surely, perhaps = places[away < -1], places[away < 1]
 on_filter = np.stack([u, v], axis=-1)
-check_painted(held(text), distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE,
+check_painted(decoded(text), distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE,
               distances(perhaps, on_filter).min(axis=0) > 0.06 + 2 / SIDE)
 
 
@@ -227,7 +227,7 @@ def check_shown(name, painted):
 # middle of the pixel.
 exact = np.rint(WHEEL)
 exact[distances(places[away < 0], on_filter).min(axis=0) < 0.06] = COLOR
-assert (np.abs(exact - held(text)).max(axis=2) > 1).mean() < 0.02
+assert (np.abs(exact - decoded(text)).max(axis=2) > 1).mean() < 0.02
 check_shown("WindowPaintOnImage.png", exact)
 
 # So is the stroke on the filter, moved back by what the widget's middle depends on the font; all else of the
@@ -236,7 +236,7 @@ load("stroke.pvsm")
 bench = simple.FindSource("bench")
 assert bench.ColorFilterImage == seen("stroke")[0]
 back = [-round(away * SIDE / 2) for away in shift]
-exact = held(bench.ColorFilterImage)
+exact = decoded(bench.ColorFilterImage)
 exact[colored] = np.rint(WHEEL)[colored]
 exact[np.roll(colored, (back[1], back[0]), (0, 1))] = COLOR
 check_shown("WindowPaintColorFilter.png", exact)

@@ -58,7 +58,7 @@ user.check("Wavelength", "visible", "true")
 user.apply()
 user.save_state("gas.pvsm")
 
-# A mixture: first given up, then made.
+# A mixture: first cancelled, then made.
 for reset in (True, False):
     user.choose("IndexModel/ComboBox", "Gladstone-Dale Mixture")
     user.check(GAS + "/Table", "rowCount", 0)

@@ -50,7 +50,7 @@ check("Draft")
 user.apply()
 user.save_state("draft.pvsm")
 
-# Given up.
+# Cancelled.
 user.choose("Quality/ComboBox", "Reference")
 check("Reference")
 user.reset()

@@ -38,7 +38,7 @@ assert not is_stopped() and not finished(bench)
 QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
 assert is_stopped() and finished(bench) and not abort.isEnabled() and bar.text() != "Schlieren1"
 
-# Neither rendering nor an update nor a screenshot asks for more.
+# Neither rendering nor an update nor a screenshot requests more.
 rays = information(bench, "TotalRaysTraced")
 Render(FindView("RenderView2"))
 bench.UpdatePipeline()

@@ -139,7 +139,7 @@ TEST(CutoffPlane, AtTheEndOfItsWayALineInTheMiddleHasNoScale)
   EXPECT_EQ(plane().dragged(start, Plane::DarkLine, at(0, 0), at(30, 0), false).K, start.K);
 }
 
-TEST(CutoffPlane, TurningTakesAnglesFrom0To360InStepsOf15WhereAsked)
+TEST(CutoffPlane, TurningTakesAnglesFrom0To360InStepsOf15WhereRequested)
 {
   const auto turned = [](double start, double degrees, bool inSteps)
   {
@@ -191,7 +191,7 @@ TEST(CutoffPlane, RangesAreRoundAndOneStepApart)
   }
 }
 
-TEST(CutoffPlane, NumbersHaveAsManyDigitsAsAsked)
+TEST(CutoffPlane, NumbersHaveAsManyDigitsAsRequested)
 {
   EXPECT_DOUBLE_EQ(rounded(1234.56, 4), 1235);
   EXPECT_DOUBLE_EQ(rounded(-0.00123456, 3), -0.00123);

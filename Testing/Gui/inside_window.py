@@ -24,7 +24,7 @@ QMouseEvent, QTest = QtGui.QMouseEvent, QtTest.QTest
 QApplication, QWidget = QtWidgets.QApplication, QtWidgets.QWidget
 QAction = (QtGui if QT == 6 else QtWidgets).QAction
 
-# Neither PyQt nor CDLL, which let go of the interpreter's lock: VTK's observers in Python do not ask for it.
+# Neither PyQt nor CDLL, which let go of the interpreter's lock: VTK's observers in Python do not take it.
 _process_events = ctypes.PyDLL(
     f"libQt{QT}Core.so.{QT}")["_ZN16QCoreApplication13processEventsE6QFlagsIN10QEventLoop17ProcessEventsFlagEE"]
 
@@ -37,7 +37,7 @@ def process_events():
 
 
 def until(condition, seconds=120):
-    """Lets the window go on until something is so."""
+    """Lets the window run until something is so."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, f"Still not so after {seconds} s"
@@ -51,7 +51,7 @@ def pause(seconds):
 
 
 def information(source, name):
-    """The present value of a property that only tells something."""
+    """The present value of a property that only shows something."""
     prop = source.SMProxy.GetProperty(name)
     source.SMProxy.UpdatePropertyInformation(prop)
     return prop.GetElement(0)
@@ -166,13 +166,13 @@ def click(button):
     process_events()
 
 
-def click_during(algorithm, share, button):
+def click_during(algorithm, fraction, button):
     """Clicks an enabled button as the mouse does, once, when an update of a VTK algorithm has come so far. Returns
     what ends this."""
     clicked = []
 
     def watch(*_):
-        if not clicked and algorithm.GetProgress() > share and button.isEnabled():
+        if not clicked and algorithm.GetProgress() > fraction and button.isEnabled():
             clicked.append(True)
             window = widget().windowHandle()
             place = button.mapTo(widget(), button.rect().center())

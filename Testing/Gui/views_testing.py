@@ -242,7 +242,7 @@ def png_of_text(text):
     """The pixels of an image that a property has as text."""
     head = "data:image/png;base64,"
     assert text.startswith(head), text[:40]
-    path = os.path.join(FOLDER, "held.png")
+    path = os.path.join(FOLDER, "decoded.png")
     with open(path, "wb") as file:
         file.write(base64.b64decode(text[len(head):]))
     return png(path)

@@ -112,7 +112,7 @@ until(lambda: plane.property("side") == {side})
         self.event(f"pqClientMainWindow/Steps/step{self.scripts}", "activate")
 
     def idle(self):
-        """Steps that do nothing, after one that loads a state or plays an animation. ParaView lets the window go on
+        """Steps that do nothing, after one that loads a state or plays an animation. ParaView lets the window run
         in the middle of that, and on a busy machine the player takes this for a dialog and plays the next step
         inside: it must not wait for images, which are not made before that other step has ended."""
         for _ in range(10):

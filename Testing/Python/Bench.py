@@ -112,7 +112,7 @@ for size in (0, 8):
     plain.HistogramSize = size
     plain.UpdatePipeline()
     assert simple.OutputPort(plain, 1).GetDataInformation().GetNumberOfPoints() == size**2, size
-assert plain.GetClientSideObject().GetTotalRaysTraced() == traced, "Another histogram traces nothing"
+assert plain.GetClientSideObject().GetTotalRaysTraced() == traced, "Another histogram needs no re-tracing"
 
 # State files and scripts keep all of it.
 simple.SaveState("bench.pvsm")

@@ -62,15 +62,15 @@ def deflection(u, v):
     return K * step / (2 * small) * total
 
 
-def check_sphere(bench, image, bent, blocked, share=1):
+def check_sphere(bench, image, bent, blocked, fraction=1):
     pixel = image.GetSpacing()[0]
     # Of a sphere of flat quadrilaterals.
-    area = share * np.pi * np.sinc(1 / 40)**2
+    area = fraction * np.pi * np.sinc(1 / 40)**2
     assert abs(blocked.sum() * pixel**2 / area - 1) < 0.01, blocked.sum() * pixel**2 / area
     axis = image.GetOrigin()[0] + pixel * np.arange(PIXELS)
     u, v = np.meshgrid(axis, image.GetOrigin()[1] + pixel * np.arange(PIXELS))
     expected = deflection(u, v)
-    is_free = (np.hypot(u, v) > 1.05) & (v > 0.1 if share < 1 else True)
+    is_free = (np.hypot(u, v) > 1.05) & (v > 0.1 if fraction < 1 else True)
     largest = np.abs(expected[is_free]).max()
     error = np.sqrt(((bent - expected)[is_free]**2).mean()) / largest
     assert error < 0.02, error

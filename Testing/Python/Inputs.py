@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Adaptive meshes of ParaView's own sources, 2-D data, the grid that is told, and the array that is chosen."""
+"""Adaptive meshes of ParaView's own sources, 2-D data, the grid that is announced, and the array that is chosen."""
 
 import math
 

@@ -137,7 +137,7 @@ bench.AutoKScale = 0
 bench.KScale = 10
 assert np.abs(image_array(bench, "Intensity") - 0.5).max() < 0.1
 bench.AutoKScale = 1
-assert work(bench) == before, "Cutoffs and k must trace nothing"
+assert work(bench) == before, "Cutoffs and k must need no re-tracing"
 
 chained = Schlieren(refractivity)
 chained.ImageSize = [48, 32]

@@ -51,13 +51,13 @@ with open(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Documentation", "qua
           encoding="utf-8") as file:
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in file if line[0] == "|"]
 assert rows[0] == ["property", *PRESETS], rows[0]
-told = {row[0]: row[1:] for row in rows[2:2 + len(SETTINGS)]}
-assert list(told) == SETTINGS, told
+documented = {row[0]: row[1:] for row in rows[2:2 + len(SETTINGS)]}
+assert list(documented) == SETTINGS, documented
 for number, preset in enumerate(PRESETS):
     for name in SETTINGS:
         value = table[preset][name]
-        assert told[name][number] == (value if isinstance(value, str) else f"{value:.10g}"), \
-            (preset, name, told[name][number], value)
+        assert documented[name][number] == (value if isinstance(value, str) else f"{value:.10g}"), \
+            (preset, name, documented[name][number], value)
 check(Schlieren(source), "Interactive")
 
 # A preset first, then what shall differ from it.

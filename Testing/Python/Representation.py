@@ -48,7 +48,7 @@ def rectilinear(path):
 
 def flows():
     """Kinds of data, and the settings that are not the defaults. Voxels are kept from one view to the next, and so can
-    be finer than another view alone would ask for, unless they are as fine as the mesh anyway."""
+    be finer than another view alone would need, unless they are as fine as the mesh anyway."""
     yield "image", simple.XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.vti")]), {}
     yield "rectilinear", rectilinear(os.path.abspath("ball.vtr")), {}
     yield "structured", simple.XMLStructuredGridReader(FileName=[os.path.join(DATA, "deltawing.vts")]), {"MediumTolerance": 0}

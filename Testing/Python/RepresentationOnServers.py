@@ -16,7 +16,7 @@ RANKS = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np"]
 
 
 def without_mpi():
-    """The environment without what tells MPI that a process belongs to others."""
+    """The environment without what makes MPI believe that a process belongs to others."""
     return {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
 
 

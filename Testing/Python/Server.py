@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""An image that a server makes, as scripts of its client ask for it and get it. Skipped without pvserver.
+"""An image that a server makes, as scripts of its client request it and get it. Skipped without pvserver.
 
 With a number, that of its ranks; then skipped without mpiexec, too."""
 
@@ -58,7 +58,7 @@ def arrays():
 
 
 def progressive(schlieren):
-    """As the window asks for it."""
+    """As the window requests it."""
     schlieren.Cutoff = "Shadowgraph"
     schlieren.ImageSize = [256, 256]
     schlieren.SamplesPerPixel = 4
@@ -82,7 +82,7 @@ if not pvserver or (sys.argv[1:] and not mpiexec):
     print("Skipped: there is no pvserver, or no mpiexec (Debian: openmpi-bin).")
     sys.exit(77)
 launcher = [mpiexec, "--allow-run-as-root", "--oversubscribe", "-np", sys.argv[1]] if sys.argv[1:] else []
-# Without what tells MPI that a process belongs to others.
+# Without what makes MPI believe that a process belongs to others.
 environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
 simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))
 here = arrays()

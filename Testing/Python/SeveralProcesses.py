@@ -508,7 +508,7 @@ if rank == 2:
 
 
 def run(command, *arguments, ends=True, script=__file__, folder="."):
-    # What tells MPI that a process belongs to others.
+    # What makes MPI believe that a process belongs to others.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     done = subprocess.run([*command, os.path.abspath(script), *arguments], env=environment, cwd=folder, text=True,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells the user what happens, and keeps VTK from telling more."""
+"""Shows the user what happens, and keeps VTK from saying more."""
 
 import os
 import re

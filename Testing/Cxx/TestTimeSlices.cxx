@@ -30,7 +30,7 @@ vtkSmartPointer<vtkSchlierenFilter> smallBench(vtkDataObject* input)
   return filter;
 }
 
-/// Updates in slices to the end, and counts them.
+/// Updates in time slices to the end, and counts them.
 int updateInSlices(vtkSchlierenFilter* filter, double seconds = shortest)
 {
   filter->SetTimeLimit(seconds);
@@ -128,7 +128,7 @@ unsigned long abortAt(vtkSchlierenFilter* filter, double* fraction)
 
 } // namespace
 
-TEST(Slices, GiveTheBitsOfTheWhole)
+TEST(TimeSlices, GiveTheBitsOfTheWhole)
 {
   const auto image = columnImage();
   addPointArray(image, "f", [](const Vec& x) { return x[0] + x[1] * x[1]; });
@@ -154,14 +154,14 @@ TEST(Slices, GiveTheBitsOfTheWhole)
     });
 }
 
-TEST(Slices, AreNoneWhereTheLimitIsLong)
+TEST(TimeSlices, AreNoneWhereTheLimitIsLong)
 {
   auto filter = smallBench(columnImage());
   constexpr double anHour = 3600;
   EXPECT_EQ(updateInSlices(filter, anHour), 1);
 }
 
-TEST(Slices, TheLimitIsNoModification)
+TEST(TimeSlices, TheLimitIsNoModification)
 {
   auto filter = smallBench(columnImage());
   filter->Update();
@@ -186,7 +186,7 @@ TEST(Slices, TheLimitIsNoModification)
   EXPECT_TRUE(filter->GetFinished()); // without a limit all is done
 }
 
-TEST(Slices, ANewFilterBeginsWithAHurriedImage)
+TEST(TimeSlices, ANewFilterBeginsWithAPreview)
 {
   auto filter = smallBench(columnImage());
   filter->SetImageSize(200, 160);
@@ -208,7 +208,7 @@ TEST(Slices, ANewFilterBeginsWithAHurriedImage)
   EXPECT_NEAR(image->GetOrigin()[1], origin[1], 1e-12);
 }
 
-TEST(Slices, TheLastImageStaysUntilThereIsABetterOne)
+TEST(TimeSlices, TheLastImageStaysUntilThereIsABetterOne)
 {
   auto filter = smallBench(columnImage());
   filter->Update();
@@ -237,8 +237,8 @@ TEST(Slices, TheLastImageStaysUntilThereIsABetterOne)
     << filter->GetStatus();
 }
 
-// Of another size than the last one: filters after this one rely on the extent they were told.
-TEST(Slices, TheLastImageFillsThePromisedExtent)
+// Of another size than the last one: filters after this one rely on the extent that was announced.
+TEST(TimeSlices, TheLastImageFillsThePromisedExtent)
 {
   auto filter = smallBench(columnImage());
   filter->SetCutoff(vtkSchlierenFilter::COLOR_FILTER);
@@ -277,7 +277,7 @@ TEST(Slices, TheLastImageFillsThePromisedExtent)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 120 * 20);
 }
 
-TEST(Slices, AnotherPropertyInTheMidstMakesAnotherImage)
+TEST(TimeSlices, AnotherPropertyInTheMidstMakesAnotherImage)
 {
   const auto image = columnImage();
   const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
@@ -315,7 +315,7 @@ TEST(Slices, AnotherPropertyInTheMidstMakesAnotherImage)
   }
 }
 
-TEST(Slices, RefineBeginsAfterAnotherProperty)
+TEST(TimeSlices, RefineBeginsAfterAnotherProperty)
 {
   const auto image = columnImage();
   const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
@@ -365,7 +365,7 @@ TEST(Slices, RefineBeginsAfterAnotherProperty)
   }
 }
 
-TEST(Slices, RefineLeavesTheMediumToUpdates)
+TEST(TimeSlices, RefineLeavesTheMediumToUpdates)
 {
   const auto image = columnImage();
   addPointArray(image, "f", [](const Vec& x) { return x[0] + x[1] * x[1]; });
@@ -407,7 +407,7 @@ TEST(Slices, RefineLeavesTheMediumToUpdates)
   EXPECT_EQ(fresh->GetPictureCount(), 0);
 }
 
-TEST(Slices, AMistakeBeforeRefineIsLeftToTheUpdate)
+TEST(TimeSlices, AMistakeBeforeRefineIsLeftToTheUpdate)
 {
   auto filter = smallBench(columnImage());
   filter->Update();
@@ -425,7 +425,7 @@ TEST(Slices, AMistakeBeforeRefineIsLeftToTheUpdate)
   updateInSlices(filter);
 }
 
-TEST(Slices, AnotherInputInTheMidstMakesAnotherImage)
+TEST(TimeSlices, AnotherInputInTheMidstMakesAnotherImage)
 {
   auto image = columnImage();
   auto filter = smallBench(image);
@@ -441,7 +441,7 @@ TEST(Slices, AnotherInputInTheMidstMakesAnotherImage)
   EXPECT_EQ(filter->GetMediumBuilds(), 2);
 }
 
-TEST(Slices, ANewKnifeEdgeInTheMidstTracesNothingAgain)
+TEST(TimeSlices, ANewKnifeEdgeInTheMidstNeedsNoTracing)
 {
   auto image = columnImage();
   auto whole = smallBench(image);
@@ -464,7 +464,7 @@ TEST(Slices, ANewKnifeEdgeInTheMidstTracesNothingAgain)
     static_cast<double>(filter->GetTotalRaysTraced()) / static_cast<double>(rays), 4 / 3., 0.02);
 }
 
-TEST(Slices, AMistakeInTheMidstLeavesNothing)
+TEST(TimeSlices, AMistakeInTheMidstLeavesNothing)
 {
   auto filter = smallBench(columnImage());
   filter->SetTimeLimit(shortest);
@@ -506,7 +506,7 @@ TEST(Slices, AMistakeInTheMidstLeavesNothing)
     });
 }
 
-TEST(Slices, AbortLeavesNothing)
+TEST(TimeSlices, AbortLeavesNothing)
 {
   auto image = columnImage();
   for (const double limit : { 0., shortest })
@@ -532,7 +532,7 @@ TEST(Slices, AbortLeavesNothing)
     filter->RemoveObserver(tag);
     if (limit > 0)
     {
-      filter->Update(); // whoever asks again need not wait again
+      filter->Update(); // further requests need not wait again
       EXPECT_TRUE(isEmpty(filter));
       filter->Refine();
       EXPECT_FALSE(filter->GetStopped());
@@ -544,7 +544,7 @@ TEST(Slices, AbortLeavesNothing)
   }
 }
 
-TEST(Slices, StopLeavesWhatIsThere)
+TEST(TimeSlices, StopLeavesWhatIsThere)
 {
   auto image = columnImage();
   auto fresh = smallBench(image);
@@ -571,7 +571,7 @@ TEST(Slices, StopLeavesWhatIsThere)
   filter->Update();
   EXPECT_EQ(valuesOf(filter, "Intensity"), left);
 
-  // It goes on where it was, with a limit or without, and something else begins anew.
+  // It continues where it was, with a limit or without, and something else begins anew.
   const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
   filter->Refine();
   EXPECT_FALSE(filter->GetStopped());
@@ -594,7 +594,7 @@ TEST(Slices, StopLeavesWhatIsThere)
 }
 
 // Another time of the same source changes none of the filter's or the source's own times.
-TEST(Slices, WhatIsStoppedIsOneTimeStep)
+TEST(TimeSlices, WhatIsStoppedIsOneTimeStep)
 {
   vtkNew<Series> series;
   const auto atTime = [&series](vtkSchlierenFilter* filter, double time)
@@ -618,7 +618,7 @@ TEST(Slices, WhatIsStoppedIsOneTimeStep)
 }
 
 // An array that the image from before does not have.
-TEST(Slices, ColouredImageHasColourAtOnce)
+TEST(TimeSlices, ColouredImageHasColourAtOnce)
 {
   auto filter = smallBench(columnImage());
   filter->Update();
@@ -630,7 +630,7 @@ TEST(Slices, ColouredImageHasColourAtOnce)
   EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("Color"));
 }
 
-TEST(Slices, NoLimitFinishesWhatWasBegun)
+TEST(TimeSlices, NoLimitFinishesWhatWasBegun)
 {
   auto image = columnImage();
   auto fresh = smallBench(image);
@@ -653,7 +653,7 @@ TEST(Slices, NoLimitFinishesWhatWasBegun)
   }
 }
 
-TEST(Slices, AWarningIsGivenOnce)
+TEST(TimeSlices, AWarningIsGivenOnce)
 {
   auto image = cube(12);
   addPointArray(
@@ -671,7 +671,7 @@ TEST(Slices, AWarningIsGivenOnce)
   EXPECT_EQ(complaints->Warnings.size(), 2u);
 }
 
-TEST(Slices, ShowNoProgressButThatOfTheMedium)
+TEST(TimeSlices, ShowNoProgressButThatOfTheMedium)
 {
   auto filter = smallBench(columnImage());
   filter->SetTimeLimit(shortest);

@@ -15,7 +15,7 @@ SETTINGS = {"Density": ["POINTS", "rho"], "ImageSize": [96, 64], "Quality": "Dra
             "ViewDirection": [-0.4, -0.2, -1], "NumberOfThreads": 1}
 
 
-def told(name):
+def value(name):
     bench.UpdatePropertyInformation()
     return bench.GetProperty(name).GetData()
 
@@ -27,27 +27,27 @@ assert np.ptp(expected) > 0.5, np.ptp(expected)
 bench = Schlieren(Input=jet, **SETTINGS)
 bench.TimeLimit = 1e-9
 bench.UpdatePipeline()
-assert told("Finished") == 0 and told("PictureCount") == 1, told("PictureCount")
+assert value("Finished") == 0 and value("PictureCount") == 1, value("PictureCount")
 rough = image_array(bench, "Intensity")  # something is there from the beginning, of the size that was promised
 assert rough.shape == expected.shape and np.ptp(rough) > 0.2
 
 slices, counts = 1, {1}
-while not told("Finished"):
+while not value("Finished"):
     bench.InvokeCommand("Refine")
     bench.UpdatePipeline()
-    counts.add(told("PictureCount"))
+    counts.add(value("PictureCount"))
     slices += 1
     assert slices < 10000
 assert slices > 10 and counts == {1, 2, 3, 4}, (slices, counts)
 assert np.array_equal(image_array(bench, "Intensity"), expected)
-assert told("Status").startswith("3 samples per pixel, "), told("Status")
-assert told("MediumBuilds") == 0  # it is that of whole
+assert value("Status").startswith("3 samples per pixel, "), value("Status")
+assert value("MediumBuilds") == 0  # it is that of whole
 
 # Neither a limit nor Refine makes a finished image anew.
 bench.TimeLimit = 0
 bench.InvokeCommand("Refine")
 bench.UpdatePipeline()
-assert told("PictureCount") == 4
+assert value("PictureCount") == 4
 
 # A preview, and then the whole image again without tracing all of it in between.
 bench.PreviewReduction = 4
@@ -55,8 +55,8 @@ assert image_array(bench, "Intensity").shape == (16, 24)
 bench.PreviewReduction = 1
 bench.TimeLimit = 1e-9
 assert image_array(bench, "Intensity").shape == (64, 96)
-assert told("Finished") == 0
+assert value("Finished") == 0
 bench.TimeLimit = 0
 bench.InvokeCommand("Refine")
 assert np.array_equal(image_array(bench, "Intensity"), expected)
-assert told("Finished") == 1
+assert value("Finished") == 1
