@@ -23,6 +23,10 @@ public:
   /// Normals of closed parts point outward, if their triangles are all turned alike.
   const Triangles& surface() const { return this->Surface; }
   const TriangleTree& tree() const { return this->Tree; }
+  bool isOfClosed(std::int32_t triangle) const
+  {
+    return this->Parts[static_cast<std::size_t>(triangle)] >= 0;
+  }
 
   /// Sets isInside[...] of those points of a lattice that a closed part holds: those with an odd number of
   /// crossings before them along x (Nooruddin & Turk 2003). Parts may overlap or enclose each other.

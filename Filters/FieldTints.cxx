@@ -161,8 +161,8 @@ void bringToCells(FieldValues& field)
   }
 }
 
-std::vector<float> fieldGradients(
-  vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads)
+void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
 {
   requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
@@ -171,8 +171,6 @@ std::vector<float> fieldGradients(
   {
     medium->KeepMeshSearch();
   }
-  std::vector<float> gradients(
-    count * static_cast<std::size_t>(refractivity->GetNumberOfPoints()), 0);
   for (std::size_t field = 0; field < count; ++field)
   {
     vtkNew<vtkRefractiveIndex> reader;
@@ -187,12 +185,27 @@ std::vector<float> fieldGradients(
     {
       probe(values, refractivity);
     }
-    schlieren::gradientMagnitudes(grid,
-      vtkFloatArray::SafeDownCast(values->GetPointData()->GetArray(arrayName))->GetPointer(0),
-      vtkUnsignedCharArray::SafeDownCast(values->GetPointData()->GetArray(maskName))->GetPointer(0),
-      threads, static_cast<int>(count), static_cast<int>(field), gradients.data());
+    take(field, values);
   }
   medium->DropMeshSearch();
+}
+
+std::vector<float> fieldGradients(
+  vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads)
+{
+  const schlieren::Grid grid = gridFrom(refractivity);
+  const std::size_t count = medium->GetFields().size();
+  std::vector<float> gradients(
+    count * static_cast<std::size_t>(refractivity->GetNumberOfPoints()), 0);
+  forFieldImages(medium, input, refractivity, threads,
+    [&](std::size_t field, vtkImageData* values)
+    {
+      schlieren::gradientMagnitudes(grid,
+        vtkFloatArray::SafeDownCast(values->GetPointData()->GetArray(arrayName))->GetPointer(0),
+        vtkUnsignedCharArray::SafeDownCast(values->GetPointData()->GetArray(maskName))
+          ->GetPointer(0),
+        threads, static_cast<int>(count), static_cast<int>(field), gradients.data());
+    });
   return gradients;
 }
 

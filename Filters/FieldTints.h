@@ -7,6 +7,8 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 class vtkDataArray;
@@ -35,6 +37,11 @@ std::vector<FieldValues> fieldValues(
 
 /// Makes values at points those of cells: their mean.
 void bringToCells(FieldValues& field);
+
+/// Calls take(number, image) for each field with its values, as if they were a refractivity, on the grid of
+/// `refractivity`, which `medium` has made from `input`.
+void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take);
 
 /// The gradients of the fields on the grid of `refractivity`, which `medium` has made from `input`: what
 /// schlieren::FieldGradients::values needs.

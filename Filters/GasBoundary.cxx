@@ -8,6 +8,8 @@
 #include "WeightedMedian.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace filters
@@ -117,6 +119,53 @@ GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const
   return kinds;
 }
 
+/// Sheets are not: the voxels that they become depend on how large voxels are.
+bool GasBoundary::areWallsFlatNear(const schlieren::Box& box) const
+{
+  constexpr double around = 1. / 8; // of the box: as far as distances in it depend on
+  constexpr double tilt = 1e-6, offset = 1e-5;
+  schlieren::Box near = box;
+  Point middle;
+  double edge = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = box.high[axis] - box.low[axis];
+    near.low[axis] -= around * length;
+    near.high[axis] += around * length;
+    middle[axis] = 0.5 * (box.low[axis] + box.high[axis]);
+    edge = std::min(edge, length);
+  }
+  bool isFlat = true, isFirst = true;
+  Point normal{};
+  double distance = 0;
+  const auto look = [&](const Triangles& surface, std::int32_t triangle, bool isWall)
+  {
+    const auto t = static_cast<std::size_t>(triangle);
+    if (!isFlat || !meets(surface, t, near))
+    {
+      return;
+    }
+    const Point across = surface.normal(t);
+    const Point own = (1 / norm(across)) * across;
+    const double ownDistance = dot(own, surface.corner(t, 0) - middle);
+    normal = isFirst ? own : normal;
+    distance = isFirst ? ownDistance : distance;
+    isFirst = false;
+    isFlat =
+      isWall && norm(own - normal) <= tilt && std::abs(ownDistance - distance) <= offset * edge;
+  };
+  this->Tree.forTrianglesAt(near,
+    [&](std::int32_t triangle)
+    { look(this->Faces.surface, triangle, this->Walls[static_cast<std::size_t>(triangle)] != 0); });
+  if (this->Bodies)
+  {
+    this->Bodies->tree().forTrianglesAt(near,
+      [&](std::int32_t triangle)
+      { look(this->Bodies->surface(), triangle, this->Bodies->isOfClosed(triangle)); });
+  }
+  return isFlat;
+}
+
 void GasBoundary::findPlaces(const schlieren::Box& box, const CellTest& isInCell,
   schlieren::MediumSource::Content& content) const
 {
@@ -126,6 +175,7 @@ void GasBoundary::findPlaces(const schlieren::Box& box, const CellTest& isInCell
   content.hasGas = faces.wall || faces.window;
   if (content.hasGas)
   {
+    content.areWallsFlat = faces.wall && !faces.window && this->areWallsFlatNear(box);
     return;
   }
   // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.

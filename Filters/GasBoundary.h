@@ -63,7 +63,7 @@ public:
     bool wall, window;
   };
   Kinds facesIn(const schlieren::Box& box) const;
-  /// Sets which places a box has (`hasWall`, `hasGas`, `hasWindow`), given where visible cells are.
+  /// Sets which places a box has (`hasWall`, `hasGas`, `hasWindow`, `areWallsFlat`), given where visible cells are.
   void findPlaces(const schlieren::Box& box, const CellTest& isInCell,
     schlieren::MediumSource::Content& content) const;
   /// All that findPlaces() may test: the middle and the corners of a box.
@@ -93,6 +93,7 @@ public:
 
 private:
   bool isBeyondAll(const Point& place) const;
+  bool areWallsFlatNear(const schlieren::Box& box) const;
 
   BoundaryFaces Faces;
   TriangleTree Tree;

@@ -5,14 +5,18 @@
 
 #include "AmrSource.h"
 #include "ChannelRanks.h"
+#include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "FlatData.h"
 #include "GasChoices.h"
+#include "ImageSource.h"
 #include "MeshSearch.h"
 #include "RefractivityOfBodies.h"
 #include "SamplingBox.h"
 
 #include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
 #include "Rays/RayWorker.h"
@@ -56,17 +60,55 @@ void filters::addText(std::string& text, const std::string& more)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input)
+bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  if (source.image || SamplingBox(this->SamplingBounds).isGiven() ||
+  if ((source.image && !bodies) || SamplingBox(this->SamplingBounds).isGiven() ||
     !std::all_of(given, given + 3, isZero))
   {
     return false;
   }
-  flatAxisOf(source); // throws where there is no volume and no plane
-  return true;
+  const int flat = flatAxisOf(source); // throws where there is no volume and no plane
+  return !source.image || flat < 0;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfImage(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+{
+  vtkNew<vtkImageData> refractivity;
+  warning = this->Convert(input, refractivity);
+  this->Grid.clear();
+  std::shared_ptr<ImageSource> made;
+  vtkSMPTools::LocalScope(threadsOfLoops(this),
+    [&]
+    {
+      const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
+      if (!this->GetAbortExecute())
+      {
+        mergeMasks(refractivity);
+        made = std::make_shared<ImageSource>(refractivity, bodies, threads);
+      }
+      if (made && contents == WITH_FIELDS)
+      {
+        forFieldImages(this, input, refractivity, threads,
+          [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
+      }
+    });
+  if (!made || this->GetAbortExecute())
+  {
+    return nullptr;
+  }
+  if (!made->hasGas())
+  {
+    throw std::runtime_error(bodiesCoverAll);
+  }
+  if (!made->meetsBodies())
+  {
+    addText(warning, bodiesAreOutside);
+  }
+  return made;
 }
 
 //------------------------------------------------------------------------------
@@ -74,6 +116,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   Source source = chooseSource(this, input);
+  if (source.image)
+  {
+    return this->MakeSourceOfImage(input, bodies, warning, contents);
+  }
   const int flat = flatAxisOf(source);
   this->Grid.clear();
   this->Search->release();

@@ -18,6 +18,10 @@ namespace filters
 constexpr const char* bodiesAreOutside =
   "The Bodies lie outside the data, so they stop no light. Do both have the same unit "
   "of length and the same origin?";
+/// The mistake where they leave nothing.
+constexpr const char* bodiesCoverAll =
+  "The Bodies cover all of the gas, so there is none for light to "
+  "cross. Leave out what encloses the flow.";
 
 /// Clears mask and refractivity of `output` inside the closed surfaces among `bodies` (vtkPolyData, or a
 /// composite of them), and where open ones are. Returns what to warn the user of, mostly nothing.

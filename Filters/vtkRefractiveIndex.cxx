@@ -279,8 +279,7 @@ std::string vtkRefractiveIndex::Convert(
     addText(warning, placeBodies(bodies, output));
     if (!hasGas())
     {
-      throw std::runtime_error("The Bodies cover all of the gas, so there is none for light to "
-                               "cross. Leave out what encloses the flow.");
+      throw std::runtime_error(bodiesCoverAll);
     }
   }
 

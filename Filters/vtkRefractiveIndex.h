@@ -469,7 +469,7 @@ public:
   VTK_WRAPEXCLUDE void ComputeGrid(vtkDataObject* input, vtkImageData* structure);
 
   /**
-   * The same with two points along each axis, for input that CanMakeSource(): its box.
+   * The same with two points along each axis, for meshes that CanMakeSource(): their box.
    */
   VTK_WRAPEXCLUDE void ComputeBox(vtkDataObject* input, vtkImageData* structure);
 
@@ -485,8 +485,8 @@ public:
   /**
    * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images, and where SamplingDimensions are given. If
-   * AbortExecute is set meanwhile, the result is null.
+   * what else there is is to be made a grid by Convert(): images without bodies, flat ones, and where
+   * SamplingDimensions or SamplingBounds are given. If AbortExecute is set meanwhile, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
    * point, where the gas ends. Where the next input has the same mesh, as other time steps and fields have, only
@@ -499,7 +499,7 @@ public:
     REFRACTIVITY_ALONE,
     WITH_FIELDS // the source has Fields, too: see FieldTints.h
   };
-  VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input);
+  VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input, vtkDataObject* bodies = nullptr);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
     vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
@@ -581,6 +581,10 @@ private:
 
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
+
+  /// Of a three-dimensional image with bodies.
+  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents);
 
   std::shared_ptr<filters::GridPlan> Plan;
   std::shared_ptr<filters::KeptMesh> Mesh;

@@ -277,7 +277,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   else
   {
     this->Medium->ReleasePieces();
-    if (this->Medium->CanMakeSource(input))
+    if (this->Medium->CanMakeSource(input, bodies))
     {
       made->Source = this->Medium->MakeSource(input, bodies, made->Warning,
         this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS

@@ -250,6 +250,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   }
   BrickFacts& facts = brick.facts;
   facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
+  facts.areWallsFlat = content.areWallsFlat;
   facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
   const std::array<double, 3> voxel = voxelOf(place.level);
   facts.normals = bend > 0 ? normals : facts.normals;

@@ -49,13 +49,14 @@ struct BrickFacts
   std::array<bool, 3> canImprove{ false, false, false };
   /// The same, because of what lies between samples that are further apart than cells along this axis.
   std::array<double, 3> hidden{ 0, 0, 0 };
-  double range = 0;         ///< of its samples, as the deflection that it may make
-  double difference = 0;    ///< largest one of nu in it
-  double besideWindow = 0;  ///< the same, because a window's edge is not where it should be
-  double neglected = 0;     ///< the larger of both, where nothing was made of them
-  bool hasWallEdge = false; ///< gas, or a window, ends at a wall in it
-  double edgeError = 0;     ///< how far an edge is from where it should be; data units
-  bool areEdgesFine = true; ///< with voxels much finer than cells, edges show nothing new
+  double range = 0;          ///< of its samples, as the deflection that it may make
+  double difference = 0;     ///< largest one of nu in it
+  double besideWindow = 0;   ///< the same, because a window's edge is not where it should be
+  double neglected = 0;      ///< the larger of both, where nothing was made of them
+  bool hasWallEdge = false;  ///< gas, or a window, ends at a wall in it
+  double edgeError = 0;      ///< how far an edge is from where it should be; data units
+  bool areWallsFlat = false; ///< see MediumSource::Content
+  bool areEdgesFine = true;  ///< with voxels much finer than cells, edges show nothing new
   /// Lowest and highest components of the edges' normals, by voxel.
   std::array<std::array<float, 2>, 3> normals{};
   double largestNu = 0; ///< |nu| of its coefficients

@@ -67,6 +67,8 @@ public:
     std::array<double, 3>
       cellSize; ///< along each axis the smallest edge of cells in the box; infinite: no cells
     bool hasWall, hasGas, hasWindow;
+    bool areWallsFlat =
+      false; ///< all walls in and near the box are one plane, with gas on one side of it
   };
   virtual Content contentOf(const Box& box) const = 0;
 

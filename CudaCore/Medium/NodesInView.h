@@ -125,15 +125,16 @@ public:
   }
 
   /// Whether walls are where they should be, but for such a part of a pixel. Voxels must not be much larger than
-  /// pixels for that to be known.
+  /// pixels for that to be known; between planes and distances from them there is only the rounding of these.
   bool showsWalls(const Node& node, double pixels) const
   {
-    constexpr double pixelsOfVoxel = 4; // at most
+    constexpr double pixelsOfVoxel = 4, pixelsOfVoxelAtPlanes = 400; // at most
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
     const double pixel = pixelAt(node.place);
-    return node.facts.edgeError <= pixels * pixel &&
+    const bool isFlat = node.facts.areWallsFlat;
+    return (isFlat || node.facts.edgeError <= pixels * pixel) &&
       *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
-      pixelsOfVoxel * pixel;
+      (isFlat ? pixelsOfVoxelAtPlanes : pixelsOfVoxel) * pixel;
   }
 
   /// Whether walls are seen edge-on in a leaf, or would be after a small turn.

@@ -110,7 +110,8 @@ void setTimeLimit(vtkSMProxy* filter, double seconds)
   filter->UpdateProperty("TimeLimit");
 }
 
-/// Lets the next update continue, if there is anything left.
+/// Without a time limit: lets the next update finish the image, if there is anything left. With one: works on it, and
+/// lets the next update show what is new, if anything is.
 void requestMore(vtkSMProxy* filter)
 {
   SCOPED_UNDO_EXCLUDE();
@@ -433,12 +434,12 @@ void pqImageRefiner::unlimit()
     {
       continue;
     }
+    setTimeLimit(filter, 0); // first: with a limit a request may end without anything new to show
     if (!isFinished(filter))
     {
       requestMore(filter);
       this->refine(filter);
     }
-    setTimeLimit(filter, 0);
   }
   this->Limited.clear();
 }

@@ -28,7 +28,7 @@ bench.SamplesPerPixel = 400
 Render(shown)
 until(lambda: not finished(bench), 20)
 screenshot(shown, "unfinished.png")
-assert finished(bench)
+assert finished(bench), [information(bench, name) for name in ("Status", "PercentDone", "PictureCount")]
 screenshot(shown, "finished.png")
 bench.KnifeEdgeAngle, bench.ParallelScale = 30, 13
 Render(shown)
