@@ -30,9 +30,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Points along each edge of blocks whose ranges are known.
 constexpr int blockEdge = 8;
 
-/// Voxels of the tree are no larger than 1.4 of these cells (see schlieren::voxelByCell): 0.5 to 1 of the image's. So what
-/// is sampled at some distance from the image's points is as good as at them.
-constexpr double cellBySpacing = 1 / 1.4;
+/// The spline has more detail than voxels of the image's spacing show, as in AmrSource.
+constexpr double cellBySpacing = 0.5;
 
 std::size_t volumeOf(const std::array<int, 3>& points)
 {
