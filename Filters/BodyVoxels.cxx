@@ -44,14 +44,14 @@ public:
   Bits(const Index& first, const Index& last)
     : low(first)
     , high(last)
-    , bits_(static_cast<std::size_t>(last[0] - first[0] + 1) *
+    , Flags(static_cast<std::size_t>(last[0] - first[0] + 1) *
         static_cast<std::size_t>(last[1] - first[1] + 1) *
         static_cast<std::size_t>(last[2] - first[2] + 1))
   {
   }
 
-  bool at(int i, int j, int k) const { return holds({ i, j, k }) && bits_[place(i, j, k)]; }
-  void flip(int i, int j, int k) { bits_[place(i, j, k)] = !bits_[place(i, j, k)]; }
+  bool at(int i, int j, int k) const { return holds({ i, j, k }) && this->Flags[place(i, j, k)]; }
+  void flip(int i, int j, int k) { this->Flags[place(i, j, k)] = !this->Flags[place(i, j, k)]; }
 
   template <class Visit>
   void forAll(const Visit& visit) const
@@ -85,7 +85,7 @@ private:
       static_cast<std::size_t>(i - low[0]);
   }
 
-  std::vector<bool> bits_;
+  std::vector<bool> Flags;
 };
 
 struct Corners

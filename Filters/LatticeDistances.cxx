@@ -64,13 +64,13 @@ class Row
 {
 public:
   Row(const Prepared& t, float y, float z)
-    : height_(t.height.inRow(y, z))
-    , heightSlope_(t.height.slope[0])
+    : Height(t.height.inRow(y, z))
+    , HeightSlope(t.height.slope[0])
   {
     for (int e = 0; e < 3; ++e)
     {
       const Edge& edge = t.edges[e];
-      edges_[e] = { edge.across.inRow(y, z), edge.across.slope[0], edge.before.inRow(y, z),
+      this->Edges[e] = { edge.across.inRow(y, z), edge.across.slope[0], edge.before.inRow(y, z),
         edge.before.slope[0], edge.behind.inRow(y, z), edge.behind.slope[0] };
     }
   }
@@ -78,8 +78,8 @@ public:
   void update(int first, int end, std::int32_t number, float* __restrict squared,
     std::int32_t* __restrict nearest) const
   {
-    const EdgeInRow e0 = edges_[0], e1 = edges_[1], e2 = edges_[2];
-    const float height0 = height_, heightSlope = heightSlope_;
+    const EdgeInRow e0 = this->Edges[0], e1 = this->Edges[1], e2 = this->Edges[2];
+    const float height0 = this->Height, heightSlope = this->HeightSlope;
     for (int i = first; i < end; ++i)
     {
       const auto x = static_cast<float>(i);
@@ -110,8 +110,8 @@ private:
     return across * across + beyond * beyond;
   }
 
-  float height_, heightSlope_;
-  EdgeInRow edges_[3];
+  float Height, HeightSlope;
+  EdgeInRow Edges[3];
 };
 
 } // namespace

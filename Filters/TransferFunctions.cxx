@@ -91,15 +91,15 @@ std::array<double, 2> rangeOf(vtkDataArray* array, vtkUnsignedCharArray* used)
 
 //------------------------------------------------------------------------------
 FieldCurve::FieldCurve(vtkPiecewiseFunction* function, double low, double high)
-  : low_(low)
-  , high_(high)
+  : Low(low)
+  , High(high)
 {
   if (function && function->GetSize() > 0)
   {
-    this->table_.resize(intervals + 1);
-    function->GetTable(0, 1, intervals + 1, this->table_.data());
+    this->Table.resize(intervals + 1);
+    function->GetTable(0, 1, intervals + 1, this->Table.data());
     if (!std::all_of(
-          this->table_.begin(), this->table_.end(), [](double y) { return std::isfinite(y); }))
+          this->Table.begin(), this->Table.end(), [](double y) { return std::isfinite(y); }))
     {
       throw std::runtime_error(
         "One of the TransferFunctions has values that are not finite between 0 and 1. Correct its "
@@ -110,22 +110,22 @@ FieldCurve::FieldCurve(vtkPiecewiseFunction* function, double low, double high)
 
 void FieldCurve::setRange(double low, double high)
 {
-  this->low_ = low;
-  this->high_ = high;
+  this->Low = low;
+  this->High = high;
 }
 
 double FieldCurve::at(double x) const
 {
   // Halved, because the difference of two numbers can be too large for one.
-  const double length = 0.5 * this->high_ - 0.5 * this->low_;
-  const double t = length == 0 ? 0 : std::clamp((0.5 * x - 0.5 * this->low_) / length, 0., 1.);
-  if (this->table_.empty())
+  const double length = 0.5 * this->High - 0.5 * this->Low;
+  const double t = length == 0 ? 0 : std::clamp((0.5 * x - 0.5 * this->Low) / length, 0., 1.);
+  if (this->Table.empty())
   {
     return t;
   }
   const auto i = std::min(static_cast<std::size_t>(t * intervals), std::size_t{ intervals - 1 });
   const double f = t * intervals - static_cast<double>(i);
-  return (1 - f) * this->table_[i] + f * this->table_[i + 1];
+  return (1 - f) * this->Table[i] + f * this->Table[i + 1];
 }
 
 //------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ public:
   /// `low` and `high` are equal. Throws std::runtime_error where the function has no finite values.
   FieldCurve(vtkPiecewiseFunction* function, double low, double high);
 
-  bool hasRange() const { return this->low_ != this->high_; }
+  bool hasRange() const { return this->Low != this->High; }
   void setRange(double low, double high);
 
   /// The curve is read from a table of 2^14 intervals of length h, linearly in between: wrong by no more
@@ -30,8 +30,8 @@ public:
   double at(double x) const;
 
 private:
-  double low_, high_;
-  std::vector<double> table_; // empty: a straight line from 0 to 1
+  double Low, High;
+  std::vector<double> Table; // empty: a straight line from 0 to 1
 };
 
 /// N = scale * mean of the curves.

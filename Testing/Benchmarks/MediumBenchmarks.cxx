@@ -3,7 +3,7 @@
 // What the medium and its homogeneity map cost: points per second of a core's time, the best of all
 // builds, so that what else runs on the machine matters little; and the peak of memory while both are
 // built. Two threads on two free cores take half of the core's time.
-#include "Medium/CudaHomogeneityMap.h"
+#include "Medium/HomogeneityMap.h"
 #include "PeakMemory.h"
 
 #include <benchmark/benchmark.h>
@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <string>
 
 namespace
 {
@@ -114,31 +113,6 @@ void arguments(benchmark::internal::Benchmark* b)
   }
 }
 BENCHMARK(mediumAndMap)->Apply(arguments)->UseRealTime()->MinTime(2)->Unit(benchmark::kMillisecond);
-
-/// Arguments: grid points per axis, interpolation. Allocating and filling the device's memory included.
-void mapOnCuda(benchmark::State& state)
-{
-  std::string reason;
-  if (!cudaAvailable(&reason))
-  {
-    state.SkipWithError(reason.c_str());
-    return;
-  }
-  const Flow flow(state.range(0), None);
-  const auto interpolation = static_cast<Interpolation>(state.range(1));
-  const Medium<float> medium = buildMedium<float>(flow.field, interpolation, 0);
-  for (auto _ : state)
-  {
-    benchmark::DoNotOptimize(buildHomogeneityMapOnCuda(medium, interpolation, 1e-8f));
-  }
-  state.counters["voxels/s"] = benchmark::Counter(
-    static_cast<double>(flow.samples.size()), benchmark::Counter::kIsIterationInvariantRate);
-}
-BENCHMARK(mapOnCuda)
-  ->ArgNames({ "n", "interpolation" })
-  ->ArgsProduct({ { 256, 512 }, { 0, 1, 2, 3 } })
-  ->UseRealTime()
-  ->Unit(benchmark::kMillisecond);
 
 } // namespace
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the map calls homogeneous is compared with what rays would see there.
 #include "Fields.h"
-#include "Medium/CudaHomogeneityMap.h"
 #include "Medium/HomogeneityMap.h"
 
 #include <algorithm>
@@ -483,40 +482,6 @@ TEST(HomogeneityMap, NumbersHugeGrids)
     const double cells = static_cast<double>(dimensions[0] - 1) *
       static_cast<double>(dimensions[1] - 1) * static_cast<double>(dimensions[2] - 1);
     EXPECT_GE(static_cast<double>(pyramid.size(0)), cells / (brickEdge * brickEdge * brickEdge));
-  }
-}
-
-template <class Real>
-void expectSameMaps(const Medium<Real>& medium, Interpolation interpolation, Real tolerance)
-{
-  const auto host = buildHomogeneityMap(medium, interpolation, tolerance, 0);
-  const auto device = buildHomogeneityMapOnCuda(medium, interpolation, tolerance);
-  EXPECT_EQ(host.levels, device.levels);
-  EXPECT_TRUE(
-    std::equal(host.ranges.begin(), host.ranges.end(), device.ranges.begin(), device.ranges.end(),
-      [](const NuRange<Real>& a, const NuRange<Real>& b)
-      { return a.lowest == b.lowest && a.highest == b.highest; }));
-}
-
-/// Nothing is rounded, so nothing may differ.
-TEST(HostAndDevice, MakeTheSameHomogeneityMap)
-{
-  std::string reason;
-  if (!cudaAvailable(&reason))
-  {
-    GTEST_SKIP() << "no CUDA device: " << reason;
-  }
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> any(-1e-5, 1e-5);
-  for (const Interpolation interpolation : allInterpolations)
-  {
-    for (const Dimensions& dimensions : someDimensions)
-    {
-      expectSameMaps<float>(mediumOf<float>(dimensions, interpolation,
-                              [&](double, double, double) { return any(random); }),
-        interpolation, 1e-5f);
-    }
-    expectSameMaps(mediumWithSolids({ 70, 45, 61 }, interpolation, 1e-5), interpolation, 1e-5);
   }
 }
 
