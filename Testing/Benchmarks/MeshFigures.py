@@ -5,7 +5,7 @@
     SCHLIEREN_PLUGIN=…/Schlieren.so Utilities/with-display pvpython Testing/Benchmarks/MeshFigures.py
 
 A far field of 1.2 million points around a sphere, seen 6 wide, and 1.08 million tetrahedra, 512 x 512 pixels.
-Times are the median of `TURNS` (first images: each of a new filter). Use an idle machine.
+Times are medians of five (first images: each of a new filter). Use an idle machine.
 """
 
 import math
