@@ -280,12 +280,9 @@ Source extruded(const Source& source, int flat)
   return result;
 }
 
-vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat)
+vtkSmartPointer<vtkDataObject> changedBodies(
+  vtkDataObject* bodies, const std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData*)>& change)
 {
-  if (!bodies || flat < 0)
-  {
-    return bodies;
-  }
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   for (vtkDataObject* leaf : leavesOf(bodies))
   {
@@ -294,9 +291,16 @@ vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat)
     {
       return bodies; // whoever reads them says what is wrong
     }
-    blocks->SetBlock(blocks->GetNumberOfBlocks(), turnedSurface(surface, flat));
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), change(surface));
   }
   return blocks;
+}
+
+vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat)
+{
+  return bodies && flat >= 0
+    ? changedBodies(bodies, [flat](vtkPolyData* surface) { return turnedSurface(surface, flat); })
+    : vtkSmartPointer<vtkDataObject>(bodies);
 }
 
 std::array<int, 3> structureOf(vtkDataSet* data)

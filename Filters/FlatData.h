@@ -7,6 +7,9 @@
 #include "vtkType.h"
 
 #include <array>
+#include <functional>
+
+class vtkPolyData;
 
 /// Two-dimensional data: extruded by one data unit across their plane, half a unit to each side.
 namespace filters
@@ -35,6 +38,10 @@ std::array<double, 9> directionAcross(int flat);
 
 /// The source with 3-D cells in place of flat ones, in the axes of directionAcross().
 Source extruded(const Source& source, int flat);
+
+/// What `change` makes of each surface among bodies.
+vtkSmartPointer<vtkDataObject> changedBodies(
+  vtkDataObject* bodies, const std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData*)>& change);
 
 /// Bodies in these axes; those that lie in the plane are extruded, too. Null: there are none.
 vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat);

@@ -4,11 +4,9 @@
 
 #include "AmrFaces.h"
 #include "FieldFromImage.h"
-#include "InputDescription.h"
 #include "Medium/Solids.h"
 
 #include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -32,12 +30,6 @@ constexpr int blockEdge = 8;
 
 /// The spline has more detail than voxels of the image's spacing show, as in AmrSource.
 constexpr double cellBySpacing = 0.5;
-
-std::size_t volumeOf(const std::array<int, 3>& points)
-{
-  return static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) *
-    static_cast<std::size_t>(points[2]);
-}
 
 /// Calls visit(i, j, k) for all points, x fastest.
 template <class Visit>
@@ -82,28 +74,22 @@ vtkSmartPointer<vtkDataObject> turnedBack(
   {
     return bodies;
   }
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (vtkDataObject* leaf : leavesOf(bodies))
-  {
-    auto* surface = vtkPolyData::SafeDownCast(leaf);
-    if (!surface)
+  return changedBodies(bodies,
+    [&](vtkPolyData* surface)
     {
-      return bodies; // whoever reads them says what is wrong
-    }
-    vtkNew<vtkPoints> places;
-    places->SetDataTypeToDouble();
-    for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
-    {
-      double at[3];
-      surface->GetPoint(point, at);
-      places->InsertNextPoint(turnedBack(at, direction).data());
-    }
-    vtkNew<vtkPolyData> turned;
-    turned->ShallowCopy(surface);
-    turned->SetPoints(places);
-    blocks->SetBlock(blocks->GetNumberOfBlocks(), turned);
-  }
-  return blocks;
+      vtkNew<vtkPoints> places;
+      places->SetDataTypeToDouble();
+      for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+      {
+        double at[3];
+        surface->GetPoint(point, at);
+        places->InsertNextPoint(turnedBack(at, direction).data());
+      }
+      auto turned = vtkSmartPointer<vtkPolyData>::New();
+      turned->ShallowCopy(surface);
+      turned->SetPoints(places);
+      return turned;
+    });
 }
 
 /// The median of the gas on the faces, or of all where there is none, as the tracer takes it of a grid.
@@ -163,7 +149,7 @@ ImageSource::Spline::Spline(const schlieren::Field& field,
   , Coefficients({ points[0], points[1], points[2] })
   , Blocks{ (points[0] - 1) / blockEdge + 1, (points[1] - 1) / blockEdge + 1,
     (points[2] - 1) / blockEdge + 1 }
-  , Ranges(volumeOf(this->Blocks), FieldRange{ infinity, -infinity })
+  , Ranges(volume(this->Blocks), FieldRange{ infinity, -infinity })
 {
   schlieren::PointMask unknown({ points[0], points[1], points[2] });
   std::fill(unknown.words.begin(), unknown.words.end(), 0);
@@ -278,7 +264,7 @@ ImageSource::ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int 
   }
   this->Spacing = field.grid.spacing;
   this->Direction = field.grid.direction;
-  const std::size_t count = volumeOf(this->Points);
+  const std::size_t count = volume(this->Points);
   this->IsKnown.assign(count, 1);
   for (std::size_t at = 0; at < count; ++at)
   {
@@ -399,6 +385,19 @@ std::array<std::vector<double>, 3> ImageSource::indicesOf(const schlieren::Latti
 }
 
 //------------------------------------------------------------------------------
+schlieren::MediumSource::FieldRange ImageSource::rangeOf(
+  const Spline& values, const schlieren::Box& box) const
+{
+  Counts first, last;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = static_cast<int>(std::floor(this->indexAt(box.low[axis], axis)));
+    last[axis] = static_cast<int>(std::ceil(this->indexAt(box.high[axis], axis)));
+  }
+  return values.rangeIn(first, last);
+}
+
+//------------------------------------------------------------------------------
 schlieren::MediumSource::Content ImageSource::contentOf(const schlieren::Box& box) const
 {
   Content content{ infinity, -infinity, { infinity, infinity, infinity }, false, true, false };
@@ -410,16 +409,13 @@ schlieren::MediumSource::Content ImageSource::contentOf(const schlieren::Box& bo
     content);
   if (content.hasGas)
   {
-    Counts first, last;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      first[axis] = static_cast<int>(std::floor(this->indexAt(box.low[axis], axis)));
-      last[axis] = static_cast<int>(std::ceil(this->indexAt(box.high[axis], axis)));
-      content.cellSize[axis] = cellBySpacing * this->Spacing[axis];
-    }
-    const FieldRange range = this->Refractivity->rangeIn(first, last);
+    const FieldRange range = this->rangeOf(*this->Refractivity, box);
     content.lowest = range.lowest;
     content.highest = range.highest;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      content.cellSize[axis] = cellBySpacing * this->Spacing[axis];
+    }
   }
   return content;
 }
@@ -453,13 +449,7 @@ void ImageSource::sample(const schlieren::Lattice& lattice, double* refractivity
 schlieren::MediumSource::FieldRange ImageSource::rangeOfField(
   int field, const schlieren::Box& box) const
 {
-  Counts first, last;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    first[axis] = static_cast<int>(std::floor(this->indexAt(box.low[axis], axis)));
-    last[axis] = static_cast<int>(std::ceil(this->indexAt(box.high[axis], axis)));
-  }
-  return this->Fields[static_cast<std::size_t>(field)]->rangeIn(first, last);
+  return this->rangeOf(*this->Fields[static_cast<std::size_t>(field)], box);
 }
 
 //------------------------------------------------------------------------------

@@ -80,6 +80,7 @@ private:
   };
 
   double indexAt(double place, std::size_t axis) const;
+  FieldRange rangeOf(const Spline& values, const schlieren::Box& box) const;
   std::size_t nearestPoint(const Point& place) const;
   std::array<std::vector<double>, 3> indicesOf(const schlieren::Lattice& lattice) const;
   BoundaryFaces findFaces() const;
