@@ -51,6 +51,7 @@ namespace
 {
 
 using SchlierenViews::Arrangement;
+using SchlierenViews::Cell;
 using Filter = vtkSchlierenFilter;
 
 void setInt(vtkSMProxy* proxy, const char* name, int value)
@@ -162,13 +163,21 @@ public:
   {
   }
 
-  SchlierenViews::Result add(Arrangement arrangement)
+  SchlierenViews::Result add(Arrangement arrangement, const Cell& cell)
   {
     this->findScene();
     switch (arrangement)
     {
       case Arrangement::OneImage:
-        this->addViews(1);
+        // A 3-D view that there was not before may have taken the cell.
+        if (cell.layout && !cell.layout->GetView(cell.number))
+        {
+          this->Views.push_back(this->addView(cell.layout, cell.number));
+        }
+        else
+        {
+          this->addViews(1);
+        }
         this->addImage(0, [](vtkSMProxy*) {});
         break;
       case Arrangement::ThreeImages:
@@ -423,7 +432,7 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
+SchlierenViews::Result SchlierenViews::add(Arrangement arrangement, const Cell& cell)
 {
   pqOutputPort* flow = pqActiveObjects::instance().activePort();
   const QString missing = flow ? problemOfServer(flow->getServer()) : QString();
@@ -450,7 +459,7 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement)
   static const char* const names[] = { "Add Schlieren View", "Add Three Images", "Compare Light" };
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   Builder builder(flow, pattern);
-  const Result result = builder.add(arrangement);
+  const Result result = builder.add(arrangement, cell);
   END_UNDO_SET();
   builder.render();
   return result;

@@ -7,6 +7,7 @@
 #include <QString>
 
 class pqPipelineSource;
+class vtkSMViewLayoutProxy;
 
 namespace SchlierenViews
 {
@@ -16,6 +17,13 @@ enum class Arrangement
   OneImage,
   ThreeImages, ///< knife edge, shadowgraph and interferogram
   Comparison   ///< straight and bent light, at one k
+};
+
+/// An empty cell of a layout; none: beside the 3-D view.
+struct Cell
+{
+  vtkSMViewLayoutProxy* layout = nullptr;
+  int number = 0;
 };
 
 /// What was made of the data, or, where nothing could be made, why.
@@ -28,8 +36,8 @@ struct Result
 
 /// Makes views whose cameras are linked with that of the 3-D view, and what they show: one undo step. Where a Schlieren
 /// filter or what is made from its image is selected, it is that filter's flow and settings that are used; where the
-/// active view draws the flow as Schlieren, those settings.
-Result add(Arrangement arrangement);
+/// active view draws the flow as Schlieren, those settings. `cell`: where one image is to be.
+Result add(Arrangement arrangement, const Cell& cell = {});
 
 /// Shows the image of a Schlieren filter in a flat view of its own beside the 3-D view, in grey.
 void show(pqPipelineSource* filter);

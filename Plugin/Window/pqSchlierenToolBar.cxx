@@ -5,15 +5,21 @@
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqInterfaceTracker.h"
+#include "pqMultiViewWidget.h"
 #include "pqSettings.h"
+#include "pqViewFrame.h"
 #include "vtkOutputWindow.h"
 
 #include <QAction>
+#include <QApplication>
+#include <QBoxLayout>
 #include <QIcon>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QTimer>
 
@@ -35,6 +41,14 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
     "one sensitivity",
     Arrangement::Comparison);
   this->addMenu();
+  pqApplicationCore::instance()->interfaceTracker()->addInterface(this);
+  for (QWidget* widget : QApplication::allWidgets())
+  {
+    if (qobject_cast<pqViewFrame*>(widget))
+    {
+      this->addToEmpty(widget); // those from before the plugin was loaded
+    }
+  }
   QObject::connect(&pqActiveObjects::instance(), &pqActiveObjects::sourceChanged, this,
     &pqSchlierenToolBar::updateActions);
   this->updateActions();
@@ -43,7 +57,62 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
 }
 
 //------------------------------------------------------------------------------
-pqSchlierenToolBar::~pqSchlierenToolBar() = default;
+pqSchlierenToolBar::~pqSchlierenToolBar()
+{
+  if (pqApplicationCore* core = pqApplicationCore::instance())
+  {
+    core->interfaceTracker()->removeInterface(this);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqSchlierenToolBar::frameConnected(pqViewFrame* frame, pqView* view)
+{
+  if (!view)
+  {
+    this->addToEmpty(frame);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqSchlierenToolBar::addToEmpty(QWidget* frame)
+{
+  // ParaView's buttons, by their text.
+  auto* list = frame->findChild<QWidget*>("ConvertActionsFrame");
+  auto* layout = list ? qobject_cast<QBoxLayout*>(list->layout()) : nullptr;
+  if (!layout)
+  {
+    return;
+  }
+  auto* button = new QPushButton("Schlieren View", list);
+  button->setObjectName("SchlierenView");
+  button->setToolTip(this->Arrangements.first()->toolTip());
+  int place = 0;
+  for (int item = 0; item < layout->count(); ++item)
+  {
+    auto* other = qobject_cast<QPushButton*>(layout->itemAt(item)->widget());
+    const bool isBefore = !other || other->text() < button->text();
+    place = isBefore && layout->itemAt(item)->widget() ? item + 1 : place;
+  }
+  layout->insertWidget(place, button);
+  QObject::connect(
+    button, &QPushButton::clicked, this,
+    [this, cell = QPointer<QWidget>(frame)]()
+    {
+      QWidget* views = cell;
+      while (views && !qobject_cast<pqMultiViewWidget*>(views))
+      {
+        views = views->parentWidget();
+      }
+      if (views)
+      {
+        this->showResult(SchlierenViews::add(SchlierenViews::Arrangement::OneImage,
+          { qobject_cast<pqMultiViewWidget*>(views)->layoutManager(),
+            cell->property("FRAME_INDEX").toInt() }));
+      }
+    },
+    Qt::QueuedConnection); // the button goes with the empty cell
+}
 
 //------------------------------------------------------------------------------
 QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& text,

@@ -6,18 +6,23 @@
 #include <QToolBar>
 
 #include "SchlierenViews.h"
+#include "pqViewFrameActionsInterface.h"
 
 class QAction;
 class QMessageBox;
 
-/// The toolbar Schlieren, and the menu of the same name with the same actions.
-class pqSchlierenToolBar : public QToolBar
+/// The toolbar Schlieren, the menu of the same name with the same actions, and the first of them among the views that
+/// ParaView offers in an empty cell of a layout.
+class pqSchlierenToolBar : public QToolBar, public pqViewFrameActionsInterface
 {
   Q_OBJECT
+  Q_INTERFACES(pqViewFrameActionsInterface)
 
 public:
   explicit pqSchlierenToolBar(QWidget* parent = nullptr);
   ~pqSchlierenToolBar() override;
+
+  void frameConnected(pqViewFrame* frame, pqView* view) override;
 
 private Q_SLOTS:
   /// Enables what fits the selected source.
@@ -27,6 +32,7 @@ private:
   QAction* addArrangement(const char* name, const QString& text, const QString& hint,
     SchlierenViews::Arrangement arrangement);
   void addMenu();
+  void addToEmpty(QWidget* frame);
 
   /// Moves to the last row of toolbars, where there is room, unless the user has placed it before.
   void makeRoom();
