@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCutoffPlane.h"
 
+#include "Optics/Circular.h"
+#include "Optics/KnifeEdge.h"
+
 #include <QtMath>
 
 #include <algorithm>
@@ -16,8 +19,6 @@ constexpr int digitsOfK = 4;          // of numbers that a mouse sets
 constexpr double offsetSteps = 1000;  // in the source's image
 constexpr double angleStep = 0.1;     // degrees
 constexpr double largeAngleStep = 15; // degrees
-
-double limited(double fraction) { return std::min(1., std::max(0., fraction)); }
 
 double sizeOf(const pqCutoff& cutoff, const QPointF& deflection)
 {
@@ -70,30 +71,34 @@ double pqCutoff::deflectionOf(double place) const { return (place - 0.5 + this->
 //------------------------------------------------------------------------------
 double pqCutoff::transmission(const QPointF& deflection) const
 {
-  const double distance = this->K * std::hypot(deflection.x(), deflection.y());
+  schlieren::RayAtFilm ray{};
+  ray.deflection[0] = deflection.x();
+  ray.deflection[1] = deflection.y();
+  double light[1] = { 1 };
   switch (this->Kind)
   {
-    case Circular:
-      return limited(1 - distance);
-    case CircularComplement:
-      return limited(distance);
     case KnifeEdge:
-    case GradedFilter:
+      schlieren::KnifeEdge::at(this->Angle, this->K, this->Inverted, this->Offset,
+        this->IsOfDisc ? schlieren::SourceShape::Disc : schlieren::SourceShape::Slit)
+        .shade(ray, light);
       break;
+    case Circular:
+      schlieren::Circular{ this->K }.shade(ray, light);
+      break;
+    case CircularComplement:
+      schlieren::CircularComplement{ this->K }.shade(ray, light);
+      break;
+    case GradedFilter:
+    {
+      const double place = schlieren::limited(this->placeOf(deflection));
+      const double fraction = this->Graded ? schlieren::limited(this->Graded(place)) : place;
+      light[0] = this->Inverted ? 1 - fraction : fraction;
+      break;
+    }
     default:
-      return 1;
+      break;
   }
-  double fraction = limited(this->placeOf(deflection));
-  if (this->Kind == GradedFilter)
-  {
-    fraction = this->Graded ? limited(this->Graded(fraction)) : fraction;
-  }
-  else if (this->IsOfDisc)
-  {
-    const double sine = 2 * fraction - 1; // the segment of a circle that an edge leaves open
-    fraction = limited(0.5 + (sine * std::sqrt(1 - sine * sine) + std::asin(sine)) / M_PI);
-  }
-  return this->Inverted ? 1 - fraction : fraction;
+  return light[0];
 }
 
 //------------------------------------------------------------------------------
