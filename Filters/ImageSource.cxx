@@ -253,7 +253,8 @@ schlieren::MediumSource::FieldRange ImageSource::Spline::rangeIn(
 }
 
 //------------------------------------------------------------------------------
-ImageSource::ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int threads)
+ImageSource::ImageSource(
+  vtkImageData* refractivity, vtkDataObject* bodies, int threads, const WorkProgress& progress)
 {
   const schlieren::Field field = fieldFrom(refractivity);
   const Point origin = turnedBack(field.grid.origin.data(), field.grid.direction);
@@ -276,6 +277,7 @@ ImageSource::ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int 
       this->IsKnown[at] = 0;
     }
   }
+  progress.reach(0.2);
   const auto ownBodies = turnedBack(bodies, this->Direction);
   std::vector<unsigned char> isInBody;
   BodySurfaces(ownBodies).findInside({ this->Origin, this->Spacing, this->Points }, isInBody);
@@ -283,9 +285,11 @@ ImageSource::ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int 
   {
     this->IsKnown[at] = this->IsKnown[at] && !isInBody[at] ? 1 : 0;
   }
+  progress.reach(0.4);
   this->HasGas = std::find(this->IsKnown.begin(), this->IsKnown.end(), 1) != this->IsKnown.end();
   this->Ambient = ambientOf(field, this->IsKnown, this->Points);
   this->Refractivity = std::make_unique<const Spline>(field, this->IsKnown, this->Points, threads);
+  progress.reach(0.8);
   this->Boundary =
     std::make_unique<const GasBoundary>(this->findFaces(), ownBodies, Outside::Passes);
 }

@@ -7,6 +7,7 @@
 #include "Medium/MediumSource.h"
 #include "Medium/Prefilter.h"
 #include "Schlieren.h"
+#include "WorkProgress.h"
 
 #include <array>
 #include <cstddef>
@@ -35,7 +36,8 @@ class ImageSource : public schlieren::MediumSource
 public:
   /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: not null. Throws
   /// std::runtime_error where they are no surfaces.
-  ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int threads);
+  ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int threads,
+    const WorkProgress& progress = WorkProgress());
 
   /// One more field at the same points, as if it were a refractivity.
   void addField(vtkImageData* values, int threads);

@@ -14,6 +14,7 @@
 #include "RefractivityOfBodies.h"
 #include "SamplingBox.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -33,6 +34,17 @@ namespace
 {
 
 bool isZero(int count) { return count == 0; }
+
+/// Until it is aborted.
+WorkProgress progressOf(vtkAlgorithm* self)
+{
+  return WorkProgress(
+    [self](double done)
+    {
+      self->UpdateProgress(done);
+      return !self->GetAbortExecute();
+    });
+}
 
 } // namespace
 
@@ -80,23 +92,29 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
   vtkNew<vtkImageData> refractivity;
   warning = this->Convert(input, refractivity);
   this->Grid.clear();
+  if (this->GetAbortExecute())
+  {
+    return nullptr;
+  }
+  mergeMasks(refractivity);
+  const WorkProgress progress = progressOf(this);
   std::shared_ptr<ImageSource> made;
-  vtkSMPTools::LocalScope(threadsOfLoops(this),
-    [&]
+  const auto make = [&]
+  {
+    const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
+    made = std::make_shared<ImageSource>(refractivity, bodies, threads, progress.part(0.5, 1));
+    if (contents == WITH_FIELDS)
     {
-      const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
-      if (!this->GetAbortExecute())
-      {
-        mergeMasks(refractivity);
-        made = std::make_shared<ImageSource>(refractivity, bodies, threads);
-      }
-      if (made && contents == WITH_FIELDS)
-      {
-        forFieldImages(this, input, refractivity, threads,
-          [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
-      }
-    });
-  if (!made || this->GetAbortExecute())
+      forFieldImages(this, input, refractivity, threads,
+        [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
+    }
+    progress.reach(1);
+  };
+  try
+  {
+    vtkSMPTools::LocalScope(threadsOfLoops(this), make);
+  }
+  catch (const Stopped&)
   {
     return nullptr;
   }
@@ -133,12 +151,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
     meetsBodies = made->meetsBodies();
     result = made;
   };
-  const WorkProgress progress(
-    [this](double done)
-    {
-      this->UpdateProgress(done);
-      return !this->GetAbortExecute();
-    });
+  const WorkProgress progress = progressOf(this);
   const auto make = [&]
   {
     if (auto* mean = std::get_if<FieldMean>(&source.model))
@@ -298,14 +311,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
     vtkSMPTools::LocalScope(threadsOfLoops(this),
       [&]
       {
-        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
-          static_cast<filters::Outside>(this->Outside),
-          WorkProgress(
-            [this](double done)
-            {
-              this->UpdateProgress(done);
-              return !this->GetAbortExecute();
-            }));
+        made = std::make_shared<PiecesSource>(
+          this->Pieces, bodies, static_cast<filters::Outside>(this->Outside), progressOf(this));
       });
   }
   catch (const Stopped&)
