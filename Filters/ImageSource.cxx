@@ -92,35 +92,38 @@ vtkSmartPointer<vtkDataObject> turnedBack(
     });
 }
 
-/// The median of the gas on the faces, or of all where there is none, as the tracer takes it of a grid.
-double ambientOf(const schlieren::Field& field, const std::vector<unsigned char>& isKnown,
-  const std::array<int, 3>& points)
+/// The median of what is known on the faces, or of all; NaN: nothing is.
+double medianOf(const schlieren::Field& field, const std::vector<unsigned char>& isKnown,
+  const std::array<int, 3>& points, bool onFaces)
 {
-  std::vector<double> ofFaces, all;
+  std::vector<double> used;
   std::size_t at = 0;
   forPoints(points,
     [&](int i, int j, int k)
     {
-      const std::array<int, 3> place{ i, j, k };
-      bool isOnFace = false;
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      const bool isOnFace = i == 0 || j == 0 || k == 0 || i == points[0] - 1 ||
+        j == points[1] - 1 || k == points[2] - 1;
+      if (isKnown[at] && (isOnFace || !onFaces))
       {
-        isOnFace = isOnFace || place[axis] == 0 || place[axis] == points[axis] - 1;
-      }
-      if (isKnown[at])
-      {
-        (isOnFace ? ofFaces : all).push_back(valueAt(field, at));
+        used.push_back(valueAt(field, at));
       }
       ++at;
     });
-  std::vector<double>& used = ofFaces.empty() ? all : ofFaces;
   if (used.empty())
   {
-    return 0;
+    return nan;
   }
   const auto middle = used.begin() + static_cast<std::ptrdiff_t>(used.size() / 2);
   std::nth_element(used.begin(), middle, used.end());
   return *middle;
+}
+
+/// As the tracer takes it of a grid.
+double ambientOf(const schlieren::Field& field, const std::vector<unsigned char>& isKnown,
+  const std::array<int, 3>& points)
+{
+  const double ofFaces = medianOf(field, isKnown, points, true);
+  return std::isnan(ofFaces) ? medianOf(field, isKnown, points, false) : ofFaces;
 }
 
 /// Of a quadratic B-spline (Unser, Aldroubi & Eden 1993): the first of three coefficients, and their weights.
