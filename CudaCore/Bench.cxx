@@ -45,6 +45,7 @@ struct MediumOnDevices
   Medium<Real> medium;
   std::int64_t changes = 0;               ///< of its voxels
   std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
+  std::unique_ptr<TeamTracer<Real>> team; ///< once rays have been traced together with workers
 
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
   double mapTolerance = 0;                   ///< of nu
@@ -74,8 +75,7 @@ template <class Real>
 struct MediumOfBench
 {
   std::shared_ptr<MediumOnDevices<Real>> shared;
-  std::int64_t changesSeen = noChange;    ///< those that the bench's rays are of
-  std::unique_ptr<TeamTracer<Real>> team; ///< once rays have been traced together with workers
+  std::int64_t changesSeen = noChange; ///< those that the bench's rays are of
   // Where processes have a part of the medium each, which is then shared with no other bench.
   std::shared_ptr<BrickChannels> owners;
   std::unique_ptr<DistributedTracer<Real>> distributed; ///< once rays have been traced
@@ -378,6 +378,7 @@ bool Bench::Stages::refineFor(
   {
     ++shared.changes;
     shared.cuda.reset();
+    shared.team.reset();
   }
   return !shared.medium.tree->lacksRoom();
 }
@@ -413,12 +414,12 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
   }
   else if (!workers.empty())
   {
-    if (!current.team)
+    if (!shared.team)
     {
-      current.team = std::make_unique<TeamTracer<Real>>(shared.medium);
+      shared.team = std::make_unique<TeamTracer<Real>>(shared.medium);
     }
-    isTraced = current.team->trace(task, pass, { ofGradients, shared.mapTolerance }, workers,
-      traced, request.scene.threads, monitor);
+    isTraced = shared.team->trace(task, pass, { ofGradients, shared.mapTolerance }, workers, traced,
+      request.scene.threads, monitor);
   }
   else
   {
@@ -457,7 +458,6 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   const auto useOwn = [&]
   {
     inUse.reset();
-    current.team.reset();
     current.distributed.reset();
     current.owners.reset();
     current.shared = makeMedium<Real>(field, scene, nullptr);
@@ -497,7 +497,6 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   if (current.changesSeen != current.shared->changes)
   {
     current.changesSeen = current.shared->changes;
-    current.team.reset();
     current.distributed.reset();
     rays.clear();
     request.beginAnew();

@@ -115,7 +115,7 @@ void dropIdleBounds(schlieren::Image& image)
 }
 
 //------------------------------------------------------------------------------
-void setOutput(vtkImageData* output, schlieren::Image& image)
+void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
   place(output, image.frame.origin[0], image.frame.origin[1], image.frame.pixelSize);
@@ -140,7 +140,9 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   addFieldValue<vtkStringArray>(
     output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
   addFieldValue<vtkStringArray>(output, "PathModel",
-    image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
+    isDifference                                          ? "Difference"
+      : image.pathModel == schlieren::PathModel::Straight ? "Straight"
+                                                          : "Refracted");
   addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
   addFieldValue<vtkDoubleArray>(output, "UndisturbedLevel", image.undisturbedLevel);
   addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedFraction);

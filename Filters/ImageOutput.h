@@ -22,7 +22,8 @@ void dropIdleBounds(schlieren::Image& image);
 
 /// Makes `output` the image `image`, with all arrays and field data that vtkSchlierenFilter promises
 /// but Color, Grid and MediumDimensions, and without bounds that are infinite. Takes the memory of the image's arrays over, `color` excepted.
-void setOutput(vtkImageData* output, schlieren::Image& image);
+/// `isDifference`: see PathDifference.
+void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference);
 
 /// How the light of an image becomes the bytes of Color.
 enum class ColorScale

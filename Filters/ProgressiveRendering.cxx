@@ -275,7 +275,10 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
-  return inside.Images.Begin(field, scene, seconds, monitor);
+  return inside.Images.Begin(field, scene,
+    this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
+                                  : TimeSlicedImage::Paths::OfScene,
+    seconds, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -380,7 +383,7 @@ bool vtkSchlierenFilter::Show(
   ++this->PictureCount;
   output->Initialize();
   histogram->Initialize();
-  setOutput(output, image);
+  setOutput(output, image, this->PathModel == DIFFERENCE);
   if (!image.color.empty())
   {
     const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb

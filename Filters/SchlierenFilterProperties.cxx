@@ -262,13 +262,13 @@ const char* vtkSchlierenFilter::GetGrid() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()
 {
-  return this->Inside->Images.GetBench().work().mediumBuilds;
+  return this->Inside->Images.GetWork().mediumBuilds;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 {
-  return this->Inside->Images.GetBench().work().raysTraced;
+  return this->Inside->Images.GetWork().raysTraced;
 }
 
 //------------------------------------------------------------------------------

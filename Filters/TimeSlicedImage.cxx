@@ -32,30 +32,74 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
   return with;
 }
 
+void add(schlieren::Work& sum, const schlieren::Work& work)
+{
+  sum.mediumBuilds += work.mediumBuilds;
+  sum.raySets += work.raySets;
+  sum.raysTraced += work.raysTraced;
+}
+
+PathDifference::MonitorOf limitedBy(const schlieren::Monitor& monitor, double seconds)
+{
+  return [monitor, seconds](double fraction) { return limited(monitor, fraction * seconds); };
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-TimeSlicedImage::TimeSlicedImage() { this->Bench.setMedia(mediaOfProcess()); }
+TimeSlicedImage::TimeSlicedImage()
+{
+  this->Bench.setMedia(mediaOfProcess());
+  this->StraightBench.setMedia(mediaOfProcess());
+}
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
-  const schlieren::Scene& scene, double seconds, const schlieren::Monitor& monitor)
+  const schlieren::Scene& scene, Paths paths, double seconds, const schlieren::Monitor& monitor)
 {
   this->Scene = scene;
-  this->RaysBefore = this->Bench.work().raysTraced;
-  return this->Noted(this->Bench.render(field, scene, limited(monitor, seconds)));
+  this->Difference.Cancel();
+  this->IsDifference = paths == Paths::Difference;
+  if (!this->IsDifference) // what it has cached would not be used
+  {
+    add(this->WorkBefore, this->StraightBench.work());
+    this->StraightBench = {};
+    this->StraightBench.setMedia(mediaOfProcess());
+  }
+  this->RaysBefore = this->GetWork().raysTraced;
+  return this->Noted(this->IsDifference
+      ? this->Difference.Begin(field, scene, limitedBy(monitor, seconds))
+      : this->Bench.render(field, scene, limited(monitor, seconds)));
 }
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Resume(double seconds, const schlieren::Monitor& monitor)
 {
-  return this->Noted(this->Bench.resume(limited(monitor, seconds)));
+  return this->Noted(this->Difference.IsUnfinished()
+      ? this->Difference.Resume(limitedBy(monitor, seconds))
+      : this->Bench.resume(limited(monitor, seconds)));
+}
+
+//------------------------------------------------------------------------------
+void TimeSlicedImage::SetWorkers(const std::vector<schlieren::Channel*>& workers)
+{
+  this->Bench.setWorkers(workers);
+  this->StraightBench.setWorkers(workers);
+}
+
+//------------------------------------------------------------------------------
+schlieren::Work TimeSlicedImage::GetWork() const
+{
+  schlieren::Work work = this->WorkBefore;
+  add(work, this->Bench.work());
+  add(work, this->StraightBench.work());
+  return work;
 }
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
 {
-  const std::int64_t rays = this->Bench.work().raysTraced - this->RaysBefore;
+  const std::int64_t rays = this->GetWork().raysTraced - this->RaysBefore;
   if (rays > 0 && image.traceSeconds > 0)
   {
     this->RaysPerSecond = static_cast<double>(rays) / image.traceSeconds;
@@ -66,7 +110,8 @@ schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
 //------------------------------------------------------------------------------
 std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
 {
-  return statusInWords(image, this->Scene, this->RaysPerSecond);
+  return statusInWords(image, this->Scene, this->RaysPerSecond) +
+    (this->IsDifference ? " less straight ones" : "");
 }
 
 //------------------------------------------------------------------------------
@@ -87,7 +132,7 @@ std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& im
   std::int64_t* warnedOf = this->WarnedOf;
   for (const std::string& warning : warnings)
   {
-    const std::int64_t rays = this->Bench.work().raySets;
+    const std::int64_t rays = this->GetWork().raySets;
     if (!warning.empty() && *warnedOf != rays)
     {
       *warnedOf = rays;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "PathDifference.h"
+
 #include "Schlieren.h"
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace filters
@@ -18,20 +19,23 @@ class TimeSlicedImage
 public:
   TimeSlicedImage();
 
+  enum class Paths
+  {
+    OfScene,
+    Difference ///< see PathDifference
+  };
+
   /// `seconds`: for rays and light, about; 0: no limit. What the image holds then, see schlieren::Image::finished.
-  schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene,
+  schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene, Paths paths,
     double seconds, const schlieren::Monitor& monitor);
   schlieren::Image Resume(double seconds, const schlieren::Monitor& monitor);
 
-  void Cancel() { this->Bench.cancel(); }
+  void Cancel() { this->Difference.Cancel(); }
 
   /// Who traces rays, too: see schlieren::Bench.
-  void SetWorkers(std::vector<schlieren::Channel*> workers)
-  {
-    this->Bench.setWorkers(std::move(workers));
-  }
+  void SetWorkers(const std::vector<schlieren::Channel*>& workers);
 
-  const schlieren::Bench& GetBench() const { return this->Bench; }
+  schlieren::Work GetWork() const;                                 ///< of all images
   const schlieren::Scene& GetScene() const { return this->Scene; } ///< of the last one
 
   /// In words that fit in a line; see statusInWords.
@@ -44,6 +48,10 @@ private:
   schlieren::Image Noted(schlieren::Image image);
 
   schlieren::Bench Bench;
+  schlieren::Bench StraightBench; // of differences
+  PathDifference Difference{ this->Bench, this->StraightBench };
+  bool IsDifference = false;
+  schlieren::Work WorkBefore; // of benches that are gone
   schlieren::Scene Scene;
   std::int64_t RaysBefore = 0; // this image
   double RaysPerSecond = 0;    // when rays were traced last

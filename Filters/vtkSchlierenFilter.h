@@ -32,7 +32,8 @@
  * by it), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
  * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
  * changes no direction cosine by more), each left out where it says nothing, and `MomentumDrift` (largest relative error of |p| = n where
- * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight` or `Refracted`.
+ * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight`,
+ * `Refracted` or `Difference`.
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
@@ -164,7 +165,8 @@ public:
   {
     AUTO_PATH = 0,
     STRAIGHT = 1,
-    REFRACTED = 2
+    REFRACTED = 2,
+    DIFFERENCE = 3
   };
 
   enum Integrators
@@ -629,9 +631,11 @@ public:
   /**
    * How light passes the medium, one of PathModels: REFRACTED rays bend; STRAIGHT ones sum up what the
    * undisturbed line of sight meets; AUTO_PATH takes these where they are proven to be within
-   * PathTolerance.
+   * PathTolerance. DIFFERENCE: what refraction changes. Both are traced, at the k of refracted rays. The
+   * intensity is 1/2 (of a shadowgraph 1) plus half of that by refracted rays less that by straight ones, and so
+   * are colours; the other arrays are differences, and all else is as of refracted rays.
    */
-  vtkSetClampMacro(PathModel, int, AUTO_PATH, REFRACTED);
+  vtkSetClampMacro(PathModel, int, AUTO_PATH, DIFFERENCE);
   vtkGetMacro(PathModel, int);
   ///@}
 

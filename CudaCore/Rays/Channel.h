@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace schlieren
@@ -26,6 +28,17 @@ public:
   virtual std::vector<char> receive() = 0;
   /// False once the other process has left: it answers nothing any more.
   virtual bool isOpen() const = 0;
+
+  /// Its own: no channel of this process has had it before.
+  std::uint64_t number() const { return number_; }
+
+private:
+  static std::uint64_t nextNumber()
+  {
+    static std::atomic<std::uint64_t> last{ 0 };
+    return ++last;
+  }
+  const std::uint64_t number_ = nextNumber();
 };
 
 } // namespace schlieren

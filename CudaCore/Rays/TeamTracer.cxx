@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <deque>
 #include <map>
@@ -41,7 +42,7 @@ struct TeamTracer<Real>::State
     double secondsPerTile = 0;                      ///< 0: not known yet
     std::deque<TileQueue::Tiles> given;             ///< tiles that have not come back
   };
-  std::map<Channel*, Worker> workers;
+  std::map<std::uint64_t, Worker> workers; ///< by the numbers of their channels
 
   static std::uint64_t newVersion()
   {
@@ -249,7 +250,7 @@ bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       state.give(channel, worker, message);
     }
   };
-  for (auto& [channel, worker] : state.workers)
+  for (auto& [number, worker] : state.workers)
   {
     worker.given.clear(); // by a trace that has failed
   }
@@ -259,8 +260,8 @@ bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   {
     for (Channel* channel : workers)
     {
-      receive(*channel, state.workers[channel]);
-      give(*channel, state.workers[channel]);
+      receive(*channel, state.workers[channel->number()]);
+      give(*channel, state.workers[channel->number()]);
     }
   };
   watched.aborted = [&]
@@ -272,7 +273,7 @@ bool TeamTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   traceTiles(task, pass, tiles, traced, threads, watched);
   for (Channel* channel : workers)
   {
-    typename State::Worker& worker = state.workers[channel];
+    typename State::Worker& worker = state.workers[channel->number()];
     receive(*channel, worker);
     while (!worker.given.empty())
     {

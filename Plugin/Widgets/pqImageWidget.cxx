@@ -16,6 +16,7 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSchlierenFilter.h"
 
 #include <QFileInfo>
 #include <QGridLayout>
@@ -354,13 +355,14 @@ void pqImageWidget::paintOnImage(bool on)
     this->Painter->stop();
     return;
   }
-  constexpr int colorFilter = 5;
-  if (vtkSMPropertyHelper(this->proxy(), "Cutoff").GetAsInt() != colorFilter ||
-    !this->Painter->start())
+  const auto valueOf = [this](const char* name)
+  { return vtkSMPropertyHelper(this->proxy(), name).GetAsInt(); };
+  if (valueOf("Cutoff") != vtkSchlierenFilter::COLOR_FILTER ||
+    valueOf("PathModel") == vtkSchlierenFilter::DIFFERENCE || !this->Painter->start())
   {
     this->OnImage->setChecked(false);
     this->Note->setText(tr("No view shows an image made with the colour filter. Press Apply, and "
-                           "show it in a render view."));
+                           "show it in a render view; not as the difference of two paths."));
   }
 }
 

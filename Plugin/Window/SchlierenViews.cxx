@@ -188,15 +188,17 @@ public:
           2, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
-        this->addViews(2);
+        this->addViews(3);
         this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::STRAIGHT); });
         this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::REFRACTED); });
+        this->addImage(
+          2, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::DIFFERENCE); });
         break;
     }
     this->useCameraOfScene();
     if (arrangement == Arrangement::Comparison)
     {
-      this->useOneK();
+      this->useOneKOf(1);
     }
     else
     {
@@ -287,8 +289,7 @@ private:
     }
   }
 
-  /// Empty views beside the 3-D view: one to its right; two there, one over the other; or three,
-  /// with which it makes a square.
+  /// Empty views beside the 3-D view: one to its right, or three, with which it makes a square.
   void addViews(int number)
   {
     // A script may have made a view without a place.
@@ -303,13 +304,9 @@ private:
     std::vector<int> cells = { left + 1 };
     if (number > 1)
     {
-      const int top = layout->SplitVertical(left + 1, 0.5);
-      cells = { top, top + 1 };
-    }
-    if (number > 2)
-    {
-      const int top = layout->SplitVertical(left, 0.5);
-      cells.insert(cells.begin() + 1, top + 1);
+      const int right = layout->SplitVertical(left + 1, 0.5);
+      const int underScene = layout->SplitVertical(left, 0.5) + 1;
+      cells = { right, underScene, right + 1 };
     }
     // ParaView's toolbar shows the axes of a view that becomes active after one without: in the middle of making
     // it, which traces would not survive.
@@ -397,25 +394,25 @@ private:
     }
   }
 
-  /// Gives all images the automatic k of the last one.
-  void useOneK()
+  /// Gives all images the automatic k of one.
+  void useOneKOf(std::size_t image)
   {
-    vtkSMProxy* bench = benchOf(this->Images.back());
+    vtkSMProxy* bench = benchOf(this->Images[image]);
     const int cutoff = vtkSMPropertyHelper(bench, "Cutoff").GetAsInt();
     if (!Filter::CutoffHasK(cutoff) || vtkSMPropertyHelper(bench, "KFromOptics").GetAsInt() != 0 ||
       vtkSMPropertyHelper(bench, "AutoKScale").GetAsInt() == 0)
     {
       return;
     }
-    renderCompletely(this->Views.back(), this->Images.back());
+    renderCompletely(this->Views[image], this->Images[image]);
     bench->UpdatePropertyInformation(bench->GetProperty("KScaleUsed"));
     const double k = vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
-    for (vtkSMProxy* image : this->Images)
+    for (vtkSMProxy* shown : this->Images)
     {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(image));
-      setInt(benchOf(image), "AutoKScale", 0);
-      vtkSMPropertyHelper(benchOf(image), "KScale").Set(k);
-      benchOf(image)->UpdateVTKObjects();
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(shown));
+      setInt(benchOf(shown), "AutoKScale", 0);
+      vtkSMPropertyHelper(benchOf(shown), "KScale").Set(k);
+      benchOf(shown)->UpdateVTKObjects();
     }
   }
 

@@ -133,6 +133,30 @@ TEST(Team, SendsTheMediumOnce)
   EXPECT_EQ(worker.tiles(), tilesOfWorker);
 }
 
+TEST(Team, BenchesOfOneMediumSendItOnce)
+{
+  const BlobWithHole flow;
+  Worker worker;
+  const auto media = std::make_shared<SharedMedia>();
+  Bench benches[2];
+  Scene scene = oblique();
+  for (Bench& bench : benches)
+  {
+    bench.setMedia(media);
+    bench.setWorkers({ worker.channel() });
+    bench.render(flow.tinted(), scene);
+  }
+  EXPECT_EQ(worker.arrays(), 3);
+  scene.view.viewDirection = { 0.3, 0.1, -1 };
+  for (Bench& bench : benches)
+  {
+    const int tiles = worker.tiles();
+    bench.render(flow.tinted(), scene);
+    EXPECT_GT(worker.tiles(), tiles);
+  }
+  EXPECT_EQ(worker.arrays(), 3);
+}
+
 // Not seen in the image, whatever becomes of a worker.
 TEST(Team, NeedsNoWorker)
 {

@@ -125,7 +125,7 @@ TEST(Quality, ChoicesAreClampedToWhatThereIs)
 {
   vtkNew<Filter> filter;
   filter->SetPathModel(99);
-  EXPECT_EQ(filter->GetPathModel(), Filter::REFRACTED);
+  EXPECT_EQ(filter->GetPathModel(), Filter::DIFFERENCE);
   filter->SetIntegrator(-1);
   EXPECT_EQ(filter->GetIntegrator(), Filter::LEAPFROG);
   filter->SetInterpolation(99);

@@ -152,6 +152,8 @@ TEST(TimeSlices, GiveTheBitsOfTheWhole)
       filter->AddField("f");
       filter->SetColorByField(true);
     });
+  expectSameInSlices(image,
+    [](vtkSchlierenFilter* filter) { filter->SetPathModel(vtkSchlierenFilter::DIFFERENCE); });
 }
 
 TEST(TimeSlices, AreNoneWhereTheLimitIsLong)

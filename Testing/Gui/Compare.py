@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Straight and bent light beside the flow, as in figure 13 of Brownlee et al.: one sensitivity, linked cameras;
-of a mesh."""
+"""Straight and refracted rays beside the flow, as in figure 13 of Brownlee et al., and their difference: one
+sensitivity, linked cameras; of a mesh."""
 
 import os
 
@@ -9,13 +9,14 @@ import numpy as np
 from views_testing import (FOLDER, MESH, ViewsSession, check_baseline, check_linked, drawn, frame_view, load, image_array,
                            simple, views)
 from plugin_testing import Schlieren
+from representation_testing import GREY_LEVEL, pixels_of
 
 NOTES = os.path.join(FOLDER, "sizes.npz")
 
 user = ViewsSession()
 user.press("Comparison")
 user.python(f"""
-views = [FindView("RenderView2"), FindView("RenderView3")]
+views = [FindView(name) for name in ("RenderView2", "RenderView3", "RenderView4")]
 np.savez({NOTES!r}, *[view.ViewSize for view in views])
 settle_views()
 assert sum(information(display.SchlierenBench, "MediumBuilds") for display in displays()) == 1, "A medium for each view"
@@ -27,43 +28,54 @@ user.redo()
 user.save_state("redone.pvsm")
 user.undo()
 user.redo()
-# Dense enough for bent light to make another image.
+# Dense enough for refracted rays to make another image.
 user.play(MESH.replace("1e-3*RTData", "0.3*RTData") + "view.CameraParallelProjection = 1\n")
 
 
 def check_session(state):
     load(state)
-    (_, scene), (_, upper), (_, lower) = views()
+    cells = views()
+    assert [cell for cell, _ in cells] == [3, 4, 5, 6]
+    scene, refracted, straight, difference = [view for _, view in cells]
+    in_views = (straight, refracted, difference)
     mesh = simple.FindSource("mesh")
-    benches = [drawn(mesh, view).SchlierenBench for view in (upper, lower)]
-    assert [bench.PathModel for bench in benches] == ["Straight", "Refracted"]
-    assert {bench.AutoKScale for bench in benches} == {0} and benches[0].KScale == benches[1].KScale
-    check_linked(state, scene, upper, lower)
+    benches = [drawn(mesh, view).SchlierenBench for view in in_views]
+    assert [bench.PathModel for bench in benches] == ["Straight", "Refracted", "Difference"]
+    assert {bench.AutoKScale for bench in benches} == {0} and len({bench.KScale for bench in benches}) == 1
+    check_linked(state, scene, *in_views)
     assert simple.GetRepresentation(mesh, scene).Visibility == 1
-    return benches, (upper, lower)
+    return benches, in_views
 
 
 for state in ("compared.pvsm", "redone.pvsm"):
-    (straight, bent), (upper, lower) = check_session(state)
+    benches, in_views = check_session(state)
+refracted, seen = benches[1], in_views[1]
 
-# k is the one that bent light has by itself.
-camera = lower.GetActiveCamera()
+# k is the one that refracted rays have by themselves.
+camera = seen.GetActiveCamera()
 alone = Schlieren(
     Input=simple.FindSource("mesh"), Density=["POINTS", "rho"], PathModel="Refracted",
     ImageSize=np.load(NOTES)["arr_1"].tolist(), ViewDirection=list(camera.GetDirectionOfProjection()),
     ViewUp=list(camera.GetViewUp()), FocalPoint=list(camera.GetFocalPoint()), ParallelScale=camera.GetParallelScale())
 alone.UpdatePipeline()
 k = alone.FieldData["KScale"].GetRange()[0]
-assert np.isclose(bent.KScale, k, rtol=1e-3), (bent.KScale, k)
+assert np.isclose(refracted.KScale, k, rtol=1e-3), (refracted.KScale, k)
 assert np.ptp(image_array(alone, "Intensity")) > 0.2
 simple.Delete(alone)
 
-# Straight and bent light side by side, at a k that no window's size changes.
-assert abs(bent.KScale - 9.7) < 1, bent.KScale
-for bench, view in ((straight, upper), (bent, lower)):
+# Side by side, at a k that no window's size changes.
+assert abs(refracted.KScale - 9.7) < 1, refracted.KScale
+for bench, view in zip(benches, in_views):
     bench.KScale = 9.7
     frame_view(view, 15)
-check_baseline([upper, lower], "WindowCompare.png", [270, 270])
+size = [270, 270]
+levels = [pixels_of(view, size).astype(float) for view in in_views]
+change = levels[1] - levels[0]
+assert np.ptp(change) > 40, np.ptp(change)
+is_between = np.all([(level > 0) & (level < 255) for level in levels], axis=0)
+assert is_between.mean() > 0.5
+assert np.abs(levels[2] - (255 + change) / 2)[is_between].max() <= 2 * GREY_LEVEL
+check_baseline(list(in_views), "WindowCompare.png", size)
 
 load("undone.pvsm")
 assert len(views()) == 1

@@ -53,7 +53,7 @@ def session(state):
 
 
 steps = [session(state) for state in ("clicked", "turned", "dragged", "compared")]
-assert [len(step) for step in steps] == [1, 1, 1, 3]
+assert [len(step) for step in steps] == [1, 1, 1, 4]
 assert not np.allclose(steps[0][0][1], steps[1][0][1]), "It was not turned"
 assert float(steps[2][0][2]["CutoffOffset"]) > 0
 for earlier, later in zip(steps, steps[1:3]):

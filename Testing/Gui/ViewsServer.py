@@ -28,7 +28,7 @@ try:
 finally:
     server.kill()
 
-for state, count in (("one", 1), ("redone", 1), ("compared", 3)):
+for state, count in (("one", 1), ("redone", 1), ("compared", 4)):
     load(state + ".pvsm")
     (_, scene), *others = views()
     assert len(others) == count
@@ -37,7 +37,8 @@ for state, count in (("one", 1), ("redone", 1), ("compared", 3)):
     for display, view in shown:
         view.OrientationAxesVisibility = 0
         seen = pixels_of(view, SIZE)
-        assert np.ptp(seen) > 50
+        if display.SchlierenBench.PathModel != "Difference":  # of such weak refraction nothing can be seen
+            assert np.ptp(seen) > 50
         assert np.abs(seen - filter_like(display, view, SIZE)).max() <= 2 * GREY_LEVEL
 assert len({display.SchlierenBench.KScale for display, _ in shown if display.SchlierenBench.AutoKScale == 0}) == 1
 

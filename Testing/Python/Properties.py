@@ -26,7 +26,7 @@ TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "R
          "BackgroundPattern": {"Dots", "Stripes", "Picture"}, "FilmEstimator": {"Sheet", "Photon"},
          "NoiseFilter": {"None", "Gaussian", "Mean", "Cone"},
          "Quality": {"Interactive", "Draft", "Publication", "Reference", "Custom"},
-         "PathModel": {"Auto", "Straight", "Refracted"},
+         "PathModel": {"Auto", "Straight", "Refracted", "Difference"},
          "Integrator": {"Leapfrog", "RK4", "Adaptive", "Euler"},
          "Interpolation": {"Quadratic", "Linear", "Central", "Cubic"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
