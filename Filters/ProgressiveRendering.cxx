@@ -256,6 +256,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene = sceneFrom(*this, field.grid, inside.RgbImages);
   addObjects(scene, this->GradedFilter, this->Medium);
+  addBackground(scene, *this, inside.Scene);
   if (inside.FirstInstant && choosesK(*this))
   {
     scene.kScale = inside.FirstInstant->kScale;

@@ -4,6 +4,8 @@
 
 #include "Schlieren.h"
 
+#include <memory>
+
 class vtkPiecewiseFunction;
 class vtkRefractiveIndex;
 struct ResourceSettings;
@@ -13,6 +15,13 @@ namespace filters
 {
 
 class RgbImageReader;
+
+/// What a view shows behind the flow.
+struct BackgroundScene
+{
+  std::shared_ptr<const schlieren::RgbImage> image; ///< null: not known
+  double distance = -1;                             ///< data units; negative: one data depth
+};
 
 /// What the settings say, as the tracer wants it. Checked is only what is converted here: the rest the tracer does.
 /// Throws std::runtime_error with a message for the user.
@@ -25,6 +34,10 @@ schlieren::Scene sceneFrom(
 /// white light. The colours of fields are apart.
 void addObjects(
   schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, vtkRefractiveIndex* medium);
+
+/// What is behind the flow, where the settings want it.
+void addBackground(
+  schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background);
 
 /// Where the image lies.
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);

@@ -5,6 +5,7 @@
 #include "LastImage.h"
 #include "Ranks.h"
 #include "RgbImages.h"
+#include "SceneFromSettings.h"
 #include "SensitivityLock.h"
 #include "SharedRefractivity.h"
 #include "TimeExposure.h"
@@ -56,6 +57,7 @@ struct vtkSchlierenFilter::Internals
   filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output
   filters::RgbImageReader RgbImages;
+  filters::BackgroundScene Scene;
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // what a source was divided into
 

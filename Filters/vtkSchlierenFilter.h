@@ -129,7 +129,8 @@ public:
   {
     DOTS = 0,
     STRIPES = 1,
-    PICTURE = 2
+    PICTURE = 2,
+    SCENE = 3
   };
 
   enum FilmEstimators
@@ -561,9 +562,9 @@ public:
    * BackgroundDistance behind where the data begin (data units; negative, the default: one data depth);
    * dots and stripes BackgroundPeriod apart (data units; 0, the default: eight pixels; below four they fade,
    * at two they are gone); stripes across BackgroundAngle (degrees; 0, the default: u); the PICTURE is BackgroundImage,
-   * given as ColorFilterImage is.
+   * given as ColorFilterImage is; the SCENE is that of SetBackgroundScene().
    */
-  vtkSetClampMacro(BackgroundPattern, int, DOTS, PICTURE);
+  vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
   vtkGetMacro(BackgroundPattern, int);
   vtkSetMacro(BackgroundDistance, double);
   vtkGetMacro(BackgroundDistance, double);
@@ -574,6 +575,13 @@ public:
   vtkSetStdStringFromCharMacro(BackgroundImage);
   vtkGetCharFromStdStringMacro(BackgroundImage);
   ///@}
+
+  /**
+   * For BACKGROUND_ORIENTED images with the pattern SCENE: what the camera sees behind the flow, which a view knows: RGB
+   * bytes stretched over the image, as they are on a screen. `distance` is used where BackgroundDistance is negative;
+   * negative: one data depth. Null (the default): there is none, and images with this pattern fail.
+   */
+  void SetBackgroundScene(vtkImageData* image, double distance);
 
   ///@{
   /**

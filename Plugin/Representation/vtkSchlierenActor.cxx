@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenActor.h"
 
+#include "SceneBehind.h"
 #include "vtkSchlierenFilter.h"
 
 #include "vtkCallbackCommand.h"
@@ -25,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace
 {
@@ -84,6 +86,7 @@ vtkStandardNewMacro(vtkSchlierenActor);
 vtkSchlierenActor::vtkSchlierenActor()
 {
   vtkMath::UninitializeBounds(this->ViewBounds);
+  vtkMath::UninitializeBounds(this->FlowBounds);
   this->UseBoundsOff();
   this->PickableOff();
   this->DragableOff();
@@ -163,7 +166,7 @@ void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
     this->Bench->RemoveObserver(this->Silence);
   }
   this->Bench = bench;
-  this->HasData = this->HasSeen = false;
+  this->HasData = this->HasSeen = this->HasDrawnScene = false;
   this->FailedTime = 0;
   if (bench)
   {
@@ -278,6 +281,7 @@ bool vtkSchlierenActor::IsHidden(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
 {
+  this->UseGreyScene();
   if (!this->HasSeen)
   {
     this->Reduction = reductionAtFirst;
@@ -402,6 +406,7 @@ int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
     : renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1 ? TURNED
                                                               : STILL;
   const View view = ViewOf(renderer);
+  this->UpdateScene(renderer, view);
   if (this->TracerElsewhere)
   {
     this->Seen = view;
@@ -444,6 +449,10 @@ vtkImageData* vtkSchlierenActor::Image(const View& view, int occasion)
 vtkImageData* vtkSchlierenActor::ImageForElsewhere(const View& view, int occasion)
 {
   this->IsDrawnElsewhere = true;
+  if (this->Bench)
+  {
+    this->Bench->SetBackgroundScene(nullptr, -1); // nobody here knows it
+  }
   if (occasion == STILL && this->HasSeen && view == this->Seen && this->Bench && this->HasData)
   {
     this->Refine();
@@ -478,6 +487,70 @@ void vtkSchlierenActor::UpdatePixels()
 }
 
 //------------------------------------------------------------------------------
+bool vtkSchlierenActor::HasScene() const
+{
+  return this->Bench && vtkSchlierenFilter::CutoffHasBackground(this->Bench->GetCutoff()) &&
+    this->Bench->GetBackgroundPattern() == vtkSchlierenFilter::SCENE;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::UseGreyScene()
+{
+  if (this->HasScene() && !this->HasDrawnScene && !this->IsDrawnElsewhere && !this->HasOtherRanks)
+  {
+    constexpr int grey = 128;
+    vtkNew<vtkImageData> pixel;
+    pixel->SetDimensions(1, 1, 1);
+    pixel->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    pixel->GetPointData()->GetScalars()->Fill(grey);
+    this->Bench->SetBackgroundScene(pixel, -1);
+  }
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenActor::DepthOfImage(vtkCamera* camera) const
+{
+  const double* range = camera->GetClippingRange();
+  const double margin = beforeFarPlane * (range[1] - range[0]);
+  const bool isBehindFlow = this->HasScene() && vtkMath::AreBoundsInitialized(this->FlowBounds);
+  const double wanted = isBehindFlow ? backOf(this->FlowBounds, camera) + margin : range[1];
+  return std::clamp(wanted, range[0] + margin, range[1] - margin);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
+{
+  if (!this->HasScene() || this->HasOtherRanks || !vtkMath::AreBoundsInitialized(this->FlowBounds))
+  {
+    return;
+  }
+  std::vector<vtkProp*> images;
+  vtkPropCollection* props = renderer->GetViewProps();
+  for (int i = 0; i < props->GetNumberOfItems(); ++i)
+  {
+    if (auto* image = vtkSchlierenActor::SafeDownCast(props->GetItemAsObject(i)))
+    {
+      images.push_back(image);
+    }
+  }
+  // Of all tiles of a large screenshot.
+  vtkCamera* camera = renderer->GetActiveCamera();
+  auto whole = vtkSmartPointer<vtkCamera>::New();
+  whole->DeepCopy(camera);
+  whole->SetWindowCenter(0, 0);
+  whole->SetParallelScale(view.ParallelScale);
+  if (!camera->GetParallelProjection())
+  {
+    whole->SetViewAngle(view.ViewAngle);
+  }
+  const double depth = this->DepthOfImage(camera);
+  const SceneBehind scene(renderer, images);
+  const auto image = scene.Draw(whole, view.Size.data(), depth);
+  this->Bench->SetBackgroundScene(image, scene.GetDistance(depth));
+  this->HasDrawnScene = true;
+}
+
+//------------------------------------------------------------------------------
 // The image's coordinates are those of the view: x to the right, y upwards.
 void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
 {
@@ -491,8 +564,7 @@ void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
   vtkMath::Cross(direction, this->Seen.Up.data(), right);
   vtkMath::Normalize(right);
   vtkMath::Cross(right, direction, up);
-  const double* range = camera->GetClippingRange();
-  const double depth = range[1] - beforeFarPlane * (range[1] - range[0]);
+  const double depth = this->DepthOfImage(camera);
   // It has its size where the focal point is.
   const double scale = camera->GetParallelProjection() ? 1 : depth / camera->GetDistance();
   const double middle[2] = { vtkMath::Dot(focalPoint, right), vtkMath::Dot(focalPoint, up) };

@@ -6,7 +6,8 @@
  *
  * The image is traced while it is drawn, because only then are the camera and the size those of the rendering, on
  * servers and in screenshots of another size, too; where the bench is in another process, by that one. It lies just
- * before the far plane of the camera, so all surfaces hide it. With a perspective camera each pixel has its own direction,
+ * before the far plane of the camera, so all surfaces hide it; with the background pattern SCENE at the back of the flow,
+ * and hides what is behind, which is seen through the flow instead. With a perspective camera each pixel has its own direction,
  * as for surfaces.
  */
 #ifndef vtkSchlierenActor_h
@@ -16,10 +17,12 @@
 #include "vtkOpenGLActor.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
 class vtkCallbackCommand;
+class vtkCamera;
 class vtkImageData;
 class vtkPolyData;
 class vtkPolyDataMapper;
@@ -69,6 +72,11 @@ public:
    */
   using Tracer = std::function<vtkSmartPointer<vtkImageData>(const View& view, int occasion)>;
   void SetTracerElsewhere(Tracer tracer) { this->TracerElsewhere = std::move(tracer); }
+
+  /**
+   * Of the flow. With the background pattern SCENE light comes through it from what the view shows behind its back.
+   */
+  void SetFlowBounds(const double bounds[6]) { std::copy_n(bounds, 6, this->FlowBounds); }
 
   /**
    * While it is in a renderer and visible, the smoothing of edges (FXAA) is left out, which would blur what the image
@@ -150,6 +158,11 @@ private:
   /// An image that could not be made for one view cannot for another: one error message is enough.
   bool HasFailed() const;
   void UpdatePixels();
+  /// Whether what the view shows behind the flow is seen through it.
+  bool HasScene() const;
+  void UpdateScene(vtkRenderer* renderer, const View& view);
+  void UseGreyScene(); ///< until the first rendering
+  double DepthOfImage(vtkCamera* camera) const;
   void PlaceQuad(vtkRenderer* renderer);
 
   vtkSmartPointer<vtkSchlierenFilter> Bench;
@@ -167,6 +180,7 @@ private:
   vtkMTimeType FailedTime = 0; // of the bench, where there was no image; 0: there was one
   View Seen;
   bool HasSeen = false; // a rendering
+  bool HasDrawnScene = false;
   bool HasData = false;
   bool Finished = true;
   bool IsForScreenshot = false;
@@ -175,6 +189,7 @@ private:
   double SecondsPerPixel = 2e-7; // as previews have taken; to begin with, a guess
   int Reduction = 1;
   double ViewBounds[6];
+  double FlowBounds[6];
 };
 
 #endif

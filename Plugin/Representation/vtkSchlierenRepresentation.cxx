@@ -170,6 +170,7 @@ int vtkSchlierenRepresentation::RequestData(
     }
     bench->SetInputConnection(0, this->GetInputConnection(0, 0));
     this->PassTimeToBench();
+    this->Actor->SetFlowBounds(this->Bounds);
     this->Actor->UpdateImage(renderer);
   }
   return this->Superclass::RequestData(request, input, output);
