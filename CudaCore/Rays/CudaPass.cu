@@ -173,7 +173,7 @@ CudaPass::CudaPass(std::size_t rays)
 {
 }
 
-CudaPass::CudaPass(const std::vector<RayExit>& exits)
+CudaPass::CudaPass(const RayExits& exits)
   : CudaPass(exits.size())
 {
   checkCuda(cudaMemcpy(exits_, exits.data(), size_ * sizeof(RayExit), cudaMemcpyHostToDevice),
@@ -182,9 +182,9 @@ CudaPass::CudaPass(const std::vector<RayExit>& exits)
 
 CudaPass::~CudaPass() { cudaFree(exits_); }
 
-std::vector<RayExit> CudaPass::toHost() const
+RayExits CudaPass::toHost() const
 {
-  std::vector<RayExit> exits(size_);
+  RayExits exits(size_);
   checkCuda(cudaMemcpy(exits.data(), exits_, size_ * sizeof(RayExit), cudaMemcpyDeviceToHost),
     "Fetching rays");
   return exits;

@@ -23,14 +23,14 @@ class CudaPass
 public:
   /// Room for so many rays; not initialised.
   explicit CudaPass(std::size_t rays);
-  explicit CudaPass(const std::vector<RayExit>& exits);
+  explicit CudaPass(const RayExits& exits);
   CudaPass(const CudaPass&) = delete;
   CudaPass& operator=(const CudaPass&) = delete;
   ~CudaPass();
 
   RayExit* exits() const { return exits_; } ///< in the device's memory
   std::size_t size() const { return size_; }
-  std::vector<RayExit> toHost() const;
+  RayExits toHost() const;
 
   /// The largest component of deflection of the rays that start in an image of this size and reach the film; the rays
   /// are those of `pass`.

@@ -24,14 +24,14 @@ CudaPass::CudaPass(std::size_t rays)
   throw DeviceError(builtWithoutCuda);
 }
 
-CudaPass::CudaPass(const std::vector<RayExit>& exits)
+CudaPass::CudaPass(const RayExits& exits)
   : CudaPass(exits.size())
 {
 }
 
 CudaPass::~CudaPass() = default;
 
-std::vector<RayExit> CudaPass::toHost() const { return {}; }
+RayExits CudaPass::toHost() const { return {}; }
 
 double CudaPass::largestDeflection(const Pass&, int, int) const { return 0; }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "Math/HostDevice.h"
+#include "Math/Unwritten.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace schlieren
 {
@@ -29,6 +31,8 @@ struct RayExit
 
   SCHLIEREN_HD bool reachesFilm() const { return fate == RayFate::Missed || fate == RayFate::Left; }
 };
+
+using RayExits = std::vector<RayExit, Unwritten<RayExit>>;
 
 /// Where in its pixel a ray starts, relative to the centre, in pixels.
 struct PixelOffset

@@ -232,7 +232,7 @@ inline std::int64_t tilesOf(const Pass& pass)
 /// over the ray, a number without unit. Nothing where the view has no fields.
 struct TracedPass
 {
-  std::vector<RayExit> exits;
+  RayExits exits;
   std::vector<float> gathered;
   std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
   std::int64_t crossed = 0;           ///< rays that met the grid

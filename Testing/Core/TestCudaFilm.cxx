@@ -26,11 +26,11 @@ constexpr std::int64_t margin = 3;
 constexpr Projection projection{ -0.7, 1 / 0.013, 1 };
 
 /// Rays of all fates, some of them far off the film or strange (in the margin that is not used for means).
-std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
+RayExits anyExits(const Pass& pass, std::mt19937& random)
 {
   std::uniform_real_distribution<double> unit(-1, 1);
   std::uniform_int_distribution<int> fate(0, 9);
-  std::vector<RayExit> exits;
+  RayExits exits;
   for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
   {
     RayExit exit{};
@@ -53,9 +53,9 @@ std::vector<RayExit> anyExits(const Pass& pass, std::mt19937& random)
 }
 
 /// Rays through many small lenses and past a body: cells are bent and folded, within the film and across its border.
-std::vector<RayExit> lensExits(const Pass& pass, std::mt19937&)
+RayExits lensExits(const Pass& pass, std::mt19937&)
 {
-  std::vector<RayExit> exits;
+  RayExits exits;
   for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
   {
     RayExit exit{};
@@ -76,7 +76,7 @@ void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
   constexpr int passes = 3;
   constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
   std::mt19937 random(5);
-  std::vector<std::vector<RayExit>> exits;
+  std::vector<RayExits> exits;
   std::vector<TracedRays> traced;
   Films films(channelsOf(cutoff), {}, width, height, rays);
   Films filmsOfDevice = Films(channelsOf(cutoff), {}, width, height, rays);
@@ -207,7 +207,7 @@ TEST_F(HostAndDeviceFilm, FindsTheSameStrongDeflection)
   const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
     { 0, 0 } };
   std::mt19937 random(11);
-  std::vector<RayExit> exits = anyExits(pass, random);
+  RayExits exits = anyExits(pass, random);
   const auto expectTheSame = [&]
   {
     const double onHost = strongDeflection({ pass, exits.data(), nullptr }, width, height, {}, 2);
@@ -234,12 +234,12 @@ TEST_F(HostAndDeviceFilm, FindsTheSameStrongDeflection)
 
 TEST_F(HostAndDeviceFilm, GetsRaysAsTheyWereSent)
 {
-  std::vector<RayExit> exits(1000);
+  RayExits exits(1000, RayExit{});
   for (std::size_t ray = 0; ray < exits.size(); ++ray)
   {
     exits[ray].opticalPathDifference = static_cast<double>(ray);
   }
-  const std::vector<RayExit> back = CudaPass(exits).toHost();
+  const RayExits back = CudaPass(exits).toHost();
   ASSERT_EQ(back.size(), exits.size());
   for (std::size_t ray = 0; ray < exits.size(); ++ray)
   {

@@ -222,7 +222,7 @@ TEST_F(HostAndDeviceRays, AreCountedAlike)
       { 0., 1e-6, 1e-4, 3e-5 }) // the range grows, and rays of the middle are many
     {
       std::normal_distribution<double> bend(0, strength > 0 ? strength : 1);
-      std::vector<RayExit> exits(static_cast<std::size_t>(width * height));
+      RayExits exits(static_cast<std::size_t>(width * height), RayExit{});
       for (RayExit& exit : exits)
       {
         const bool isBent = strength > 0 && random() % 2 == 0;
@@ -383,7 +383,7 @@ TEST_F(HostAndDeviceRays, AgreeInATreeForEveryKernel)
   }
 }
 
-void expectSameBits(const std::vector<RayExit>& a, const std::vector<RayExit>& b)
+void expectSameBits(const RayExits& a, const RayExits& b)
 {
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(RayExit)), 0);

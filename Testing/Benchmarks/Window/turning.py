@@ -93,14 +93,14 @@ def turn(what):
     blocked.sort()
     with open({REPORT!r}, "a") as file:
         file.write(
-            f"{{what:24}} {{len(previews) / seconds:6.1f}} images/s of {{rows[len(rows) // 2]}} rows, "
+            f"{{what:48}} {{len(previews) / seconds:6.1f}} images/s of {{rows[len(rows) // 2]}} rows, "
             f"{{len(frames) / seconds:5.1f}} frames/s of the 3-D view, {{1e3 * frames[len(frames) // 2]:.0f}} ms "
             f"each; first complete image {{1e3 * (whole[0] - released):.0f}} ms after release, "
             f"last after {{ended - released:.2f}} s in {{len(whole)}} images; blocked "
             f"{{1e3 * blocked[-1]:.0f}} ms at most, then {{1e3 * blocked[-2]:.0f}}\\n")
     pause(1)
 
-def turn_with(view):
+def turn_with(view, projection):
     global whole_rows
     whole_rows = view.ViewSize[1]
     for quality in "Interactive", "Draft", "Publication":
@@ -108,12 +108,13 @@ def turn_with(view):
         Render(view)
         until(lambda: finished(image_of) and rows_of_image(image_of) == whole_rows)
         pause(1)
-        turn(f"{{GetDisplayProperties(flow, turned).Representation}}, {{view.ViewSize[0]}} x {{whole_rows}}, {{quality}}")
+        turn(f"{{GetDisplayProperties(flow, turned).Representation}}, {{projection}}, "
+             f"{{view.ViewSize[0]}} x {{whole_rows}}, {{quality}}")
 
 for display in "Outline", "Volume":
     GetDisplayProperties(flow, turned).SetRepresentationType(display)
     Render(turned)
-    turn_with(shown)
+    turn_with(shown, "perspective")
 
 # The same data drawn as Schlieren in the view itself.
 shown.SMProxy.RemoveObserver(observed)
@@ -128,7 +129,9 @@ image_of = display.SchlierenBench
 image_of.GladstoneDaleConstant = 1e-6
 display.SetRepresentationType("Schlieren")
 turned.SMProxy.AddObserver("EndEvent", note)
-turn_with(turned)
+for is_parallel, projection in enumerate(("perspective", "parallel")):
+    turned.CameraParallelProjection = is_parallel
+    turn_with(turned, projection)
 """
 
 user = Session()
