@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Device/UninitialisedAllocator.h"
 #include "Math/HostDevice.h"
-#include "Math/Unwritten.h"
 
 #include <cstdint>
 #include <vector>
@@ -32,7 +32,7 @@ struct RayExit
   SCHLIEREN_HD bool reachesFilm() const { return fate == RayFate::Missed || fate == RayFate::Left; }
 };
 
-using RayExits = std::vector<RayExit, Unwritten<RayExit>>;
+using RayExits = std::vector<RayExit, UninitialisedAllocator<RayExit>>;
 
 /// Where in its pixel a ray starts, relative to the centre, in pixels.
 struct PixelOffset
