@@ -310,6 +310,42 @@ TEST(Cutoffs, ABackgroundImageFillsWhatIsSeen)
   expectColor(colorOf(filter), { 255, 16, 32 }, "the one pixel");
 }
 
+// What a view shows behind the flow: its bytes, where nothing bends light, and nothing is traced for another scene.
+TEST(Cutoffs, AScenesBytesAreKept)
+{
+  auto filter = benchOf(bending(0, 0), Filter::BACKGROUND_ORIENTED, 1);
+  filter->SetBackgroundPattern(Filter::SCENE);
+  filter->SetFilmEstimator(Filter::PHOTON); // a pixel sees nothing of its neighbours
+  vtkNew<vtkImageData> scene;
+  scene->SetDimensions(pixels, pixels, 1);
+  scene->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* bytes = vtkUnsignedCharArray::SafeDownCast(scene->GetPointData()->GetScalars());
+  for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
+  {
+    bytes->SetValue(i, static_cast<unsigned char>(37 * i % 256));
+  }
+  filter->SetBackgroundScene(scene, -1);
+  filter->Update();
+  vtkDataArray* color = arrayOf(filter, "Color");
+  ASSERT_NE(color, nullptr);
+  ASSERT_EQ(color->GetNumberOfValues(), bytes->GetNumberOfValues());
+  for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
+  {
+    EXPECT_NEAR(color->GetComponent(i / 3, static_cast<int>(i % 3)), bytes->GetValue(i), 1) << i;
+  }
+
+  const vtkMTimeType time = filter->GetMTime();
+  filter->SetBackgroundScene(scene, -1);
+  EXPECT_EQ(filter->GetMTime(), time);
+  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
+  bytes->Fill(200);
+  filter->SetBackgroundScene(scene, 3);
+  EXPECT_GT(filter->GetMTime(), time);
+  filter->Update();
+  EXPECT_EQ(filter->GetTotalRaysTraced(), rays);
+  EXPECT_NEAR(arrayOf(filter, "Color")->GetComponent(0, 0), 200, 1);
+}
+
 TEST(Cutoffs, LightAndSaturationAreAccountedFor)
 {
   auto filter = benchOf(bending(epsX, 0), Filter::KNIFE_EDGE, 5000);

@@ -240,6 +240,14 @@ std::vector<Mistake> mistakes()
       },
       { "BackgroundImage", "no complete PNG" },
       [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
+    { "ASceneThatNobodyKnows",
+      [](Filter* f)
+      {
+        f->SetCutoff(Filter::BACKGROUND_ORIENTED);
+        f->SetBackgroundPattern(Filter::SCENE);
+      },
+      { "BackgroundPattern is Scene", "Picture" },
+      [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
     { "BeamsThatDoNotMeet",
       [](Filter* f)
       {
