@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PathDifference.h"
 
-#include "vtkSchlierenFilter.h"
-
 #include <algorithm>
 #include <cstddef>
 
@@ -48,12 +46,6 @@ schlieren::Image differenceOf(
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-double middleOfScale(schlieren::Cutoff cutoff)
-{
-  return vtkSchlierenFilter::CutoffHasScreen(static_cast<int>(cutoff)) ? 1 : 0.5;
-}
 
 //------------------------------------------------------------------------------
 schlieren::Image PathDifference::Begin(
@@ -119,7 +111,8 @@ schlieren::Image PathDifference::Resume(const MonitorOf& monitorOf)
     nothing.finished = false;
     return nothing;
   }
-  const double middle = middleOfScale(this->Scenes[REFRACTED].cutoff);
+  const schlieren::Technique& technique = schlieren::techniqueOf(this->Scenes[REFRACTED].cutoff);
+  const double middle = technique.plane == schlieren::RecordedPlane::Screen ? 1 : 0.5;
   if (!refracted->finished || !straight->finished)
   {
     return differenceOf(schlieren::Image(*refracted), *straight, middle);

@@ -22,9 +22,9 @@ public:
   {
   }
 
-  /// As schlieren::Bench, of two benches that share the time. The light of the image is the middle of its scale, see
-  /// middleOfScale, plus half of the difference; all else that pixels have is the difference; numbers of rays and
-  /// their time are sums, and the rest is that of refracted rays.
+  /// As schlieren::Bench, of two benches that share the time. The light of the image is 1/2 (of a shadowgraph 1) plus half
+  /// of the difference; all else that pixels have is the difference; numbers of rays and their time are sums, and the
+  /// rest is that of refracted rays.
   schlieren::Image Begin(
     const schlieren::Field& field, const schlieren::Scene& scene, const MonitorOf& monitorOf);
   schlieren::Image Resume(const MonitorOf& monitorOf);
@@ -45,8 +45,5 @@ private:
   std::optional<schlieren::Image> Images[2]; // the newest, where there is one
   double Done[2] = { 0, 0 };
 };
-
-/// The intensity of no difference: 1/2, of a shadowgraph 1.
-double middleOfScale(schlieren::Cutoff cutoff);
 
 } // namespace filters

@@ -18,6 +18,8 @@ class TimeSlicedImage
 {
 public:
   TimeSlicedImage();
+  TimeSlicedImage(const TimeSlicedImage&) = delete; // Difference knows where the benches are
+  TimeSlicedImage& operator=(const TimeSlicedImage&) = delete;
 
   enum class Paths
   {

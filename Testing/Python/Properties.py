@@ -23,7 +23,7 @@ TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "R
          "LockK": {"Off", "Over Time", "Always"},
          "FringeMode": {"Infinite", "Finite"}, "LightSource": {"Collimated", "Diverging"},
          "SourceShape": {"Point", "Slit", "Disc"},
-         "BackgroundPattern": {"Dots", "Stripes", "Picture"}, "FilmEstimator": {"Sheet", "Photon"},
+         "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"}, "FilmEstimator": {"Sheet", "Photon"},
          "NoiseFilter": {"None", "Gaussian", "Mean", "Cone"},
          "Quality": {"Interactive", "Draft", "Publication", "Reference", "Custom"},
          "PathModel": {"Auto", "Straight", "Refracted", "Difference"},
