@@ -5,8 +5,7 @@
 // of 32, which it gets from memory. Counted on the CPU from where undisturbed rays are, for the places in memory that
 // the medium really has and for others. Quadratic; 512^2 rays. And the error of deflections if samples had 16 bits,
 // scaled to the range of each brick. Prints tables.
-#include "AnalyticSources.h"
-#include "Medium/Medium.h"
+#include "MeasuredTrees.h"
 #include "Rays/Tracer.h"
 
 #include <algorithm>
@@ -22,26 +21,6 @@ using namespace schlieren;
 
 constexpr int points = QuadraticInterpolation::points;
 constexpr int pixels = 512; // along each side of the image
-
-/// Varies everywhere, smoothly.
-class WavesSource : public AnalyticSource
-{
-public:
-  double refractivity(double x, double y, double z) const override
-  {
-    return 1e-4 * (1 + 0.3 * std::sin(3 * x + y) * std::cos(4 * y - 2 * z) + 0.1 * std::sin(5 * z));
-  }
-  Range rangeOver(const Box&) const override { return { 5e-5, 1.5e-4 }; }
-  double cellSizeOver(const Box&) const override { return 1. / 1024; }
-};
-
-struct Direction
-{
-  const char* name;
-  Vector view;
-};
-constexpr Direction directions[] = { { "along z", { 0, 0, -1 } }, { "along x", { -1, 0, 0 } },
-  { "oblique", { -0.8, 0.3, -0.6 } }, { "diagonal", { -1, -1, -1 } } };
 
 /// The corner of the samples that a place needs: of which brick, and where in it, counted from its first ghost point.
 struct Corner
@@ -201,19 +180,6 @@ Light lightOf(const Grid& grid, const Vector& direction, double scale)
   view.parallelScale = scale;
   view.width = view.height = pixels;
   return collimatedLight(grid, frameOf(grid, view));
-}
-
-Medium<float> treeOf(
-  const std::shared_ptr<const AnalyticSource>& source, double tolerance, const Column& column)
-{
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  TreeSettings settings;
-  settings.tolerance = tolerance;
-  Medium<float> medium = buildTree<float>(field, settings);
-  refine(medium, column, {});
-  return medium;
 }
 
 /// `scale`: half the height of the image; 0: all is seen.

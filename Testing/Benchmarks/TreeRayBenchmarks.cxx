@@ -6,8 +6,7 @@
 // Leapfrog in single precision. Prints a table: rays and steps by CPU seconds, medians of all turns.
 //
 //   SchlierenTreeRayBenchmarks [turns [simd ...]]      simd: 1 SSE2, 2 AVX2, 3 AVX-512 by gathers, 4 by rows
-#include "AnalyticSources.h"
-#include "Medium/Medium.h"
+#include "MeasuredTrees.h"
 #include "Rays/Tracer.h"
 
 #include <cstdio>
@@ -21,26 +20,6 @@ namespace
 {
 
 using namespace schlieren;
-
-/// Varies everywhere, smoothly.
-class WavesSource : public AnalyticSource
-{
-public:
-  double refractivity(double x, double y, double z) const override
-  {
-    return 1e-4 * (1 + 0.3 * std::sin(3 * x + y) * std::cos(4 * y - 2 * z) + 0.1 * std::sin(5 * z));
-  }
-  Range rangeOver(const Box&) const override { return { 5e-5, 1.5e-4 }; }
-  double cellSizeOver(const Box&) const override { return 1. / 1024; }
-};
-
-struct Direction
-{
-  const char* name;
-  Vector view;
-};
-constexpr Direction directions[] = { { "along z", { 0, 0, -1 } }, { "along x", { -1, 0, 0 } },
-  { "oblique", { -0.8, 0.3, -0.6 } }, { "diagonal", { -1, -1, -1 } } };
 
 struct Rates
 {
@@ -82,19 +61,6 @@ double median(std::vector<double> all)
 {
   std::sort(all.begin(), all.end());
   return all[all.size() / 2];
-}
-
-Medium<float> treeOf(
-  const std::shared_ptr<const AnalyticSource>& source, double tolerance, const Column& column)
-{
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  TreeSettings settings;
-  settings.tolerance = tolerance;
-  Medium<float> medium = buildTree<float>(field, settings);
-  refine(medium, column, {});
-  return medium;
 }
 
 const char* nameOf(Simd simd)
