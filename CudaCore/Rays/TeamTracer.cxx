@@ -83,7 +83,7 @@ struct TeamTracer<Real>::State
     hasFieldsOfTree = medium.tree != nullptr;
   }
 
-  /// Finds the arrays of a task that are not the medium's.
+  /// Finds the arrays of a task that are not the medium's: each bench that uses the medium has its own gradients.
   void update(const RayTask<Real>& task, const TaskVersions& now)
   {
     if (task.map.levels != nullptr && versions.homogeneityTolerance != now.homogeneityTolerance)
@@ -95,7 +95,7 @@ struct TeamTracer<Real>::State
     }
     const FieldGradientsView& fields = task.gradients;
     if (!hasFieldsOfTree && fields.count > 0 &&
-      (arrays[7].first == nullptr || versions.gradients != now.gradients))
+      (arrays[7].first != fields.values || versions.gradients != now.gradients))
     {
       arrays[7].version = 0;
       set(7, fields.values,

@@ -157,6 +157,28 @@ TEST(Team, BenchesOfOneMediumSendItOnce)
   EXPECT_EQ(worker.arrays(), 3);
 }
 
+// Two views of the same data, each with its own array of the same gradients and a worker of its own.
+TEST(Team, BenchesOfOneMediumFindTheirOwnFields)
+{
+  const BlobWithHole flow;
+  const Scene scene = oblique();
+  const Image alone = Bench().render(flow.tinted(), scene);
+  const auto media = std::make_shared<SharedMedia>();
+  Worker workers[2];
+  Bench benches[2];
+  const std::vector<float> arrays[2] = { flow.gradients, flow.gradients };
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    benches[i].setMedia(media);
+    benches[i].setWorkers({ workers[i].channel() });
+    Field field = flow.tinted();
+    field.gradients.values = arrays[i].data();
+    expectSameImage(benches[i].render(field, scene), alone);
+    EXPECT_GT(workers[i].tiles(), 0);
+  }
+  EXPECT_EQ(benches[1].work().mediumBuilds, 0);
+}
+
 // Not seen in the image, whatever becomes of a worker.
 TEST(Team, NeedsNoWorker)
 {
