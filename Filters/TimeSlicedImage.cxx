@@ -59,8 +59,9 @@ schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
 {
   this->Scene = scene;
   this->Difference.Cancel();
+  const bool wasDifference = this->IsDifference;
   this->IsDifference = paths == Paths::Difference;
-  if (!this->IsDifference) // what it has cached would not be used
+  if (wasDifference && !this->IsDifference) // what it has cached would not be used
   {
     add(this->WorkBefore, this->StraightBench.work());
     this->StraightBench = {};

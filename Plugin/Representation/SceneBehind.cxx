@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SceneBehind.h"
 
+#include "vtkSchlierenActor.h"
+#include "vtkSchlierenFilter.h"
+
 #include "vtkCamera.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
@@ -109,14 +112,14 @@ vtkSmartPointer<vtkImageData> imageOf(vtkTextureObject* texture, const int size[
 } // namespace
 
 //------------------------------------------------------------------------------
-SceneBehind::SceneBehind(vtkRenderer* renderer, std::vector<vtkProp*> without)
+SceneBehind::SceneBehind(vtkRenderer* renderer)
   : Renderer(renderer)
 {
   vtkPropCollection* props = renderer->GetViewProps();
   for (int i = 0; i < props->GetNumberOfItems(); ++i)
   {
     auto* prop = vtkProp::SafeDownCast(props->GetItemAsObject(i));
-    if (prop->GetVisibility() && std::find(without.begin(), without.end(), prop) == without.end())
+    if (prop->GetVisibility() && !vtkSchlierenActor::SafeDownCast(prop))
     {
       this->Props.push_back(prop);
     }
@@ -132,11 +135,9 @@ vtkSmartPointer<vtkImageData> SceneBehind::Draw(
   {
     return nullptr;
   }
-  auto behind = vtkSmartPointer<vtkCamera>::Take(this->Renderer->MakeCamera());
-  behind->DeepCopy(camera);
   const double farthest = camera->GetClippingRange()[1];
-  behind->SetClippingRange(std::min(depth, (1 - 1e-6) * farthest), farthest);
-  const OtherCamera other(this->Renderer, behind);
+  camera->SetClippingRange(std::min(depth, (1 - 1e-6) * farthest), farthest);
+  const OtherCamera other(this->Renderer, camera);
   const AllTiles all(window);
 
   vtkOpenGLState* state = window->GetState();

@@ -13,15 +13,15 @@ class vtkCamera;
 class vtkProp;
 class vtkRenderer;
 
-/// What a renderer would draw without some of its props, and where.
+/// What a renderer would draw without flows drawn as Schlieren, and where.
 class SceneBehind
 {
 public:
-  /// `without`: props that are left out.
-  SceneBehind(vtkRenderer* renderer, std::vector<vtkProp*> without);
+  explicit SceneBehind(vtkRenderer* renderer);
 
   /// Draws what is behind a depth (distance from the camera along its direction), with the renderer's background, as a
-  /// camera sees it in so many pixels: RGB bytes. Only while the renderer draws. Null where OpenGL cannot.
+  /// camera of the renderer, whose clipping range this changes, sees it in so many pixels: RGB bytes. Only while the
+  /// renderer draws. Null where OpenGL cannot.
   vtkSmartPointer<vtkImageData> Draw(vtkCamera* camera, const int size[2], double depth) const;
 
   /// How far behind a depth the middle of it all is; negative where there is nothing.

@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace
 {
@@ -524,18 +523,9 @@ void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
   {
     return;
   }
-  std::vector<vtkProp*> images;
-  vtkPropCollection* props = renderer->GetViewProps();
-  for (int i = 0; i < props->GetNumberOfItems(); ++i)
-  {
-    if (auto* image = vtkSchlierenActor::SafeDownCast(props->GetItemAsObject(i)))
-    {
-      images.push_back(image);
-    }
-  }
   // Of all tiles of a large screenshot.
   vtkCamera* camera = renderer->GetActiveCamera();
-  auto whole = vtkSmartPointer<vtkCamera>::New();
+  auto whole = vtkSmartPointer<vtkCamera>::Take(renderer->MakeCamera());
   whole->DeepCopy(camera);
   whole->SetWindowCenter(0, 0);
   whole->SetParallelScale(view.ParallelScale);
@@ -544,7 +534,7 @@ void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
     whole->SetViewAngle(view.ViewAngle);
   }
   const double depth = this->DepthOfImage(camera);
-  const SceneBehind scene(renderer, images);
+  const SceneBehind scene(renderer);
   const auto image = scene.Draw(whole, view.Size.data(), depth);
   this->Bench->SetBackgroundScene(image, scene.GetDistance(depth));
   this->HasDrawnScene = true;

@@ -62,8 +62,8 @@ std::int64_t byteOf(
 struct Ray
 {
   Vec3<double> start, along; ///< index coordinates, and those of a unit of length
-  double length, end,
-    perVoxel; ///< where it is, where it leaves the domain; of a unit of the index coordinates
+  double length, end;        ///< where it is, and where it leaves the domain
+  double perVoxel;           ///< length of a unit of the index coordinates
 };
 
 Ray rayOf(const MediumView<float>& view, const Light& light, int column, int row)
@@ -103,9 +103,9 @@ void take(const MediumView<float>& view, double voxels, Ray& ray, std::vector<Co
   const Vec3<double> place = placeAt(middle);
   const double index[3] = { place.x, place.y, place.z };
   Corner corner{ leaf.brick * view.brickStride, {} };
-  for (int axis = 0; axis < 3;
-       ++axis) // the lower neighbour of the nearest sample; ghosts begin at -1
+  for (int axis = 0; axis < 3; ++axis)
   {
+    // The lower neighbour of the nearest sample; ghosts begin at -1.
     corner.at[axis] =
       std::max(std::int64_t{ 0 }, std::int64_t{ std::lround(leaf.toLocal(axis, index[axis])) });
   }
@@ -186,7 +186,7 @@ Light lightOf(const Grid& grid, const Vector& direction, double scale)
 void countAll(const char* name, const MediumView<float>& view, const Grid& grid, double scale)
 {
   const Layout rows{ "rows", { 1, 1, 1 }, 4 };
-  const Layout layouts[] = { rows, { "tiles of 2 x 2 x 2", { 2, 2, 2 }, 4 },
+  const std::vector<Layout> others = { { "tiles of 2 x 2 x 2", { 2, 2, 2 }, 4 },
     { "tiles of 4 x 4 x 2", { 4, 4, 2 }, 4 }, { "rows of 16 bits", { 1, 1, 1 }, 2 } };
   const auto print = [&](const Layout& layout, int columns, int height, double voxels)
   {
@@ -203,9 +203,9 @@ void countAll(const char* name, const MediumView<float>& view, const Grid& grid,
   print(rows, 32, 1, 1);
   print(rows, 8, 4, 1);
   print(rows, 8, 4, 2);
-  for (int n = 1; n < 4 && view.leaves != nullptr; ++n)
+  for (const Layout& layout : view.leaves != nullptr ? others : std::vector<Layout>{})
   {
-    print(layouts[n], 8, 4, 1);
+    print(layout, 8, 4, 1);
   }
 }
 
