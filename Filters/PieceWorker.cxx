@@ -157,16 +157,21 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
   }
 }
 
-/// Of each mesh its slot and where others may continue.
+/// The ranges of fields that FieldMean needs; of each mesh its slot and where others may continue.
 void PieceWorker::GiveOutline(std::vector<char>& answer)
 {
   this->Release();
+  std::vector<FieldMean::Range> ranges;
   if (hasPoints(this->Data))
   {
     try
     {
-      chooseSource(
-        this->Self, this->Data); // says what is wrong with the data while all arrays are there
+      // Says what is wrong with the data while all arrays are there.
+      const Source source = chooseSource(this->Self, this->Data);
+      if (const auto* mean = std::get_if<FieldMean>(&source.model))
+      {
+        ranges = mean->rangesIn(source.leaves);
+      }
       this->Parts = partsOf(this->Data, arraysOf(this->Self));
     }
     catch (const ArraysMissing& problem)
@@ -174,6 +179,7 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
       this->Lacks = problem.what();
     }
   }
+  putAll(ranges, answer);
   put(static_cast<std::uint64_t>(this->Parts.size()), answer);
   for (const Part& part : this->Parts)
   {
@@ -209,10 +215,11 @@ void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
   }
 }
 
-/// The request: the piece's number, and packed cells of others. The answer: what PiecesSource::Arrival holds.
+/// The request: the piece's number, ranges of fields for FieldMean, and packed cells of others. The answer: what PiecesSource::Arrival holds.
 void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
 {
   this->Number = request.Get<std::uint64_t>();
+  const auto ranges = request.GetAll<std::vector<FieldMean::Range>>();
   std::map<Slot, std::vector<vtkSmartPointer<vtkDataSet>>> copies;
   while (!request.IsAtEnd())
   {
@@ -244,6 +251,10 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   {
     Source source = chooseSource(this->Self, data);
     label = source.label;
+    if (auto* mean = std::get_if<FieldMean>(&source.model))
+    {
+      mean->setRanges(ranges);
+    }
     source.leaves.erase(std::remove_if(source.leaves.begin(), source.leaves.end(),
                           [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
       source.leaves.end());

@@ -144,9 +144,9 @@ std::vector<std::vector<char>> PiecesSource::request(std::vector<std::vector<cha
   return this->Ranks->Request(std::move(requests));
 }
 
-/// Finds where the parts of one mesh on several ranks meet, and gives each rank the others' cells there: adds them to
-/// messages.
-void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
+/// Finds the ranges of fields that are those of all ranks, where the parts of one mesh on several ranks meet, and which cells
+/// of others each rank needs there.
+std::vector<std::vector<char>> PiecesSource::requestsForPieces() const
 {
   const std::size_t ranks = this->Ranks->Count();
   struct Known
@@ -161,11 +161,18 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
   };
   std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> points;
   std::map<Slot, std::vector<Grid>> grids;
+  std::vector<FieldMean::Range> ranges;
   const auto outlines =
     this->request(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
   {
     Reader reader = readerOf(outlines[rank]);
+    const auto ofRank = reader.GetAll<std::vector<FieldMean::Range>>();
+    ranges.resize(std::max(ranges.size(), ofRank.size()), { infinity, -infinity });
+    for (std::size_t n = 0; n < ofRank.size(); ++n)
+    {
+      ranges[n] = { std::min(ranges[n][0], ofRank[n][0]), std::max(ranges[n][1], ofRank[n][1]) };
+    }
     const auto parts = reader.Get<std::uint64_t>();
     for (std::uint32_t part = 0; part < parts; ++part)
     {
@@ -239,6 +246,9 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
     putAll(cells.points, request);
   }
   const auto answers = this->request(std::move(requests));
+  std::vector<char> make = this->request(PieceWorker::Make);
+  putAll(ranges, make);
+  std::vector<std::vector<char>> ofOthers(ranks, make);
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
   {
     if (answers[rank].empty())
@@ -254,6 +264,7 @@ void PiecesSource::giveCopies(std::vector<std::vector<char>>& ofOthers) const
       }
     }
   }
+  return ofOthers;
 }
 
 PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies,
@@ -262,8 +273,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
 {
   static std::atomic<std::uint64_t> sources{ 0 };
   this->Number = ++sources;
-  std::vector<std::vector<char>> requests(this->Ranks->Count(), this->request(PieceWorker::Make));
-  this->giveCopies(requests);
+  std::vector<std::vector<char>> requests = this->requestsForPieces();
   progress.reach(0.2);
 
   Faces faces;

@@ -69,7 +69,7 @@ private:
   static BoxKey keyOf(const schlieren::Box& box);
   static LatticeKey keyOf(const schlieren::Lattice& lattice);
 
-  void giveCopies(std::vector<std::vector<char>>& ofOthers) const;
+  std::vector<std::vector<char>> requestsForPieces() const;
   std::vector<std::vector<char>> request(std::vector<std::vector<char>> requests) const;
   std::vector<char> request(PieceWorker::Kind kind) const;
   std::vector<unsigned char> hold(const std::vector<Point>& places) const;

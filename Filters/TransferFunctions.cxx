@@ -139,31 +139,34 @@ double FieldMean::refractivity(const double* values) const
   return this->scale * sum / static_cast<double>(this->curves.size());
 }
 
-void FieldMean::findRanges(const std::vector<Leaf>& leaves)
+std::vector<FieldMean::Range> FieldMean::rangesIn(const std::vector<Leaf>& leaves) const
 {
   const bool isComplete = std::all_of(this->curves.begin(), this->curves.end(),
     [](const FieldCurve& curve) { return curve.hasRange(); });
-  const std::size_t count = this->curves.size();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> lows(count, infinity), highs(count, -infinity);
+  std::vector<Range> ranges(this->curves.size(), { infinity, -infinity });
   for (const Leaf& leaf : isComplete ? std::vector<Leaf>() : leaves)
   {
     const auto used = usedValues(leaf);
-    for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t k = 0; k < ranges.size(); ++k)
     {
       if (!this->curves[k].hasRange())
       {
         const std::array<double, 2> range = rangeOf(leaf.arrays[k], used);
-        lows[k] = std::min(lows[k], range[0]);
-        highs[k] = std::max(highs[k], range[1]);
+        ranges[k] = { std::min(ranges[k][0], range[0]), std::max(ranges[k][1], range[1]) };
       }
     }
   }
-  for (std::size_t k = 0; k < count; ++k)
+  return ranges;
+}
+
+void FieldMean::setRanges(const std::vector<Range>& ranges)
+{
+  for (std::size_t k = 0; k < std::min(ranges.size(), this->curves.size()); ++k)
   {
-    if (!this->curves[k].hasRange() && lows[k] <= highs[k])
+    if (!this->curves[k].hasRange() && ranges[k][0] <= ranges[k][1])
     {
-      this->curves[k].setRange(lows[k], highs[k]);
+      this->curves[k].setRange(ranges[k][0], ranges[k][1]);
     }
   }
 }

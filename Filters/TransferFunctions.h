@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,12 @@ struct FieldMean
 
   /// Gives those curves that have no range yet that of the field over all leaves: of what is finite and
   /// not hidden. A field that is the same everywhere counts as 0.
-  void findRanges(const std::vector<Leaf>& leaves);
+  void findRanges(const std::vector<Leaf>& leaves) { this->setRanges(this->rangesIn(leaves)); }
+
+  using Range = std::array<double, 2>; // low > high: of nothing
+  /// Of the fields of those curves, and what they are given. Ranges of parts of the data are joined in between.
+  std::vector<Range> rangesIn(const std::vector<Leaf>& leaves) const;
+  void setRanges(const std::vector<Range>& ranges);
 };
 
 } // namespace filters

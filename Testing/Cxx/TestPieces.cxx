@@ -16,6 +16,7 @@
 #include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRefractiveIndex.h"
@@ -295,6 +296,52 @@ TEST(Pieces, AreSampledAsOneMesh)
       Ranks ranks(parts, ofCells);
       // Pieces of a few layers of cells do not reach all that values of cells depend on.
       expectSame(*whole, *ranks.make(), ofCells ? 2e-6 : 2e-7);
+    }
+  }
+}
+
+// Of all ranks, but where they are given; curves that are not straight lines show it.
+TEST(Pieces, TransferFunctionsHaveTheRangesOfAllFields)
+{
+  vtkNew<vtkPiecewiseFunction> curve;
+  curve->AddPoint(0, 0);
+  curve->AddPoint(0.5, 0.1);
+  curve->AddPoint(1, 1);
+  const auto withTwoFields = [](vtkDataSet* data)
+  { addPointArray(data, "T", [](const Vec& x) { return 300 + 20 * x[0] + 5 * x[2]; }); };
+  for (const bool hasRanges : { false, true })
+  {
+    const auto setUp = [&](vtkRefractiveIndex* filter)
+    {
+      filter->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
+      filter->AddField("N");
+      filter->AddField("T");
+      filter->AddTransferFunction(curve);
+      filter->AddTransferFunction(curve);
+      filter->SetRefractivityScale(1e-4);
+      for (const double limit : { 1.2e-4, 1.7e-4, 290., 315. })
+      {
+        if (hasRanges)
+        {
+          filter->AddFieldRange(limit);
+        }
+      }
+    };
+    const auto mesh = wholeMesh();
+    withTwoFields(mesh);
+    const auto one = reader(false);
+    setUp(one);
+    std::string warning;
+    const auto whole = one->MakeSource(mesh, nullptr, warning);
+    for (const std::vector<Data>& parts : cuts())
+    {
+      Ranks ranks(parts);
+      for (std::size_t rank = 0; rank < parts.size(); ++rank)
+      {
+        withTwoFields(vtkDataSet::SafeDownCast(parts[rank]));
+        setUp(ranks.Filters[rank]);
+      }
+      expectSame(*whole, *ranks.make(), 1e-6);
     }
   }
 }
