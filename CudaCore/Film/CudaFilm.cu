@@ -9,6 +9,8 @@
 #include "Film/Sheet.h"
 
 #include <algorithm>
+#include <cstring>
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -370,6 +372,16 @@ struct CudaFilm::DeviceMemory
     return bytes->data();
   }
 
+  /// Where the image arrives.
+  CudaHostBuffer& hostRoom(std::size_t bytes)
+  {
+    if (!onArrival)
+    {
+      onArrival = std::make_unique<CudaHostBuffer>(bytes); // always as much
+    }
+    return *onArrival;
+  }
+
   std::int64_t raysPerBand;
   std::size_t pixels;
   CudaBuffer<Counter> light;
@@ -382,6 +394,7 @@ struct CudaFilm::DeviceMemory
   const float* onHost = nullptr; ///< what has been copied
   std::unique_ptr<Bytes> shaded, bent;
   std::size_t shadedBytes = 0, bentBytes = 0;
+  std::unique_ptr<CudaHostBuffer> onArrival;
 };
 
 CudaFilm::CudaFilm(const Films& films, std::int64_t raysPerBand)
@@ -432,26 +445,51 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
 
 RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
 {
-  const auto fetch = [](void* to, const void* from, std::size_t bytes)
-  { checkCuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the image"); };
   if (memory_->samples)
   {
     memory_->samples->develop(*films.samples, means); // overwritten below
   }
-  for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
+  const std::size_t pixels = memory_->pixels, planes = films.planes.size();
+  const std::size_t bytesOfLight = pixels * planes * sizeof(Counter);
+  const std::size_t bytesOfSums = pixels * sizeof(PixelSums);
+  const std::size_t bytesOfPlanes = planes * sizeof(LightSums);
+  CudaHostBuffer& fetched =
+    memory_->hostRoom(bytesOfLight + bytesOfSums + bytesOfPlanes + sizeof(RayCounts));
+  // All of it is under way before the host waits once.
+  unsigned char* to = fetched.data();
+  const auto fetch = [&to](const void* from, std::size_t bytes)
   {
-    std::vector<std::int64_t> light(memory_->pixels);
-    LightSums all;
-    fetch(light.data(), memory_->light.data() + plane * memory_->pixels,
-      light.size() * sizeof(std::int64_t));
-    fetch(&all, memory_->planes.data() + plane, sizeof(all));
-    films.planes[plane].set(std::move(light), all);
+    checkCuda(
+      cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, nullptr), "Fetching the image");
+    to += bytes;
+  };
+  fetch(memory_->light.data(), bytesOfLight);
+  fetch(memory_->sums.data(), bytesOfSums);
+  fetch(memory_->planes.data(), bytesOfPlanes);
+  fetch(memory_->counts.data(), sizeof(RayCounts));
+  checkCuda(cudaStreamSynchronize(nullptr), "Fetching the image");
+  const unsigned char* from = fetched.data();
+  const auto take = [&from](void* values, std::size_t bytes)
+  {
+    std::memcpy(values, from, bytes);
+    from += bytes;
+  };
+  std::vector<std::vector<std::int64_t>> light(planes, std::vector<std::int64_t>(pixels));
+  for (std::vector<std::int64_t>& plane : light)
+  {
+    take(plane.data(), pixels * sizeof(Counter));
   }
-  std::vector<PixelSums> sums(memory_->pixels);
-  fetch(sums.data(), memory_->sums.data(), sums.size() * sizeof(PixelSums));
+  std::vector<PixelSums> sums(pixels);
+  take(sums.data(), bytesOfSums);
   means.setSums(std::move(sums));
+  for (std::size_t plane = 0; plane < planes; ++plane)
+  {
+    LightSums all;
+    take(&all, sizeof(all));
+    films.planes[plane].set(std::move(light[plane]), all);
+  }
   RayCounts counts;
-  fetch(&counts, memory_->counts.data(), sizeof(counts));
+  take(&counts, sizeof(counts));
   return counts;
 }
 

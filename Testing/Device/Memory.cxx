@@ -10,8 +10,9 @@
 // What breaks these rules ends the program.
 //
 // In the environment: CUDA_VISIBLE_DEVICES empty or -1 hides the device, as with CUDA. EMULATED_DEVICES: how many there
-// are, 1 by default; they have their memory in common, but a stream works for one of them only. EMULATED_LAUNCHES
-// names a file that gets the address of each kernel that is launched, as nm prints it.
+// are, 1 by default; they have their memory in common, but a stream works for one of them only. EMULATED_CAPABILITY: ten
+// times their compute capability, 90 by default. EMULATED_NO_PINNED: no memory of the host can be locked.
+// EMULATED_LAUNCHES names a file that gets the address of each kernel that is launched, as nm prints it.
 #include "Threads.h"
 
 #include <dlfcn.h>
@@ -47,7 +48,7 @@ namespace
 std::size_t capacity = defaultCapacity;
 
 std::recursive_mutex mutex;
-cudaError_t lastError = cudaSuccess;
+thread_local cudaError_t lastError = cudaSuccess;
 thread_local int currentDevice = 0;
 std::map<cudaStream_t, int> deviceOfStream;
 
@@ -347,6 +348,14 @@ cudaError_t cudaSetDevice(int device)
   return cudaSuccess;
 }
 
+cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int)
+{
+  const char* capability = std::getenv("EMULATED_CAPABILITY");
+  const int both = capability != nullptr ? std::atoi(capability) : 90;
+  *value = attribute == cudaDevAttrComputeCapabilityMajor ? both / 10 : both % 10;
+  return cudaSuccess;
+}
+
 cudaError_t cudaGetLastError()
 {
   const std::lock_guard<std::recursive_mutex> lock(mutex);
@@ -389,6 +398,21 @@ cudaError_t cudaFree(void* data)
   const std::lock_guard<std::recursive_mutex> lock(mutex);
   finishAll();
   return data == nullptr || memory.release(data) ? cudaSuccess : failed(cudaErrorInvalidValue);
+}
+
+cudaError_t cudaMallocHost(void** data, std::size_t bytes)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  *data = std::getenv("EMULATED_NO_PINNED") == nullptr ? std::malloc(bytes) : nullptr;
+  return *data == nullptr ? failed(cudaErrorMemoryAllocation) : cudaSuccess;
+}
+
+cudaError_t cudaFreeHost(void* data)
+{
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  finishAll();
+  std::free(data);
+  return cudaSuccess;
 }
 
 cudaError_t cudaMemcpyAsync(

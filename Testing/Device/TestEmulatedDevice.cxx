@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The emulated device notices what a real one may let pass.
+#include "Device/CudaBuffer.h"
 #include "Device/CudaLaunch.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -153,6 +155,25 @@ TEST(EmulatedDevice, WorksWhenItIsWaitedFor)
   cudaFree(data);
   cudaStreamDestroy(stream);
   cudaStreamDestroy(other);
+}
+
+TEST(EmulatedDevice, CopiesToTheHostWhereNoMemoryCanBeLocked)
+{
+  int* data = deviceMemory<int>(1);
+  for (const bool isLocked : { true, false })
+  {
+    isLocked ? unsetenv("EMULATED_NO_PINNED") : setenv("EMULATED_NO_PINNED", "1", 1);
+    CudaHostBuffer buffer(sizeof(int));
+    std::fill_n(buffer.data(), sizeof(int), static_cast<unsigned char>(0));
+    launchKernel(write, 1, 1, 0, nullptr, data, 7);
+    cudaMemcpyAsync(buffer.data(), data, sizeof(int), cudaMemcpyDeviceToHost, nullptr);
+    EXPECT_EQ(buffer.data()[0], 0);
+    cudaStreamSynchronize(nullptr);
+    EXPECT_EQ(buffer.data()[0], 7);
+    EXPECT_EQ(cudaGetLastError(), cudaSuccess);
+  }
+  unsetenv("EMULATED_NO_PINNED");
+  cudaFree(data);
 }
 
 TEST(EmulatedDevice, NotesWhenWorkWasDone)

@@ -36,6 +36,11 @@ enum cudaMemcpyKind
   cudaMemcpyHostToDevice = 1,
   cudaMemcpyDeviceToHost = 2,
 };
+enum cudaDeviceAttr
+{
+  cudaDevAttrComputeCapabilityMajor = 75,
+  cudaDevAttrComputeCapabilityMinor = 76,
+};
 using cudaStream_t = struct CUstream_st*;
 using cudaEvent_t = struct CUevent_st*;
 
@@ -60,10 +65,13 @@ extern "C"
   cudaError_t cudaGetDeviceCount(int* count);
   cudaError_t cudaGetDevice(int* device);
   cudaError_t cudaSetDevice(int device);
+  cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
   cudaError_t cudaGetLastError();
   const char* cudaGetErrorString(cudaError_t error);
   cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
   cudaError_t cudaFree(void* memory);
+  cudaError_t cudaMallocHost(void** memory, std::size_t bytes);
+  cudaError_t cudaFreeHost(void* memory);
   cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
   cudaError_t cudaMemcpyAsync(
     void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
