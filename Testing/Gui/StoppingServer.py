@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Apply and the abort button where a server makes the image: refined in the window, stopped, and begun again. Skipped
-without pvserver."""
+"""Apply and the abort button where a server of two ranks makes the image: refined in the window, stopped, and begun
+again. Skipped without pvserver or mpiexec."""
 
 import os
 
-from server_testing import connect, start_server
+from server_testing import connect, start_ranks
 from views_testing import FOLDER, INSIDE, MESH, ViewsSession
 
 REPORT = os.path.join(FOLDER, "report.txt")
 with open(REPORT, "w", encoding="utf-8"):
     pass
 
-server, port = start_server()
+server, port = start_ranks(2)
 user = ViewsSession()
 user.choose_filter("Schlieren")
 user.type("SamplesPerPixel/LineEdit0", "20000")

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A server for the window."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -14,9 +15,11 @@ def start_server(*launcher):
     if not pvserver:
         print("Skipped: there is no pvserver.")
         sys.exit(77)
+    # Without what makes MPI believe that a process belongs to others.
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     for port in range(11200, 11300):
         server = subprocess.Popen([*launcher, pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
         line = " "
         while line and not re.search("Accepting|rror|failed", line):
             line = server.stdout.readline()
@@ -25,6 +28,14 @@ def start_server(*launcher):
         server.kill()
         server.wait()
     raise RuntimeError("No port is free.")
+
+
+def start_ranks(count):
+    """The same with several ranks; skips the test where there is no mpiexec, too."""
+    if not shutil.which("mpiexec"):
+        print("Skipped: there is no mpiexec (Debian: openmpi-bin).")
+        sys.exit(77)
+    return start_server("mpiexec", "--allow-run-as-root", "--oversubscribe", "-np", str(count))
 
 
 def connect(port):
