@@ -5,6 +5,7 @@
 #include "Medium/Prefilter.h"
 
 #include <algorithm>
+#include <cstring>
 #include <new>
 
 namespace schlieren
@@ -96,15 +97,16 @@ std::int32_t BrickStore<Value>::add(const std::vector<Value>& values)
 }
 
 template <class Value>
-void BrickStore<Value>::put(std::int32_t number, const Value* values)
+void BrickStore<Value>::put(std::int32_t number, const char* values)
 {
   const std::size_t needed =
     (static_cast<std::size_t>(number) + 1) * layout_.perBrick + layout_.behind;
   if (values_.size() < needed)
   {
+    reserve(needed);
     values_.resize(needed);
   }
-  std::copy_n(values, layout_.perBrick, brick(number));
+  std::memcpy(brick(number), values, bytesOfBrick());
 }
 
 /// Puts what is in place order[n] into place n.

@@ -25,8 +25,8 @@ public:
 
   void clear();
   std::int32_t add(const std::vector<Value>& values);
-  /// In place of brick `number`, which may be beyond the last one.
-  void put(std::int32_t number, const Value* values);
+  /// In place of brick `number`, which may be beyond the last one. `values`: as they are in memory, at any address.
+  void put(std::int32_t number, const char* values);
   void remove(std::int32_t brick) { free_.push_back(brick); }
 
   /// Keeps those that are named, in this order; the bricks of zeros are among them, as the first.

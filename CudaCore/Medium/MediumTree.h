@@ -194,6 +194,7 @@ private:
   void keep(std::int32_t node, const Brick<Real>& brick, std::int32_t owner);
   std::int32_t ownerOfTask(std::size_t task) const;
   void sendBricks();
+  void sendBricks(std::int32_t owner);
   std::vector<LeafSums> sumUp(const std::vector<LeafSegment>& segments) const;
   BrickLayout layout() const;
   std::size_t memory() const;

@@ -11,6 +11,14 @@
 namespace schlieren
 {
 
+namespace
+{
+
+/// Of a part: address space, so that it need not be moved while it grows.
+constexpr std::size_t usualBytes = std::size_t{ 1 } << 30;
+
+} // namespace
+
 template <class Real>
 std::vector<char> DeliveredBricks<Real>::toBytes() const
 {
@@ -35,63 +43,56 @@ std::vector<char> DeliveredBricks<Real>::toBytes() const
 }
 
 template <class Real>
-bool DeliveredBricks<Real>::fromBytes(const char* first, std::size_t size)
-{
-  const auto take = [&](auto& values)
-  {
-    std::uint64_t count = 0;
-    if (size < sizeof(count))
-    {
-      return false;
-    }
-    std::memcpy(&count, first, sizeof(count));
-    first += sizeof(count);
-    size -= sizeof(count);
-    if (count > size / sizeof(values[0]))
-    {
-      return false;
-    }
-    values.resize(count);
-    const std::size_t bytes = count * sizeof(values[0]);
-    if (bytes > 0)
-    {
-      std::memcpy(values.data(), first, bytes);
-    }
-    first += bytes;
-    size -= bytes;
-    return true;
-  };
-  return take(samplesNumbers) && take(mapNumbers) && take(samples) && take(maps);
-}
-
-template <class Real>
 PartOfTree<Real>::PartOfTree(const BrickLayout& layout)
   : layout_(layout)
-  , samples_(
-      { static_cast<std::size_t>(layout.samplesPerBrick), 1, PaddedVolume<Real>::readTogether })
-  , maps_({ static_cast<std::size_t>(layout.samplesPerBrick) })
+  , samples_({ static_cast<std::size_t>(layout.samplesPerBrick), 1,
+      PaddedVolume<Real>::readTogether, usualBytes })
+  , maps_({ static_cast<std::size_t>(layout.samplesPerBrick), 0, 0, usualBytes })
 {
 }
 
 template <class Real>
 bool PartOfTree<Real>::put(const char* bricks, std::size_t size)
 {
-  DeliveredBricks<Real> delivered;
-  const auto perBrick = static_cast<std::size_t>(layout_.samplesPerBrick);
-  if (!delivered.fromBytes(bricks, size) ||
-    delivered.samples.size() != delivered.samplesNumbers.size() * perBrick ||
-    delivered.maps.size() != delivered.mapNumbers.size() * perBrick)
+  // From the message into their places: there is no memory for all of them twice.
+  const auto take = [&](auto value, std::uint64_t& count) -> const char*
+  {
+    if (size < sizeof(count))
+    {
+      return nullptr;
+    }
+    std::memcpy(&count, bricks, sizeof(count));
+    const char* first = bricks + sizeof(count);
+    size -= sizeof(count);
+    if (count > size / sizeof(value))
+    {
+      return nullptr;
+    }
+    size -= count * sizeof(value);
+    bricks = first + count * sizeof(value);
+    return first;
+  };
+  std::uint64_t ofSamples = 0, ofMaps = 0, samples = 0, maps = 0;
+  const char* const samplesNumbers = take(std::int32_t{}, ofSamples);
+  const char* const mapNumbers = samplesNumbers ? take(std::int32_t{}, ofMaps) : nullptr;
+  const char* const firstSample = mapNumbers ? take(Real{}, samples) : nullptr;
+  const char* const firstMap = firstSample ? take(std::int16_t{}, maps) : nullptr;
+  const auto perBrick = static_cast<std::uint64_t>(layout_.samplesPerBrick);
+  if (!firstMap || samples != ofSamples * perBrick || maps != ofMaps * perBrick)
   {
     return false;
   }
-  for (std::size_t n = 0; n < delivered.samplesNumbers.size(); ++n)
+  const auto putAll = [](const char* numbers, std::uint64_t count, const char* values, auto& store)
   {
-    samples_.put(delivered.samplesNumbers[n], delivered.samples.data() + n * perBrick);
-  }
-  for (std::size_t n = 0; n < delivered.mapNumbers.size(); ++n)
-  {
-    maps_.put(delivered.mapNumbers[n], delivered.maps.data() + n * perBrick);
-  }
+    for (std::uint64_t n = 0; n < count; ++n)
+    {
+      std::int32_t number = 0;
+      std::memcpy(&number, numbers + n * sizeof(number), sizeof(number));
+      store.put(number, values + n * store.bytesOfBrick());
+    }
+  };
+  putAll(samplesNumbers, ofSamples, firstSample, samples_);
+  putAll(mapNumbers, ofMaps, firstMap, maps_);
   return true;
 }
 

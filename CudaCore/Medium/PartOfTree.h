@@ -45,8 +45,6 @@ struct DeliveredBricks
   std::vector<std::int16_t> maps;
 
   std::vector<char> toBytes() const;
-  /// False where they are not as many as they say.
-  bool fromBytes(const char* first, std::size_t size);
 };
 
 /// What one process has of a tree that another one makes.
@@ -56,6 +54,7 @@ class PartOfTree
 public:
   explicit PartOfTree(const BrickLayout& layout);
 
+  /// DeliveredBricks::toBytes. False where they are not as many as they say.
   bool put(const char* bricks, std::size_t size);
   /// False where a segment is of none of its bricks.
   bool sumUp(

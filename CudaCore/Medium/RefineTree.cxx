@@ -508,10 +508,17 @@ void MediumTree<Real>::sendBricks()
     DeliveredBricks<Real>& unsent = owned_[owner].unsent;
     if (!unsent.samplesNumbers.empty() || !unsent.mapNumbers.empty())
     {
-      settings_.owners->put(static_cast<std::int32_t>(owner), unsent.toBytes());
-      unsent = {};
+      sendBricks(static_cast<std::int32_t>(owner));
     }
   }
+}
+
+template <class Real>
+void MediumTree<Real>::sendBricks(std::int32_t owner)
+{
+  DeliveredBricks<Real>& unsent = owned_[static_cast<std::size_t>(owner)].unsent;
+  settings_.owners->put(owner, unsent.toBytes());
+  unsent = {};
 }
 
 /// The sums of segments, by those who have the samples.
@@ -587,6 +594,11 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int3
     node.map = brick.gasDistances.empty()
       ? -1
       : give(brick.gasDistances, owned.maps, unsent.mapNumbers, unsent.maps);
+    constexpr std::size_t most = 64; // its owner has memory for those that have come, too
+    if (unsent.samplesNumbers.size() + unsent.mapNumbers.size() >= most)
+    {
+      sendBricks(owner);
+    }
   }
   if (!nodeFields_.empty())
   {
