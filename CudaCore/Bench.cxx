@@ -50,6 +50,15 @@ struct MediumOnDevices
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
   double mapTolerance = 0;                   ///< of nu
 
+  TeamTracer<Real>& teamTracer()
+  {
+    if (!team)
+    {
+      team = std::make_unique<TeamTracer<Real>>(medium);
+    }
+    return *team;
+  }
+
   /// The map for a tolerance.
   const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads)
   {
@@ -400,8 +409,11 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
       shared.cuda = std::make_unique<CudaTracer<Real>>(shared.medium);
     }
     using Exits = typename CudaTracer<Real>::Exits;
-    isTraced = shared.cuda->trace(task, pass, { ofGradients, shared.mapTolerance },
-      isWantedOnHost ? Exits::OnHost : Exits::OnDevice, traced, monitor);
+    const Exits exits = isWantedOnHost ? Exits::OnHost : Exits::OnDevice;
+    const TaskVersions versions{ ofGradients, shared.mapTolerance };
+    isTraced = workers.empty() ? shared.cuda->trace(task, pass, versions, exits, traced, monitor)
+                               : shared.teamTracer().traceOnCuda(*shared.cuda, exits, task, pass,
+                                   versions, workers, traced, monitor);
   }
   else if (current.owners)
   {
@@ -414,12 +426,8 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
   }
   else if (!workers.empty())
   {
-    if (!shared.team)
-    {
-      shared.team = std::make_unique<TeamTracer<Real>>(shared.medium);
-    }
-    isTraced = shared.team->trace(task, pass, { ofGradients, shared.mapTolerance }, workers, traced,
-      request.scene.threads, monitor);
+    isTraced = shared.teamTracer().trace(task, pass, { ofGradients, shared.mapTolerance }, workers,
+      traced, request.scene.threads, monitor);
   }
   else
   {
@@ -605,6 +613,10 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   if (watch.isAborted())
   {
     return aborted;
+  }
+  if (request.device == Device::Cuda && !workers.empty())
+  {
+    image.workers = current.shared->teamTracer().workersOnCuda();
   }
   image.kScale = request.kScale;
   image.momentumDrift = request.momentumDrift;

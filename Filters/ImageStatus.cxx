@@ -41,14 +41,15 @@ std::string speedInWords(double raysPerSecond)
 
 std::string deviceInWords(const schlieren::Image& image)
 {
+  const std::string ranks =
+    image.workers > 0 ? " on each of " + std::to_string(image.workers + 1) + " ranks" : "";
   if (image.device == schlieren::Device::Cuda)
   {
-    return "CUDA";
+    return "CUDA" + ranks;
   }
   const std::string threads =
     std::to_string(image.threads) + (image.threads == 1 ? " thread" : " threads");
-  return "CPU (" + threads +
-    (image.workers > 0 ? " on each of " + std::to_string(image.workers + 1) + " ranks)" : ")");
+  return "CPU (" + threads + ranks + ")";
 }
 
 /// What straight rays leave out: a bound on how far refracted ones are beside them where they leave the data. It is

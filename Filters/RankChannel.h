@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <exception>
 #include <list>
 #include <optional>
 #include <thread>
@@ -44,7 +45,10 @@ enum Kind : std::uint32_t
   GiveData,  // to others
   Data,      // to rank 0
   End,       // to others
-  Ended      // to rank 0, an answer to End
+  Ended,     // to rank 0, an answer to End
+  Ask,       // to others, before they get pieces
+  Ready,     // to rank 0, an answer to Ask
+  Relay      // to others: a message comes in pieces
 };
 
 struct HelloMessage
@@ -56,6 +60,14 @@ struct HelloMessage
   Holdings inputs[2] = {};
   std::int32_t areMeshes = 1; // the first of them
 };
+/// Where pieces come from, and where they are sent on to.
+struct RelayMessage
+{
+  std::uint32_t kind = Relay;
+  std::int32_t from = 0;
+  std::int32_t to[2] = { -1, -1 }; // -1: nowhere
+  std::int64_t bytes = 0;
+};
 struct ShortMessage
 {
   std::uint32_t kind = 0;
@@ -64,11 +76,11 @@ struct ShortMessage
 };
 
 template <class Head>
-std::vector<char> messageOf(const Head& head, const std::vector<char>& behind = {})
+std::vector<char> messageOf(const Head& head, std::vector<char> behind = {})
 {
-  std::vector<char> message(sizeof(Head) + behind.size());
+  std::vector<char> message = std::move(behind);
+  message.insert(message.begin(), sizeof(Head), 0);
   std::memcpy(message.data(), &head, sizeof(Head));
-  std::copy(behind.begin(), behind.end(), message.begin() + sizeof(Head));
   return message;
 }
 
@@ -85,7 +97,7 @@ Head read(const std::vector<char>& message)
 
 inline void waitABit() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
-/// Messages by MPI.
+/// Messages by MPI, with this tag; the pieces of those that ranks pass on have the next one.
 class RankChannel : public schlieren::Channel
 {
 public:
@@ -107,6 +119,79 @@ public:
     {
       waitABit();
     }
+  }
+  /// The ranks are a binary tree with this one as its root: each sends pieces on to two others while the next ones
+  /// arrive. Only those take part that answer, so that nobody waits for one that has left.
+  void sendWith(const std::vector<schlieren::Channel*>& others, std::vector<char> message) override
+  {
+    const auto size = static_cast<std::int64_t>(message.size());
+    if (others.empty() && size <= largestSmall)
+    {
+      this->send(std::move(message));
+      return;
+    }
+    std::vector<RankChannel*> nodes{ this };
+    for (schlieren::Channel* other : others)
+    {
+      nodes.push_back(static_cast<RankChannel*>(other));
+    }
+    for (RankChannel* node : nodes)
+    {
+      node->send(messageOf(ShortMessage{ Ask, 0 }));
+    }
+    nodes.erase(std::remove_if(
+                  nodes.begin(), nodes.end(), [](RankChannel* node) { return !node->IsReady(); }),
+      nodes.end());
+    nodes.insert(nodes.begin(), nullptr); // this process
+    const auto rankOf = [&](std::size_t node)
+    {
+      return node == 0        ? this->Controller->GetLocalProcessId()
+        : node < nodes.size() ? nodes[node]->Rank
+                              : -1;
+    };
+    for (std::size_t node = 1; node < nodes.size(); ++node)
+    {
+      nodes[node]->send(messageOf(RelayMessage{
+        Relay, rankOf((node - 1) / 2), { rankOf(2 * node + 1), rankOf(2 * node + 2) }, size }));
+    }
+    Pieces pieces(*this, { rankOf(1), rankOf(2) });
+    for (std::int64_t first = 0; first < size; first += bytesOfPiece)
+    {
+      pieces.Send(message.data() + first, std::min(bytesOfPiece, size - first));
+    }
+    pieces.Wait();
+  }
+  /// What comes in pieces, after it has been sent on; empty where there is no memory for it.
+  std::vector<char> ReceiveRelayed(const RelayMessage& head)
+  {
+    std::vector<char> message;
+    try
+    {
+      message.reserve(static_cast<std::size_t>(head.bytes));
+    }
+    catch (const std::exception&)
+    {
+    }
+    const bool hasRoom = message.capacity() >= static_cast<std::size_t>(head.bytes);
+    std::vector<char> passing(hasRoom ? 0 : bytesOfPiece);
+    Pieces pieces(*this, { head.to[0], head.to[1] });
+    for (std::int64_t first = 0; first < head.bytes; first += bytesOfPiece)
+    {
+      const std::int64_t count = std::min(bytesOfPiece, head.bytes - first);
+      if (hasRoom)
+      {
+        message.resize(static_cast<std::size_t>(first + count));
+      }
+      char* piece = hasRoom ? message.data() + first : passing.data();
+      this->Controller->Receive(piece, count, head.from, this->Tag + 1);
+      pieces.Send(piece, count);
+      if (!hasRoom)
+      {
+        pieces.Wait();
+      }
+    }
+    pieces.Wait();
+    return message;
   }
   bool hasMessage() override
   {
@@ -183,6 +268,23 @@ public:
   }
 
 private:
+  /// Waits for the answer to Ask. False where the other rank has left.
+  bool IsReady()
+  {
+    while (this->isOpen())
+    {
+      this->Poll();
+      const auto answer = std::find_if(this->Messages.begin(), this->Messages.end(),
+        [](const std::vector<char>& message) { return read<ShortMessage>(message).kind == Ready; });
+      if (answer != this->Messages.end())
+      {
+        this->Messages.erase(answer);
+        return true;
+      }
+      waitABit();
+    }
+    return false;
+  }
   bool HasArrived()
   {
     int has = 0;
@@ -196,6 +298,7 @@ private:
   }
 
   static constexpr std::int64_t largestSmall = 1 << 16;
+  static constexpr std::int64_t bytesOfPiece = 1 << 18;
   static constexpr std::size_t largestPiece = std::size_t{ 1 } << 30; // MPI counts by integers
 
   /// Calls visit(first, count) for the pieces of a message.
@@ -223,6 +326,44 @@ private:
     std::vector<vtkMPICommunicator::Request> requests;
   };
   std::list<Unsent> Outgoing; // which MPI reads
+
+  /// On their way to up to two ranks.
+  class Pieces
+  {
+  public:
+    Pieces(RankChannel& channel, const std::array<int, 2>& to)
+      : Channel(channel)
+      , To(to)
+    {
+    }
+    /// The bytes must stay until it has waited.
+    void Send(const char* bytes, std::int64_t count)
+    {
+      auto* mpi = vtkMPIController::SafeDownCast(this->Channel.Controller);
+      for (const int rank : this->To)
+      {
+        if (rank >= 0)
+        {
+          this->Requests.emplace_back();
+          mpi->NoBlockSend(
+            bytes, static_cast<int>(count), rank, this->Channel.Tag + 1, this->Requests.back());
+        }
+      }
+    }
+    void Wait()
+    {
+      for (vtkMPICommunicator::Request& request : this->Requests)
+      {
+        request.Wait();
+      }
+      this->Requests.clear();
+    }
+
+  private:
+    RankChannel& Channel;
+    std::array<int, 2> To;
+    std::vector<vtkMPICommunicator::Request> Requests;
+  };
 
   void Begin(std::vector<char> bytes)
   {
@@ -256,6 +397,12 @@ private:
     return false;
   }
 #else
+  struct Pieces
+  {
+    Pieces(RankChannel&, const std::array<int, 2>&) {}
+    void Send(const char*, std::int64_t) {}
+    void Wait() {}
+  };
   void Begin(std::vector<char>) {}
   bool HasUnsent() { return false; }
 #endif

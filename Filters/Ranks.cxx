@@ -253,7 +253,7 @@ bool FilterRanks::Request(
   {
     // All ranks run their filters in the same order.
     static int filters = 0;
-    this->Inside = std::make_unique<Others>(controller, firstTag + filters++ % 10000);
+    this->Inside = std::make_unique<Others>(controller, firstTag + 2 * (filters++ % 5000));
   }
   this->RequestedAt = Clock::now();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -397,6 +397,15 @@ bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
   {
     RankChannel& channel = *this->Of.Inside->Channels[0];
     std::vector<char> message = channel.receive();
+    if (read<ShortMessage>(message).kind == Ask)
+    {
+      channel.send(messageOf(ShortMessage{ Ready, 0 }));
+      continue;
+    }
+    if (read<ShortMessage>(message).kind == Relay)
+    {
+      message = channel.ReceiveRelayed(read<RelayMessage>(message));
+    }
     const auto head = read<ShortMessage>(message);
     if (head.kind == End)
     {

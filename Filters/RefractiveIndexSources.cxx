@@ -254,8 +254,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
 bool vtkRefractiveIndex::CanUsePieces()
 {
   const int* given = this->SamplingDimensions;
-  return this->IndexModel != TRANSFER_FUNCTIONS && std::all_of(given, given + 3, isZero) &&
-    !SamplingBox(this->SamplingBounds).isGiven();
+  return std::all_of(given, given + 3, isZero) && !SamplingBox(this->SamplingBounds).isGiven();
 }
 
 //------------------------------------------------------------------------------

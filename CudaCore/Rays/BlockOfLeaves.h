@@ -49,6 +49,17 @@ struct BlockOfLeaves
     Int leaf; ///< of the eight
   };
 
+  /// Where leaves of the eight begin, in units of LeavesOfPack.
+  template <class Mask>
+  SCHLIEREN_HD void findFirst(const Int& leaf, Mask (&first)[3]) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Mask upper = __builtin_convertvector(leaf >> axis & 1, Mask);
+      first[axis] = (upper + at[axis]) * size + size / (2 * edge);
+    }
+  }
+
   /// `x`: in local coordinates of the first leaf.
   SCHLIEREN_HD void find(const MediumView<Number>& medium, const Vec3<Real>& x, Place& place) const
   {
@@ -244,11 +255,12 @@ SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
   return areAllGood;
 }
 
-/// Puts the rays into the leaves where they are. `x`: in local coordinates of those where they have been.
+/// Puts the rays into the leaves that begin at `first`, in units of LeavesOfPack.
 template <class Real>
 SCHLIEREN_NOINLINE void leaveBlock(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
-  LeavesOfPack<Real>& in, RaysInBlock<Real>& rays)
+  const typename LeavesOfPack<Real>::Mask (&first)[3], LeavesOfPack<Real>& in,
+  RaysInBlock<Real>& rays)
 {
   using Leaves = LeavesOfPack<Real>;
   using Mask = typename Leaves::Mask;
@@ -260,13 +272,29 @@ SCHLIEREN_NOINLINE void leaveBlock(const MediumView<NumberOf<Real>>& medium,
   {
     in.travelled[i] += static_cast<double>(lengths[i]);
   }
-  Leaves there = in;
-  in.find(
-    medium, steps, rays.x, goes, there.latest,
-    [&](const typename Leaves::There& one, const Mask& which)
-      __attribute__((always_inline)) { there.put(one, which); });
-  rays.finer = there.perIndex * in.voxel;
-  in = there;
+  typename Leaves::Whole corner[3][lanes];
+  std::memcpy(corner, first, sizeof(corner));
+  const Real voxel = in.voxel;
+  Mask left = goes;
+  for (unsigned bits = bitsOf(left); bits != 0; bits = bitsOf(left))
+  {
+    const int i = __builtin_ctz(bits);
+    double index[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      index[axis] = static_cast<double>(corner[axis][i]) * in.unit;
+    }
+    const std::int32_t number = medium.finder.at({ index[0], index[1], index[2] });
+    if (in.latest.number != number)
+    {
+      in.latest.read(medium, steps, in.perUnit, number);
+    }
+    const Mask isIt =
+      left & (first[0] == corner[0][i]) & (first[1] == corner[1][i]) & (first[2] == corner[2][i]);
+    in.put(in.latest, isIt);
+    left &= ~isIt;
+  }
+  rays.finer = in.perIndex * voxel;
   const Vec3<Real> start = in.starts(perLength);
   rays.start.x = goes ? start.x : rays.start.x;
   rays.start.y = goes ? start.y : rays.start.y;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -22,6 +23,15 @@ public:
 
   /// Of a small message, returns at once; of a large one, when the other process has received it.
   virtual void send(std::vector<char> message) = 0;
+  /// The same to several, this one and others of its kind, which may pass it on to each other.
+  virtual void sendWith(const std::vector<Channel*>& others, std::vector<char> message)
+  {
+    for (Channel* other : others)
+    {
+      other->send(message);
+    }
+    send(std::move(message));
+  }
   /// Whether a message has arrived. Does not wait.
   virtual bool hasMessage() = 0;
   /// The next message, once there is one.

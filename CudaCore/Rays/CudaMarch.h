@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Marcher.h"
-#include "Rays/RayExit.h"
+#include "Rays/RayTask.h"
 
 #include <cuda_runtime.h>
 

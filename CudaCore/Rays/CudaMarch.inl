@@ -5,6 +5,7 @@
 #include "Rays/CudaMarch.h"
 
 #include "Device/CudaLaunch.h"
+#include "Rays/Kernels.h"
 #include "Rays/Tracer.h"
 
 #include <type_traits>

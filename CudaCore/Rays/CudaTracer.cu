@@ -12,6 +12,7 @@
 #include <cstring>
 #include <optional>
 #include <tuple>
+#include <type_traits>
 
 namespace schlieren
 {
@@ -51,17 +52,63 @@ bool cudaAvailable(std::string* reason)
   return false;
 }
 
+int cudaCapability()
+{
+  int device = 0, first = 0, second = 0;
+  if (!cudaAvailable(nullptr))
+  {
+    return 0;
+  }
+  checkCuda(cudaGetDevice(&device), "Asking for the device");
+  checkCuda(cudaDeviceGetAttribute(&first, cudaDevAttrComputeCapabilityMajor, device),
+    "Asking for the device");
+  checkCuda(cudaDeviceGetAttribute(&second, cudaDevAttrComputeCapabilityMinor, device),
+    "Asking for the device");
+  return 10 * first + second;
+}
+
+template <class Real>
+MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
+{
+  const auto arrayOf = [](const auto& values)
+  {
+    using T = std::decay_t<decltype(values[0])>;
+    return Array<T>{ values.data(), values.size() };
+  };
+  MediumArrays arrays;
+  arrays.view = medium.view();
+  arrays.solid = arrayOf(medium.solid);
+  if (!medium.tree)
+  {
+    arrays.samples = arrayOf(medium.volume.samples);
+    return arrays;
+  }
+  const MediumTree<Real>& tree = *medium.tree;
+  arrays.samples = arrayOf(tree.samples());
+  arrays.leaves = arrayOf(tree.leaves());
+  arrays.roots = arrayOf(tree.roots());
+  arrays.children = arrayOf(tree.children());
+  arrays.gasDistances = arrayOf(tree.gasDistances());
+  if (const FieldGradientsView ofFields = tree.gradients(); ofFields.count > 0)
+  {
+    arrays.gradients = arrayOf(tree.gradientValues());
+    arrays.gradientBricks = arrayOf(tree.gradientBricks());
+    arrays.firstGradient = ofFields.values - arrays.gradients.first;
+  }
+  return arrays;
+}
+
 template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {
-  explicit DeviceMemory(const Medium<Real>& medium)
-    : view(medium.view())
-    , samples(begin(medium), size(medium), "Copying the medium")
+  explicit DeviceMemory(const MediumArrays<Real>& medium)
+    : view(medium.view)
+    , samples(medium.samples.first, medium.samples.count, "Copying the medium")
   {
-    view.samples = samples.data() + (view.samples - begin(medium));
-    if (medium.tree)
+    view.samples = samples.data() + (view.samples - medium.samples.first);
+    if (medium.leaves.count > 0)
     {
-      tree = std::make_unique<Tree>(*medium.tree);
+      tree = std::make_unique<Tree>(medium);
       const std::int64_t ghost = view.samples - samples.data();
       view.leaves = tree->leaves.data();
       view.finder.roots = tree->roots.data();
@@ -69,21 +116,12 @@ struct CudaTracer<Real>::DeviceMemory
       view.gasDistances =
         view.gasDistances != nullptr ? tree->gasDistances->data() + ghost : nullptr;
     }
-    if (!medium.solid.empty())
+    if (medium.solid.count > 0)
     {
       solid = std::make_unique<Buffer<std::uint32_t>>(
-        medium.solid.data(), medium.solid.size(), "Copying the solids");
+        medium.solid.first, medium.solid.count, "Copying the solids");
       view.solid = solid->data();
     }
-  }
-
-  static const Real* begin(const Medium<Real>& medium)
-  {
-    return medium.tree ? medium.tree->samples().data() : medium.volume.samples.data();
-  }
-  static std::size_t size(const Medium<Real>& medium)
-  {
-    return medium.tree ? medium.tree->samples().size() : medium.volume.samples.size();
   }
 
   static int currentDevice()
@@ -100,24 +138,23 @@ struct CudaTracer<Real>::DeviceMemory
 
   struct Tree
   {
-    explicit Tree(const MediumTree<Real>& tree)
-      : leaves(tree.leaves().data(), tree.leaves().size(), "Copying the medium's leaves")
-      , roots(tree.roots().data(), tree.roots().size(), "Copying the medium's tree")
-      , children(tree.children().data(), tree.children().size(), "Copying the medium's tree")
+    explicit Tree(const MediumArrays<Real>& medium)
+      : leaves(medium.leaves.first, medium.leaves.count, "Copying the medium's leaves")
+      , roots(medium.roots.first, medium.roots.count, "Copying the medium's tree")
+      , children(medium.children.first, medium.children.count, "Copying the medium's tree")
+      , firstGradient(medium.firstGradient)
     {
-      if (!tree.gasDistances().empty())
+      if (medium.gasDistances.count > 0)
       {
         gasDistances = std::make_unique<Buffer<std::int16_t>>(
-          tree.gasDistances().data(), tree.gasDistances().size(), "Copying the walls");
+          medium.gasDistances.first, medium.gasDistances.count, "Copying the walls");
       }
-      if (const FieldGradientsView ofFields = tree.gradients(); ofFields.count > 0)
+      if (medium.gradients.count > 0)
       {
-        const std::vector<float>& all = tree.gradientValues();
-        firstGradient = ofFields.values - all.data();
         gradients = std::make_unique<Buffer<float>>(
-          all.data(), all.size(), "Copying the gradients of the fields");
-        gradientBricks = std::make_unique<Buffer<std::int32_t>>(tree.gradientBricks().data(),
-          tree.gradientBricks().size(), "Copying the gradients of the fields");
+          medium.gradients.first, medium.gradients.count, "Copying the gradients of the fields");
+        gradientBricks = std::make_unique<Buffer<std::int32_t>>(medium.gradientBricks.first,
+          medium.gradientBricks.count, "Copying the gradients of the fields");
       }
     }
     Buffer<Leaf<Real>> leaves;
@@ -125,7 +162,7 @@ struct CudaTracer<Real>::DeviceMemory
     std::unique_ptr<Buffer<std::int16_t>> gasDistances;
     std::unique_ptr<Buffer<float>> gradients;
     std::unique_ptr<Buffer<std::int32_t>> gradientBricks;
-    std::ptrdiff_t firstGradient = 0; ///< where the view begins
+    std::ptrdiff_t firstGradient; ///< where the view begins
   };
   std::unique_ptr<Tree> tree;
 
@@ -223,6 +260,12 @@ struct CudaTracer<Real>::DeviceMemory
 
 template <class Real>
 CudaTracer<Real>::CudaTracer(const Medium<Real>& medium)
+  : CudaTracer(MediumArrays<Real>::of(medium))
+{
+}
+
+template <class Real>
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium)
   : memory_(std::make_unique<DeviceMemory>(medium))
 {
 }
@@ -234,8 +277,21 @@ template <class Real>
 bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
+  begin(task, pass, exits, traced);
+  TileQueue bands(0, bandsOf(pass));
+  const bool isTraced = traceBands(task, pass, versions, exits, bands, traced, monitor);
+  if (exits == Exits::OnHost)
+  {
+    traced.onDevice.reset();
+  }
+  return isTraced;
+}
+
+template <class Real>
+void CudaTracer<Real>::begin(
+  const RayTask<Real>& task, const Pass& pass, Exits exits, TracedPass& traced) const
+{
   checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
-  const RayTask<Real> onDevice = memory_->upload(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again
   if (!there || there->size() != rays)
@@ -243,6 +299,28 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     there.reset();
     there = std::make_unique<CudaPass>(rays);
   }
+  if (exits == Exits::OnHost)
+  {
+    traced.resize(pass, task.gradients.count);
+    traced.crossed = 0;
+    traced.worstDrift = 0;
+  }
+  else
+  {
+    traced = {};
+  }
+  traced.onDevice = std::move(there);
+}
+
+template <class Real>
+bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
+  const TaskVersions& versions, Exits exits, TileQueue& bands, TracedPass& traced,
+  const Monitor& monitor, const std::function<std::int64_t()>& processes)
+{
+  static_assert(bandRows == blockRows);
+  const RayTask<Real> onDevice = memory_->upload(task, versions);
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  const CudaPass* there = traced.onDevice.get();
   const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
   const std::size_t sums = rays * static_cast<std::size_t>(fields);
   const std::unique_ptr<Buffer<float>> gathered =
@@ -260,13 +338,25 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     typename DeviceMemory::Lane* lane;
     std::int64_t firstRow, rows;
   };
-  /// Of the rows from this one on.
-  const auto launch = [&](std::int64_t number, std::int64_t firstRow)
+  /// Of the next bands, if there are any.
+  const auto launch = [&](std::int64_t number) -> std::optional<Launch>
   {
     constexpr std::int64_t maxBlocks = 65535; // along a grid's second axis
-    const std::int64_t rows = std::min(pass.rows - firstRow,
-      blockRows *
-        std::clamp<std::int64_t>(memory_->pace->rays() / pass.columns / blockRows, 1, maxBlocks));
+    std::int64_t wanted =
+      std::clamp<std::int64_t>(memory_->pace->rays() / pass.columns / blockRows, 1, maxBlocks);
+    if (const std::int64_t parts = processes ? processes() : 1; parts > 1)
+    {
+      constexpr std::int64_t least = 8; // of what it does in its time, so that the device is busy
+      const std::int64_t fair = bands.left().count() / (2 * parts);
+      wanted = std::clamp<std::int64_t>(fair, (wanted + least - 1) / least, wanted);
+    }
+    const TileQueue::Tiles taken = bands.takeFront(wanted);
+    if (taken.count() == 0)
+    {
+      return {};
+    }
+    const std::int64_t firstRow = taken.first * bandRows;
+    const std::int64_t rows = std::min(pass.rows, taken.end * bandRows) - firstRow;
     auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
     const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
       static_cast<unsigned>((rows + blockRows - 1) / blockRows));
@@ -281,7 +371,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       });
     checkCuda(cudaGetLastError(), "Starting the ray kernel");
     lane.end.record(lane.stream);
-    return Launch{ &lane, firstRow, rows };
+    return { { &lane, firstRow, rows } };
   };
   const auto totalsOf = [](const typename DeviceMemory::Lane& lane)
   {
@@ -312,28 +402,17 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     lane.crossed = crossed;
   };
 
-  if (exits == Exits::OnHost)
+  std::int64_t launches = 0;
+  std::optional<Launch> current = launch(launches++);
+  while (current)
   {
-    traced.resize(pass, fields);
-  }
-  else
-  {
-    traced = {};
-  }
-  std::int64_t launches = 1;
-  Launch current = launch(0, 0);
-  while (true)
-  {
-    const std::int64_t end = current.firstRow + current.rows;
-    std::optional<Launch> next;
-    if (end < pass.rows)
-    {
-      next.emplace(launch(launches++, end)); // runs while this one's rays are copied
-    }
-    fetch(current);
+    const std::optional<Launch> next = launch(launches++); // runs while this one's rays are copied
+    fetch(*current);
     if (monitor.progress)
     {
-      monitor.progress(static_cast<double>(end) / static_cast<double>(pass.rows));
+      const std::int64_t toCome =
+        std::min(pass.rows, bands.left().end * bandRows) - current->firstRow - current->rows;
+      monitor.progress(1 - static_cast<double>(toCome) / static_cast<double>(pass.rows));
     }
     if (monitor.aborted && monitor.aborted())
     {
@@ -343,18 +422,8 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       }
       return false;
     }
-    if (!next)
-    {
-      break;
-    }
-    current = *next;
+    current = next;
   }
-  if (exits == Exits::OnDevice)
-  {
-    traced.onDevice = std::move(there);
-  }
-  traced.crossed = 0;
-  traced.worstDrift = 0;
   for (const auto& lane : memory_->lanes)
   {
     const MarchTotals totals = totalsOf(lane);

@@ -3,6 +3,8 @@
 #include "Rays/DistributedRays.h"
 
 #include "Device/Parallel.h"
+#include "Rays/Kernels.h"
+#include "Rays/SimdMarch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,54 +16,152 @@ namespace schlieren
 namespace
 {
 
-/// Takes a ray through resident leaves. Whether it has ended there; otherwise `ray` is as it continues elsewhere.
-template <class Kernel, class Number>
-bool advanceRay(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& ray,
-  RayExit& exit, double& drift)
+/// Two packs of rays that a kernel takes side by side.
+template <class Number, int Lanes>
+struct TwoPacks
 {
-  RayBatch<Number, 1> batch{};
-  const Entry entry = meetGrid(task, pass, ray.ray, batch, 0);
-  const bool isNew = ray.leaf < 0;
-  if (isNew && batch.fate[0] == RayFate::Left)
+  RayBatch<Number, Lanes> batches[2]{};
+  SuspendedRay<Number> states[2][Lanes]{};
+  Entry entries[2][Lanes];
+  int count = 0;
+
+  TwoPacks()
   {
-    const Vec3<double> start = startOf(batch, 0);
+    for (auto& pack : batches)
+    {
+      std::fill(pack.fate, pack.fate + Lanes, RayFate::Missed);
+    }
+  }
+};
+
+/// Puts a ray where it enters the grid, or where it is, and says whether that is in a leaf that is here: then it is one
+/// more of the packs. `ended`: in a wall.
+template <class Number, int Lanes>
+bool begin(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& ray,
+  TwoPacks<Number, Lanes>& packs, bool& ended, RayExit& exit)
+{
+  const int n = packs.count / Lanes, i = packs.count % Lanes;
+  RayBatch<Number, Lanes>& batch = packs.batches[n];
+  const Entry entry = meetGrid(task, pass, ray.ray, batch, i);
+  ended = false;
+  if (ray.leaf == SuspendedRay<Number>::nowhere)
+  {
+    const Vec3<double> start = startOf(batch, i);
     ray.next = task.medium.finder.at(start);
     if (!task.medium.leaves[ray.next].isResident())
     {
+      batch.fate[i] = RayFate::Missed;
       return false;
     }
-    batch.fate[0] = isWallAt(task.medium, start) ? RayFate::Blocked : RayFate::Left;
-  }
-  if (batch.fate[0] == RayFate::Left)
-  {
-    using May = MayMeet<false, true, false, true>;
-    March<Kernel, Number, May> march(task, batch, isNew ? nullptr : &ray);
-    if (march.takeStepsInResidentLeaves(ray))
+    if (isWallAt(task.medium, start))
     {
+      batch.fate[i] = RayFate::Blocked;
+      exit = leaveGrid(task, batch, i, entry);
+      batch.fate[i] = RayFate::Missed;
+      ended = true;
       return false;
     }
-    march.findDrift();
   }
-  drift = static_cast<double>(batch.drift[0]);
-  exit = leaveGrid(task, batch, 0, entry);
+  packs.entries[n][i] = entry;
+  packs.states[n][i] = ray;
+  ++packs.count;
   return true;
 }
 
-template <class Number>
-using AdvanceFunction = bool (*)(const RayTask<Number>& task, const Pass& pass,
-  SuspendedRay<Number>& ray, RayExit& exit, double& drift);
+template <class Number, int Lanes>
+void advanceWith(const RayTask<Number>& task, AdvanceFunction<Number, Lanes> advance,
+  const Pass& pass, SuspendedRay<Number>* rays, std::int64_t count, AdvancedRays<Number>& to)
+{
+  for (std::int64_t next = 0; next < count;)
+  {
+    TwoPacks<Number, Lanes> packs;
+    for (; next < count && packs.count < 2 * Lanes; ++next)
+    {
+      bool ended = false;
+      RayExit exit{};
+      SuspendedRay<Number>& ray = rays[next];
+      if (begin(task, pass, ray, packs, ended, exit))
+      {
+        continue;
+      }
+      if (ended)
+      {
+        to.ended.push_back({ ray.ray, exit });
+      }
+      else
+      {
+        to.suspended.rays.push_back(ray);
+      }
+    }
+    advance(task, packs.batches, packs.states);
+    for (int number = 0; number < packs.count; ++number)
+    {
+      const int n = number / Lanes, i = number % Lanes;
+      const SuspendedRay<Number>& ray = packs.states[n][i];
+      if (ray.next != SuspendedRay<Number>::nowhere)
+      {
+        to.suspended.rays.push_back(ray);
+        continue;
+      }
+      const RayBatch<Number, Lanes>& batch = packs.batches[n];
+      to.ended.push_back({ ray.ray, leaveGrid(task, batch, i, packs.entries[n][i]) });
+      to.worstDrift = std::max(to.worstDrift, static_cast<double>(batch.drift[i]));
+    }
+  }
+}
 
 template <class Number>
-AdvanceFunction<Number> advanceFunction(const KernelChoice& choice)
+AdvanceFunction<Number, 1> advanceOneByOne(const KernelChoice& choice)
 {
   return visitScheme(choice.interpolation,
-    [&](auto scheme) -> AdvanceFunction<Number>
+    [&choice](auto scheme)
     {
-      using Scheme = decltype(scheme);
-      return choice.path == PathModel::Straight
-        ? &advanceRay<Kernel<StraightPath, Leapfrog, Scheme>, Number>
-        : &advanceRay<Kernel<RefractedPath, Leapfrog, Scheme>, Number>;
+      return visitPath<decltype(scheme)>(choice.path,
+        [](auto kernel) -> AdvanceFunction<Number, 1>
+        {
+          return [](const RayTask<Number>& task, RayBatch<Number, 1>(&batches)[2],
+                   SuspendedRay<Number>(&states)[2][1])
+          {
+            for (int n = 0; n < 2; ++n)
+            {
+              MarchInResidentLeaves<decltype(kernel), Number> march(task, batches[n], states[n]);
+              march.takeAllSteps();
+              march.findDrift();
+            }
+          };
+        });
     });
+}
+
+/// Calls visit with the function for some instructions.
+template <class Number, class Visit>
+void visitAdvance(const KernelChoice& kernel, Simd simd, const Visit& visit)
+{
+  constexpr bool isSingle = std::is_same_v<Number, float>;
+#ifdef SCHLIEREN_HAS_AVX
+  if (simd >= Simd::Avx512)
+  {
+    constexpr int lanes = isSingle ? 16 : 8;
+    visit(simd == Simd::Avx512 ? simdAdvance<Number, lanes>(kernel)
+                               : simdAdvanceByRows<Number, lanes>(kernel));
+    return;
+  }
+  if (simd == Simd::Avx2)
+  {
+    constexpr int lanes = isSingle ? 8 : 4;
+    visit(simdAdvance<Number, lanes>(kernel));
+    return;
+  }
+#endif
+  if constexpr (isSingle) // see traceTiles()
+  {
+    if (simd != Simd::None)
+    {
+      visit(simdAdvance<Number, 4>(kernel));
+      return;
+    }
+  }
+  visit(advanceOneByOne<Number>(kernel));
 }
 
 } // namespace
@@ -113,45 +213,34 @@ bool AdvancedRays<Real>::fromMessage(const std::vector<char>& message)
 
 template <class Real>
 AdvancedRays<Real> advanceRays(
-  const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads)
+  const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads, Simd simd)
 {
-  const AdvanceFunction<Real> advance = advanceFunction<Real>(task.kernel);
   AdvancedRays<Real> all;
   std::mutex lock; // of these
   constexpr std::int64_t grain = 64;
-  parallelFor(static_cast<std::int64_t>(rays.size()), grain, threads,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      AdvancedRays<Real> here;
-      for (std::int64_t n = begin; n < end; ++n)
+  const auto advanceAll = [&](auto advance)
+  {
+    parallelFor(static_cast<std::int64_t>(rays.size()), grain, threads,
+      [&](std::int64_t begin, std::int64_t end)
       {
-        SuspendedRay<Real>& ray = rays.rays[static_cast<std::size_t>(n)];
-        RayExit exit{};
-        double drift = 0;
-        if (advance(task, pass, ray, exit, drift))
-        {
-          here.ended.push_back({ ray.ray, exit });
-          here.worstDrift = std::max(here.worstDrift, drift);
-        }
-        else
-        {
-          here.suspended.rays.push_back(ray);
-        }
-      }
-      const std::lock_guard<std::mutex> guard(lock);
-      all.ended.insert(all.ended.end(), here.ended.begin(), here.ended.end());
-      all.suspended.rays.insert(
-        all.suspended.rays.end(), here.suspended.rays.begin(), here.suspended.rays.end());
-      all.worstDrift = std::max(all.worstDrift, here.worstDrift);
-    });
+        AdvancedRays<Real> here;
+        advanceWith(task, advance, pass, rays.rays.data() + begin, end - begin, here);
+        const std::lock_guard<std::mutex> guard(lock);
+        all.ended.insert(all.ended.end(), here.ended.begin(), here.ended.end());
+        all.suspended.rays.insert(
+          all.suspended.rays.end(), here.suspended.rays.begin(), here.suspended.rays.end());
+        all.worstDrift = std::max(all.worstDrift, here.worstDrift);
+      });
+  };
+  visitAdvance<Real>(task.kernel, simd, advanceAll);
   return all;
 }
 
 template struct AdvancedRays<float>;
 template struct AdvancedRays<double>;
 template AdvancedRays<float> advanceRays(
-  const RayTask<float>&, const Pass&, TravellingRays<float>, int);
+  const RayTask<float>&, const Pass&, TravellingRays<float>, int, Simd);
 template AdvancedRays<double> advanceRays(
-  const RayTask<double>&, const Pass&, TravellingRays<double>, int);
+  const RayTask<double>&, const Pass&, TravellingRays<double>, int, Simd);
 
 } // namespace schlieren

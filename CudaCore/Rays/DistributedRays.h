@@ -29,7 +29,7 @@ struct TravellingRays
   {
     SuspendedRay<Real> state{};
     state.ray = ray;
-    state.leaf = -1;
+    state.leaf = SuspendedRay<Real>::nowhere;
     state.next = leaf;
     rays.push_back(state);
   }
@@ -93,6 +93,7 @@ struct AdvanceMessage
     std::int64_t firstSample = 0; ///< from the first of all to where the task's pointers point
   };
   Head head{};
+  Simd simd = Simd::None;
   Pass pass{};
   RayTask<Real> task{}; ///< its pointers mean nothing
   std::array<std::uint64_t, arraysOfTask> versions{};
@@ -129,10 +130,10 @@ struct AdvancedRays
   bool fromMessage(const std::vector<char>& message);
 };
 
-/// Takes rays as far as the medium is here.
+/// Takes rays as far as the medium is here. `simd` must be one that the processor has.
 template <class Real>
 AdvancedRays<Real> advanceRays(
-  const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads);
+  const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads, Simd simd);
 
 /// Whether rays can be suspended: with integrators that look at the medium only in the middle of their steps.
 bool canSuspend(const KernelChoice& kernel);

@@ -89,7 +89,7 @@ const typename DistributedTracer<Real>::Traffic& DistributedTracer<Real>::traffi
 
 template <class Real>
 bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass, TracedPass& traced,
-  int threads, const Monitor& monitor)
+  int threads, const Monitor& monitor, Simd simd)
 {
   State& state = *state_;
   const std::vector<Channel*>& workers = state.owners.channels();
@@ -101,6 +101,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   message.head.number = newNumber();
   message.head.tree = state.owners.tree();
   message.head.firstSample = task.medium.samples - state.tree.samples().data();
+  message.simd = simd;
   message.pass = pass;
   message.task = task;
   const std::array<const void*, arraysOfTask> arrays{ nullptr, nullptr, task.medium.leaves,
@@ -147,11 +148,19 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const auto begin = [&](std::int64_t tile)
   {
     const Pass ofTile = passOfTile(pass, tile);
-    for (std::int64_t n = 0; n < ofTile.columns * ofTile.rows; ++n)
+    constexpr std::int64_t edge = 4; // of squares of rays, which are near each other in a pack
+    constexpr std::int64_t squares = tileEdge / edge, raysOfSquare = edge * edge;
+    for (std::int64_t n = 0; n < tileEdge * tileEdge; ++n)
     {
-      const std::int64_t ray =
-        (ofTile.firstRow - pass.firstRow + n / ofTile.columns) * pass.columns + ofTile.firstColumn -
-        pass.firstColumn + n % ofTile.columns;
+      const std::int64_t square = n / raysOfSquare, inSquare = n % raysOfSquare;
+      const std::int64_t column = square % squares * edge + inSquare % edge;
+      const std::int64_t row = square / squares * edge + inSquare / edge;
+      if (column >= ofTile.columns || row >= ofTile.rows)
+      {
+        continue;
+      }
+      const std::int64_t ray = (ofTile.firstRow - pass.firstRow + row) * pass.columns +
+        ofTile.firstColumn - pass.firstColumn + column;
       RayBatch<Real, 1> batch{};
       const Entry entry = meetGrid(task, pass, ray, batch, 0);
       if (batch.fate[0] != RayFate::Left)
@@ -242,7 +251,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     }
     if (waiting[0].size() > 0)
     {
-      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce), threads));
+      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce), threads, simd));
       isIdle = false;
     }
     if (underWay == 0 && (isStopped || tiles.left().count() == 0))

@@ -22,9 +22,10 @@ public:
   DistributedTracer(const Medium<Real>& medium, const BrickChannels& owners);
   ~DistributedTracer();
 
-  /// As traceOnCpu with Simd::None, where canSuspend(). Throws Error where a worker does not answer: nobody else has its part.
+  /// As traceOnCpu, where canSuspend(): rays are the same but for rounding, and the same to the last bit whatever the
+  /// number of processes. These must have the instructions. Throws Error where a worker does not answer: nobody else has its part.
   bool trace(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
-    const Monitor& monitor);
+    const Monitor& monitor, Simd simd = bestSimd());
 
   /// What has been sent between processes since the beginning, in both directions.
   struct Traffic

@@ -96,16 +96,10 @@ struct LeavesOfRays
     return found;
   }
 
-  /// Moves ray i into next(). Returns the new local coordinates by the old ones, or 0 if it stays where it is.
-  SCHLIEREN_HD double change(const View& medium, int i, const StepsInLeaves<Number>& usual,
-    const Number (&x)[3][lanes], const Number (&along)[3][lanes], Number& step, Number length,
-    const Number (&perLength)[3][lanes])
+  /// Moves ray i into a leaf. Returns the new local coordinates by the old ones.
+  SCHLIEREN_HD double change(
+    const View& medium, int i, std::int32_t to, Number length, const Number (&perLength)[3][lanes])
   {
-    const std::int32_t to = next(medium, i, usual, x, along, step);
-    if (to == leaf[i])
-    {
-      return 0;
-    }
     const Leaf<Number>& now = medium.leaves[leaf[i]];
     const Leaf<Number>& then = medium.leaves[to];
     for (int axis = 0; axis < 3; ++axis)
@@ -223,11 +217,12 @@ struct RaysBetweenLeaves
   Real finer;       ///< the new local coordinates by the old ones; 1 for others
 };
 
-/// See LeavesOfRays::change. Whether any ray has changed its leaf.
-template <class Real>
-SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
+/// Moves the rays in question into the leaves of the middle of their next step, see LeavesOfRays::next, but those where
+/// stays(ray, this leaf). Whether any ray has changed its leaf.
+template <class Real, class Stays>
+SCHLIEREN_NOINLINE bool changeLeavesUnless(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
-  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays)
+  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays, const Stays& stays)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
@@ -243,17 +238,21 @@ SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   for (int i = 0; i < lanes; ++i)
   {
     finer[i] = 1;
-    const double ratio =
-      isOut[i] == 0 ? 0 : in.change(medium, i, steps, x, along, step[i], length[i], perLength);
-    if (ratio != 0)
+    if (isOut[i] == 0)
     {
-      hasChanged = true;
-      finer[i] = static_cast<Number>(ratio);
-      length[i] = 0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        start[axis][i] = static_cast<Number>(in.start[axis][i]);
-      }
+      continue;
+    }
+    const std::int32_t to = in.next(medium, i, steps, x, along, step[i]);
+    if (to == in.leaf[i] || stays(i, to))
+    {
+      continue;
+    }
+    hasChanged = true;
+    finer[i] = static_cast<Number>(in.change(medium, i, to, length[i], perLength));
+    length[i] = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      start[axis][i] = static_cast<Number>(in.start[axis][i]);
     }
   }
   rays.step = fromArray<Real>(step);
@@ -261,6 +260,19 @@ SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   rays.finer = fromArray<Real>(finer);
   rays.start = packsOf<Real>(start);
   return hasChanged;
+}
+
+struct StaysNowhere
+{
+  SCHLIEREN_HD bool operator()(int, std::int32_t) const { return false; }
+};
+
+template <class Real>
+SCHLIEREN_HD bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
+  const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
+  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays)
+{
+  return changeLeavesUnless(medium, steps, perLength, in, rays, StaysNowhere{});
 }
 
 /// Where a pack of places lies that may be in other leaves than the rays.

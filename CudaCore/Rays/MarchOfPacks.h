@@ -14,8 +14,9 @@ namespace schlieren
 {
 
 /// At most `most` steps of which none leaves the grid.
-template <class Kernel, class Real>
-SCHLIEREN_HD void takeStepsInside(March<Kernel, Real>& a, March<Kernel, Real>& b, std::int32_t most)
+template <class Kernel, class Real, class May>
+SCHLIEREN_HD void takeStepsInside(
+  March<Kernel, Real, May>& a, March<Kernel, Real, May>& b, std::int32_t most)
 {
   using Number = NumberOf<Real>;
   using Path = typename Kernel::Path;
@@ -55,12 +56,17 @@ struct MarchInBlock
   using Marching = March<Kernel, Real>;
   using Place = typename BlockOfLeaves<Real>::Place;
 
+  using Int = IntOf<Real>;
+
   Marching& march;
   BlockOfLeaves<Real> block;
   Number reach;
+  /// Where the leaves of the middles of the last steps begin: these the rays are in, see March::settle.
+  typename LeavesOfPack<Real>::Mask last[3];
 
   SCHLIEREN_HD explicit MarchInBlock(Marching& of)
     : march(of)
+    , last{ of.in.first[0], of.in.first[1], of.in.first[2] }
   {
     Number least[lanesOf<Real>];
     toArray(minimum(leastOf(of.stepsToLast), leastOf(of.stepsToFirst)), least);
@@ -119,9 +125,9 @@ struct MarchInBlock
   SCHLIEREN_NOINLINE void leave(const Ray<Real>& ray)
   {
     march.ray = ray;
-    RaysInBlock<Real> rays{ Path::position(ray, march.light), {}, march.cruise, ray.start,
-      ray.length, {}, {}, false, {} };
-    leaveBlock(march.task.medium, march.stepsInLeaves(), march.batch.perLength, march.in, rays);
+    RaysInBlock<Real> rays{ {}, {}, march.cruise, ray.start, ray.length, {}, {}, false, {} };
+    leaveBlock(
+      march.task.medium, march.stepsInLeaves(), march.batch.perLength, last, march.in, rays);
     march.ray.start = rays.start;
     march.ray.length = rays.length;
     march.ray.offset = rays.finer * march.ray.offset;
@@ -133,10 +139,23 @@ struct MarchInBlock
 template <class Kernel, class Real>
 SCHLIEREN_HD void takeStepsInBlocks(March<Kernel, Real>& a, March<Kernel, Real>& b)
 {
-  MarchInBlock<Kernel, Real> inA(a), inB(b);
+  using Block = MarchInBlock<Kernel, Real>;
+  Block inA(a), inB(b);
   Ray<Real> ofA = a.ray, ofB = b.ray;
   const std::int32_t most = a.task.stepLimit - maximum(a.steps, b.steps);
   std::int32_t taken = 0;
+  typename Block::Int lastOfA{},
+    lastOfB{}; // leaves of the blocks, where steps have been taken in these
+  bool hasLastOfA = false, hasLastOfB = false;
+  const auto keepLast =
+    [](Block & in, const typename Block::Int& leaf, bool& hasLeaf) __attribute__((always_inline))
+  {
+    if (hasLeaf)
+    {
+      in.block.findFirst(leaf, in.last);
+      hasLeaf = false;
+    }
+  };
   if (inA.enter(ofA) & inB.enter(ofB))
   {
     for (; taken < most; ++taken)
@@ -146,6 +165,8 @@ SCHLIEREN_HD void takeStepsInBlocks(March<Kernel, Real>& a, March<Kernel, Real>&
       inB.find(ofB, atB);
       if (inA.isUnknown(atA) || inB.isUnknown(atB))
       {
+        keepLast(inA, lastOfA, hasLastOfA);
+        keepLast(inB, lastOfB, hasLastOfB);
         if ((inA.isUnknown(atA) && !inA.enter(ofA)) || (inB.isUnknown(atB) && !inB.enter(ofB)))
         {
           break;
@@ -159,44 +180,57 @@ SCHLIEREN_HD void takeStepsInBlocks(March<Kernel, Real>& a, March<Kernel, Real>&
       }
       inA.take(ofA, atA, ofA);
       inB.take(ofB, atB, ofB);
+      lastOfA = atA.leaf;
+      lastOfB = atB.leaf;
+      hasLastOfA = hasLastOfB = true;
     }
   }
+  keepLast(inA, lastOfA, hasLastOfA);
+  keepLast(inB, lastOfB, hasLastOfB);
   inA.leave(ofA);
   inB.leave(ofB);
   a.steps += taken;
   b.steps += taken;
 }
 
-/// Takes the rays of two batches through the medium.
-template <class Kernel, class Real>
-SCHLIEREN_HD void marchTwo(const RayTask<NumberOf<Real>>& task,
-  RayBatch<NumberOf<Real>, lanesOf<Real>>& one, RayBatch<NumberOf<Real>, lanesOf<Real>>& other)
+/// Fewer steps are not worth a loop of their own.
+constexpr std::int32_t worthALoop = 4;
+
+/// Some steps of packs that isPlain(), where there are enough of them.
+template <class Kernel, class Real, class May>
+SCHLIEREN_HD void takePlainSteps(March<Kernel, Real, May>& a, March<Kernel, Real, May>& b)
 {
-  March<Kernel, Real> a(task, one);
-  March<Kernel, Real> b(task, other);
-  constexpr std::int32_t worthIt = 4;
-  const bool isTree = a.isTree();
+  if constexpr (!March<Kernel, Real, May>::areApart)
+  {
+    // What blocks are for, long rows of leaves, are not what leaves of one layer are crossed in.
+    if (a.isTree() && a.task.medium.planeStride != 0)
+    {
+      takeStepsInBlocks(a, b);
+      return;
+    }
+  }
+  const std::int32_t inside = minimum(a.stepsInside(), b.stepsInside());
+  if (inside >= worthALoop)
+  {
+    takeStepsInside(a, b, inside);
+  }
+}
+
+/// Takes the rays of two packs through the medium.
+template <class Kernel, class Real, class May>
+SCHLIEREN_HD void marchTwo(March<Kernel, Real, May>& a, March<Kernel, Real, May>& b)
+{
   const bool mayBePlain = !a.isGathering();
-  // What blocks are for, long rows of leaves, are not what leaves of one layer are crossed in.
-  const bool hasBlocks = isTree && task.medium.planeStride != 0;
   // To look again: a tree's leaves are left often.
-  const std::int32_t pause = isTree ? 2 : 8;
+  const std::int32_t pause = a.isTree() ? 2 : 8;
   std::int32_t next = 0;
   while (a.areUnderWay && b.areUnderWay)
   {
     if (mayBePlain && a.steps >= next && a.isPlain() && b.isPlain())
     {
       const std::int32_t before = a.steps;
-      if (hasBlocks)
-      {
-        takeStepsInBlocks(a, b);
-      }
-      else if (const std::int32_t inside = minimum(a.stepsInside(), b.stepsInside());
-               inside >= worthIt)
-      {
-        takeStepsInside(a, b, inside);
-      }
-      next = a.steps - before < worthIt ? a.steps + pause : 0;
+      takePlainSteps(a, b);
+      next = a.steps - before < worthALoop ? a.steps + pause : 0;
     }
     a.takeStep();
     b.takeStep();

@@ -5,66 +5,16 @@
 // there is nothing better), several side by side where it is a pack.
 #pragma once
 
-#include "Medium/FieldGradients.h"
-#include "Medium/HomogeneityMap.h"
 #include "Rays/InBoxes.h"
-#include "Rays/Integrators.h"
 #include "Rays/LeavesOfRays.h"
-#include "Rays/Light.h"
-#include "Rays/RayExit.h"
+#include "Rays/RayTask.h"
+#include "Rays/SuspendedRays.h"
 
 #include <cstdint>
 #include <type_traits>
 
 namespace schlieren
 {
-
-/// Which kernel.
-struct KernelChoice
-{
-  PathModel path; ///< not Auto
-  Integrator integrator;
-  Interpolation interpolation;
-};
-
-/// All that one ray needs, host and device alike.
-template <class Number>
-struct RayTask
-{
-  KernelChoice kernel;
-  MediumView<Number> medium;
-  HomogeneityView map; ///< levels null: no cube is skipped
-  FieldGradientsView gradients;
-  Light light;
-  Vec3<Number> indexScale; ///< of the light
-  Number step;             ///< in units of the light's unit of length
-  Number stepAtEdge;       ///< of leaves where gas may end
-  std::int32_t stepLimit;
-  double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
-  Number largestQ;      ///< no ray has more of q
-  Number allowedBend;   ///< Adaptive: error of q allowed in a step, per unit of length
-  Number allowedOffset; ///< Adaptive: the same of the offset
-};
-
-/// Rays in plain arrays: what the tracer hands to the marcher and gets back.
-template <class Number, int Lanes>
-struct RayBatch
-{
-  double start[3][Lanes]; ///< index coordinates within the domain
-  alignas(Lanes *
-    sizeof(Number)) Number direction[3][Lanes]; ///< of undisturbed light, along the grid's axes
-  Number perLength[3][Lanes]; ///< the same in index coordinates per unit of length
-  Number q[3][Lanes];         ///< at the end, as all that follows
-  Number offset[3][Lanes];    ///< index coordinates
-  Number end[3][Lanes];       ///< local coordinates of the last leaf
-  Number length[Lanes];
-  Number path[Lanes];
-  Number pathError[Lanes];
-  Number drift[Lanes]; ///< | |p| / n - 1 | at the end
-  RayFate fate[Lanes]; ///< Left: to be traced; anything else: not
-  std::int32_t steps[Lanes];
-  float* gathered[Lanes]; ///< sums of the fields' gradients, where there are any
-};
 
 /// As an integer from 0 to `most`, which many numbers of steps cannot be: they are estimates, of any size.
 template <class Number>
@@ -119,21 +69,6 @@ using MayMeetAll = MayMeet<true, true, true>;
 template <class Real>
 struct LeavesOfPack; // for those who march with packs
 
-/// A ray whose march has come to a leaf that is not resident: what of it is not the pass's and the task's, to the last
-/// bit, in the coordinates of the leaf that it leaves.
-template <class Number>
-struct SuspendedRay
-{
-  std::int64_t ray;       ///< of the pass
-  double start[3];        ///< see LeavesOfRays
-  double travelled;       ///< likewise
-  Vec3<Number> offset, q; ///< see Ray, as the next three
-  Number length, path, pathError;
-  std::int32_t leaf;  ///< that it is in; -1: it has not entered the grid yet
-  std::int32_t next;  ///< the one that it comes to
-  std::int32_t steps; ///< so far
-};
-
 /// What the march of some rays through the medium needs to know, and its steps.
 template <class Kernel, class Real, class May = MayMeetAll>
 struct March
@@ -145,13 +80,16 @@ struct March
   static constexpr int lanes = lanesOf<Real>;
   static constexpr bool isAdaptive = std::is_same_v<Integrator, Adaptive>;
   static constexpr bool isExact = Integrator::order > 2; ///< about where it leaves, too
+  /// Of rays that may continue elsewhere, with others beside them: what becomes of each must not depend on these.
+  static constexpr bool areApart = May::leavesElsewhere;
   using Batch = RayBatch<Number, lanes>;
+  using Suspended = std::conditional_t<areApart, SuspendedRays<Real>, NoSuspendedRays>;
 
   const RayTask<Number>& task;
   Batch& batch;
   StraightLight<Real> light;
   Ray<Real> ray;
-  using Leaves = std::conditional_t<lanes == 1, LeavesOfRays<Real>, LeavesOfPack<Real>>;
+  using Leaves = std::conditional_t<lanes == 1 || areApart, LeavesOfRays<Real>, LeavesOfPack<Real>>;
   Leaves in;                        ///< of a tree
   Vec3<Real> domainLow, domainHigh; ///< in local coordinates
   Real baseValue;                   ///< of the leaf: is added to what its samples say
@@ -167,13 +105,14 @@ struct March
   std::int32_t steps = 0;
   std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
+  Suspended suspended;
 
   // Rays are distinguished by masks, or in arrays, but never by an index into a pack: that would keep the
   // pack in memory, in every step.
 
-  /// `suspended`: where the march has ended on another process; null: it begins.
-  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch,
-    [[maybe_unused]] const SuspendedRay<Number>* suspended = nullptr)
+  /// `states`: areApart: of the rays, see MarchInResidentLeaves.
+  SCHLIEREN_HD March(
+    const RayTask<Number>& ofTask, Batch& ofBatch, decltype(Suspended::states) states = nullptr)
     : task(ofTask)
     , batch(ofBatch)
     , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
@@ -185,6 +124,7 @@ struct March
     , stepsToLast(stepsPerIndex(light.perLength))
     , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
     , nextStep(Real{} + ofTask.step)
+    , suspended{ states }
   {
     Number usual[lanes], start[3][lanes];
     for (int i = 0; i < lanes; ++i)
@@ -198,23 +138,22 @@ struct March
     cruise = fromArray<Real>(usual);
     ray.start = packs(start);
     areUnderWay = any(cruise > 0);
-    if constexpr (May::leavesElsewhere)
+    if constexpr (areApart)
     {
-      if (suspended != nullptr)
+      continueMarch();
+    }
+    else
+    {
+      if (isTree())
       {
-        restore(*suspended);
-        return;
+        enterTree();
       }
-    }
-    if (isTree())
-    {
-      enterTree();
-    }
-    park(cruise == 0);
-    if constexpr (Path::bends)
-    {
-      // Light enters along d, so that |p| = 1 + nu from the start.
-      ray.q = valueApart(ray.start) * light.d;
+      park(cruise == 0);
+      if constexpr (Path::bends)
+      {
+        // Light enters along d, so that |p| = 1 + nu from the start.
+        ray.q = valueApart(ray.start) * light.d;
+      }
     }
   }
 
@@ -273,6 +212,10 @@ struct March
       {
         batch.fate[i] = fate;
         batch.steps[i] = stepsTaken;
+        if constexpr (areApart)
+        {
+          batch.steps[i] += suspended.states[i].steps;
+        }
         if (isTree())
         {
           in.toIndexCoordinates(task.medium, i, batch.offset);
@@ -370,7 +313,14 @@ struct March
     isConstant = leaves.isConstant;
     someConstant = leaves.someConstant;
     someNearEdge = leaves.someNearEdge;
-    inGas = someNearEdge ? inGas : Real{} + 1;
+    if constexpr (areApart)
+    {
+      inGas = someNearEdge || !(cruise > 0) ? inGas : Real{} + 1;
+    }
+    else
+    {
+      inGas = someNearEdge ? inGas : Real{} + 1;
+    }
     cruise = leaves.step;
     light.indexScale =
       scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
@@ -396,6 +346,26 @@ struct March
     return minimum(cruise, maximum(out, Real{}));
   }
 
+  /// Moves rays into the leaves of the middle of their next step, if these are resident.
+  SCHLIEREN_HD bool changeLeavesOf(
+    RaysBetweenLeaves<Real>& rays, [[maybe_unused]] bool& someSuspended)
+  {
+    if constexpr (areApart)
+    {
+      return changeLeavesUnless(task.medium, stepsInLeaves(), batch.perLength, in, rays,
+        [&](int i, std::int32_t next)
+        {
+          const bool isIt = suspended.suspends(task.medium, i, next);
+          someSuspended |= isIt;
+          return isIt;
+        });
+    }
+    else
+    {
+      return changeLeaves(task.medium, stepsInLeaves(), batch.perLength, in, rays);
+    }
+  }
+
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
   /// long as a voxel where that is; through a leaf where nothing changes, up to its far side.
   SCHLIEREN_HD Real settle()
@@ -409,7 +379,8 @@ struct March
     {
       RaysBetweenLeaves<Real> rays{ isOut ? Real{} + 1 : Real{}, Path::position(ray, light),
         Path::along(ray, light), within, ray.start, ray.length, {} };
-      if (changeLeaves(task.medium, stepsInLeaves(), batch.perLength, in, rays))
+      bool someSuspended = false;
+      if (changeLeavesOf(rays, someSuspended))
       {
         ray.start = rays.start;
         ray.length = rays.length;
@@ -417,6 +388,16 @@ struct March
         takeLeaves();
       }
       step = rays.step < within ? rays.step : step;
+      if constexpr (areApart)
+      {
+        if (someSuspended)
+        {
+          suspended.keep(ray, in, cruise, steps);
+          park(suspended.areSuspended() > 0);
+          areUnderWay = any(cruise > 0);
+          step = cruise > 0 ? step : Real{};
+        }
+      }
     }
     if (someConstant && !isAdaptive)
     {
@@ -620,6 +601,7 @@ struct March
     {
       return;
     }
+    someNearEdge = someNearEdge || areApart; // when each of them ended
     const Vec3<Real> q = packs(batch.q);
     const Real nu = valueApart(packs(batch.end));
     const Real n = 1 + nu;
@@ -656,7 +638,7 @@ struct March
       minimum(leastOf(scaled(high - x, stepsToLast)), leastOf(scaled(x - low, stepsToFirst)));
     Number most[lanes];
     toArray(least, most);
-    const std::int32_t left = task.stepLimit - steps;
+    const std::int32_t left = stepLimit() - steps;
     Number all = static_cast<Number>(left);
     for (const Number one : most)
     {
@@ -711,7 +693,15 @@ struct March
         step = endingOutside(step, next.leaving, x, along);
       }
     }
-    next.middle = x + (Number(0.5) * step) * along;
+    if constexpr (areApart)
+    {
+      // As stepInside(), to the last bit: when that is called depends on all rays.
+      next.middle = Path::ahead(ray, light, Number(0.5) * step);
+    }
+    else
+    {
+      next.middle = x + (Number(0.5) * step) * along;
+    }
     if (May::anImage && task.medium.solid != nullptr)
     {
       stopInSolids(step, clampTo(next.middle, task.medium.leafHigh));
@@ -761,97 +751,55 @@ struct March
     take(chooseStep());
   }
 
+  SCHLIEREN_HD std::int32_t stepLimit() const
+  {
+    if constexpr (areApart)
+    {
+      return suspended.stepLimit;
+    }
+    else
+    {
+      return task.stepLimit;
+    }
+  }
+
   /// Ends the rays that have taken too many steps.
   SCHLIEREN_HD bool isTrapped()
   {
-    if (steps < task.stepLimit)
+    if (steps < stepLimit())
     {
       return false;
     }
-    finish(cruise > 0, RayFate::Trapped, steps);
-    areUnderWay = false;
-    return true;
+    if constexpr (areApart)
+    {
+      finish((cruise > 0) & (suspended.areTrapped(steps) > 0), RayFate::Trapped, steps);
+      suspended.limitSteps(cruise);
+      areUnderWay = any(cruise > 0);
+    }
+    else
+    {
+      finish(cruise > 0, RayFate::Trapped, steps);
+      areUnderWay = false;
+    }
+    return !areUnderWay;
   }
 
-  /// The leaf that settle() would move the ray into where that is not resident; else -1.
-  SCHLIEREN_HD std::int32_t absentLeafAhead() const
+  /// areApart: puts the rays where they are.
+  SCHLIEREN_HD void continueMarch()
   {
-    static_assert(lanes == 1);
-    Real step = stepWithinDomain();
-    const Vec3<Real> middle = Path::ahead(ray, light, Number(0.5) * step);
-    if (!(insetOf(middle, task.medium.leafLow, task.medium.leafHigh) < 0))
-    {
-      return -1;
-    }
-    Number x[3][lanes], along[3][lanes];
-    toArrays(Path::position(ray, light), x);
-    toArrays(Path::along(ray, light), along);
-    const std::int32_t next = in.next(task.medium, 0, stepsInLeaves(), x, along, step);
-    return task.medium.leaves[next].isResident() ? -1 : next;
-  }
-
-  /// Takes steps as takeAllSteps(), but none in a leaf that is not resident. Whether the ray has come to one, which
-  /// `suspended` then says so, with all that the march needs to continue as if nothing had happened.
-  SCHLIEREN_HD bool takeStepsInResidentLeaves(SuspendedRay<Number>& suspended)
-  {
-    static_assert(!isAdaptive && !Integrator::samplesBeyond);
-    std::int32_t inside = 0;
-    while (areUnderWay && (inside > 0 || !isTrapped()))
-    {
-      if (inside > 0)
-      {
-        take(stepInside());
-      }
-      else if (const std::int32_t absent = absentLeafAhead(); absent >= 0)
-      {
-        suspend(absent, suspended);
-        return true;
-      }
-      else
-      {
-        take(chooseStep());
-      }
-      --inside;
-      if (inside < 0)
-      {
-        inside = isPlain() ? stepsInside() : 0;
-      }
-    }
-    return false;
-  }
-
-  SCHLIEREN_HD void suspend(std::int32_t next, SuspendedRay<Number>& to) const
-  {
-    to.next = next;
-    to.leaf = in.leaf[0];
-    to.steps = steps;
-    to.travelled = in.travelled[0];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      to.start[axis] = in.start[axis][0];
-    }
-    to.offset = ray.offset;
-    to.q = ray.q;
-    to.length = ray.length;
-    to.path = ray.path;
-    to.pathError = ray.pathError;
-  }
-
-  /// In the leaf that it was in, of which nothing but its place needs to be here.
-  SCHLIEREN_HD void restore(const SuspendedRay<Number>& from)
-  {
-    static_assert(lanes == 1);
-    in.leaf[0] = from.leaf;
-    in.base[0] = 0;
-    in.travelled[0] = from.travelled;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      in.start[axis][0] = from.start[axis];
-    }
-    ray = { static_cast<Vec3<Number>>(Vec3<double>{ from.start[0], from.start[1], from.start[2] }),
-      from.offset, from.q, from.length, from.path, from.pathError };
-    steps = from.steps;
+    Real enters{};
+    suspended.stepsOfAll = task.stepLimit;
+    ray = suspended.restore(task.medium, batch.start, in, enters);
     takeLeaves();
+    suspended.limitSteps(cruise);
+    park(cruise == 0);
+    if constexpr (Path::bends)
+    {
+      const Vec3<Real> atEntry = valueApart(ray.start) * light.d;
+      ray.q.x = enters > 0 ? atEntry.x : ray.q.x;
+      ray.q.y = enters > 0 ? atEntry.y : ray.q.y;
+      ray.q.z = enters > 0 ? atEntry.z : ray.q.z;
+    }
   }
 
   /// Takes all steps. There is one piece of code for a step, whether there is anything to look at or not: on a GPU,
@@ -881,36 +829,11 @@ SCHLIEREN_HD void march(
   rays.findDrift();
 }
 
-/// Calls visit with an object of the kernel's type, whose scheme is given; of integrators that take several samples
-/// a step another one may be.
-template <class Scheme, class SchemeApart = Scheme, class Visit>
-auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
-{
-  if (choice.path == PathModel::Straight)
-  {
-    return visit(Kernel<StraightPath, Leapfrog, Scheme>{});
-  }
-  switch (choice.integrator)
-  {
-    case Integrator::Rk4:
-      return visit(Kernel<RefractedPath, Rk4, SchemeApart>{});
-    case Integrator::Adaptive:
-      return visit(Kernel<RefractedPath, Adaptive, SchemeApart>{});
-#ifndef SCHLIEREN_WITHOUT_PAPER_METHODS
-    case Integrator::Euler:
-      return visit(Kernel<RefractedPath, Euler, SchemeApart>{});
-#endif
-    default:
-      return visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
-  }
-}
-
-/// The same with the scheme that is chosen, for the CPU.
-template <class Visit>
-auto visitKernel(const KernelChoice& choice, const Visit& visit)
-{
-  return visitScheme(choice.interpolation,
-    [&](auto scheme) { return visitKernelOf<decltype(scheme), SchemeOfTask>(choice, visit); });
-}
+/// The march of rays through a medium of which leaves are missing. It begins where `states` of the rays say: where they
+/// were suspended, or, where `leaf` is nowhere, where they enter the grid, which must be in a resident leaf. It ends before
+/// they would enter a leaf that is not resident, which `states` then say. What becomes of a ray does not depend on those
+/// beside it.
+template <class Kernel, class Real>
+using MarchInResidentLeaves = March<Kernel, Real, MayMeet<false, true, false, true>>;
 
 } // namespace schlieren

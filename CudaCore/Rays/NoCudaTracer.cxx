@@ -16,6 +16,8 @@ bool cudaAvailable(std::string* reason)
   return false;
 }
 
+int cudaCapability() { return 0; }
+
 bool canKeepOnCuda(std::size_t) { return false; }
 
 CudaPass::CudaPass(std::size_t rays)
@@ -32,6 +34,8 @@ CudaPass::CudaPass(const RayExits& exits)
 CudaPass::~CudaPass() = default;
 
 RayExits CudaPass::toHost() const { return {}; }
+
+void CudaPass::put(std::size_t, const char*, std::size_t) const {}
 
 double CudaPass::largestDeflection(const Pass&, int, int) const { return 0; }
 
@@ -59,7 +63,25 @@ CudaTracer<Real>::CudaTracer(const Medium<Real>&)
 }
 
 template <class Real>
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>&)
+{
+  throw DeviceError(builtWithoutCuda);
+}
+
+template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
+
+template <class Real>
+void CudaTracer<Real>::begin(const RayTask<Real>&, const Pass&, Exits, TracedPass&) const
+{
+}
+
+template <class Real>
+bool CudaTracer<Real>::traceBands(const RayTask<Real>&, const Pass&, const TaskVersions&, Exits,
+  TileQueue&, TracedPass&, const Monitor&, const std::function<std::int64_t()>&)
+{
+  return false;
+}
 
 template <class Real>
 bool CudaTracer<Real>::trace(

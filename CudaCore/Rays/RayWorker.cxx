@@ -28,6 +28,35 @@ struct RayWorker::Arrays
   };
   std::array<Cached, arraysOfTask> cached;
 
+  /// What it has of them on a CUDA device.
+  template <class Real>
+  struct OnCuda
+  {
+    std::array<std::uint64_t, arraysOfTask> versions{}; ///< of those that the tracer was made of
+    std::unique_ptr<CudaTracer<Real>> tracer;
+    TracedPass traced; ///< its memory serves again
+  };
+  OnCuda<float> singlesOnCuda;
+  OnCuda<double> doublesOnCuda;
+
+  template <class Real>
+  OnCuda<Real>& onCuda()
+  {
+    if constexpr (std::is_same_v<Real, float>)
+    {
+      return singlesOnCuda;
+    }
+    else
+    {
+      return doublesOnCuda;
+    }
+  }
+  void leaveCuda()
+  {
+    singlesOnCuda = {};
+    doublesOnCuda = {};
+  }
+
   void keep(std::vector<char>&& message)
   {
     ArrayMessage head;
@@ -38,6 +67,7 @@ struct RayWorker::Arrays
         tree = 0;
         singles.reset();
         doubles.reset();
+        leaveCuda();
       }
       cached[head.array] = { head.version, std::move(message) };
     }
@@ -154,10 +184,98 @@ struct RayWorker::Arrays
   }
 
   template <class Real>
-  bool trace(const std::vector<char>& message, Channel& channel, int threads) const
+  MediumArrays<Real> arraysOf(const TilesMessage<Real>& request) const
+  {
+    const auto set = [&](std::size_t n, auto& array)
+    {
+      if (request.offsets[n] != nowhere)
+      {
+        using Value = std::remove_reference_t<decltype(*array.first)>;
+        const std::vector<char>& message = cached[n].message;
+        array.first = reinterpret_cast<Value*>(message.data() + sizeof(ArrayMessage));
+        array.count = (message.size() - sizeof(ArrayMessage)) / sizeof(Value);
+      }
+    };
+    MediumArrays<Real> arrays;
+    arrays.view = request.task.medium;
+    set(0, arrays.samples);
+    set(1, arrays.solid);
+    if (request.task.medium.leaves != nullptr)
+    {
+      set(2, arrays.leaves);
+      set(3, arrays.roots);
+      set(4, arrays.children);
+      set(5, arrays.gasDistances);
+      set(7, arrays.gradients);
+      set(8, arrays.gradientBricks);
+      arrays.firstGradient = request.offsets[7] != nowhere ? request.offsets[7] : 0;
+    }
+    return arrays;
+  }
+
+  /// The same on a CUDA device.
+  template <class Real>
+  bool traceBands(const TilesMessage<Real>& request, Channel& channel)
+  {
+    OnCuda<Real>& here = onCuda<Real>();
+    std::array<std::uint64_t, arraysOfTask> versions{};
+    const bool isTree = request.task.medium.leaves != nullptr;
+    for (std::size_t n = 0; n < arraysOfTask; ++n)
+    {
+      const bool isOfMedium = n != 6 && (n < 6 || isTree);
+      versions[n] = isOfMedium && request.offsets[n] != nowhere ? request.versions[n] : 0;
+    }
+    if (!here.tracer || here.versions != versions)
+    {
+      leaveCuda(); // first: two media at once might not fit
+      if (!cudaAvailable(nullptr))
+      {
+        return false;
+      }
+      here.tracer = std::make_unique<CudaTracer<Real>>(arraysOf(request));
+      here.versions = versions;
+    }
+    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    const Pass pass = passOfBands(request.pass, request.head.tiles);
+    constexpr auto onHost = CudaTracer<Real>::Exits::OnHost;
+    TileQueue bands(0, bandsOf(pass));
+    here.tracer->begin(request.task, pass, onHost, here.traced);
+    here.tracer->traceBands(request.task, pass,
+      { request.versions[7], static_cast<double>(request.versions[6]) }, onHost, bands, here.traced,
+      {});
+    RaysMessage head;
+    head.fields = static_cast<std::uint32_t>(request.task.gradients.count);
+    head.number = request.head.number;
+    head.tiles = request.head.tiles;
+    head.crossed = here.traced.crossed;
+    head.worstDrift = here.traced.worstDrift;
+    head.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::size_t bytesOfExits = here.traced.exits.size() * sizeof(RayExit);
+    const std::size_t bytesOfSums = here.traced.gathered.size() * sizeof(float);
+    std::vector<char> answer = messageOf(head, bytesOfExits + bytesOfSums);
+    char* const exits = answer.data() + sizeof(head);
+    std::memcpy(exits, here.traced.exits.data(), bytesOfExits);
+    if (bytesOfSums > 0)
+    {
+      std::memcpy(exits + bytesOfExits, here.traced.gathered.data(), bytesOfSums);
+    }
+    channel.send(std::move(answer));
+    return true;
+  }
+
+  template <class Real>
+  bool trace(const std::vector<char>& message, Channel& channel, int threads)
   {
     TilesMessage<Real> request;
-    if (!read(message, request) || !hasSimd(request.simd) || !bind(request))
+    if (!read(message, request) || !bind(request))
+    {
+      return false;
+    }
+    if (request.device == Device::Cuda)
+    {
+      return traceBands(request, channel);
+    }
+    if (!hasSimd(request.simd))
     {
       return false;
     }
@@ -212,7 +330,8 @@ struct RayWorker::Arrays
   {
     AdvanceMessage<Real> request;
     const std::optional<PartOfTree<Real>>& own = part<Real>();
-    if (!read(message, request) || !bind(request) || request.head.tree != tree || !own)
+    if (!read(message, request) || !hasSimd(request.simd) || !bind(request) ||
+      request.head.tree != tree || !own)
     {
       return false;
     }
@@ -225,7 +344,7 @@ struct RayWorker::Arrays
       return false;
     }
     const AdvancedRays<Real> advanced =
-      advanceRays(request.task, request.pass, std::move(rays), threads);
+      advanceRays(request.task, request.pass, std::move(rays), threads, request.simd);
     channel.send(advanced.toMessage(request.head.number));
     return true;
   }
@@ -250,6 +369,19 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
   if (kindOf(message) == Array)
   {
     arrays_->keep(std::move(message));
+    return;
+  }
+  if (kindOf(message) == AskDevice)
+  {
+    DeviceMessage device{ DeviceIs, 0 };
+    try
+    {
+      device.capability = cudaCapability();
+    }
+    catch (const std::exception&) // it does not work
+    {
+    }
+    channel.send(messageOf(device));
     return;
   }
   TilesHead request;
@@ -289,6 +421,7 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
   }
   catch (const std::exception&) // there is no memory
   {
+    arrays_->leaveCuda();
   }
   if (!isTraced && kindOf(message) != PutBricks)
   {

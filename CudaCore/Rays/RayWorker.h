@@ -30,7 +30,9 @@ public:
     PutBricks,   ///< to a worker: of a tree
     SumUp,       ///< to a worker: segments in these
     FetchBricks, ///< to a worker: numbers of some
-    Found        ///< from a worker: what SumUp and FetchBricks request
+    Found,       ///< from a worker: what SumUp and FetchBricks request
+    AskDevice,   ///< to a worker: which device it has
+    DeviceIs     ///< from a worker: cudaCapability()
   };
   static std::uint32_t kindOf(const std::vector<char>& message);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Marcher.h"
+#include "Rays/SuspendedRays.h"
 
 namespace schlieren
 {
@@ -20,5 +20,16 @@ MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice);
 /// The same for AVX-512 without gathers.
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice);
+
+/// The same as far as leaves are resident: marchInResidentLeaves() with two batches.
+template <class Number, int Lanes>
+using AdvanceFunction = void (*)(const RayTask<Number>&, RayBatch<Number, Lanes> (&batches)[2],
+  SuspendedRay<Number> (&states)[2][Lanes]);
+
+/// Of kernels that canSuspend().
+template <class Number, int Lanes>
+AdvanceFunction<Number, Lanes> simdAdvance(const KernelChoice& choice);
+template <class Number, int Lanes>
+AdvanceFunction<Number, Lanes> simdAdvanceByRows(const KernelChoice& choice);
 
 } // namespace schlieren

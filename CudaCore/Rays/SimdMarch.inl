@@ -6,6 +6,8 @@
   !defined(__SANITIZE_ADDRESS__) // with checks in it, it would take minutes to compile
 #define SCHLIEREN_INLINE_ALL
 #endif
+#include "Medium/SimdInterpolation.h"
+#include "Rays/Kernels.h"
 #include "Rays/MarchOfPacks.h"
 #include "Rays/SimdMarch.h"
 
@@ -23,8 +25,20 @@ void marchPacks(const RayTask<NumberOf<Pack>>& task, RayBatch<NumberOf<Pack>, la
   }
   else
   {
-    marchTwo<Kernel, Pack>(task, one, other);
+    March<Kernel, Pack> a(task, one);
+    March<Kernel, Pack> b(task, other);
+    marchTwo(a, b);
   }
+}
+
+template <class Kernel, class Pack>
+void advancePacks(const RayTask<NumberOf<Pack>>& task,
+  RayBatch<NumberOf<Pack>, lanesOf<Pack>> (&batches)[2],
+  SuspendedRay<NumberOf<Pack>> (&states)[2][lanesOf<Pack>])
+{
+  MarchInResidentLeaves<Kernel, Pack> a(task, batches[0], states[0]);
+  MarchInResidentLeaves<Kernel, Pack> b(task, batches[1], states[1]);
+  marchTwo(a, b);
 }
 
 struct SchemeOfTaskByRows : SchemeOfTask
@@ -50,6 +64,30 @@ MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice)
       return visitKernelOf<ByRows<decltype(scheme)>, SchemeOfTaskByRows>(choice,
         [](auto kernel) -> MarchFunction<Number, Lanes>
         { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
+    });
+}
+
+template <class Number, int Lanes>
+AdvanceFunction<Number, Lanes> simdAdvance(const KernelChoice& choice)
+{
+  return visitScheme(choice.interpolation,
+    [&choice](auto scheme)
+    {
+      return visitPath<decltype(scheme)>(choice.path,
+        [](auto kernel) -> AdvanceFunction<Number, Lanes>
+        { return &advancePacks<decltype(kernel), SimdPack<Number, Lanes>>; });
+    });
+}
+
+template <class Number, int Lanes>
+AdvanceFunction<Number, Lanes> simdAdvanceByRows(const KernelChoice& choice)
+{
+  return visitScheme(choice.interpolation,
+    [&choice](auto scheme)
+    {
+      return visitPath<ByRows<decltype(scheme)>>(choice.path,
+        [](auto kernel) -> AdvanceFunction<Number, Lanes>
+        { return &advancePacks<decltype(kernel), SimdPack<Number, Lanes>>; });
     });
 }
 

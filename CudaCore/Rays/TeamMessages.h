@@ -4,6 +4,7 @@
 // What a TeamTracer and its RayWorkers send each other.
 #pragma once
 
+#include "Rays/CudaTracer.h"
 #include "Rays/RayWorker.h"
 #include "Rays/TileQueue.h"
 #include "Rays/Tracer.h"
@@ -54,12 +55,19 @@ struct TilesHead
   TileQueue::Tiles tiles{ 0, 0 };
 };
 
-/// What a worker needs to trace tiles, besides the arrays.
+struct DeviceMessage
+{
+  std::uint32_t kind = RayWorker::AskDevice;
+  std::int32_t capability = 0;
+};
+
+/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it gets bands in place of tiles.
 template <class Real>
 struct TilesMessage
 {
   TilesHead head{ RayWorker::Tiles, sizeof(Real) };
-  Simd simd = Simd::None;
+  Device device = Device::Cpu;
+  Simd simd = Simd::None; ///< of the CPU
   Pass pass{};
   RayTask<Real> task{}; ///< its pointers mean nothing
   /// Of the arrays: their versions, and from their beginnings to where the task's pointers point, in values.
@@ -69,7 +77,8 @@ struct TilesMessage
 constexpr std::int64_t nowhere =
   std::numeric_limits<std::int64_t>::min(); // the offset of a null pointer
 
-/// The beginning of a message with rays: of those of each tile, row by row, then of all that they have gathered.
+/// The beginning of a message with rays: of those of each tile, or of all bands, row by row, then of all that they have
+/// gathered.
 struct RaysMessage
 {
   std::uint32_t kind = RayWorker::Rays; ///< or Lacking: nothing follows
@@ -116,6 +125,15 @@ inline Pass passOfTile(const Pass& pass, std::int64_t tile)
   ofTile.columns = std::min(tileEdge, pass.columns - left);
   ofTile.rows = std::min(tileEdge, pass.rows - low);
   return ofTile;
+}
+
+/// Bands as a pass of their own, with the same rays.
+inline Pass passOfBands(const Pass& pass, const TileQueue::Tiles& bands)
+{
+  Pass ofBands = pass;
+  ofBands.firstRow += bands.first * bandRows;
+  ofBands.rows = std::min(pass.rows, bands.end * bandRows) - bands.first * bandRows;
+  return ofBands;
 }
 
 inline std::size_t raysOf(const Pass& pass)

@@ -8,6 +8,7 @@
 
 #include "Medium/Medium.h"
 #include "Rays/Channel.h"
+#include "Rays/CudaTracer.h"
 #include "Rays/Tracer.h"
 
 #include <cstdint>
@@ -17,7 +18,8 @@
 namespace schlieren
 {
 
-/// Traces rays on the CPU of this process and on those of workers. Knows what these have of the medium.
+/// Traces rays with the CPUs or the CUDA devices of this process and of workers, never with both: they round differently.
+/// Knows what these have of the medium.
 template <class Real>
 class TeamTracer
 {
@@ -30,8 +32,16 @@ public:
   bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
     const std::vector<Channel*>& workers, TracedPass& traced, int threads, const Monitor& monitor);
 
+  /// The same on the CUDA devices of this process and of those workers that have one of the same compute capability.
+  /// `own` is this process's, with the medium.
+  bool traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
+    const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
+    const std::vector<Channel*>& workers, TracedPass& traced, const Monitor& monitor);
+  int workersOnCuda() const; ///< as far as they have answered
+
 private:
   struct State;
+  struct Exchange;
   const Medium<Real>& medium_;
   std::unique_ptr<State> state_;
 };

@@ -3,6 +3,7 @@
 #include "Rays/Tracer.h"
 
 #include "Device/Parallel.h"
+#include "Rays/Kernels.h"
 #include "Rays/SimdMarch.h"
 
 #include <algorithm>

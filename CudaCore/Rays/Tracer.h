@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Medium/FieldGradients.h"
 #include "Medium/Medium.h"
 #include "Rays/CudaPass.h"
 #include "Rays/DisplacementBound.h"
-#include "Rays/Light.h"
 #include "Rays/Marcher.h"
-#include "Rays/RayExit.h"
 #include "Rays/TileQueue.h"
 
 #include <memory>

@@ -106,10 +106,10 @@ struct Traced
   RayTask<Real> task{};
   const Pass pass{ 0, 0, width, height, { 0.25, -0.125 } };
 
-  void traceAlone(TracedPass& traced) const
+  void traceAlone(TracedPass& traced, Simd simd = bestSimd()) const
   {
     traced.resize(pass, 0);
-    EXPECT_TRUE(traceOnCpu(task, pass, traced, 2, {}, Simd::None));
+    EXPECT_TRUE(traceOnCpu(task, pass, traced, 2, {}, simd));
   }
 
   std::int64_t count(RayFate fate) const
@@ -131,6 +131,28 @@ void expectSameRays(const TracedPass& a, const TracedPass& b)
   }
   EXPECT_EQ(a.crossed, b.crossed);
   EXPECT_EQ(a.worstDrift, b.worstDrift);
+}
+
+/// To `tolerance` of the largest deflection.
+void expectCloseRays(const TracedPass& a, const TracedPass& b, double tolerance)
+{
+  ASSERT_EQ(a.exits.size(), b.exits.size());
+  double largest = 0;
+  for (const RayExit& exit : b.exits)
+  {
+    largest = std::max({ largest, std::abs(exit.deflection[0]), std::abs(exit.deflection[1]) });
+  }
+  for (std::size_t n = 0; n < a.exits.size(); ++n)
+  {
+    EXPECT_EQ(a.exits[n].fate, b.exits[n].fate) << n;
+    EXPECT_EQ(a.exits[n].steps, b.exits[n].steps) << n;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      EXPECT_NEAR(a.exits[n].deflection[axis], b.exits[n].deflection[axis], tolerance * largest)
+        << n;
+    }
+  }
+  EXPECT_EQ(a.crossed, b.crossed);
 }
 
 /// Workers, and a tree that they have parts of.
@@ -157,12 +179,14 @@ struct Team
   const MediumTree<Real>& tree() const { return *traced->medium.tree; }
 };
 
-/// To the last bit, for several numbers of processes. Returns how often rays have continued in another part, per ray.
+/// To the last bit for several numbers of processes, and to `tolerance` of the largest deflection as by one that has all.
+/// Returns how often rays have continued in another part, per ray.
 template <class Real>
-double expectSame(const Setting& setting, const Traced<Real>& alone)
+double expectSame(const Setting& setting, const Traced<Real>& alone, double tolerance = 1e-6,
+  Simd simd = bestSimd())
 {
   TracedPass expected;
-  alone.traceAlone(expected);
+  alone.traceAlone(expected, simd);
   double perRay = 0;
   for (const std::size_t count : { 0u, 1u, 2u, 6u })
   {
@@ -175,16 +199,24 @@ double expectSame(const Setting& setting, const Traced<Real>& alone)
     DistributedTracer<Real> tracer(team.traced->medium, *team.owners);
     TracedPass rays;
     rays.resize(team.traced->pass, 0);
-    EXPECT_TRUE(tracer.trace(team.traced->task, team.traced->pass, rays, 2, {}));
-    expectSameRays(rays, expected);
+    EXPECT_TRUE(tracer.trace(team.traced->task, team.traced->pass, rays, 2, {}, simd));
+    if (count > 0)
+    {
+      expectSameRays(rays, expected);
+    }
+    else
+    {
+      expectCloseRays(rays, expected, tolerance);
+      expected = std::move(rays);
+    }
     perRay = static_cast<double>(tracer.traffic().states) / static_cast<double>(rays.crossed);
   }
   return perRay;
 }
 template <class Real = float>
-double expectSame(const Setting& setting)
+double expectSame(const Setting& setting, Simd simd = bestSimd())
 {
-  return expectSame(setting, Traced<Real>(setting));
+  return expectSame(setting, Traced<Real>(setting), 1e-6, simd);
 }
 
 TEST(DistributedTree, HasEachBrickOnce)
@@ -252,6 +284,14 @@ TEST(Distributed, IsTheSameToTheLastBitThroughManyParts)
     EXPECT_GT(expectSame<float>(setting), 1.5);
   }
   setting.interpolation = Interpolation::Quadratic;
+  for (const Simd simd : { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows })
+  {
+    SCOPED_TRACE(static_cast<int>(simd));
+    if (hasSimd(simd))
+    {
+      EXPECT_GT(expectSame<float>(setting, simd), 1.5);
+    }
+  }
   EXPECT_GT(expectSame<double>(setting), 1.5);
   setting.path = PathModel::Straight;
   EXPECT_GT(expectSame<float>(setting), 1.5);
@@ -287,7 +327,8 @@ TEST(Distributed, FollowsRaysThatComeBack)
   const Traced<float> alone(setting);
   EXPECT_GT(alone.count(RayFate::Turned), 0);
   EXPECT_GT(alone.count(RayFate::Left), 0);
-  EXPECT_GT(expectSame(setting, alone), 1.5);
+  // They come near to total reflection, where little makes much.
+  EXPECT_GT(expectSame(setting, alone, 1e-4), 1.5);
 }
 
 TEST(Distributed, EndsRaysInWalls)
@@ -308,13 +349,13 @@ TEST(Distributed, EndsRaysInWalls)
 TEST(Distributed, ResumesAfterPauses)
 {
   const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
-  TracedPass expected;
-  Traced<float>(setting).traceAlone(expected);
   const Team<float> team(setting, 2);
   DistributedTracer<float> tracer(team.traced->medium, *team.owners);
-  TracedPass rays;
   const Pass pass = team.traced->pass;
+  TracedPass expected, rays;
+  expected.resize(pass, 0);
   rays.resize(pass, 0);
+  ASSERT_TRUE(tracer.trace(team.traced->task, pass, expected, 1, {}));
   std::int64_t questions = 0;
   const Monitor often{ {}, {}, [&] { return ++questions % 3 == 0; } };
   constexpr int most = 1000;
@@ -401,7 +442,6 @@ struct BenchOfTeam
   Bench bench;
 };
 
-// Side by side, rays are rounded differently, and now and then one takes a step in another leaf.
 TEST(DistributedImage, IsThatOfOneProcess)
 {
   const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
@@ -418,8 +458,8 @@ TEST(DistributedImage, IsThatOfOneProcess)
     EXPECT_EQ(image.raysTraced, alone.raysTraced);
     EXPECT_EQ(image.blockedFraction, alone.blockedFraction);
     const auto [mean, worst] = differenceOf(alone, image);
-    EXPECT_LT(mean, 2e-6);
-    EXPECT_LT(worst, 3e-3);
+    EXPECT_LT(mean, 1e-7);
+    EXPECT_LT(worst, 1e-6);
     // Another view, with pauses.
     scene.view.viewDirection = { -0.1, 0.2, -1 };
     const Image other = Bench().render(field, scene);
@@ -432,7 +472,7 @@ TEST(DistributedImage, IsThatOfOneProcess)
     }
     EXPECT_GT(calls, 2);
     EXPECT_EQ(paused.medium.processes, 4);
-    EXPECT_LT(differenceOf(other, paused).first, 2e-6);
+    EXPECT_LT(differenceOf(other, paused).second, 1e-6);
   }
 }
 
@@ -452,7 +492,7 @@ TEST(DistributedImage, IsDistributedWhereThatIsWorthIt)
   EXPECT_EQ(image.medium.processes, 4);
   EXPECT_FALSE(image.medium.isMemoryShort);
   EXPECT_EQ(image.medium.bricks, enough.medium.bricks);
-  EXPECT_LT(differenceOf(enough, image).first, 2e-6);
+  EXPECT_LT(differenceOf(enough, image).second, 1e-6);
   scene.distributedMedium = DistributedMedium::Off;
   expectSameImage(team.bench.render(field, scene), alone);
 }
@@ -487,7 +527,7 @@ TEST(DistributedImage, MayHaveFewerBricksThanProcesses)
   const Image image = team.bench.render(field, scene);
   EXPECT_EQ(image.medium.processes, 81);
   EXPECT_LT(image.medium.bricks, 80);
-  EXPECT_LT(differenceOf(Bench().render(field, scene), image).first, 2e-6);
+  EXPECT_LT(differenceOf(Bench().render(field, scene), image).second, 1e-6);
 }
 
 TEST(DistributedImage, IsMadeAnewAfterAFault)
@@ -505,7 +545,7 @@ TEST(DistributedImage, IsMadeAnewAfterAFault)
   const Image image = bench.render(field, scene);
   EXPECT_EQ(image.medium.processes, 3);
   EXPECT_EQ(media->count(), 0);
-  EXPECT_LT(differenceOf(Bench().render(field, scene), image).first, 2e-6);
+  EXPECT_LT(differenceOf(Bench().render(field, scene), image).second, 1e-6);
 }
 
 } // namespace

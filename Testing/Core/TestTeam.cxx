@@ -133,6 +133,35 @@ TEST(Team, SendsTheMediumOnce)
   EXPECT_EQ(worker.tiles(), tilesOfWorker);
 }
 
+// They pass it on to each other; what else they are sent are a few kilobytes.
+TEST(Team, SendsAsMuchToManyAsToOne)
+{
+  const BlobWithHole flow;
+  const auto bytesSentTo = [&](std::size_t count)
+  {
+    std::vector<std::unique_ptr<Worker>> workers;
+    std::vector<Channel*> channels;
+    while (workers.size() < count)
+    {
+      workers.push_back(std::make_unique<Worker>());
+      channels.push_back(workers.back()->channel());
+    }
+    Bench bench;
+    bench.setWorkers(channels);
+    bench.render(flow.tinted(), oblique());
+    std::size_t bytes = 0;
+    for (const auto& worker : workers)
+    {
+      EXPECT_EQ(worker->arrays(), 3);
+      bytes += worker->bytesSent();
+    }
+    return bytes;
+  };
+  const std::size_t toOne = bytesSentTo(1);
+  EXPECT_GT(toOne, (flow.samples.size() + flow.gradients.size()) * sizeof(float));
+  EXPECT_LT(bytesSentTo(6), 2 * toOne);
+}
+
 TEST(Team, BenchesOfOneMediumSendItOnce)
 {
   const BlobWithHole flow;

@@ -64,6 +64,8 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
     {
       SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
         std::to_string(static_cast<int>(integrator)));
+      // Others look at leaves' sides, where rounding decides which leaf it is, or choose their steps.
+      const double allowed = integrator == Integrator::Leapfrog ? 2e-9 : 3e-5;
       RaySettings rays;
       rays.kernel = { PathModel::Refracted, integrator, interpolation };
       const RayTask<float> task =
@@ -81,7 +83,6 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
           const RayExit& other = traced[n].exits[i];
           largest = std::max(largest, std::abs(one.deflection[0]));
           EXPECT_EQ(one.fate, other.fate);
-          const double allowed = 3e-2 * 1e-3;
           EXPECT_NEAR(one.deflection[0], other.deflection[0], allowed);
           EXPECT_NEAR(one.deflection[1], other.deflection[1], allowed);
           EXPECT_NEAR(one.opticalPathDifference, other.opticalPathDifference, allowed);

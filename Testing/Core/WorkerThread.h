@@ -5,9 +5,12 @@
 #pragma once
 
 #include "Rays/RayWorker.h"
+#include "Rays/TeamMessages.h"
 
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -58,7 +61,21 @@ public:
     , isOpen_(isOpen)
   {
   }
-  void send(std::vector<char> message) override { to_.put(std::move(message)); }
+  void send(std::vector<char> message) override
+  {
+    sent_ += message.size();
+    to_.put(std::move(message));
+  }
+  /// As if this end passed it on to the others.
+  void sendWith(const std::vector<Channel*>& others, std::vector<char> message) override
+  {
+    for (Channel* other : others)
+    {
+      static_cast<End*>(other)->to_.put(message);
+    }
+    send(std::move(message));
+  }
+  std::size_t sent() const { return sent_; } ///< bytes
   bool hasMessage() override { return !from_.isEmpty(); }
   std::vector<char> receive() override { return from_.take(); }
   bool isOpen() const override { return isOpen_; }
@@ -67,6 +84,7 @@ private:
   Mail& to_;
   Mail& from_;
   const std::atomic<bool>& isOpen_;
+  std::size_t sent_ = 0;
 };
 
 /// A worker in a thread of its own.
@@ -77,9 +95,10 @@ public:
   enum class Fault
   {
     None,
-    Forgets,        ///< the arrays
-    Leaves,         ///< without an answer
-    LosesEverything ///< that it is sent from then on, but says so
+    Forgets,         ///< the arrays
+    Leaves,          ///< without an answer
+    LosesEverything, ///< that it is sent from then on, but says so
+    HasOtherDevice   ///< than the first process
   };
   explicit Worker(Fault fault = Fault::None, int after = 0)
     : fault_(fault)
@@ -96,8 +115,9 @@ public:
   Worker& operator=(const Worker&) = delete;
 
   Channel* channel() { return &here_; }
-  int arrays() const { return arrays_; } ///< that it was sent
-  int tiles() const { return tiles_; }   ///< messages with tiles
+  std::size_t bytesSent() const { return here_.sent(); } ///< by the process that it works for
+  int arrays() const { return arrays_; }                 ///< that it was sent
+  int tiles() const { return tiles_; }                   ///< messages with tiles
 
 private:
   void work()
@@ -106,9 +126,15 @@ private:
     auto worker = std::make_unique<RayWorker>();
     for (std::vector<char> message = there.receive(); !message.empty(); message = there.receive())
     {
-      const bool isArray = RayWorker::kindOf(message) == RayWorker::Array;
+      const std::uint32_t kind = RayWorker::kindOf(message);
+      const bool isArray = kind == RayWorker::Array;
       arrays_ += isArray ? 1 : 0;
-      tiles_ += isArray ? 0 : 1;
+      tiles_ += isArray || kind == RayWorker::AskDevice ? 0 : 1;
+      if (kind == RayWorker::AskDevice && fault_ == Fault::HasOtherDevice)
+      {
+        there.send(messageOf(DeviceMessage{ RayWorker::DeviceIs, 75 }));
+        continue;
+      }
       const bool isFaulty = tiles_ > after_;
       if (fault_ == Fault::Leaves && isFaulty)
       {
