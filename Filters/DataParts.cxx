@@ -19,6 +19,7 @@
 #include "vtkExtractCells.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
@@ -188,30 +189,6 @@ bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
   return areSame;
 }
 
-/// Of points or cells.
-std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
-{
-  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    image->GetExtent(extent.data());
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
-  {
-    rectilinear->GetExtent(extent.data());
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
-  {
-    structured->GetExtent(extent.data());
-  }
-  for (std::size_t axis = 0; ofCells && axis < 3; ++axis)
-  {
-    // Along an axis with one point there is one cell.
-    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
-  }
-  return extent;
-}
-
 vtkIdType sizeOf(const std::array<int, 6>& extent)
 {
   vtkIdType size = 1;
@@ -309,6 +286,27 @@ bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& 
 }
 
 } // namespace
+
+bool isGrid(vtkDataSet* data)
+{
+  return vtkImageData::SafeDownCast(data) || vtkRectilinearGrid::SafeDownCast(data) ||
+    vtkStructuredGrid::SafeDownCast(data);
+}
+
+std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  if (isGrid(data))
+  {
+    std::copy_n(data->GetInformation()->Get(vtkDataObject::DATA_EXTENT()), 6, extent.begin());
+  }
+  for (std::size_t axis = 0; ofCells && axis < 3; ++axis)
+  {
+    // Along an axis with one point there is one cell.
+    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
+  }
+  return extent;
+}
 
 std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays)
 {

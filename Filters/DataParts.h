@@ -6,6 +6,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -128,6 +129,11 @@ Part unpack(Reader& reader);
 /// Throws std::runtime_error where parts have not the same arrays of points or cells (vtkDataObject::POINT, CELL), of which
 /// some would be lost.
 void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind);
+
+/// Whether the points have three indices: an image, a rectilinear or a curvilinear grid.
+bool isGrid(vtkDataSet* data);
+/// Its indices of points or cells; low > high: it is no grid.
+std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells);
 
 /// Parts of one image or grid as one; null where they are none.
 vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts);

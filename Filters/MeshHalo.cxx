@@ -3,6 +3,7 @@
 #include "MeshHalo.h"
 
 #include "FlatData.h"
+#include "ImagePiece.h"
 #include "InputDescription.h"
 
 #include "vtkAbstractArray.h"
@@ -13,9 +14,11 @@
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -41,7 +44,14 @@ constexpr int layersForCells = 4;
 
 bool isMesh(vtkDataSet* data)
 {
-  return vtkUnstructuredGrid::SafeDownCast(data) || vtkStructuredGrid::SafeDownCast(data);
+  return vtkUnstructuredGrid::SafeDownCast(data) || vtkStructuredGrid::SafeDownCast(data) ||
+    vtkRectilinearGrid::SafeDownCast(data);
+}
+
+/// Whether there are values of cells.
+bool hasCellValues(vtkDataSet* mesh)
+{
+  return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
 }
 
 constexpr const char* numbersName = "NumbersOfPoints"; // see PointName
@@ -94,17 +104,14 @@ vtkSmartPointer<vtkDataSet> withFlags(vtkDataSet* mesh, unsigned char added)
   return copy;
 }
 
-Outline::Extent extentOf(vtkStructuredGrid* grid)
-{
-  Outline::Extent extent{};
-  grid->GetExtent(extent.data());
-  return extent;
-}
-
 } // namespace
 
-bool areMeshes(vtkDataObject* data)
+std::int32_t pieceKindsOf(vtkDataObject* data)
 {
+  if (auto* image = vtkImageData::SafeDownCast(data); image && image->GetNumberOfPoints() > 0)
+  {
+    return dimensionOf(image) == 3 ? PieceOfImage : NoPieces;
+  }
   bool areAll = true;
   int dimension = -1; // there are none
   for (vtkDataObject* leaf : leavesOf(data))
@@ -116,21 +123,23 @@ bool areMeshes(vtkDataObject* data)
       dimension = std::max(dimension, dimensionOf(set));
     }
   }
-  return areAll && (dimension < 0 || dimension == 3);
-}
-
-bool hasCellValues(vtkDataSet* mesh)
-{
-  return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
+  if (!areAll)
+  {
+    return NoPieces;
+  }
+  return dimension < 0 ? PiecesOfMeshes | PieceOfImage : dimension == 3 ? PiecesOfMeshes : NoPieces;
 }
 
 Outline outlineOf(vtkDataSet* data)
 {
   Outline outer;
-  if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
+  if (isGrid(data))
   {
     outer.isGrid = true;
-    outer.extent = extentOf(grid);
+    outer.extent = extentOf(data, false);
+    outer.layers = vtkImageData::SafeDownCast(data) ? ImagePiece::layers
+      : hasCellValues(data)                         ? layersForCells
+                                                    : layersForPoints;
     return outer;
   }
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
@@ -176,10 +185,8 @@ Outline outlineOf(vtkDataSet* data)
   return outer;
 }
 
-Outline::Extent neededOf(
-  const Outline::Extent& grid, const Outline::Extent& other, bool hasValuesOfCells)
+Outline::Extent neededOf(const Outline::Extent& grid, const Outline::Extent& other, int layers)
 {
-  const int layers = hasValuesOfCells ? layersForCells : layersForPoints;
   Outline::Extent needed{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -248,9 +255,9 @@ vtkSmartPointer<vtkDataSet> cellsAround(
   return extractedCells(mesh, chosen);
 }
 
-vtkSmartPointer<vtkDataSet> cellsWithin(vtkStructuredGrid* grid, const Outline::Extent& extent)
+vtkSmartPointer<vtkDataSet> cellsWithin(vtkDataSet* grid, const Outline::Extent& extent)
 {
-  auto within = vtkSmartPointer<vtkStructuredGrid>::New();
+  auto within = vtkSmartPointer<vtkDataSet>::Take(grid->NewInstance());
   within->ShallowCopy(grid);
   within->Crop(extent.data());
   return within;
@@ -269,15 +276,14 @@ vtkSmartPointer<vtkDataSet> withCopies(
   {
     flagged.push_back(withFlags(other, vtkDataSetAttributes::DUPLICATECELL));
   }
-  auto* grid = vtkStructuredGrid::SafeDownCast(mesh);
-  if (grid)
+  if (isGrid(mesh))
   {
     std::swap(flagged.front(), flagged.back()); // where they overlap, what is written last counts
   }
   const std::vector<vtkDataSet*> parts(flagged.begin(), flagged.end());
   requireSameArrays(parts, vtkDataObject::POINT);
   requireSameArrays(parts, vtkDataObject::CELL);
-  if (!grid)
+  if (!isGrid(mesh))
   {
     return joinedMesh(parts, numbersName);
   }

@@ -12,19 +12,24 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
 class vtkDataSet;
-class vtkStructuredGrid;
 class vtkUnstructuredGrid;
 
 namespace filters
 {
 
-/// Whether all datasets of an input are unstructured meshes or curvilinear grids, and some of them have volume.
-/// True where there are none.
-bool areMeshes(vtkDataObject* data);
+/// What data are that can stay on their ranks, in three dimensions: bits, both where there are none.
+enum PieceKinds : std::int32_t
+{
+  NoPieces = 0,
+  PiecesOfMeshes = 1, // all datasets are unstructured meshes, curvilinear or rectilinear grids
+  PieceOfImage = 2    // one image
+};
+std::int32_t pieceKindsOf(vtkDataObject* data);
 
 /// Points on several ranks are one if both are the same: their places, and how many points of the mesh before them are at
 /// that place.
@@ -38,13 +43,14 @@ inline bool operator==(const PointName& a, const PointName& b)
   return a.place == b.place && a.number == b.number;
 }
 
-/// Where another part may continue: of a mesh the points that are on its surface; of a curvilinear grid its extent.
+/// Where another part may continue: of a mesh the points that are on its surface; of a grid its extent.
 struct Outline
 {
   using Extent = std::array<int, 6>;
 
   bool isGrid = false;
   Extent extent{};
+  int layers = 0; // of cells that a grid needs of others, around its own
   std::vector<vtkIdType> ids;
   std::vector<PointName> names;
 };
@@ -52,10 +58,7 @@ struct Outline
 Outline outlineOf(vtkDataSet* mesh);
 
 /// The part of a grid that another one, of that extent, needs copies of; low > high: none.
-Outline::Extent neededOf(
-  const Outline::Extent& grid, const Outline::Extent& other, bool hasCellValues);
-/// Whether there are values of cells.
-bool hasCellValues(vtkDataSet* mesh);
+Outline::Extent neededOf(const Outline::Extent& grid, const Outline::Extent& other, int layers);
 
 struct HashOfPlace
 {
@@ -75,7 +78,7 @@ struct HashOfPlace
 vtkSmartPointer<vtkDataSet> cellsAround(
   vtkUnstructuredGrid* mesh, const std::vector<vtkIdType>& points);
 /// The cells of a grid within an extent.
-vtkSmartPointer<vtkDataSet> cellsWithin(vtkStructuredGrid* grid, const Outline::Extent& extent);
+vtkSmartPointer<vtkDataSet> cellsWithin(vtkDataSet* grid, const Outline::Extent& extent);
 
 /// A mesh or grid and cells of others beside it, which become copies (DUPLICATECELL). Points with the same name become
 /// one. Grids that are no box together stay without. Throws std::runtime_error where the arrays are not the same.

@@ -3,12 +3,13 @@
 #include "MeshPiece.h"
 
 #include "BoundaryFaces.h"
+#include "DataParts.h"
 #include "InvertedCells.h"
 #include "LatticeDistances.h"
+#include "MeshFaces.h"
 #include "MeshSource.h"
 
 #include "vtkDataSet.h"
-#include "vtkSMPTools.h"
 
 #include <algorithm>
 
@@ -21,20 +22,6 @@ namespace
 std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
 {
   return { leaves.begin(), leaves.end() };
-}
-
-/// Calls work(i) for i < count from several threads.
-template <class Work>
-void forEach(std::size_t count, const Work& work)
-{
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      {
-        work(i);
-      }
-    });
 }
 
 } // namespace
@@ -57,7 +44,7 @@ MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
 {
 }
 
-MeshPiece::Summary MeshPiece::summary() const
+DataPiece::Summary MeshPiece::summary() const
 {
   return { static_cast<std::int64_t>(this->Cells.size()), boundsOf(this->Cells, this->Leaves),
     this->Cells.content(this->Cells.bounds()) };
@@ -65,14 +52,23 @@ MeshPiece::Summary MeshPiece::summary() const
 
 std::string MeshPiece::warning() const { return warningOfInvertedCells(this->Cells); }
 
-Faces MeshPiece::faces() const
+void MeshPiece::putBoundary(std::vector<char>& message) const
 {
-  return facesOf(pointersTo(this->Leaves), WorkProgress(), Copies::Neighbours);
-}
-
-std::vector<double> MeshPiece::valuesAt(const Faces& faces) const
-{
-  return filters::valuesAt(faces.firstContributions, faces.contributions, pointersTo(this->Leaves));
+  const Faces faces = facesOf(pointersTo(this->Leaves), WorkProgress(), Copies::Neighbours);
+  put(BoundaryKind::OfMesh, message);
+  for (const std::vector<double>& along : this->Cells.measuredSizes())
+  {
+    putAll(along, message);
+  }
+  putAll(faces.points, message);
+  putAll(faces.corners, message);
+  putAll(faces.starts, message);
+  putAll(faces.owners, message);
+  putAll(faces.states, message);
+  putAll(faces.hidesBehind, message);
+  putAll(faces.areParts, message);
+  putAll(
+    valuesAt(faces.firstContributions, faces.contributions, pointersTo(this->Leaves)), message);
 }
 
 bool MeshPiece::meets(const schlieren::Box& box) const
@@ -81,33 +77,23 @@ bool MeshPiece::meets(const schlieren::Box& box) const
   return this->Cells.size() > 0 && meet(box, { bounds.low, bounds.high });
 }
 
-std::vector<CellTree::Content> MeshPiece::contents(const std::vector<schlieren::Box>& boxes) const
+CellTree::Content MeshPiece::contentOf(const schlieren::Box& box) const
 {
-  std::vector<CellTree::Content> contents(boxes.size());
-  forEach(boxes.size(),
-    [&](std::size_t i) {
-      contents[i] = this->Cells.content({ boxes[i].low, boxes[i].high });
-    });
-  return contents;
+  return this->Cells.content({ box.low, box.high });
 }
 
-std::vector<unsigned char> MeshPiece::hold(const std::vector<Point>& places) const
+bool MeshPiece::holds(const Point& place) const
 {
-  std::vector<unsigned char> are(places.size(), 0);
-  forEach(places.size(),
-    [&](std::size_t i)
-    {
-      const Point& place = places[i];
-      double value = 0;
-      if (this->meets({ place, place }))
-      {
-        this->Values.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &are[i]);
-      }
-    });
-  return are;
+  unsigned char isHeld = 0;
+  double value = 0;
+  if (this->meets({ place, place }))
+  {
+    this->Values.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isHeld);
+  }
+  return isHeld != 0;
 }
 
-MeshPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
+DataPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
 {
   Samples samples;
   if (!this->meets(boxAround(lattice, 0)))

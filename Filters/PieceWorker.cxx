@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceWorker.h"
 
+#include "FieldFromImage.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
+#include "GatheredData.h"
 #include "InputDescription.h"
+#include "MeshPiece.h"
 #include "RefractivityByResampling.h"
-#include "RefractivitySource.h"
+#include "RefractivityOfImage.h"
 
+#include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkRefractiveIndex.h"
 #include "vtkSMPTools.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -34,6 +37,20 @@ bool hasPoints(vtkDataObject* data)
     {
       auto* set = vtkDataSet::SafeDownCast(leaf);
       return set && set->GetNumberOfPoints() > 0;
+    });
+}
+
+/// Calls work(i) for i < count from several threads.
+template <class Work>
+void forEach(std::size_t count, const Work& work)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      {
+        work(i);
+      }
     });
 }
 
@@ -102,46 +119,36 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       break;
     case Contents:
     {
-      const MeshPiece& piece = this->PieceOf(request);
+      const DataPiece& piece = this->PieceOf(request);
       const auto boxes = request.GetAll<std::vector<schlieren::Box>>();
-      const std::vector<CellTree::Content> found = piece.contents(boxes);
-      std::vector<Point> places;
-      for (const schlieren::Box& box : boxes)
-      {
-        const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
-        places.insert(places.end(), tested.begin(), tested.end());
-      }
-      const std::vector<unsigned char> holds = piece.hold(places);
       std::vector<Content> contents(boxes.size());
-      for (std::size_t i = 0; i < boxes.size(); ++i)
-      {
-        contents[i].cells = found[i];
-        std::copy_n(
-          holds.begin() + static_cast<std::ptrdiff_t>(9 * i), 9, contents[i].holds.begin());
-      }
+      forEach(boxes.size(),
+        [&](std::size_t i)
+        {
+          contents[i].cells = piece.contentOf(boxes[i]);
+          const std::array<Point, 9> tested = GasBoundary::testedPlaces(boxes[i]);
+          std::transform(tested.begin(), tested.end(), contents[i].holds.begin(),
+            [&](const Point& place) { return piece.holds(place) ? 1 : 0; });
+        });
       putAll(contents, answer);
       break;
     }
     case Hold:
     {
-      const MeshPiece& piece = this->PieceOf(request);
-      putAll(piece.hold(request.GetAll<std::vector<Point>>()), answer);
+      const DataPiece& piece = this->PieceOf(request);
+      const auto places = request.GetAll<std::vector<Point>>();
+      std::vector<unsigned char> are(places.size());
+      forEach(places.size(), [&](std::size_t i) { are[i] = piece.holds(places[i]) ? 1 : 0; });
+      putAll(are, answer);
       break;
     }
     case Sample:
     {
-      const MeshPiece& piece = this->PieceOf(request);
+      const DataPiece& piece = this->PieceOf(request);
       const auto lattices = request.GetAll<std::vector<schlieren::Lattice>>();
-      std::vector<MeshPiece::Samples> samples(lattices.size());
-      vtkSMPTools::For(0, static_cast<vtkIdType>(lattices.size()), 1,
-        [&](vtkIdType begin, vtkIdType end)
-        {
-          for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-          {
-            samples[i] = piece.sample(lattices[i]);
-          }
-        });
-      for (const MeshPiece::Samples& ofLattice : samples)
+      std::vector<DataPiece::Samples> samples(lattices.size());
+      forEach(lattices.size(), [&](std::size_t i) { samples[i] = piece.sample(lattices[i]); });
+      for (const DataPiece::Samples& ofLattice : samples)
       {
         putAll(ofLattice.found, answer);
         putAll(ofLattice.values, answer);
@@ -186,8 +193,8 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
     const filters::Outline& outline = this->Outlines.emplace_back(outlineOf(part.data));
     putAll(part.slot, answer);
     put(outline.isGrid, answer);
-    put(hasCellValues(part.data), answer);
     put(outline.extent, answer);
+    put(outline.layers, answer);
     putAll(outline.names, answer);
   }
 }
@@ -208,18 +215,22 @@ void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
     }
     std::vector<char> packed;
     pack({ part.slot,
-           outline.isGrid ? cellsWithin(vtkStructuredGrid::SafeDownCast(part.data), extent)
+           outline.isGrid ? cellsWithin(part.data, extent)
                           : cellsAround(vtkUnstructuredGrid::SafeDownCast(part.data), points) },
       packed);
     putAll(packed, answer);
   }
 }
 
-/// The request: the piece's number, ranges of fields for FieldMean, and packed cells of others. The answer: what PiecesSource::Arrival holds.
+/// The request: the piece's number, ranges of fields for FieldMean, the extent of all parts of an image, bodies for it, and
+/// packed cells of others. The answer: what the constructor of PiecesSource reads.
 void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
 {
   this->Number = request.Get<std::uint64_t>();
   const auto ranges = request.GetAll<std::vector<FieldMean::Range>>();
+  const auto whole = request.Get<Outline::Extent>();
+  const vtkSmartPointer<vtkDataObject> bodies =
+    gatheredData({ request.GetAll<std::vector<char>>() });
   std::map<Slot, std::vector<vtkSmartPointer<vtkDataSet>>> copies;
   while (!request.IsAtEnd())
   {
@@ -228,11 +239,12 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
     Part part = unpack(reader);
     copies[std::move(part.slot)].push_back(std::move(part.data));
   }
-  vtkNew<vtkMultiBlockDataSet> data;
+  std::vector<vtkSmartPointer<vtkDataSet>> parts;
   for (const Part& part : this->Parts)
   {
-    data->SetBlock(data->GetNumberOfBlocks(), withCopies(part.data, copies[part.slot]));
+    parts.push_back(withCopies(part.data, copies[part.slot]));
   }
+  const Outline::Extent own = this->Outlines.empty() ? whole : this->Outlines[0].extent;
   this->Parts.clear();
   this->Outlines.clear();
   copies.clear();
@@ -245,16 +257,31 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   }
   Tally tally;
   std::string label;
+  auto* image = parts.size() == 1 ? vtkImageData::SafeDownCast(parts[0]) : nullptr;
+  this->Piece = image ? this->PieceOfImage(image, { whole, own }, bodies, ranges, tally, label)
+                      : this->PieceOfMeshes(parts, ranges, tally, label);
+  put(this->Piece->summary(), answer);
+  put(tally, answer);
+  putAll(label, answer);
+  putAll(this->Piece->warning(), answer);
+  this->Piece->putBoundary(answer);
+}
+
+std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
+  const std::vector<FieldMean::Range>& ranges, Tally& tally, std::string& label) const
+{
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;
   const bool isSmooth = this->Self->GetReconstruction() != vtkRefractiveIndex::LINEAR_IN_CELLS;
-  if (data->GetNumberOfBlocks() > 0)
+  if (!parts.empty())
   {
-    Source source = chooseSource(this->Self, data);
-    label = source.label;
-    if (auto* mean = std::get_if<FieldMean>(&source.model))
+    vtkNew<vtkMultiBlockDataSet> data;
+    for (vtkDataSet* part : parts)
     {
-      mean->setRanges(ranges);
+      data->SetBlock(data->GetNumberOfBlocks(), part);
     }
+    Source source = this->SourceOf(data, ranges);
+    label = source.label;
     source.leaves.erase(std::remove_if(source.leaves.begin(), source.leaves.end(),
                           [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
       source.leaves.end());
@@ -263,28 +290,44 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
       leaves = preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
     }
   }
-  this->Piece = std::make_unique<MeshPiece>(
+  return std::make_unique<MeshPiece>(
     leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear);
-  const Faces faces = this->Piece->faces();
-  put(this->Piece->summary(), answer);
-  for (const std::vector<double>& along : this->Piece->sizes())
-  {
-    putAll(along, answer);
-  }
-  put(tally, answer);
-  putAll(label, answer);
-  putAll(this->Piece->warning(), answer);
-  putAll(faces.points, answer);
-  putAll(faces.corners, answer);
-  putAll(faces.starts, answer);
-  putAll(faces.owners, answer);
-  putAll(faces.states, answer);
-  putAll(faces.hidesBehind, answer);
-  putAll(faces.areParts, answer);
-  putAll(this->Piece->valuesAt(faces), answer);
 }
 
-const MeshPiece& PieceWorker::PieceOf(Reader& request) const
+std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,
+  ImagePiece::Extents extents, vtkDataObject* bodies, const std::vector<FieldMean::Range>& ranges,
+  Tally& tally, std::string& label) const
+{
+  const Source source = this->SourceOf(image, ranges);
+  label = source.label;
+  vtkNew<vtkImageData> refractivity;
+  tally = convertImage(source, this->Self->GetDoublePrecision(), refractivity);
+  mergeMasks(refractivity);
+  for (const std::size_t high : { 1, 3, 5 })
+  {
+    if (source.leaves[0].ofCells)
+    {
+      --extents.whole[high];
+      --extents.own[high];
+    }
+  }
+  return std::make_unique<ImagePiece>(refractivity, extents,
+    turnedBack(bodies, gridFrom(refractivity).direction),
+    vtkSMPTools::GetEstimatedNumberOfThreads());
+}
+
+/// With the ranges of all ranks.
+Source PieceWorker::SourceOf(vtkDataObject* data, const std::vector<FieldMean::Range>& ranges) const
+{
+  Source source = chooseSource(this->Self, data);
+  if (auto* mean = std::get_if<FieldMean>(&source.model))
+  {
+    mean->setRanges(ranges);
+  }
+  return source;
+}
+
+const DataPiece& PieceWorker::PieceOf(Reader& request) const
 {
   if (request.Get<std::uint64_t>() != this->Number || !this->Piece)
   {

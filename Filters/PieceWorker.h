@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "DataPiece.h"
+#include "ImagePiece.h"
 #include "MeshHalo.h"
-#include "MeshPiece.h"
+#include "RefractivityModels.h"
+#include "RefractivitySource.h"
 
 #include <array>
 #include <cstdint>
@@ -12,6 +15,7 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkImageData;
 class vtkRefractiveIndex;
 
 namespace filters
@@ -24,7 +28,7 @@ public:
   /// The first bytes of each message. Other messages on the same channel have other numbers.
   enum Kind : std::uint32_t
   {
-    Outline = 200, // the surfaces of its meshes
+    Outline = 200, // the surfaces of its meshes, the extents of its grids
     Copies,        // cells around points that others have, too
     Make,          // the piece, with others' copies
     Contents,      // of boxes
@@ -67,14 +71,21 @@ private:
   void GiveOutline(std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
   void MakePiece(Reader& request, std::vector<char>& answer);
-  const MeshPiece& PieceOf(Reader& request) const;
+  std::unique_ptr<const DataPiece> PieceOfMeshes(
+    const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
+    const std::vector<FieldMean::Range>& ranges, Tally& tally, std::string& label) const;
+  std::unique_ptr<const DataPiece> PieceOfImage(vtkImageData* image, ImagePiece::Extents extents,
+    vtkDataObject* bodies, const std::vector<FieldMean::Range>& ranges, Tally& tally,
+    std::string& label) const;
+  Source SourceOf(vtkDataObject* data, const std::vector<FieldMean::Range>& ranges) const;
+  const DataPiece& PieceOf(Reader& request) const;
 
   vtkRefractiveIndex* Self;
   vtkDataObject* Data = nullptr;
   std::vector<Part> Parts;
   std::vector<filters::Outline> Outlines; // of them
   std::string Lacks;                      // what to say where the data have not the arrays
-  std::unique_ptr<MeshPiece> Piece;
+  std::unique_ptr<const DataPiece> Piece;
   std::uint64_t Number = 0; // of the piece
 };
 

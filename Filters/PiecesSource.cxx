@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PiecesSource.h"
 
+#include "GatheredData.h"
 #include "LatticeDistances.h"
 #include "RefractivitySource.h"
+
+#include "vtkDataObject.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -48,6 +52,18 @@ void extend(schlieren::Box& box, const schlieren::Box& by)
   }
 }
 
+void extend(Outline::Extent& extent, const Outline::Extent& by)
+{
+  const bool isFirst = extent[0] > extent[1];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    int& low = extent[2 * axis];
+    int& high = extent[2 * axis + 1];
+    low = isFirst ? by[2 * axis] : std::min(low, by[2 * axis]);
+    high = isFirst ? by[2 * axis + 1] : std::max(high, by[2 * axis + 1]);
+  }
+}
+
 void extend(CellTree::Content& content, const CellTree::Content& by)
 {
   if (by.lowest <= by.highest)
@@ -63,32 +79,6 @@ void extend(CellTree::Content& content, const CellTree::Content& by)
 }
 
 constexpr CellTree::Content nothing{ 1, 0, { infinity, infinity, infinity } };
-
-/// Adds another rank's faces.
-void append(const Faces& more, Faces& faces)
-{
-  const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
-  const std::size_t firstCorner = faces.corners.size();
-  for (const Point& point : more.points)
-  {
-    // The value of each point is sent with it.
-    faces.contributions.push_back({ 0, static_cast<vtkIdType>(faces.points.size()), 1 });
-    faces.addPoint(point);
-  }
-  for (const std::int32_t corner : more.corners)
-  {
-    faces.corners.push_back(firstPoint + corner);
-  }
-  for (std::size_t face = 0; face < more.size(); ++face)
-  {
-    faces.starts.push_back(firstCorner + more.starts[face + 1]);
-  }
-  faces.owners.insert(faces.owners.end(), more.owners.begin(), more.owners.end());
-  faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
-  faces.hidesBehind.insert(
-    faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
-  faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
-}
 
 /// Of each rank some cells' sizes, and how many cells it has: of all ranks the same part.
 CellTree::Sizes joined(
@@ -115,6 +105,37 @@ CellTree::Sizes joined(
     }
   }
   return sizes;
+}
+
+/// Of triangles that several ranks have, one stays; points with the same place become one.
+void removeCopies(BoundaryFaces& faces)
+{
+  const Triangles all = std::move(faces.surface);
+  const std::vector<unsigned char> hides = std::move(faces.hidesBehind);
+  faces.surface = {};
+  faces.hidesBehind.clear();
+  std::unordered_map<Point, std::int32_t, HashOfPlace> numbers;
+  std::set<Triangles::Corners> known;
+  for (std::size_t triangle = 0; triangle < all.size(); ++triangle)
+  {
+    Triangles::Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const Point& place = all.corner(triangle, i);
+      const auto number = static_cast<std::int32_t>(faces.surface.points.size());
+      const auto [found, isNew] = numbers.emplace(place, number);
+      if (isNew)
+      {
+        faces.surface.points.push_back(place);
+      }
+      corners[i] = found->second;
+    }
+    if (known.insert(corners).second)
+    {
+      faces.surface.corners.push_back(corners);
+      faces.hidesBehind.push_back(hides[triangle]);
+    }
+  }
 }
 
 } // namespace
@@ -146,7 +167,7 @@ std::vector<std::vector<char>> PiecesSource::request(std::vector<std::vector<cha
 
 /// Finds the ranges of fields that are those of all ranks, where the parts of one mesh on several ranks meet, and which cells
 /// of others each rank needs there.
-std::vector<std::vector<char>> PiecesSource::requestsForPieces() const
+std::vector<std::vector<char>> PiecesSource::requestsForPieces(vtkDataObject* bodies) const
 {
   const std::size_t ranks = this->Ranks->Count();
   struct Known
@@ -156,12 +177,13 @@ std::vector<std::vector<char>> PiecesSource::requestsForPieces() const
   struct Grid
   {
     std::uint32_t rank, part;
-    bool hasCellValues;
     Outline::Extent extent;
+    int layers;
   };
   std::map<Slot, std::unordered_map<PointName, std::vector<Known>, HashOfPlace>> points;
   std::map<Slot, std::vector<Grid>> grids;
   std::vector<FieldMean::Range> ranges;
+  Outline::Extent whole{ 0, -1, 0, -1, 0, -1 }; // of an image
   const auto outlines =
     this->request(std::vector<std::vector<char>>(ranks, pieceRequest(PieceWorker::Outline)));
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
@@ -177,12 +199,14 @@ std::vector<std::vector<char>> PiecesSource::requestsForPieces() const
     for (std::uint32_t part = 0; part < parts; ++part)
     {
       const auto slot = reader.GetAll<Slot>();
-      const bool isGrid = reader.Get<bool>(), hasValuesOfCells = reader.Get<bool>();
+      const auto isGrid = reader.Get<bool>();
       const auto extent = reader.Get<Outline::Extent>();
+      const auto layers = reader.Get<int>();
       const auto names = reader.GetAll<std::vector<PointName>>();
       if (isGrid)
       {
-        grids[slot].push_back({ rank, part, hasValuesOfCells, extent });
+        grids[slot].push_back({ rank, part, extent, layers });
+        extend(whole, extent);
       }
       for (std::uint32_t point = 0; point < names.size(); ++point)
       {
@@ -225,7 +249,7 @@ std::vector<std::vector<char>> PiecesSource::requestsForPieces() const
     forPairs(slot.second,
       [&](const Grid& one, const Grid& other)
       {
-        const auto extent = neededOf(one.extent, other.extent, one.hasCellValues);
+        const auto extent = neededOf(one.extent, other.extent, other.layers);
         if (extent[0] <= extent[1])
         {
           wanted[{ one.rank, one.part, other.rank }].extent = extent;
@@ -248,6 +272,8 @@ std::vector<std::vector<char>> PiecesSource::requestsForPieces() const
   const auto answers = this->request(std::move(requests));
   std::vector<char> make = this->request(PieceWorker::Make);
   putAll(ranges, make);
+  put(whole, make);
+  putAll(packedData(bodies, {}), make);
   std::vector<std::vector<char>> ofOthers(ranks, make);
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
   {
@@ -273,13 +299,11 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
 {
   static std::atomic<std::uint64_t> sources{ 0 };
   this->Number = ++sources;
-  std::vector<std::vector<char>> requests = this->requestsForPieces();
+  std::vector<std::vector<char>> requests = this->requestsForPieces(bodies);
   progress.reach(0.2);
 
-  Faces faces;
-  std::vector<double> values;
-  std::vector<CellTree::Sizes> sizes;
-  std::vector<double> cells;
+  BoundaryOfMeshes ofMeshes;
+  BoundaryOfImage ofImage;
   this->All = nothing;
   this->Bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   std::string lacking;
@@ -290,28 +314,20 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
     try
     {
       Reader reader = readerOf(answer);
-      const auto summary = reader.Get<MeshPiece::Summary>();
-      cells.push_back(static_cast<double>(summary.cells));
-      for (std::vector<double>& along : sizes.emplace_back())
-      {
-        along = reader.GetAll<std::vector<double>>();
-      }
+      const auto summary = reader.Get<DataPiece::Summary>();
       this->Valid += reader.Get<Tally>();
       const auto label = reader.GetAll<std::string>();
       this->Label = this->Label.empty() ? label : this->Label;
       const auto warning = reader.GetAll<std::string>();
       this->Warning = this->Warning.empty() ? warning : this->Warning;
-      Faces more;
-      more.points = reader.GetAll<std::vector<Point>>();
-      more.corners = reader.GetAll<std::vector<std::int32_t>>();
-      more.starts = reader.GetAll<std::vector<std::size_t>>();
-      more.owners = reader.GetAll<std::vector<Point>>();
-      more.states = reader.GetAll<std::vector<State>>();
-      more.hidesBehind = reader.GetAll<std::vector<unsigned char>>();
-      more.areParts = reader.GetAll<std::vector<unsigned char>>();
-      append(more, faces);
-      const auto ofFaces = reader.GetAll<std::vector<double>>();
-      values.insert(values.end(), ofFaces.begin(), ofFaces.end());
+      if (reader.Get<DataPiece::BoundaryKind>() == DataPiece::BoundaryKind::OfImage)
+      {
+        ofImage.add(reader);
+      }
+      else
+      {
+        ofMeshes.add(reader, summary.cells);
+      }
       if (summary.cells > 0)
       {
         this->BoundsOfRanks.back() = summary.bounds;
@@ -329,21 +345,128 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   {
     throw ArraysMissing(lacking);
   }
-  this->VoxelShape = CellTree::voxelShapeOf(joined(sizes, cells));
   progress.reach(0.7);
-  BoundaryFaces boundary = boundaryOf(
-    std::move(faces), [this](const std::vector<Point>& places) { return this->hold(places); });
-  std::vector<double> onSurface;
-  for (const Contribution& fraction : boundary.contributions)
+  if (ofImage.parts > 0)
   {
-    onSurface.push_back(values[static_cast<std::size_t>(fraction.point)]);
+    this->makeBoundary(std::move(ofImage), bodies, progress.part(0.8, 1));
   }
-  this->Boundary =
-    std::make_unique<GasBoundary>(std::move(boundary), bodies, outside, progress.part(0.8, 1));
-  this->Ambient = this->Boundary->ambient(onSurface);
+  else
+  {
+    this->makeBoundary(std::move(ofMeshes), bodies, outside, progress.part(0.8, 1));
+  }
   if (std::isnan(this->Ambient))
   {
     this->Ambient = 0.5 * (this->All.lowest + this->All.highest);
+  }
+}
+
+/// Another rank's, which has so many cells.
+void PiecesSource::BoundaryOfMeshes::add(Reader& reader, std::int64_t ofRank)
+{
+  this->cells.push_back(static_cast<double>(ofRank));
+  for (std::vector<double>& along : this->sizes.emplace_back())
+  {
+    along = reader.GetAll<std::vector<double>>();
+  }
+  Faces more;
+  more.points = reader.GetAll<std::vector<Point>>();
+  more.corners = reader.GetAll<std::vector<std::int32_t>>();
+  more.starts = reader.GetAll<std::vector<std::size_t>>();
+  more.owners = reader.GetAll<std::vector<Point>>();
+  more.states = reader.GetAll<std::vector<State>>();
+  more.hidesBehind = reader.GetAll<std::vector<unsigned char>>();
+  more.areParts = reader.GetAll<std::vector<unsigned char>>();
+  const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
+  const std::size_t firstCorner = faces.corners.size();
+  for (const Point& point : more.points)
+  {
+    // The value of each point is sent with it.
+    faces.contributions.push_back({ 0, static_cast<vtkIdType>(faces.points.size()), 1 });
+    faces.addPoint(point);
+  }
+  for (const std::int32_t corner : more.corners)
+  {
+    faces.corners.push_back(firstPoint + corner);
+  }
+  for (std::size_t face = 0; face < more.size(); ++face)
+  {
+    faces.starts.push_back(firstCorner + more.starts[face + 1]);
+  }
+  faces.owners.insert(faces.owners.end(), more.owners.begin(), more.owners.end());
+  faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
+  faces.hidesBehind.insert(
+    faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
+  faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
+  const auto ofFaces = reader.GetAll<std::vector<double>>();
+  this->values.insert(this->values.end(), ofFaces.begin(), ofFaces.end());
+}
+
+/// Another rank's. Throws std::runtime_error where it has other axes.
+void PiecesSource::BoundaryOfImage::add(Reader& reader)
+{
+  const auto from = reader.Get<Point>();
+  const auto edges = reader.Get<std::array<double, 3>>();
+  const auto axes = reader.Get<std::array<double, 9>>();
+  if (this->parts++ > 0 &&
+    (from != this->origin || edges != this->spacing || axes != this->direction))
+  {
+    throw std::runtime_error(
+      "The parts of the image that the ranks have are not of one image: their origins, spacings or "
+      "directions differ. Give all parts the same, or make blocks of them.");
+  }
+  this->origin = from;
+  this->spacing = edges;
+  this->direction = axes;
+  Triangles& surface = this->faces.surface;
+  const auto first = static_cast<std::int32_t>(surface.points.size());
+  for (const Point& point : reader.GetAll<std::vector<Point>>())
+  {
+    surface.points.push_back(point);
+  }
+  for (const Triangles::Corners& corners : reader.GetAll<std::vector<Triangles::Corners>>())
+  {
+    surface.corners.push_back({ first + corners[0], first + corners[1], first + corners[2] });
+  }
+  const auto hides = reader.GetAll<std::vector<unsigned char>>();
+  this->faces.hidesBehind.insert(this->faces.hidesBehind.end(), hides.begin(), hides.end());
+  const auto values = reader.GetAll<std::vector<ImagePiece::OuterValue>>();
+  this->outer.insert(this->outer.end(), values.begin(), values.end());
+}
+
+void PiecesSource::makeBoundary(
+  BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
+{
+  this->VoxelShape = CellTree::voxelShapeOf(joined(of.sizes, of.cells));
+  BoundaryFaces boundary = boundaryOf(
+    std::move(of.faces), [this](const std::vector<Point>& places) { return this->hold(places); });
+  std::vector<double> onSurface;
+  for (const Contribution& fraction : boundary.contributions)
+  {
+    onSurface.push_back(of.values[static_cast<std::size_t>(fraction.point)]);
+  }
+  this->Boundary = std::make_unique<GasBoundary>(std::move(boundary), bodies, outside, progress);
+  this->Ambient = this->Boundary->ambient(onSurface);
+}
+
+void PiecesSource::makeBoundary(
+  BoundaryOfImage of, vtkDataObject* bodies, const WorkProgress& progress)
+{
+  this->Direction = of.direction;
+  this->VoxelShape = of.spacing;
+  removeCopies(of.faces);
+  this->Boundary = std::make_unique<GasBoundary>(
+    std::move(of.faces), turnedBack(bodies, of.direction), Outside::Passes, progress);
+  this->Ambient = ImagePiece::ambientOf(std::move(of.outer));
+  // What is beyond the image, in the cubes around its outer points, belongs to these.
+  for (schlieren::Box& ofRank : this->BoundsOfRanks)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      double& low = ofRank.low[axis];
+      double& high = ofRank.high[axis];
+      low = low == this->Bounds.low[axis] ? -infinity : low;
+      high = high == this->Bounds.high[axis] ? infinity : high;
+    }
   }
 }
 
@@ -435,10 +558,10 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
     {
       for (const schlieren::Lattice& lattice : ofRank)
       {
-        MeshPiece::Samples more;
+        DataPiece::Samples more;
         more.found = answer.GetAll<std::vector<unsigned char>>();
         more.values = answer.GetAll<std::vector<double>>();
-        MeshPiece::Samples& samples = this->Samples[keyOf(lattice)];
+        DataPiece::Samples& samples = this->Samples[keyOf(lattice)];
         if (samples.found.empty())
         {
           samples = std::move(more);
@@ -484,7 +607,7 @@ schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& b
 void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivity,
   schlieren::Place* places, float* distances) const
 {
-  const MeshPiece::Samples& samples = this->Samples.at(keyOf(lattice));
+  const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
   const auto size = static_cast<std::size_t>(lattice.size());
   if (samples.found.empty())
   {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "GasBoundary.h"
+#include "ImagePiece.h"
+#include "MeshFaces.h"
 #include "PieceWorker.h"
 #include "RefractivityModels.h"
 
@@ -34,15 +36,15 @@ public:
 };
 
 /**
- * The refractivity of meshes that are spread over several ranks, for the tree on rank 0. Each rank keeps its own cells
- * and samples them; what rank 0 has is the boundary of all: of the faces of each rank's cells those that no other rank's
- * face meets.
+ * The refractivity of meshes, or of an image, that are spread over several ranks, for the tree on rank 0. Each rank keeps
+ * its own cells or points and samples them; what rank 0 has is the boundary of all: of the faces of each rank's cells those
+ * that no other rank's face meets; of an image the faces around points without gas.
  */
 class PiecesSource : public schlieren::MediumSource
 {
 public:
-  /// Makes the pieces of the data that the ranks have. `bodies`: may be null. Throws std::runtime_error with a message
-  /// for the user.
+  /// Makes the pieces of the data that the ranks have. `bodies`: may be null. `outside`: of meshes; images have none.
+  /// Throws std::runtime_error with a message for the user.
   PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());
 
@@ -55,6 +57,7 @@ public:
   schlieren::Box bounds() const override { return this->Bounds; }
   double ambient() const override { return this->Ambient; }
   std::array<double, 3> voxelShape() const override { return this->VoxelShape; }
+  std::array<double, 9> direction() const override { return this->Direction; }
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override;
@@ -69,7 +72,32 @@ private:
   static BoxKey keyOf(const schlieren::Box& box);
   static LatticeKey keyOf(const schlieren::Lattice& lattice);
 
-  std::vector<std::vector<char>> requestsForPieces() const;
+  /// What the ranks answer about their boundaries, see DataPiece::putBoundary().
+  struct BoundaryOfMeshes
+  {
+    std::vector<CellTree::Sizes> sizes;
+    std::vector<double> cells;
+    Faces faces;
+    std::vector<double> values; // at their points
+
+    void add(Reader& reader, std::int64_t ofRank);
+  };
+  struct BoundaryOfImage
+  {
+    std::size_t parts = 0;
+    Point origin{};
+    std::array<double, 3> spacing{};
+    std::array<double, 9> direction{};
+    BoundaryFaces faces;
+    std::vector<ImagePiece::OuterValue> outer;
+
+    void add(Reader& reader);
+  };
+
+  std::vector<std::vector<char>> requestsForPieces(vtkDataObject* bodies) const;
+  void makeBoundary(
+    BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress);
+  void makeBoundary(BoundaryOfImage of, vtkDataObject* bodies, const WorkProgress& progress);
   std::vector<std::vector<char>> request(std::vector<std::vector<char>> requests) const;
   std::vector<char> request(PieceWorker::Kind kind) const;
   std::vector<unsigned char> hold(const std::vector<Point>& places) const;
@@ -83,6 +111,7 @@ private:
   std::int64_t Cells = 0;
   schlieren::Box Bounds{};
   std::array<double, 3> VoxelShape{ 1, 1, 1 };
+  std::array<double, 9> Direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
   CellTree::Content All{};
   std::unique_ptr<GasBoundary> Boundary;
   double Ambient = 0;
@@ -91,7 +120,7 @@ private:
 
   // What has been prepared.
   mutable std::map<BoxKey, PieceWorker::Content> Contents;
-  mutable std::map<LatticeKey, MeshPiece::Samples> Samples;
+  mutable std::map<LatticeKey, DataPiece::Samples> Samples;
 };
 
 } // namespace filters

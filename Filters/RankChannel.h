@@ -58,7 +58,7 @@ struct HelloMessage
   double changes = 0;       // the version of the inputs
   double timeStep = 0;
   Holdings inputs[2] = {};
-  std::int32_t areMeshes = 1; // the first of them
+  std::int32_t pieceKinds = 0; // of the first of them, see pieceKindsOf()
 };
 /// Where pieces come from, and where they are sent on to.
 struct RelayMessage

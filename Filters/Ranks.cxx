@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks.h"
 
+#include "DataParts.h"
 #include "GatheredData.h"
 #include "InputDescription.h"
 #include "MeshHalo.h"
@@ -11,7 +12,7 @@
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkExtentTranslator.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
@@ -19,6 +20,7 @@
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
@@ -110,35 +112,40 @@ std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
   return more;
 }
 
-/// Whether ranks may have pieces of such data, as far as is known before there are any.
-bool isDivisible(vtkInformation* inInfo)
+/// One rank can have so many times as many cells of an image as of a mesh: it takes some 10 bytes a point, a mesh some 200.
+constexpr double cellsOfImageForOne = 16;
+
+/// Whether ranks may have pieces of such data that stay, as far as is known before there are any.
+bool isDivisible(vtkInformation* inInfo, double maxCells)
 {
   vtkDataObject* data = vtkDataObject::GetData(inInfo);
-  return vtkUnstructuredGrid::SafeDownCast(data) || vtkStructuredGrid::SafeDownCast(data) ||
-    vtkMultiBlockDataSet::SafeDownCast(data) ||
+  if (vtkImageData::SafeDownCast(data) && inInfo->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    const int* whole = inInfo->Get(Pipeline::WHOLE_EXTENT());
+    double cells = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      cells *= whole[2 * axis + 1] - whole[2 * axis]; // 0: it is flat
+    }
+    return cells > cellsOfImageForOne * maxCells;
+  }
+  return vtkUnstructuredGrid::SafeDownCast(data) || vtkRectilinearGrid::SafeDownCast(data) ||
+    vtkStructuredGrid::SafeDownCast(data) || vtkMultiBlockDataSet::SafeDownCast(data) ||
     vtkPartitionedDataSetCollection::SafeDownCast(data) ||
     vtkPartitionedDataSet::SafeDownCast(data);
 }
 
 void requestPiece(vtkInformation* inInfo, int piece, int pieces)
 {
-  // Others may have the key, too, from images upstream, which VTK divides by the piece.
   if (inInfo->Has(Pipeline::WHOLE_EXTENT()) &&
-    vtkStructuredGrid::SafeDownCast(vtkDataObject::GetData(inInfo)))
+    isGrid(vtkDataSet::SafeDownCast(vtkDataObject::GetData(inInfo))))
   {
-    vtkNew<vtkExtentTranslator> divide;
-    int whole[6], extent[6];
-    inInfo->Get(Pipeline::WHOLE_EXTENT(), whole);
-    if (divide->PieceToExtentThreadSafe(
-          piece, pieces, 0, whole, extent, vtkExtentTranslator::BLOCK_MODE, 0) == 0)
-    {
-      const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
-      std::copy_n(nothing, 6, extent);
-    }
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+    // VTK divides it by the piece.
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
   }
   else
   {
+    // Others may have the key, too, from images upstream.
     inInfo->Remove(Pipeline::UPDATE_EXTENT());
   }
   inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
@@ -217,7 +224,7 @@ void FilterRanks::CountChanges(vtkAlgorithm* filter)
 void FilterRanks::RequestData(vtkInformation* inInfo, Part part, double maxCells) const
 {
   vtkMultiProcessController* controller = controllerOfRanks();
-  if (part == Part::Piece && maxCells < this->TooFew && controller && isDivisible(inInfo))
+  if (part == Part::Piece && maxCells < this->TooFew && controller && isDivisible(inInfo, maxCells))
   {
     requestPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
     return;
@@ -349,7 +356,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   {
     hello.inputs[0] = holdingsOf(this->Own->data);
     hello.inputs[1] = holdingsOf(this->Own->bodies);
-    hello.areMeshes = filters::areMeshes(this->Own->data) ? 1 : 0;
+    hello.pieceKinds = pieceKindsOf(this->Own->data);
   }
   channel.send(messageOf(hello));
   while (!this->HasMet)
@@ -541,10 +548,10 @@ std::vector<Holdings> FilterRanks::Others::HoldingsOf(int input, vtkDataObject* 
 //------------------------------------------------------------------------------
 bool FilterRanks::Meeting::CanStayInPieces(double maxCells) const
 {
-  bool areAll = filters::areMeshes(this->Own->data);
+  std::int32_t kinds = pieceKindsOf(this->Own->data);
   for (const auto& channel : this->Of.Inside->Channels)
   {
-    areAll = areAll && channel->Guest->areMeshes != 0;
+    kinds &= channel->Guest->pieceKinds;
   }
   const std::vector<Holdings> holdings = this->Of.Inside->HoldingsOf(0, this->Own->data);
   const std::vector<std::size_t> ranks = ranksWithMore(holdings);
@@ -553,7 +560,8 @@ bool FilterRanks::Meeting::CanStayInPieces(double maxCells) const
   {
     cells += holdings[rank][1];
   }
-  return areAll && ranks.size() > 1 && cells > maxCells;
+  cells /= (kinds & PieceOfImage) != 0 ? cellsOfImageForOne : 1;
+  return kinds != NoPieces && ranks.size() > 1 && cells > maxCells;
 }
 
 //------------------------------------------------------------------------------

@@ -52,8 +52,8 @@ public:
   /// Which part of the inputs a rank requests.
   enum class Part
   {
-    All,  // on rank 0, and nothing on others
-    Piece // of meshes: each rank one of as many as there are; of bodies and other data, as All
+    All, // on rank 0, and nothing on others
+    Piece // of meshes and images: each rank one of as many as there are; of bodies and other data, as All
   };
   /// In RequestUpdateExtent. Whether the inputs have changed since the last request, or their time step has. In place of
   /// pieces, all is requested where no more than `maxCells` are known to have been found too few: see SetTooFew().
@@ -85,8 +85,8 @@ public:
     Meeting& operator=(const Meeting&) = delete;
 
     /// On rank 0: all of the inputs, some of which other ranks may have sent. Throws std::runtime_error where rank 0
-    /// cannot get them. Meshes of more cells than `maxCells` that several ranks have stay where they are: `data` is what
-    /// rank 0 has of them, see AreInPieces().
+    /// cannot get them. Data of more cells than `maxCells` (of images 16 times as many) that several ranks have stay where
+    /// they are: `data` is what rank 0 has of them, see AreInPieces().
     Inputs Gather(double maxCells = std::numeric_limits<double>::infinity());
 
     /// On rank 0: whether pieces were requested, but are not to stay where they are, see Gather(). Rank 0 had better

@@ -144,6 +144,18 @@ TEST(ImageSource, SilhouettesAreThoseOfTheSurfaceAtAnyZoom)
   }
 }
 
+// Unknown values at the end of rows, of planes and of all.
+TEST(ImageSource, BodiesMayReachThroughTheFacesOfTheImage)
+{
+  for (const Vec& centre :
+    { Vec{ -1, 0, 0 }, Vec{ 1, 0, 0 }, Vec{ 0, 1, 0 }, Vec{ 0, 0, 1 }, Vec{ 1, 1, 1 } })
+  {
+    const Errors errors = errorsOf(benchWith(ballImage(), sphere(0.45, centre)));
+    EXPECT_LT(errors.rms, 1e-2);
+    EXPECT_LT(errors.worst, 0.1);
+  }
+}
+
 TEST(ImageSource, ABodyInTheGasChangesNoLightBesideIt)
 {
   const Errors alone = errorsOf(bench(ballImage(), 128));

@@ -194,19 +194,28 @@ def gathered():
 
 
 def in_pieces():
-    """Meshes that stay where they are, cut by straight and oblique planes: images, which mind small steps of the density
-    where pieces meet, and a body."""
-    from paraview.simple import ProgrammableSource, Sphere
+    """Data that stay where they are, cut by straight and oblique planes: images, which mind small steps of the density
+    where pieces meet, and a body. Without one, an image on one rank keeps its grid."""
+    from paraview.simple import ProgrammableSource, Sphere, Transform, Wavelet
     from plugin_testing import Schlieren, image_array
     found = {}
-    for kind, output in (("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
-                         ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid")):
-        source = ProgrammableSource(OutputDataSetType=output, Script=BALL.replace("KIND", repr(kind)),
-                                    ScriptRequestInformation=WHOLE_EXTENT.replace(
-                                        "IS_GRID", str(output != "vtkUnstructuredGrid")))
-        bodies = Sphere(Radius=0.2, Center=[0.5, 0.2, 0]) if kind == "hexahedra" else None
-        seen = Schlieren(Input=source, Density=["CELLS" if kind == "cell data" else "POINTS", "rho"], Bodies=bodies,
-                         ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8], GatherLimit=1, MediumTolerance=1e-3)
+    body = Sphere(Radius=0.2, Center=[0.5, 0.2, 0])
+    sources = [(kind, ProgrammableSource(OutputDataSetType=output, Script=BALL.replace("KIND", repr(kind)),
+                                         ScriptRequestInformation=WHOLE_EXTENT.replace(
+                                             "IS_GRID", str(output != "vtkUnstructuredGrid"))),
+                ["CELLS" if kind == "cell data" else "POINTS", "rho"],
+                body if kind in ("image", "hexahedra") else None)
+               for kind, output in (("image", "vtkImageData"), ("rectilinear", "vtkRectilinearGrid"),
+                                    ("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
+                                    ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid"))]
+    # Each rank gets what it requests.
+    wavelet = Wavelet(WholeExtent=[-12, 14, -10, 10, -9, 9])
+    sources[:0] = [("requested image", wavelet, ["POINTS", "RTData"], Sphere(Radius=4, Center=[1, 2, 3])),
+                   ("requested grid", Transform(Input=wavelet), ["POINTS", "RTData"], None)]
+    for kind, source, density, bodies in sources:
+        seen = Schlieren(Input=source, Density=density, Bodies=bodies, ImageSize=[100, 100],
+                         ViewDirection=[0.2, -0.6, -0.8], GatherLimit=0, MediumTolerance=1e-3,
+                         GladstoneDaleConstant=1e-6 if density[1] == "RTData" else 2.26e-4)
         for array in ("Deflection", "OpticalPathDifference", "BlockedFraction"):
             found[f"{kind}: {array}"] = image_array(seen, array)
         seen.UpdatePropertyInformation()
@@ -567,7 +576,7 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 24 + 21 + 8 + 10, len(one)
+    assert isSanitized or len(one) == 72 + 18 + 24 + 41 + 8 + 10, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}

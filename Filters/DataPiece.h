@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CellTree.h"
+#include "Vectors.h"
+
+#include "Medium/MediumSource.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace filters
+{
+
+/// Whether two boxes have a point in common.
+bool meet(const schlieren::Box& a, const schlieren::Box& b);
+
+/// What one rank has of data that are spread over several: the places that it answers for. Its functions may be called from
+/// several threads.
+class DataPiece
+{
+public:
+  DataPiece() = default;
+  DataPiece(const DataPiece&) = delete;
+  DataPiece& operator=(const DataPiece&) = delete;
+  virtual ~DataPiece() = default;
+
+  /// Of all that it has.
+  struct Summary
+  {
+    std::int64_t cells; ///< or points; 0: no gas
+    schlieren::Box bounds;
+    CellTree::Content content;
+  };
+  virtual Summary summary() const = 0;
+  /// For the user; mostly empty.
+  virtual std::string warning() const { return ""; }
+
+  /// Adds to a message where its gas ends, for PiecesSource: what kind of boundary, and that.
+  enum class BoundaryKind : std::uint32_t
+  {
+    OfMesh, ///< see MeshPiece::putBoundary()
+    OfImage ///< see ImagePiece::putBoundary()
+  };
+  virtual void putBoundary(std::vector<char>& message) const = 0;
+
+  /// Of what it has in a box; see CellTree::content().
+  virtual CellTree::Content contentOf(const schlieren::Box& box) const = 0;
+
+  /// Whether there is gas of its own.
+  virtual bool holds(const Point& place) const = 0;
+
+  /// N at the points of a lattice that it holds. `found` is empty where no point is.
+  struct Samples
+  {
+    std::vector<unsigned char> found;
+    std::vector<double> values;
+  };
+  virtual Samples sample(const schlieren::Lattice& lattice) const = 0;
+};
+
+} // namespace filters
