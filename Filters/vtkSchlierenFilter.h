@@ -754,7 +754,7 @@ public:
 
   ///@{
   /**
-   * Of meshes, where there are several processes: whether each has all voxels (off, the default), or a part of them and
+   * Of meshes, and of images with Bodies or that stay on their ranks, where there are several processes: whether each has all voxels (off, the default), or a part of them and
    * MediumMemory for it (on; auto: where all do not fit into MediumMemory). Rays then go from process to process. No
    * effect on a GPU, with ColorByField, and where rays bend with another Integrator than LEAPFROG.
    */

@@ -19,23 +19,57 @@ template <class Kernel, class Real>
 constexpr int blocksAtATime =
   sizeof(Real) == sizeof(float) && !Kernel::Integrator::samplesBeyond ? 5 : 1;
 
+/// The pixel of a thread, of those from a row on.
+struct PixelOfThread
+{
+  std::int64_t column, row;
+
+  __device__ explicit PixelOfThread(std::int64_t firstRow)
+  {
+    const int warp = static_cast<int>(threadIdx.x) / threadsPerWarp;
+    const int lane = static_cast<int>(threadIdx.x) % threadsPerWarp;
+    column = std::int64_t{ blockIdx.x } * blockColumns + warp % warpsAlong * warpColumns +
+      lane % warpColumns;
+    row = firstRow + std::int64_t{ blockIdx.y } * blockRows + warp / warpsAlong * warpRows +
+      lane / warpColumns;
+  }
+};
+
+/// All threads of a block come here. Adds to a sum how many of them are counted.
+__device__ inline void addCount(bool isCounted, unsigned long long* sum)
+{
+  const int count = __syncthreads_count(isCounted ? 1 : 0);
+  if (threadIdx.x == 0 && count > 0)
+  {
+    atomicAdd(sum, static_cast<unsigned long long>(count));
+  }
+}
+
+/// All threads of a warp come here.
+__device__ inline void addDrift(double worstDrift, long long* worst)
+{
+  for (int lanes = threadsPerWarp / 2; lanes > 0; lanes /= 2)
+  {
+    constexpr unsigned all = 0xffffffff;
+    worstDrift = fmax(worstDrift, __shfl_down_sync(all, worstDrift, lanes));
+  }
+  if (threadIdx.x % threadsPerWarp == 0 && worstDrift > 0)
+  {
+    atomicMax(worst, __double_as_longlong(worstDrift));
+  }
+}
+
 /// All threads of a block come to its end. The task stays where parameters are: a copy would be in local memory.
 template <class Kernel, class May, class Real>
 __global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>)
   traceKernel(const __grid_constant__ RayTask<Real> task, const __grid_constant__ MarchedRows rows)
 {
-  const int warp = static_cast<int>(threadIdx.x) / threadsPerWarp;
-  const int lane = static_cast<int>(threadIdx.x) % threadsPerWarp;
-  const std::int64_t column = std::int64_t{ blockIdx.x } * blockColumns +
-    warp % warpsAlong * warpColumns + lane % warpColumns;
-  const std::int64_t row = rows.firstRow + std::int64_t{ blockIdx.y } * blockRows +
-    warp / warpsAlong * warpRows + lane / warpColumns;
-
+  const PixelOfThread pixel(rows.firstRow);
   bool hasCrossed = false;
   double worstDrift = 0;
-  if (column < rows.pass.columns && row < rows.pass.rows)
+  if (pixel.column < rows.pass.columns && pixel.row < rows.pass.rows)
   {
-    const std::int64_t ray = row * rows.pass.columns + column;
+    const std::int64_t ray = pixel.row * rows.pass.columns + pixel.column;
     float* sums = nullptr;
     if constexpr (May::fieldsToGather)
     {
@@ -51,21 +85,78 @@ __global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>)
     hasCrossed = exit.fate != RayFate::Missed;
     worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN
   }
+  addCount(hasCrossed, &rows.totals->crossed);
+  addDrift(worstDrift, &rows.totals->worstDrift);
+}
 
-  const int crossed = __syncthreads_count(hasCrossed ? 1 : 0);
-  if (threadIdx.x == 0 && crossed > 0)
+/// All threads of a block come to its end.
+template <class Kernel, class Real>
+__global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>) advanceKernel(
+  const __grid_constant__ RayTask<Real> task, const __grid_constant__ AdvancedRows<Real> rows)
+{
+  constexpr std::int32_t nowhere = SuspendedRay<Real>::nowhere;
+  const PixelOfThread pixel(rows.firstRow);
+  bool hasCrossed = false, hasAdvanced = false;
+  double worstDrift = 0;
+  if (pixel.column < rows.pass.columns && pixel.row < rows.endRow)
   {
-    atomicAdd(&rows.totals->crossed, static_cast<unsigned long long>(crossed));
+    const std::int64_t ray = pixel.row * rows.pass.columns + pixel.column;
+    SuspendedRay<Real>& state = rows.states[ray - rows.firstRay];
+    const auto isHere = [&]
+    { return state.next != nowhere && task.medium.leaves[state.next].isResident(); };
+    if (rows.areNew || isHere())
+    {
+      RayBatch<Real, 1> batch{};
+      const Entry entry = meetGrid(task, rows.pass, ray, batch, 0);
+      if (rows.areNew)
+      {
+        hasCrossed = batch.fate[0] != RayFate::Missed;
+        state = SuspendedRay<Real>{};
+        state.ray = ray;
+        state.leaf = nowhere;
+        state.next = hasCrossed ? task.medium.finder.at(startOf(batch, 0)) : nowhere;
+      }
+      hasAdvanced = isHere();
+      if (hasAdvanced && state.leaf == nowhere && isWallAt(task.medium, startOf(batch, 0)))
+      {
+        batch.fate[0] = RayFate::Blocked;
+        state.next = nowhere;
+      }
+      else if (hasAdvanced)
+      {
+        MarchInResidentLeaves<Kernel, Real> march(task, batch, &state);
+        march.takeAllSteps();
+        if (state.next == nowhere)
+        {
+          march.findDrift();
+          worstDrift = batch.drift[0] > 0 ? static_cast<double>(batch.drift[0]) : 0; // not NaN
+        }
+      }
+      if (state.next == nowhere)
+      {
+        rows.exits[ray] = leaveGrid(task, batch, 0, entry);
+      }
+    }
+    if (state.next != nowhere && (rows.areNew || hasAdvanced))
+    {
+      atomicAdd(rows.waiting + ~task.medium.leaves[state.next].brick, 1ull);
+    }
   }
-  for (int lanes = threadsPerWarp / 2; lanes > 0; lanes /= 2)
-  {
-    constexpr unsigned all = 0xffffffff;
-    worstDrift = fmax(worstDrift, __shfl_down_sync(all, worstDrift, lanes));
-  }
-  if (lane == 0 && worstDrift > 0)
-  {
-    atomicMax(&rows.totals->worstDrift, __double_as_longlong(worstDrift));
-  }
+  addCount(hasCrossed, &rows.totals->crossed);
+  addCount(hasAdvanced, rows.advanced);
+  addDrift(worstDrift, &rows.totals->worstDrift);
+}
+
+template <class Scheme, class Real>
+void launchAdvance(
+  const RayTask<Real>& task, const AdvancedRows<Real>& rows, const dim3& blocks, cudaStream_t stream)
+{
+  visitPath<Scheme>(task.kernel.path,
+    [&](auto kind)
+    {
+      launchKernel(
+        advanceKernel<decltype(kind), Real>, blocks, threadsPerBlock, 0, stream, task, rows);
+    });
 }
 
 template <class Scheme, class Real>

@@ -158,13 +158,17 @@ std::vector<T> toHost(const CudaBuffer<T>& values, std::size_t count)
 
 } // namespace
 
-bool canKeepOnCuda(std::size_t bytes)
+std::size_t availableOnCuda()
 {
-  constexpr std::size_t reserve = std::size_t{ 256 } << 20;
   std::size_t free = 0, total = 0;
   checkCuda(cudaMemGetInfo(&free, &total), "Asking for free memory");
-  constexpr std::size_t passAndFilms = 4; // a pixel of films takes up to 88 bytes, a ray 40
-  return free >= passAndFilms * bytes + reserve;
+  const std::size_t reserve = std::min(std::size_t{ 256 } << 20, total / 8);
+  return free - std::min(free, reserve);
+}
+
+bool canKeepOnCuda(std::size_t bytes)
+{
+  return availableOnCuda() >= (1 + nextPassAndFilms) * bytes;
 }
 
 CudaPass::CudaPass(std::size_t rays)

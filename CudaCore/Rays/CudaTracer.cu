@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/CudaTracer.h"
 
-#include "Device/CudaBuffer.h"
 #include "Device/CudaDevice.h"
 #include "Rays/CudaMarch.h"
-#include "Rays/LaunchPace.h"
+#include "Rays/CudaParts.h"
+#include "Rays/CudaTracerMemory.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <optional>
-#include <tuple>
 #include <type_traits>
+#include <vector>
 
 namespace schlieren
 {
@@ -20,17 +19,41 @@ namespace schlieren
 namespace
 {
 
-template <class T>
-using Buffer = CudaBuffer<T>;
-using Stream = CudaStream;
-using Event = CudaEvent;
-
-template <class T>
-void copy(T* toHost, const T* fromDevice, std::size_t count, const Stream& stream)
+/// Blocks for so many rows of a pass.
+dim3 blocksOf(const Pass& pass, std::int64_t rows)
 {
-  checkCuda(
-    cudaMemcpyAsync(toHost, fromDevice, count * sizeof(T), cudaMemcpyDeviceToHost, stream.get()),
-    "Fetching rays");
+  return { static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
+    static_cast<unsigned>((rows + blockRows - 1) / blockRows) };
+}
+
+/// How many rows of blocks a launch should have.
+std::int64_t blockRowsOf(const Pass& pass, const LaunchPace& pace)
+{
+  constexpr std::int64_t most = 65535; // along a grid's second axis
+  return std::clamp<std::int64_t>(pace.rays() / pass.columns / blockRows, 1, most);
+}
+
+void addTotals(const MarchTotals& totals, TracedPass& traced)
+{
+  double worstDrift = 0;
+  std::memcpy(&worstDrift, &totals.worstDrift, sizeof(worstDrift));
+  traced.crossed += static_cast<std::int64_t>(totals.crossed);
+  traced.worstDrift = std::max(traced.worstDrift, worstDrift);
+}
+
+/// The next of the parts that rays wait for: forwards, and again from the first one for rays that have come back.
+std::int32_t nextPart(const std::vector<unsigned long long>& waiting, std::int32_t part)
+{
+  const auto count = static_cast<std::int32_t>(waiting.size());
+  for (std::int32_t ahead = 1; ahead <= count; ++ahead)
+  {
+    const std::int32_t next = (part + ahead) % count;
+    if (waiting[static_cast<std::size_t>(next)] > 0)
+    {
+      return next;
+    }
+  }
+  return TreeParts::none;
 }
 
 } // namespace
@@ -99,175 +122,23 @@ MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
 }
 
 template <class Real>
-struct CudaTracer<Real>::DeviceMemory
-{
-  explicit DeviceMemory(const MediumArrays<Real>& medium)
-    : view(medium.view)
-    , samples(medium.samples.first, medium.samples.count, "Copying the medium")
-  {
-    view.samples = samples.data() + (view.samples - medium.samples.first);
-    if (medium.leaves.count > 0)
-    {
-      tree = std::make_unique<Tree>(medium);
-      const std::int64_t ghost = view.samples - samples.data();
-      view.leaves = tree->leaves.data();
-      view.finder.roots = tree->roots.data();
-      view.finder.children = tree->children.data();
-      view.gasDistances =
-        view.gasDistances != nullptr ? tree->gasDistances->data() + ghost : nullptr;
-    }
-    if (medium.solid.count > 0)
-    {
-      solid = std::make_unique<Buffer<std::uint32_t>>(
-        medium.solid.first, medium.solid.count, "Copying the solids");
-      view.solid = solid->data();
-    }
-  }
-
-  static int currentDevice()
-  {
-    int device = 0;
-    checkCuda(cudaGetDevice(&device), "Asking for the device");
-    return device;
-  }
-
-  int device = currentDevice();
-  MediumView<Real> view; ///< on the device
-  Buffer<Real> samples;
-  std::unique_ptr<Buffer<std::uint32_t>> solid;
-
-  struct Tree
-  {
-    explicit Tree(const MediumArrays<Real>& medium)
-      : leaves(medium.leaves.first, medium.leaves.count, "Copying the medium's leaves")
-      , roots(medium.roots.first, medium.roots.count, "Copying the medium's tree")
-      , children(medium.children.first, medium.children.count, "Copying the medium's tree")
-      , firstGradient(medium.firstGradient)
-    {
-      if (medium.gasDistances.count > 0)
-      {
-        gasDistances = std::make_unique<Buffer<std::int16_t>>(
-          medium.gasDistances.first, medium.gasDistances.count, "Copying the walls");
-      }
-      if (medium.gradients.count > 0)
-      {
-        gradients = std::make_unique<Buffer<float>>(
-          medium.gradients.first, medium.gradients.count, "Copying the gradients of the fields");
-        gradientBricks = std::make_unique<Buffer<std::int32_t>>(medium.gradientBricks.first,
-          medium.gradientBricks.count, "Copying the gradients of the fields");
-      }
-    }
-    Buffer<Leaf<Real>> leaves;
-    Buffer<std::int32_t> roots, children;
-    std::unique_ptr<Buffer<std::int16_t>> gasDistances;
-    std::unique_ptr<Buffer<float>> gradients;
-    std::unique_ptr<Buffer<std::int32_t>> gradientBricks;
-    std::ptrdiff_t firstGradient; ///< where the view begins
-  };
-  std::unique_ptr<Tree> tree;
-
-  struct Map
-  {
-    Map(const HomogeneityView& view, double toleranceOfView)
-      : tolerance(toleranceOfView)
-      , levels(view.levels,
-          static_cast<std::size_t>(view.bricks[0] * view.bricks[1] * view.bricks[2]),
-          "Copying the homogeneity map")
-    {
-    }
-    double tolerance;
-    Buffer<std::uint8_t> levels;
-  };
-  std::unique_ptr<Map> map;
-
-  struct Gradients
-  {
-    Gradients(const FieldGradientsView& view, std::uint64_t versionOfValues)
-      : version(versionOfValues)
-      , values(view.values,
-          static_cast<std::size_t>(view.count * view.planeStride * (view.lastCell[2] + 2)),
-          "Copying the gradients of the fields")
-    {
-    }
-    std::uint64_t version;
-    Buffer<float> values;
-  };
-  std::unique_ptr<Gradients> gradients;
-
-  /// One launch ends while the next is under way.
-  struct Lane
-  {
-    Stream stream;
-    Event begin, end;                ///< of its launch
-    Buffer<MarchTotals> totals{ 1 }; ///< of its launches
-    std::int64_t crossed = 0;        ///< likewise, of those that have ended
-  };
-  std::array<Lane, 2> lanes;
-
-  /// The pace of the last pass, and what it depends on.
-  std::optional<LaunchPace> pace;
-  std::tuple<PathModel, Integrator, Interpolation, std::int32_t, int> paced{};
-
-  void findPace(const RayTask<Real>& task, int fields)
-  {
-    const KernelChoice& kernel = task.kernel;
-    const auto now =
-      std::make_tuple(kernel.path, kernel.integrator, kernel.interpolation, task.stepLimit, fields);
-    if (!pace || now != paced)
-    {
-      // Steps may be shorter, and a step reads at several places; many GPUs are slow in double precision.
-      const bool isAdaptive = kernel.integrator == Integrator::Adaptive;
-      const double steps =
-        static_cast<double>(task.stepLimit) / (trappedFactor * (isAdaptive ? adaptiveFactor : 1));
-      const double places = isAdaptive || kernel.integrator == Integrator::Rk4 ? 4 : 1;
-      const double precision = sizeof(Real) == sizeof(float) ? 1 : 10;
-      pace.emplace(steps * places * precision);
-      paced = now;
-    }
-  }
-
-  /// The task with what it points to on the device. Sends what is new.
-  RayTask<Real> upload(const RayTask<Real>& task, const TaskVersions& versions)
-  {
-    RayTask<Real> onDevice = task;
-    onDevice.medium = view;
-    if (task.map.levels != nullptr)
-    {
-      if (!map || map->tolerance != versions.homogeneityTolerance)
-      {
-        map.reset();
-        map = std::make_unique<Map>(task.map, versions.homogeneityTolerance);
-      }
-      onDevice.map.levels = map->levels.data();
-    }
-    if (tree && task.gradients.count > 0)
-    {
-      onDevice.gradients.values = tree->gradients->data() + tree->firstGradient;
-      onDevice.gradients.bricks = tree->gradientBricks->data();
-    }
-    else if (task.gradients.count > 0)
-    {
-      if (!gradients || gradients->version != versions.gradients)
-      {
-        gradients.reset(); // first: both at once might not fit
-        gradients = std::make_unique<Gradients>(task.gradients, versions.gradients);
-      }
-      onDevice.gradients.values = gradients->values.data();
-    }
-    return onDevice;
-  }
-};
-
-template <class Real>
-CudaTracer<Real>::CudaTracer(const Medium<Real>& medium)
-  : CudaTracer(MediumArrays<Real>::of(medium))
+CudaTracer<Real>::CudaTracer(const Medium<Real>& medium, std::size_t memory)
+  : CudaTracer(MediumArrays<Real>::of(medium), memory)
 {
 }
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium)
-  : memory_(std::make_unique<DeviceMemory>(medium))
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium, std::size_t memory)
+  : medium_(medium)
+  , limit_(memory)
+  , memory_(std::make_unique<DeviceMemory>())
 {
+  const std::size_t bytes = CudaParts<Real>::bytesOfStructure(medium) +
+    CudaParts<Real>::bytesOfBricks(medium) + medium.gradients.count * sizeof(float);
+  if (medium.leaves.count == 0 || bytes <= std::min(availableOnCuda(), memory))
+  {
+    memory_->send(medium);
+  }
 }
 
 template <class Real>
@@ -318,18 +189,23 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
   const Monitor& monitor, const std::function<std::int64_t()>& processes)
 {
   static_assert(bandRows == blockRows);
+  const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
+  if (!memory_->samples)
+  {
+    if (canSuspend(task.kernel) && fields == 0)
+    {
+      return traceInParts(task, pass, exits, bands, traced, monitor, processes);
+    }
+    memory_->send(medium_);
+  }
+  parts_ = 1;
   const RayTask<Real> onDevice = memory_->upload(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   const CudaPass* there = traced.onDevice.get();
-  const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
   const std::size_t sums = rays * static_cast<std::size_t>(fields);
-  const std::unique_ptr<Buffer<float>> gathered =
-    fields > 0 ? std::make_unique<Buffer<float>>(sums) : nullptr;
-  for (auto& lane : memory_->lanes)
-  {
-    checkCuda(cudaMemset(lane.totals.data(), 0, sizeof(MarchTotals)), "Clearing the totals");
-    lane.crossed = 0;
-  }
+  const std::unique_ptr<CudaBuffer<float>> gathered =
+    fields > 0 ? std::make_unique<CudaBuffer<float>>(sums) : nullptr;
+  memory_->clearTotals();
   memory_->findPace(task, fields);
 
   /// Some rows, traced in a lane.
@@ -341,9 +217,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
   /// Of the next bands, if there are any.
   const auto launch = [&](std::int64_t number) -> std::optional<Launch>
   {
-    constexpr std::int64_t maxBlocks = 65535; // along a grid's second axis
-    std::int64_t wanted =
-      std::clamp<std::int64_t>(memory_->pace->rays() / pass.columns / blockRows, 1, maxBlocks);
+    std::int64_t wanted = blockRowsOf(pass, *memory_->pace);
     if (const std::int64_t parts = processes ? processes() : 1; parts > 1)
     {
       constexpr std::int64_t least = 8; // of what it does in its time, so that the device is busy
@@ -358,8 +232,6 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     const std::int64_t firstRow = taken.first * bandRows;
     const std::int64_t rows = std::min(pass.rows, taken.end * bandRows) - firstRow;
     auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
-    const dim3 blocks(static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
-      static_cast<unsigned>((rows + blockRows - 1) / blockRows));
     lane.begin.record(lane.stream);
     visitScheme(task.kernel.interpolation,
       [&](auto scheme)
@@ -367,18 +239,11 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
         launchMarch<decltype(scheme)>(onDevice, fields > 0,
           { pass, firstRow, there->exits(), gathered ? gathered->data() : nullptr,
             lane.totals.data() },
-          blocks, lane.stream.get());
+          blocksOf(pass, rows), lane.stream.get());
       });
     checkCuda(cudaGetLastError(), "Starting the ray kernel");
     lane.end.record(lane.stream);
     return { { &lane, firstRow, rows } };
-  };
-  const auto totalsOf = [](const typename DeviceMemory::Lane& lane)
-  {
-    MarchTotals totals{};
-    copy(&totals, lane.totals.data(), 1, lane.stream);
-    lane.stream.wait("Tracing rays");
-    return totals;
   };
   /// Waits for the launch.
   const auto fetch = [&](const Launch& launched)
@@ -388,17 +253,17 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     if (exits == Exits::OnHost)
     {
       const auto first = static_cast<std::size_t>(launched.firstRow * pass.columns);
-      copy(traced.exits.data() + first, there->exits() + first, count, lane.stream);
+      copyRays(traced.exits.data() + first, there->exits() + first, count, lane.stream);
       if (fields > 0)
       {
         const auto perRay = static_cast<std::size_t>(fields);
-        copy(traced.gathered.data() + first * perRay, gathered->data() + first * perRay,
+        copyRays(traced.gathered.data() + first * perRay, gathered->data() + first * perRay,
           count * perRay, lane.stream);
       }
     }
-    const auto crossed = static_cast<std::int64_t>(totalsOf(lane).crossed);
+    const auto crossed = static_cast<std::int64_t>(lane.fetchTotals().crossed);
     memory_->pace->add(static_cast<std::int64_t>(count), crossed - lane.crossed,
-      Event::secondsBetween(lane.begin, lane.end));
+      CudaEvent::secondsBetween(lane.begin, lane.end));
     lane.crossed = crossed;
   };
 
@@ -426,12 +291,132 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
   }
   for (const auto& lane : memory_->lanes)
   {
-    const MarchTotals totals = totalsOf(lane);
-    double worstDrift = 0;
-    std::memcpy(&worstDrift, &totals.worstDrift, sizeof(worstDrift));
-    traced.crossed += static_cast<std::int64_t>(totals.crossed);
-    traced.worstDrift = std::max(traced.worstDrift, worstDrift);
+    addTotals(lane.fetchTotals(), traced);
   }
+  return true;
+}
+
+template <class Real>
+bool CudaTracer<Real>::traceInParts(const RayTask<Real>& task, const Pass& pass, Exits exits,
+  TileQueue& bands, TracedPass& traced, const Monitor& monitor,
+  const std::function<std::int64_t()>& processes)
+{
+  using State = SuspendedRay<Real>;
+  using Count = unsigned long long;
+  const std::size_t raysOfBand = static_cast<std::size_t>(bandRows * pass.columns);
+  const std::size_t bytesOfPass =
+    static_cast<std::size_t>(pass.rows * pass.columns) * sizeof(RayExit);
+  const std::size_t besides =
+    nextPassAndFilms * bytesOfPass + CudaParts<Real>::bytesOfStructure(medium_);
+  const std::size_t available = availableOnCuda();
+  const std::size_t memory = std::min(limit_, available - std::min(available, besides));
+  // Rays that wait at the same time: the fewer there are, the more often all parts have to be sent.
+  const std::size_t forStates = memory / 4;
+  const std::int64_t bandsAtOnce = std::clamp<std::int64_t>(
+    static_cast<std::int64_t>(forStates / (raysOfBand * sizeof(State))), 1, bandsOf(pass));
+  const CudaBuffer<State> states(static_cast<std::size_t>(bandsAtOnce) * raysOfBand);
+  // With more parts than that the device would do little but receive them.
+  constexpr std::size_t mostParts = 256;
+  CudaParts<Real> parts(medium_, task.light.perLength,
+    std::max(memory - forStates, CudaParts<Real>::bytesOfBricks(medium_) / mostParts));
+  parts_ = parts.count();
+
+  auto& lane = memory_->lanes[0];
+  const auto countOfParts = static_cast<std::size_t>(parts.count());
+  const CudaBuffer<Count> counts(
+    countOfParts + 1); // of rays that wait for each part, and that have advanced
+  Count* const advanced = counts.data() + countOfParts;
+  std::vector<Count> waiting(countOfParts);
+  RayTask<Real> onDevice = task;
+  onDevice.map = {};
+  onDevice.gradients = {};
+  memory_->clearTotals();
+  memory_->findPace(task, 0);
+
+  const auto clear = [&](std::size_t first, std::size_t count)
+  { checkCuda(cudaMemset(counts.data() + first, 0, count * sizeof(Count)), "Counting rays"); };
+  /// Takes rays of some rows through the part that is there. False if aborted.
+  const auto advance = [&](std::int64_t firstRow, std::int64_t endRow, bool areNew)
+  {
+    const std::int64_t firstRay = firstRow * pass.columns;
+    for (std::int64_t row = firstRow; row < endRow;)
+    {
+      const std::int64_t end =
+        std::min(endRow, row + blockRowsOf(pass, *memory_->pace) * blockRows);
+      clear(countOfParts, 1);
+      lane.begin.record(lane.stream);
+      visitScheme(task.kernel.interpolation,
+        [&](auto scheme)
+        {
+          launchAdvance<decltype(scheme)>(onDevice,
+            AdvancedRows<Real>{ pass, row, end, firstRay, states.data(), traced.onDevice->exits(),
+              lane.totals.data(), advanced, counts.data(), areNew },
+            blocksOf(pass, end - row), lane.stream.get());
+        });
+      checkCuda(cudaGetLastError(), "Starting the ray kernel");
+      lane.end.record(lane.stream);
+      Count ofLaunch = 0;
+      copyRays(&ofLaunch, advanced, 1, lane.stream);
+      lane.stream.wait("Tracing rays");
+      const std::int64_t launched = (end - row) * pass.columns;
+      if (constexpr Count most = 8; ofLaunch * most >= static_cast<Count>(launched))
+      {
+        memory_->pace->add(launched, static_cast<std::int64_t>(ofLaunch),
+          CudaEvent::secondsBetween(lane.begin, lane.end));
+      }
+      row = end;
+      if (monitor.aborted && monitor.aborted())
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  double progress = 0;
+  for (;;)
+  {
+    const std::int64_t among = processes ? processes() : 1;
+    const std::int64_t fair = among > 1 ? bands.left().count() / (2 * among) : bandsAtOnce;
+    const TileQueue::Tiles taken = bands.takeFront(std::clamp<std::int64_t>(fair, 1, bandsAtOnce));
+    if (taken.count() == 0)
+    {
+      break;
+    }
+    const std::int64_t firstRow = taken.first * bandRows;
+    const std::int64_t endRow = std::min(pass.rows, taken.end * bandRows);
+    clear(0, countOfParts);
+    bool areNew = true;
+    for (std::int32_t part = 0; part != TreeParts::none;)
+    {
+      parts.load(part);
+      onDevice.medium = parts.view();
+      clear(static_cast<std::size_t>(part), 1); // these continue now
+      if (!advance(firstRow, endRow, areNew))
+      {
+        return false;
+      }
+      areNew = false;
+      copyRays(waiting.data(), counts.data(), countOfParts, lane.stream);
+      lane.stream.wait("Tracing rays");
+      const double done = static_cast<double>(part + 1) / static_cast<double>(countOfParts);
+      progress = std::max(progress,
+        (static_cast<double>(firstRow) + done * static_cast<double>(endRow - firstRow)) /
+          static_cast<double>(pass.rows));
+      if (monitor.progress)
+      {
+        monitor.progress(progress);
+      }
+      part = nextPart(waiting, part);
+    }
+    if (exits == Exits::OnHost)
+    {
+      const auto first = static_cast<std::size_t>(firstRow * pass.columns);
+      copyRays(traced.exits.data() + first, traced.onDevice->exits() + first,
+        static_cast<std::size_t>((endRow - firstRow) * pass.columns), lane.stream);
+      lane.stream.wait("Fetching rays");
+    }
+  }
+  addTotals(lane.fetchTotals(), traced);
   return true;
 }
 

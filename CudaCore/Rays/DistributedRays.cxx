@@ -172,11 +172,6 @@ std::uint64_t newNumber()
   return ++last;
 }
 
-bool canSuspend(const KernelChoice& kernel)
-{
-  return kernel.path == PathModel::Straight || kernel.integrator == Integrator::Leapfrog;
-}
-
 template <class Real>
 std::vector<char> AdvancedRays<Real>::toMessage(std::uint64_t number) const
 {

@@ -135,7 +135,4 @@ template <class Real>
 AdvancedRays<Real> advanceRays(
   const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads, Simd simd);
 
-/// Whether rays can be suspended: with integrators that look at the medium only in the middle of their steps.
-bool canSuspend(const KernelChoice& kernel);
-
 } // namespace schlieren

@@ -352,13 +352,15 @@ struct March
   {
     if constexpr (areApart)
     {
-      return changeLeavesUnless(task.medium, stepsInLeaves(), batch.perLength, in, rays,
-        [&](int i, std::int32_t next)
-        {
-          const bool isIt = suspended.suspends(task.medium, i, next);
-          someSuspended |= isIt;
-          return isIt;
-        });
+      // It knows nothing of the march, which would be kept in memory for it.
+      const auto suspends = [states = suspended.states, &medium = task.medium, &someSuspended](
+                              int i, std::int32_t next)
+      {
+        const bool isIt = Suspended::suspends(medium, states[i], next);
+        someSuspended |= isIt;
+        return isIt;
+      };
+      return changeLeavesUnless(task.medium, stepsInLeaves(), batch.perLength, in, rays, suspends);
     }
     else
     {

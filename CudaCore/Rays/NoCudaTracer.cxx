@@ -57,13 +57,13 @@ struct CudaTracer<Real>::DeviceMemory
 };
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const Medium<Real>&)
+CudaTracer<Real>::CudaTracer(const Medium<Real>&, std::size_t)
 {
   throw DeviceError(builtWithoutCuda);
 }
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const MediumArrays<Real>&)
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>&, std::size_t)
 {
   throw DeviceError(builtWithoutCuda);
 }

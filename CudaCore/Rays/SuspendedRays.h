@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays that wait for the leaf that they come to, of which this process has not the samples.
+// Rays that wait for the leaf that they come to, of which this process, or its device, has not the samples.
 #pragma once
 
 #include "Rays/LeavesOfRays.h"
@@ -11,6 +11,12 @@
 
 namespace schlieren
 {
+
+/// Whether rays can be suspended: with integrators that look at the medium only in the middle of their steps.
+inline bool canSuspend(const KernelChoice& kernel)
+{
+  return kernel.path == PathModel::Straight || kernel.integrator == Integrator::Leapfrog;
+}
 
 /// A ray whose march has come to a leaf that is not resident: what of it is not the pass's and the task's, to the last
 /// bit, in the coordinates of the leaf that it leaves.
@@ -42,11 +48,12 @@ struct SuspendedRays
   std::int32_t stepsOfAll = 0; ///< RayTask::stepLimit
   std::int32_t stepLimit = 0;  ///< of the pack: then some ray has taken too many
 
-  /// Whether ray i is to be suspended because this leaf is next.
-  SCHLIEREN_HD bool suspends(const MediumView<Number>& medium, int i, std::int32_t next)
+  /// Whether a ray is to be suspended because this leaf is next.
+  SCHLIEREN_HD static bool suspends(
+    const MediumView<Number>& medium, State& state, std::int32_t next)
   {
     const bool isAbsent = !medium.leaves[next].isResident();
-    states[i].next = isAbsent ? next : State::nowhere;
+    state.next = isAbsent ? next : State::nowhere;
     return isAbsent;
   }
 

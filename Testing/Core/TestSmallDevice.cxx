@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Images on a device with little memory, which the emulated one can have.
+#include "AnalyticSources.h"
 #include "Fields.h"
 #include "Rays/RayExit.h"
 #include "Threads.h"
@@ -49,7 +50,7 @@ protected:
 TEST_F(SmallDevice, KeepsNoRaysThatFillIt)
 {
   const Image expected = rendered();
-  emulated::setCapacity(16 * megabyte);
+  emulated::setCapacity(6 * megabyte);
   Bench bench;
   for (int image = 1; image <= 2; ++image)
   {
@@ -102,6 +103,53 @@ TEST_F(SmallDevice, LeavesToTheCpuWhatIsTooMuch)
     << found.deviceNote;
   emulated::setCapacity(emulated::defaultCapacity);
   EXPECT_EQ(render(bench).device, Device::Cuda);
+}
+
+// A tree is there part by part.
+TEST_F(SmallDevice, GetsMediaPieceByPiece)
+{
+  Field field;
+  field.source = std::make_shared<BallsSource>(threeBalls(1e-3));
+  field.grid = coarsestGrid(*field.source);
+  scene_.view.parallelScale = 0.3;
+  scene_.mediumTolerance = 1e-3;
+  scene_.view.width = 100;
+  scene_.view.height = 75;
+  const auto tracedWith = [&](std::size_t capacity, Device device)
+  {
+    emulated::setCapacity(capacity);
+    scene_.device = device;
+    Bench bench;
+    Image image = bench.render(field, scene_);
+    EXPECT_EQ(image.device, device);
+    EXPECT_EQ(image.deviceNote, "");
+    return image;
+  };
+  const Image expected = tracedWith(emulated::defaultCapacity, Device::Cuda);
+  ASSERT_GT(expected.medium.bytes, static_cast<std::int64_t>(3 * megabyte));
+  const Image found = tracedWith(3 * megabyte, Device::Cuda);
+  const Image onCpu = tracedWith(3 * megabyte, Device::Cpu);
+  EXPECT_EQ(found.raysTraced, expected.raysTraced);
+  double largest = 0;
+  for (const float one : expected.deflection)
+  {
+    largest = std::max(largest, static_cast<double>(std::abs(one)));
+  }
+  ASSERT_EQ(found.deflection.size(), expected.deflection.size());
+  for (std::size_t n = 0; n < found.deflection.size(); ++n)
+  {
+    EXPECT_NEAR(found.deflection[n], expected.deflection[n], 2e-6 * largest) << n;
+    EXPECT_NEAR(found.deflection[n], onCpu.deflection[n], 1e-4 * largest) << n;
+  }
+
+  // For integrators that need all of it.
+  scene_.integrator = Integrator::Rk4;
+  scene_.device = Device::Auto;
+  emulated::setCapacity(3 * megabyte);
+  Bench bench;
+  const Image all = bench.render(field, scene_);
+  EXPECT_EQ(all.device, Device::Cpu);
+  EXPECT_NE(all.deviceNote.find("more are needed"), std::string::npos) << all.deviceNote;
 }
 
 } // namespace
