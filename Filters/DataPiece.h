@@ -38,6 +38,10 @@ public:
   /// For the user; mostly empty.
   virtual std::string warning() const { return ""; }
 
+  /// A number that two pieces have in common only if their boundaries are the same, but for the values there; 0: of this one it
+  /// is not known.
+  virtual std::uint64_t meshKey() const { return 0; }
+
   /// Adds to a message where its gas ends, for PiecesSource: what kind of boundary, and that.
   enum class BoundaryKind : std::uint32_t
   {
@@ -45,6 +49,8 @@ public:
     OfImage ///< see ImagePiece::putBoundary()
   };
   virtual void putBoundary(std::vector<char>& message) const = 0;
+  /// Only the values there, where there is a meshKey().
+  virtual void putBoundaryValues(std::vector<char>&) const {}
 
   /// Of what it has in a box; see CellTree::content().
   virtual CellTree::Content contentOf(const schlieren::Box& box) const = 0;

@@ -2,10 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatticesOfMesh.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace filters
 {
+
+KnownLattice knownLattice(
+  CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points)
+{
+  KnownLattice known{ std::move(cells), {}, {} };
+  if (!std::all_of(places, places + points,
+        [](schlieren::Place place) { return place == schlieren::Place::Gas; }))
+  {
+    known.places.assign(places, places + points);
+  }
+  if (distances)
+  {
+    known.distances.assign(distances, distances + points);
+  }
+  return known;
+}
 
 LatticesOfMesh::Key LatticesOfMesh::keyOf(const schlieren::Lattice& lattice, bool hasDistances)
 {

@@ -25,6 +25,10 @@ struct KnownLattice
   std::vector<float> distances;         // empty: not requested yet
 };
 
+/// `distances`: may be null.
+KnownLattice knownLattice(
+  CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points);
+
 /**
  * What is known of lattices on a mesh, for the next time steps, which need the same ones as long as neither the view
  * nor what it sees changes much. Up to `maxBytes`; those that neither of two steps needs go after them. May be used

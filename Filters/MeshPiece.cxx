@@ -24,6 +24,20 @@ std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet
   return { leaves.begin(), leaves.end() };
 }
 
+/// That of another piece where it is the same.
+std::shared_ptr<PieceMesh> meshOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
+  CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
+{
+  const std::uint64_t key = MeshSource::keyOf(leaves, nullptr, Outside::Passes, reconstruction);
+  if (kept && kept->key == key)
+  {
+    return kept;
+  }
+  auto mesh = std::make_shared<PieceMesh>();
+  mesh->key = key;
+  return mesh;
+}
+
 } // namespace
 
 bool meet(const schlieren::Box& a, const schlieren::Box& b)
@@ -37,11 +51,19 @@ bool meet(const schlieren::Box& a, const schlieren::Box& b)
 }
 
 MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-  CellTree::Reconstruction reconstruction, const WorkProgress& progress)
+  CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
   : Leaves(leaves)
-  , Cells(pointersTo(leaves), reconstruction, progress, Copies::Neighbours)
+  , Mesh(meshOf(leaves, reconstruction, kept))
+  , Cells(this->Mesh->cells
+        ? CellTree(pointersTo(leaves), this->Mesh->cells)
+        : CellTree(pointersTo(leaves), reconstruction, WorkProgress(), Copies::Neighbours))
   , Values(this->Cells)
 {
+  if (!this->Mesh->cells)
+  {
+    this->Mesh->cells = this->Cells.mesh();
+    this->Mesh->warning = warningOfInvertedCells(this->Cells);
+  }
 }
 
 DataPiece::Summary MeshPiece::summary() const
@@ -49,8 +71,6 @@ DataPiece::Summary MeshPiece::summary() const
   return { static_cast<std::int64_t>(this->Cells.size()), boundsOf(this->Cells, this->Leaves),
     this->Cells.content(this->Cells.bounds()) };
 }
-
-std::string MeshPiece::warning() const { return warningOfInvertedCells(this->Cells); }
 
 void MeshPiece::putBoundary(std::vector<char>& message) const
 {
@@ -67,8 +87,16 @@ void MeshPiece::putBoundary(std::vector<char>& message) const
   putAll(faces.states, message);
   putAll(faces.hidesBehind, message);
   putAll(faces.areParts, message);
+  this->Mesh->firstContributions = faces.firstContributions;
+  this->Mesh->contributions = faces.contributions;
+  this->putBoundaryValues(message);
+}
+
+void MeshPiece::putBoundaryValues(std::vector<char>& message) const
+{
   putAll(
-    valuesAt(faces.firstContributions, faces.contributions, pointersTo(this->Leaves)), message);
+    valuesAt(this->Mesh->firstContributions, this->Mesh->contributions, pointersTo(this->Leaves)),
+    message);
 }
 
 bool MeshPiece::meets(const schlieren::Box& box) const

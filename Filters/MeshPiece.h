@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BoundaryFaces.h"
 #include "CellSampler.h"
 #include "CellTree.h"
 #include "DataPiece.h"
 
 #include "vtkSmartPointer.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,19 +20,34 @@ class vtkDataSet;
 namespace filters
 {
 
+/// What of a piece depends on its mesh alone, and not on the values: it is kept from one time step to the next.
+struct PieceMesh
+{
+  std::uint64_t key; // see DataPiece::meshKey()
+  std::shared_ptr<const CellTree::Mesh> cells;
+  std::string warning;
+  // Of the values at the boundary's points, see Faces; none: as yet nobody has wanted the boundary.
+  std::vector<std::size_t> firstContributions;
+  std::vector<Contribution> contributions;
+};
+
 /// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them give
 /// the points between them the values and trends that they would have in one mesh.
 class MeshPiece : public DataPiece
 {
 public:
-  /// `leaves`: with N at their points, see preparedLeaves(). May be none.
+  /// `leaves`: with N at their points, see preparedLeaves(). May be none. `kept`: of another piece, which may be of the same
+  /// mesh; may be null.
   MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-    CellTree::Reconstruction reconstruction, const WorkProgress& progress = WorkProgress());
+    CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr);
+  std::shared_ptr<PieceMesh> mesh() const { return this->Mesh; }
 
   Summary summary() const override;
-  std::string warning() const override;
+  std::string warning() const override { return this->Mesh->warning; }
+  std::uint64_t meshKey() const override { return this->Mesh->key; }
   /// Some cells' sizes, the faces of its own cells, and N at their points.
   void putBoundary(std::vector<char>& message) const override;
+  void putBoundaryValues(std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
   Samples sample(const schlieren::Lattice& lattice) const override;
@@ -37,6 +56,7 @@ private:
   bool meets(const schlieren::Box& box) const;
 
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
+  std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
 };

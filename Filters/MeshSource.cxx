@@ -182,27 +182,17 @@ void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* ref
     return;
   }
   const bool isKept = this->Lattices && this->Lattices->hasRoomFor(lattice);
-  KnownLattice found;
+  CellsOfLattice cells;
   std::vector<unsigned char> isFound(size);
-  this->Values.sample(
-    lattice, refractivity, isFound.data(), isKept || values ? &found.cells : nullptr);
+  this->Values.sample(lattice, refractivity, isFound.data(), isKept || values ? &cells : nullptr);
   this->Boundary->sample(lattice, isFound.data(), places, distances);
   if (values)
   {
-    this->sampleFields(lattice, found.cells, values);
+    this->sampleFields(lattice, cells, values);
   }
   if (isKept)
   {
-    if (!std::all_of(places, places + size,
-          [](schlieren::Place place) { return place == schlieren::Place::Gas; }))
-    {
-      found.places.assign(places, places + size);
-    }
-    if (distances)
-    {
-      found.distances.assign(distances, distances + size);
-    }
-    this->Lattices->keep(lattice, std::move(found));
+    this->Lattices->keep(lattice, knownLattice(std::move(cells), places, distances, size));
   }
 }
 

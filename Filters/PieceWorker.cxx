@@ -7,7 +7,6 @@
 #include "GasBoundary.h"
 #include "GatheredData.h"
 #include "InputDescription.h"
-#include "MeshPiece.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfImage.h"
 
@@ -22,6 +21,7 @@
 #include <map>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace filters
 {
@@ -64,6 +64,12 @@ std::vector<char> pieceRequest(PieceWorker::Kind kind)
 }
 
 void PieceWorker::Release()
+{
+  this->ReleasePiece();
+  this->Mesh.reset();
+}
+
+void PieceWorker::ReleasePiece()
 {
   this->Lacks.clear();
   this->Parts.clear();
@@ -117,6 +123,12 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
     case Make:
       this->MakePiece(request, answer);
       break;
+    case Boundary:
+    {
+      const DataPiece& piece = this->PieceOf(request);
+      request.Get<bool>() ? piece.putBoundaryValues(answer) : piece.putBoundary(answer);
+      break;
+    }
     case Contents:
     {
       const DataPiece& piece = this->PieceOf(request);
@@ -167,7 +179,7 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
 /// The ranges of fields that FieldMean needs; of each mesh its slot and where others may continue.
 void PieceWorker::GiveOutline(std::vector<char>& answer)
 {
-  this->Release();
+  this->ReleasePiece();
   std::vector<FieldMean::Range> ranges;
   if (hasPoints(this->Data))
   {
@@ -257,19 +269,21 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   }
   Tally tally;
   std::string label;
+  const std::shared_ptr<PieceMesh> before = std::exchange(this->Mesh, nullptr);
   auto* image = parts.size() == 1 ? vtkImageData::SafeDownCast(parts[0]) : nullptr;
   this->Piece = image ? this->PieceOfImage(image, { whole, own }, bodies, ranges, tally, label)
-                      : this->PieceOfMeshes(parts, ranges, tally, label);
+                      : this->PieceOfMeshes(parts, ranges, before, tally, label);
   put(this->Piece->summary(), answer);
   put(tally, answer);
   putAll(label, answer);
   putAll(this->Piece->warning(), answer);
-  this->Piece->putBoundary(answer);
+  put(this->Piece->meshKey(), answer);
 }
 
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
   const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
-  const std::vector<FieldMean::Range>& ranges, Tally& tally, std::string& label) const
+  const std::vector<FieldMean::Range>& ranges, const std::shared_ptr<PieceMesh>& before,
+  Tally& tally, std::string& label)
 {
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;
   const bool isSmooth = this->Self->GetReconstruction() != vtkRefractiveIndex::LINEAR_IN_CELLS;
@@ -290,8 +304,10 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
       leaves = preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
     }
   }
-  return std::make_unique<MeshPiece>(
-    leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear);
+  auto piece = std::make_unique<MeshPiece>(
+    leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear, before);
+  this->Mesh = piece->mesh();
+  return piece;
 }
 
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,

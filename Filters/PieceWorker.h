@@ -5,6 +5,7 @@
 #include "DataPiece.h"
 #include "ImagePiece.h"
 #include "MeshHalo.h"
+#include "MeshPiece.h"
 #include "RefractivityModels.h"
 #include "RefractivitySource.h"
 
@@ -31,6 +32,7 @@ public:
     Outline = 200, // the surfaces of its meshes, the extents of its grids
     Copies,        // cells around points that others have, too
     Make,          // the piece, with others' copies
+    Boundary,      // of the piece, or its values alone
     Contents,      // of boxes
     Hold,          // whether its cells do, of places
     Sample,        // lattices
@@ -52,7 +54,7 @@ public:
 
   /// What the rank has of the input until the piece is made.
   void SetData(vtkDataObject* data) { this->Data = data; }
-  void Release(); // the piece
+  void Release(); // the piece, and what is kept for the next one
 
   static bool IsFor(std::uint32_t kind) { return kind >= Outline && kind < Answer; }
 
@@ -71,9 +73,11 @@ private:
   void GiveOutline(std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
   void MakePiece(Reader& request, std::vector<char>& answer);
+  void ReleasePiece();
   std::unique_ptr<const DataPiece> PieceOfMeshes(
     const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
-    const std::vector<FieldMean::Range>& ranges, Tally& tally, std::string& label) const;
+    const std::vector<FieldMean::Range>& ranges, const std::shared_ptr<PieceMesh>& before,
+    Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfImage(vtkImageData* image, ImagePiece::Extents extents,
     vtkDataObject* bodies, const std::vector<FieldMean::Range>& ranges, Tally& tally,
     std::string& label) const;
@@ -86,7 +90,8 @@ private:
   std::vector<filters::Outline> Outlines; // of them
   std::string Lacks;                      // what to say where the data have not the arrays
   std::unique_ptr<const DataPiece> Piece;
-  std::uint64_t Number = 0; // of the piece
+  std::shared_ptr<PieceMesh> Mesh; // of the last piece of meshes
+  std::uint64_t Number = 0;        // of the piece
 };
 
 /// A message that requests something, as yet without what.

@@ -4,6 +4,7 @@
 
 #include "GatheredData.h"
 #include "LatticeDistances.h"
+#include "MeshKey.h"
 #include "RefractivitySource.h"
 
 #include "vtkDataObject.h"
@@ -294,7 +295,7 @@ std::vector<std::vector<char>> PiecesSource::requestsForPieces(vtkDataObject* bo
 }
 
 PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies,
-  Outside outside, const WorkProgress& progress)
+  Outside outside, PiecesMesh kept, const WorkProgress& progress)
   : Ranks(std::move(ranks))
 {
   static std::atomic<std::uint64_t> sources{ 0 };
@@ -302,8 +303,10 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   std::vector<std::vector<char>> requests = this->requestsForPieces(bodies);
   progress.reach(0.2);
 
-  BoundaryOfMeshes ofMeshes;
-  BoundaryOfImage ofImage;
+  Hash ofBodies;
+  ofBodies.add(static_cast<std::uint64_t>(outside));
+  addBodies(ofBodies, bodies);
+  std::vector<std::uint64_t> keys{ ofBodies.value() };
   this->All = nothing;
   this->Bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   std::string lacking;
@@ -311,6 +314,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   {
     this->BoundsOfRanks.push_back(
       { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
+    this->CellsOfRanks.push_back(-1);
     try
     {
       Reader reader = readerOf(answer);
@@ -320,14 +324,8 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
       this->Label = this->Label.empty() ? label : this->Label;
       const auto warning = reader.GetAll<std::string>();
       this->Warning = this->Warning.empty() ? warning : this->Warning;
-      if (reader.Get<DataPiece::BoundaryKind>() == DataPiece::BoundaryKind::OfImage)
-      {
-        ofImage.add(reader);
-      }
-      else
-      {
-        ofMeshes.add(reader, summary.cells);
-      }
+      keys.push_back(reader.Get<std::uint64_t>());
+      this->CellsOfRanks.back() = summary.cells;
       if (summary.cells > 0)
       {
         this->BoundsOfRanks.back() = summary.bounds;
@@ -345,19 +343,77 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   {
     throw ArraysMissing(lacking);
   }
-  progress.reach(0.7);
-  if (ofImage.parts > 0)
-  {
-    this->makeBoundary(std::move(ofImage), bodies, progress.part(0.8, 1));
-  }
-  else
-  {
-    this->makeBoundary(std::move(ofMeshes), bodies, outside, progress.part(0.8, 1));
-  }
+  progress.reach(0.6);
+  this->findBoundary(bodies, outside, std::move(kept), std::move(keys), progress.part(0.6, 1));
   if (std::isnan(this->Ambient))
   {
     this->Ambient = 0.5 * (this->All.lowest + this->All.highest);
   }
+}
+
+/// `keys`: see PiecesMesh.
+void PiecesSource::findBoundary(vtkDataObject* bodies, Outside outside, PiecesMesh kept,
+  std::vector<std::uint64_t> keys, const WorkProgress& progress)
+{
+  const bool isKept = kept.boundary && kept.keys == keys;
+  std::vector<char> request = this->request(PieceWorker::Boundary);
+  put(isKept, request);
+  std::vector<std::vector<char>> requests;
+  for (const std::int64_t cells : this->CellsOfRanks)
+  {
+    requests.push_back(cells < 0 ? std::vector<char>() : request);
+  }
+  const auto answers = this->request(std::move(requests));
+  BoundaryOfMeshes ofMeshes;
+  BoundaryOfImage ofImage;
+  std::vector<double> values; // of meshes, at the points of all ranks' faces
+  for (std::size_t rank = 0; rank < answers.size(); ++rank)
+  {
+    if (answers[rank].empty())
+    {
+      continue;
+    }
+    Reader reader = readerOf(answers[rank]);
+    if (!isKept && reader.Get<DataPiece::BoundaryKind>() == DataPiece::BoundaryKind::OfImage)
+    {
+      ofImage.add(reader);
+      continue;
+    }
+    if (!isKept)
+    {
+      ofMeshes.add(reader, this->CellsOfRanks[rank]);
+    }
+    const auto ofRank = reader.GetAll<std::vector<double>>();
+    values.insert(values.end(), ofRank.begin(), ofRank.end());
+  }
+  progress.reach(0.3);
+  if (isKept)
+  {
+    this->Mesh = std::move(kept);
+    this->Boundary = this->Mesh.boundary;
+    this->VoxelShape = this->Mesh.voxelShape;
+    if (!this->Mesh.lattices)
+    {
+      this->Mesh.lattices = std::make_shared<LatticesOfMesh>();
+    }
+    this->Mesh.lattices->beginStep();
+  }
+  else if (ofImage.parts > 0)
+  {
+    this->makeBoundary(std::move(ofImage), bodies, progress.part(0.3, 1));
+    return;
+  }
+  else
+  {
+    this->makeBoundary(std::move(ofMeshes), bodies, outside, progress.part(0.3, 1));
+    this->Mesh.keys = std::move(keys);
+  }
+  std::vector<double> onSurface;
+  for (const Contribution& fraction : this->Mesh.contributions)
+  {
+    onSurface.push_back(values[static_cast<std::size_t>(fraction.point)]);
+  }
+  this->Ambient = this->Boundary->ambient(onSurface);
 }
 
 /// Another rank's, which has so many cells.
@@ -397,8 +453,6 @@ void PiecesSource::BoundaryOfMeshes::add(Reader& reader, std::int64_t ofRank)
   faces.hidesBehind.insert(
     faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
   faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
-  const auto ofFaces = reader.GetAll<std::vector<double>>();
-  this->values.insert(this->values.end(), ofFaces.begin(), ofFaces.end());
 }
 
 /// Another rank's. Throws std::runtime_error where it has other axes.
@@ -439,13 +493,10 @@ void PiecesSource::makeBoundary(
   this->VoxelShape = CellTree::voxelShapeOf(joined(of.sizes, of.cells));
   BoundaryFaces boundary = boundaryOf(
     std::move(of.faces), [this](const std::vector<Point>& places) { return this->hold(places); });
-  std::vector<double> onSurface;
-  for (const Contribution& fraction : boundary.contributions)
-  {
-    onSurface.push_back(of.values[static_cast<std::size_t>(fraction.point)]);
-  }
-  this->Boundary = std::make_unique<GasBoundary>(std::move(boundary), bodies, outside, progress);
-  this->Ambient = this->Boundary->ambient(onSurface);
+  this->Mesh.contributions = boundary.contributions;
+  this->Boundary = std::make_shared<GasBoundary>(std::move(boundary), bodies, outside, progress);
+  this->Mesh.boundary = this->Boundary;
+  this->Mesh.voxelShape = this->VoxelShape;
 }
 
 void PiecesSource::makeBoundary(
@@ -454,7 +505,7 @@ void PiecesSource::makeBoundary(
   this->Direction = of.direction;
   this->VoxelShape = of.spacing;
   removeCopies(of.faces);
-  this->Boundary = std::make_unique<GasBoundary>(
+  this->Boundary = std::make_shared<GasBoundary>(
     std::move(of.faces), turnedBack(bodies, of.direction), Outside::Passes, progress);
   this->Ambient = ImagePiece::ambientOf(std::move(of.outer));
   // What is beyond the image, in the cubes around its outer points, belongs to these.
@@ -609,15 +660,23 @@ void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivit
 {
   const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
   const auto size = static_cast<std::size_t>(lattice.size());
-  if (samples.found.empty())
+  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
+  const unsigned char* const found = none.empty() ? samples.found.data() : none.data();
+  std::fill_n(refractivity, size, 0.);
+  std::copy(samples.values.begin(), samples.values.end(), refractivity);
+  LatticesOfMesh* const lattices = this->Mesh.lattices.get();
+  if (const auto known = lattices ? lattices->find(lattice, distances) : nullptr)
   {
-    const std::vector<unsigned char> none(size, 0);
-    std::fill_n(refractivity, size, 0.);
-    this->Boundary->sample(lattice, none.data(), places, distances);
+    std::fill_n(places, size, schlieren::Place::Gas);
+    std::copy(known->places.begin(), known->places.end(), places);
+    std::copy(known->distances.begin(), known->distances.end(), distances);
     return;
   }
-  std::copy(samples.values.begin(), samples.values.end(), refractivity);
-  this->Boundary->sample(lattice, samples.found.data(), places, distances);
+  this->Boundary->sample(lattice, found, places, distances);
+  if (lattices && lattices->hasRoomFor(lattice))
+  {
+    lattices->keep(lattice, knownLattice({}, places, distances, size));
+  }
 }
 
 } // namespace filters

@@ -4,6 +4,7 @@
 
 #include "GasBoundary.h"
 #include "ImagePiece.h"
+#include "LatticesOfMesh.h"
 #include "MeshFaces.h"
 #include "PieceWorker.h"
 #include "RefractivityModels.h"
@@ -35,6 +36,17 @@ public:
   virtual std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) = 0;
 };
 
+/// What of a PiecesSource depends on the meshes alone, and not on their values: it is kept from one time step to the next.
+struct PiecesMesh
+{
+  std::vector<std::uint64_t>
+    keys; // of bodies and Outside, and of the ranks' pieces; empty: nothing is kept
+  std::shared_ptr<const GasBoundary> boundary;
+  std::vector<Contribution> contributions; // of all ranks' values to those at the boundary's points
+  std::array<double, 3> voxelShape;
+  std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
+};
+
 /**
  * The refractivity of meshes, or of an image, that are spread over several ranks, for the tree on rank 0. Each rank keeps
  * its own cells or points and samples them; what rank 0 has is the boundary of all: of the faces of each rank's cells those
@@ -44,9 +56,10 @@ class PiecesSource : public schlieren::MediumSource
 {
 public:
   /// Makes the pieces of the data that the ranks have. `bodies`: may be null. `outside`: of meshes; images have none.
-  /// Throws std::runtime_error with a message for the user.
+  /// `kept`: of another source, which may be of the same meshes. Throws std::runtime_error with a message for the user.
   PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies, Outside outside,
-    const WorkProgress& progress = WorkProgress());
+    PiecesMesh kept = {}, const WorkProgress& progress = WorkProgress());
+  const PiecesMesh& mesh() const { return this->Mesh; }
 
   bool hasGas() const { return this->Cells > 0; }
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->Bounds); }
@@ -78,7 +91,6 @@ private:
     std::vector<CellTree::Sizes> sizes;
     std::vector<double> cells;
     Faces faces;
-    std::vector<double> values; // at their points
 
     void add(Reader& reader, std::int64_t ofRank);
   };
@@ -95,6 +107,8 @@ private:
   };
 
   std::vector<std::vector<char>> requestsForPieces(vtkDataObject* bodies) const;
+  void findBoundary(vtkDataObject* bodies, Outside outside, PiecesMesh kept,
+    std::vector<std::uint64_t> keys, const WorkProgress& progress);
   void makeBoundary(
     BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress);
   void makeBoundary(BoundaryOfImage of, vtkDataObject* bodies, const WorkProgress& progress);
@@ -108,12 +122,14 @@ private:
   std::shared_ptr<PieceRanks> Ranks;
   std::uint64_t Number;
   std::vector<schlieren::Box> BoundsOfRanks; // low > high: it has no cells
+  std::vector<std::int64_t> CellsOfRanks;    // -1: it has not the arrays
   std::int64_t Cells = 0;
   schlieren::Box Bounds{};
   std::array<double, 3> VoxelShape{ 1, 1, 1 };
   std::array<double, 9> Direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
   CellTree::Content All{};
-  std::unique_ptr<GasBoundary> Boundary;
+  std::shared_ptr<const GasBoundary> Boundary;
+  PiecesMesh Mesh{};
   double Ambient = 0;
   Tally Valid;
   std::string Warning, Label;

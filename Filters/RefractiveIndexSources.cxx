@@ -268,6 +268,7 @@ void vtkRefractiveIndex::ReleasePieces()
 {
   if (std::exchange(this->HasPieces, false))
   {
+    *this->MeshOfPieces = {};
     try
     {
       this->Pieces->Request(
@@ -310,8 +311,9 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
     vtkSMPTools::LocalScope(threadsOfLoops(this),
       [&]
       {
-        made = std::make_shared<PiecesSource>(
-          this->Pieces, bodies, static_cast<filters::Outside>(this->Outside), progressOf(this));
+        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
+          static_cast<filters::Outside>(this->Outside), *this->MeshOfPieces, progressOf(this));
+        *this->MeshOfPieces = made->mesh();
       });
   }
   catch (const Stopped&)

@@ -54,6 +54,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Search(std::make_shared<MeshSearch>())
   , Ranks(std::make_shared<FilterRanks>())
   , Pieces(std::make_shared<ChannelRanks>(this))
+  , MeshOfPieces(std::make_shared<PiecesMesh>())
 {
   this->SetNumberOfInputPorts(2);
 }

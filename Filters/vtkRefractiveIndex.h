@@ -68,6 +68,7 @@ struct GridPlan;
 struct KeptMesh;
 struct MeshSearch;
 class ChannelRanks;
+struct PiecesMesh;
 struct Source;
 } // namespace filters
 
@@ -600,6 +601,7 @@ private:
   std::shared_ptr<filters::FilterRanks> Ranks;
   std::shared_ptr<filters::ChannelRanks> Pieces;
   bool HasPieces = false;
+  std::shared_ptr<filters::PiecesMesh> MeshOfPieces; // of the last source of pieces
 
   int IndexModel = GLADSTONE_DALE;
   std::string Gas = "Custom";

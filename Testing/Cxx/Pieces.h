@@ -143,8 +143,11 @@ inline void expectSame(const schlieren::MediumSource& whole, const schlieren::Me
   }
   double worst = 0, squares = 0;
   int count = 0;
-  pieces.prepareContents(boxes);
-  pieces.prepareSamples(lattices);
+  for (const schlieren::MediumSource* one : { &whole, &pieces })
+  {
+    one->prepareContents(boxes);
+    one->prepareSamples(lattices);
+  }
   for (std::size_t n = 0; n < boxes.size(); ++n)
   {
     const auto a = whole.contentOf(boxes[n]), b = pieces.contentOf(boxes[n]);

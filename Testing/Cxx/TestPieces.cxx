@@ -190,6 +190,89 @@ TEST(Pieces, TransferFunctionsHaveTheRangesOfAllFields)
   }
 }
 
+// What depends on the mesh alone stays on all ranks from step to step, and goes where the mesh, the gas or a body is another.
+TEST(Pieces, KeepTheirMeshForTheNextStep)
+{
+  const auto mesh = wholeMesh();
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.3);
+  sphere->Update();
+  vtkDataObject* bodies = nullptr;
+  std::vector<Data> parts = cuts()[2];
+  Ranks ranks(parts);
+  const auto forAll = [&](const auto& change)
+  {
+    change(vtkDataSet::SafeDownCast(mesh));
+    for (const Data& part : parts)
+    {
+      change(vtkDataSet::SafeDownCast(part));
+    }
+  };
+  const auto expectSameAsOne = [&](const char* words)
+  {
+    SCOPED_TRACE(words);
+    std::size_t before = 0, after = 0;
+    for (const auto& channel : ranks.Channels)
+    {
+      before += channel->Bytes;
+    }
+    const auto source = ranks.make(bodies);
+    for (const auto& channel : ranks.Channels)
+    {
+      after += channel->Bytes;
+    }
+    expectSame(*inOnePiece(mesh, false, bodies), *source, 5e-7);
+    Ranks fresh(parts);
+    expectSame(*fresh.make(bodies), *source, 1e-15);
+    return after - before;
+  };
+  const auto setTo = [&](double time)
+  {
+    forAll(
+      [time](vtkDataSet* data)
+      {
+        addPointArray(data, "N",
+          [time](const Vec& x) {
+            return ball({ x[0] - 0.2 * time, x[1], x[2] }) * (1 + time);
+          });
+      });
+  };
+  const std::size_t all = expectSameAsOne("first");
+  for (const double time : { 1., 2., 3. })
+  {
+    setTo(time);
+    const std::size_t ofValues = expectSameAsOne("next");
+    EXPECT_LT(ofValues, all - all / 8); // copies of cells are sent again, faces are not
+  }
+  bodies = sphere->GetOutput();
+  EXPECT_GT(expectSameAsOne("with a body"), all);
+  setTo(1);
+  EXPECT_LT(expectSameAsOne("next with a body"), all);
+  bodies = nullptr;
+  EXPECT_GE(expectSameAsOne("without"), all);
+  forAll(
+    [](vtkDataSet* data)
+    {
+      vtkPoints* points = vtkPointSet::SafeDownCast(data)->GetPoints();
+      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      {
+        double x[3];
+        points->GetPoint(i, x);
+        points->SetPoint(i, x[0] * (1 + 0.05 * x[1]), x[1], x[2] + 0.02 * x[0] * x[0]);
+      }
+      points->Modified();
+    });
+  EXPECT_GE(expectSameAsOne("on another mesh"), all - 64);
+  setTo(2);
+  forAll(
+    [](vtkDataSet* data)
+    {
+      addPointArray(
+        data, "N", [](const Vec& x) { return x[0] > 0.6 && x[1] > 0.5 ? std::nan("") : ball(x); });
+    });
+  expectSameAsOne("with another gas");
+}
+
 TEST(Pieces, AreOfMeshesAndImagesWithVolume)
 {
   using namespace filters;
