@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshPiece.h"
 
-#include "BoundaryFaces.h"
 #include "DataParts.h"
 #include "InvertedCells.h"
 #include "LatticeDistances.h"
-#include "MeshFaces.h"
 #include "MeshSource.h"
 
 #include "vtkDataSet.h"
@@ -72,9 +70,18 @@ DataPiece::Summary MeshPiece::summary() const
     this->Cells.content(this->Cells.bounds()) };
 }
 
+/// Its contributions are kept.
+Faces MeshPiece::findFaces() const
+{
+  Faces faces = facesOf(pointersTo(this->Leaves), WorkProgress(), Copies::Neighbours);
+  this->Mesh->firstContributions = faces.firstContributions;
+  this->Mesh->contributions = faces.contributions;
+  return faces;
+}
+
 void MeshPiece::putBoundary(std::vector<char>& message) const
 {
-  const Faces faces = facesOf(pointersTo(this->Leaves), WorkProgress(), Copies::Neighbours);
+  const Faces faces = this->findFaces();
   put(BoundaryKind::OfMesh, message);
   for (const std::vector<double>& along : this->Cells.measuredSizes())
   {
@@ -87,13 +94,15 @@ void MeshPiece::putBoundary(std::vector<char>& message) const
   putAll(faces.states, message);
   putAll(faces.hidesBehind, message);
   putAll(faces.areParts, message);
-  this->Mesh->firstContributions = faces.firstContributions;
-  this->Mesh->contributions = faces.contributions;
   this->putBoundaryValues(message);
 }
 
 void MeshPiece::putBoundaryValues(std::vector<char>& message) const
 {
+  if (this->Mesh->firstContributions.empty())
+  {
+    this->findFaces();
+  }
   putAll(
     valuesAt(this->Mesh->firstContributions, this->Mesh->contributions, pointersTo(this->Leaves)),
     message);

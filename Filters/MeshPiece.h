@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BoundaryFaces.h"
 #include "CellSampler.h"
 #include "CellTree.h"
 #include "DataPiece.h"
+#include "MeshFaces.h"
 
 #include "vtkSmartPointer.h"
 
@@ -26,7 +26,7 @@ struct PieceMesh
   std::uint64_t key; // see DataPiece::meshKey()
   std::shared_ptr<const CellTree::Mesh> cells;
   std::string warning;
-  // Of the values at the boundary's points, see Faces; none: as yet nobody has wanted the boundary.
+  // Of the values at the boundary's points, see Faces; empty: as yet nobody has wanted the boundary.
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
 };
@@ -53,6 +53,7 @@ public:
   Samples sample(const schlieren::Lattice& lattice) const override;
 
 private:
+  Faces findFaces() const;
   bool meets(const schlieren::Box& box) const;
 
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes whose pieces are on several ranks, against the same meshes in one piece. The ranks are filters of one process.
 #include "MeshHalo.h"
+#include "MeshPiece.h"
 #include "Pieces.h"
 
 #include "Medium/MediumSource.h"
@@ -17,6 +18,7 @@
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
@@ -271,6 +273,26 @@ TEST(Pieces, KeepTheirMeshForTheNextStep)
         data, "N", [](const Vec& x) { return x[0] > 0.6 && x[1] > 0.5 ? std::nan("") : ball(x); });
     });
   expectSameAsOne("with another gas");
+}
+
+// A piece whose boundary nobody has wanted may be of the mesh that rank 0 knows, when another rank has failed meanwhile.
+TEST(Pieces, GiveTheValuesOnTheirBoundaryAlone)
+{
+  const auto mesh = wholeMesh();
+  mesh->GetPointData()->SetActiveScalars("N");
+  const auto pieceOf = [&](const std::shared_ptr<filters::PieceMesh>& kept)
+  { return filters::MeshPiece({ mesh }, filters::CellTree::Reconstruction::Smooth, kept); };
+  const filters::MeshPiece piece = pieceOf(nullptr);
+  std::vector<char> all, values, ofNext;
+  piece.putBoundary(all);
+  pieceOf(nullptr).putBoundaryValues(values);
+  ASSERT_GT(values.size(), 1000u);
+  ASSERT_LT(values.size(), all.size());
+  EXPECT_TRUE(std::equal(values.rbegin(), values.rend(), all.rbegin()));
+  const filters::MeshPiece next = pieceOf(piece.mesh());
+  EXPECT_EQ(next.mesh(), piece.mesh());
+  next.putBoundaryValues(ofNext);
+  EXPECT_EQ(ofNext, values);
 }
 
 TEST(Pieces, AreOfMeshesAndImagesWithVolume)
