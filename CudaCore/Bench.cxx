@@ -614,7 +614,8 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   {
     return aborted;
   }
-  if (request.device == Device::Cuda && !workers.empty())
+  const auto& cuda = current.shared->cuda;
+  if (request.device == Device::Cuda && !workers.empty() && (!cuda || cuda->hasAll()))
   {
     image.workers = current.shared->teamTracer().workersOnCuda();
   }

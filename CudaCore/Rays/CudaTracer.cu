@@ -145,6 +145,12 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
+bool CudaTracer<Real>::hasAll() const
+{
+  return memory_->samples != nullptr;
+}
+
+template <class Real>
 bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
@@ -194,7 +200,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
   {
     if (canSuspend(task.kernel) && fields == 0)
     {
-      return traceInParts(task, pass, exits, bands, traced, monitor, processes);
+      return traceInParts(task, pass, exits, bands, traced, monitor);
     }
     memory_->send(medium_);
   }
@@ -298,8 +304,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
 
 template <class Real>
 bool CudaTracer<Real>::traceInParts(const RayTask<Real>& task, const Pass& pass, Exits exits,
-  TileQueue& bands, TracedPass& traced, const Monitor& monitor,
-  const std::function<std::int64_t()>& processes)
+  TileQueue& bands, TracedPass& traced, const Monitor& monitor)
 {
   using State = SuspendedRay<Real>;
   using Count = unsigned long long;
@@ -375,9 +380,7 @@ bool CudaTracer<Real>::traceInParts(const RayTask<Real>& task, const Pass& pass,
   double progress = 0;
   for (;;)
   {
-    const std::int64_t among = processes ? processes() : 1;
-    const std::int64_t fair = among > 1 ? bands.left().count() / (2 * among) : bandsAtOnce;
-    const TileQueue::Tiles taken = bands.takeFront(std::clamp<std::int64_t>(fair, 1, bandsAtOnce));
+    const TileQueue::Tiles taken = bands.takeFront(bandsAtOnce);
     if (taken.count() == 0)
     {
       break;

@@ -84,13 +84,15 @@ public:
     Exits exits, TileQueue& bands, TracedPass& traced, const Monitor& monitor,
     const std::function<std::int64_t()>& processes = {});
 
+  /// Whether all of the medium is on the device.
+  bool hasAll() const;
   /// In how many parts the medium was sent for the last pass, or part of a pass; 1: it is there.
   int parts() const { return parts_; }
 
 private:
   struct DeviceMemory;
   bool traceInParts(const RayTask<Real>& task, const Pass& pass, Exits exits, TileQueue& bands,
-    TracedPass& traced, const Monitor& monitor, const std::function<std::int64_t()>& processes);
+    TracedPass& traced, const Monitor& monitor);
 
   MediumArrays<Real> medium_;
   std::size_t limit_;

@@ -72,6 +72,12 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
+bool CudaTracer<Real>::hasAll() const
+{
+  return false;
+}
+
+template <class Real>
 void CudaTracer<Real>::begin(const RayTask<Real>&, const Pass&, Exits, TracedPass&) const
 {
 }
