@@ -147,7 +147,7 @@ CudaTracer<Real>::~CudaTracer() = default;
 template <class Real>
 bool CudaTracer<Real>::hasAll() const
 {
-  return memory_->samples != nullptr;
+  return memory_->isSent;
 }
 
 template <class Real>
@@ -196,7 +196,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
 {
   static_assert(bandRows == blockRows);
   const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
-  if (!memory_->samples)
+  if (!hasAll())
   {
     if (canSuspend(task.kernel) && fields == 0)
     {
@@ -316,14 +316,15 @@ bool CudaTracer<Real>::traceInParts(const RayTask<Real>& task, const Pass& pass,
   const std::size_t available = availableOnCuda();
   const std::size_t memory = std::min(limit_, available - std::min(available, besides));
   // Rays that wait at the same time: the fewer there are, the more often all parts have to be sent.
-  const std::size_t forStates = memory / 4;
-  const std::int64_t bandsAtOnce = std::clamp<std::int64_t>(
-    static_cast<std::int64_t>(forStates / (raysOfBand * sizeof(State))), 1, bandsOf(pass));
+  const std::size_t bytesOfBand = raysOfBand * sizeof(State);
+  const std::int64_t bandsAtOnce =
+    std::clamp<std::int64_t>(static_cast<std::int64_t>(memory / 4 / bytesOfBand), 1, bandsOf(pass));
   const CudaBuffer<State> states(static_cast<std::size_t>(bandsAtOnce) * raysOfBand);
   // With more parts than that the device would do little but receive them.
   constexpr std::size_t mostParts = 256;
   CudaParts<Real> parts(medium_, task.light.perLength,
-    std::max(memory - forStates, CudaParts<Real>::bytesOfBricks(medium_) / mostParts));
+    std::max(memory - std::min(memory, static_cast<std::size_t>(bandsAtOnce) * bytesOfBand),
+      CudaParts<Real>::bytesOfBricks(medium_) / mostParts));
   parts_ = parts.count();
 
   auto& lane = memory_->lanes[0];

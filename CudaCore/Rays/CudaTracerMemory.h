@@ -54,6 +54,7 @@ struct CudaTracer<Real>::DeviceMemory
         medium.solid.first, medium.solid.count, "Copying the solids");
       view.solid = solid->data();
     }
+    isSent = true; // there was memory for all of it
   }
 
   static int currentDevice()
@@ -64,8 +65,9 @@ struct CudaTracer<Real>::DeviceMemory
   }
 
   int device = currentDevice();
-  MediumView<Real> view{};                   ///< on the device
-  std::unique_ptr<CudaBuffer<Real>> samples; ///< null: they have not been sent
+  bool isSent = false;
+  MediumView<Real> view{}; ///< on the device
+  std::unique_ptr<CudaBuffer<Real>> samples;
   std::unique_ptr<CudaBuffer<std::uint32_t>> solid;
 
   struct Tree

@@ -165,9 +165,13 @@ TEST_F(TeamOnCuda, HasOneKindOfDevice)
   Worker good, other(Worker::Fault::HasOtherDevice);
   Bench bench;
   bench.setWorkers({ other.channel(), good.channel() });
-  const Image image = bench.render(flow_.tinted(), scene_);
-  EXPECT_EQ(image.workers, 1);
-  expectSameImage(image, Bench().render(flow_.tinted(), scene_));
+  for (int view = 0; view < 10 && good.tiles() == 0; ++view) // on a busy machine it may be late
+  {
+    scene_.view.viewDirection = { 0.1 * view - 0.2, 0.4, -1 };
+    const Image image = bench.render(flow_.tinted(), scene_);
+    EXPECT_LE(image.workers, 1);
+    expectSameImage(image, Bench().render(flow_.tinted(), scene_));
+  }
   EXPECT_GT(good.tiles(), 0);
   EXPECT_EQ(other.tiles(), 0);
   EXPECT_EQ(other.arrays(), 0);
