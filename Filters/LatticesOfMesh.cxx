@@ -8,6 +8,13 @@
 namespace filters
 {
 
+void KnownLattice::copyTo(schlieren::Place* toPlaces, float* toDistances, std::size_t points) const
+{
+  std::fill_n(toPlaces, points, schlieren::Place::Gas);
+  std::copy(this->places.begin(), this->places.end(), toPlaces);
+  std::copy(this->distances.begin(), this->distances.end(), toDistances);
+}
+
 KnownLattice knownLattice(
   CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points)
 {

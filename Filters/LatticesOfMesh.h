@@ -23,6 +23,9 @@ struct KnownLattice
   CellsOfLattice cells;
   std::vector<schlieren::Place> places; // empty: gas everywhere
   std::vector<float> distances;         // empty: not requested yet
+
+  /// `toDistances`: may be null where none were requested.
+  void copyTo(schlieren::Place* toPlaces, float* toDistances, std::size_t points) const;
 };
 
 /// `distances`: may be null.

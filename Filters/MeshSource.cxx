@@ -169,12 +169,7 @@ void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* ref
   const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr;
   if (known && this->Values.sample(lattice, known->cells, refractivity))
   {
-    std::fill_n(places, size, schlieren::Place::Gas);
-    std::copy(known->places.begin(), known->places.end(), places);
-    if (distances)
-    {
-      std::copy(known->distances.begin(), known->distances.end(), distances);
-    }
+    known->copyTo(places, distances, size);
     if (values)
     {
       this->sampleFields(lattice, known->cells, values);

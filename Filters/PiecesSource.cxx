@@ -660,19 +660,17 @@ void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivit
 {
   const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
   const auto size = static_cast<std::size_t>(lattice.size());
-  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
-  const unsigned char* const found = none.empty() ? samples.found.data() : none.data();
   std::fill_n(refractivity, size, 0.);
   std::copy(samples.values.begin(), samples.values.end(), refractivity);
   LatticesOfMesh* const lattices = this->Mesh.lattices.get();
   if (const auto known = lattices ? lattices->find(lattice, distances) : nullptr)
   {
-    std::fill_n(places, size, schlieren::Place::Gas);
-    std::copy(known->places.begin(), known->places.end(), places);
-    std::copy(known->distances.begin(), known->distances.end(), distances);
+    known->copyTo(places, distances, size);
     return;
   }
-  this->Boundary->sample(lattice, found, places, distances);
+  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
+  this->Boundary->sample(
+    lattice, none.empty() ? samples.found.data() : none.data(), places, distances);
   if (lattices && lattices->hasRoomFor(lattice))
   {
     lattices->keep(lattice, knownLattice({}, places, distances, size));

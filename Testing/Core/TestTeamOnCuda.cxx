@@ -165,13 +165,14 @@ TEST_F(TeamOnCuda, HasOneKindOfDevice)
   Worker good, other(Worker::Fault::HasOtherDevice);
   Bench bench;
   bench.setWorkers({ other.channel(), good.channel() });
+  Image image;
   for (int view = 0; view < 10 && good.tiles() == 0; ++view) // on a busy machine it may be late
   {
     scene_.view.viewDirection = { 0.1 * view - 0.2, 0.4, -1 };
-    const Image image = bench.render(flow_.tinted(), scene_);
-    EXPECT_LE(image.workers, 1);
+    image = bench.render(flow_.tinted(), scene_);
     expectSameImage(image, Bench().render(flow_.tinted(), scene_));
   }
+  EXPECT_EQ(image.workers, 1);
   EXPECT_GT(good.tiles(), 0);
   EXPECT_EQ(other.tiles(), 0);
   EXPECT_EQ(other.arrays(), 0);
