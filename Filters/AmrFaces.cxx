@@ -102,7 +102,8 @@ void AmrFaces::addSquare(
 
 std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
 {
-  const Counts ratio = ratioOf(this->Levels.back().cells, this->Levels[level].cells);
+  const Level& finest = this->Levels.back();
+  const Counts ratio = ratioOf(finest.cells, this->Levels[level].cells);
   std::uint64_t key = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -116,7 +117,8 @@ std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
     Point place;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      place[i] = this->Origin[i] + corner[i] * this->Levels[level].spacing[i];
+      // The same to the last bit on all ranks, whichever level they find it on.
+      place[i] = this->Origin[i] + corner[i] * ratio[i] * finest.spacing[i];
     }
     points.push_back(place);
   }

@@ -72,20 +72,20 @@ std::array<double, 3> spacingOf(vtkImageData* image, int flat)
   return spacing;
 }
 
-/// Finds the cells that are no copies of other blocks' cells: a box, around which the copies lie.
-void findOwnCells(vtkDataSet* data, AmrBlock& block)
+/// Finds the cells that are no copies of other blocks' cells.
+void findOwnCells(vtkDataSet* data, AmrImage& image)
 {
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
   if (!ghosts)
   {
-    block.ownBegin = { 0, 0, 0 };
-    block.ownEnd = block.cells;
+    image.ownBegin = { 0, 0, 0 };
+    image.ownEnd = image.cells;
     return;
   }
-  block.ownBegin = block.cells;
-  block.ownEnd = { 0, 0, 0 };
+  image.ownBegin = image.cells;
+  image.ownEnd = { 0, 0, 0 };
   vtkIdType cell = 0;
-  forCells({ 0, 0, 0 }, block.cells,
+  forCells({ 0, 0, 0 }, image.cells,
     [&](int i, int j, int k)
     {
       if (!(ghosts->GetValue(cell++) & vtkDataSetAttributes::DUPLICATECELL))
@@ -93,41 +93,36 @@ void findOwnCells(vtkDataSet* data, AmrBlock& block)
         const Counts at = { i, j, k };
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          block.ownBegin[axis] = std::min(block.ownBegin[axis], at[axis]);
-          block.ownEnd[axis] = std::max(block.ownEnd[axis], at[axis] + 1);
+          image.ownBegin[axis] = std::min(image.ownBegin[axis], at[axis]);
+          image.ownEnd[axis] = std::max(image.ownEnd[axis], at[axis] + 1);
         }
       }
     });
 }
 
-/// Puts the leaves on levels, coarsest first, with positions yet to be found. Empty where they differ in
-/// kind.
-std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
+/// Puts the images on levels, coarsest first, with positions yet to be found. Empty where they are not all flat along
+/// the same axis.
+std::vector<AmrLevel> sortedByLevel(const std::vector<AmrImage>& images)
 {
   std::vector<AmrLevel> levels;
-  auto* first = vtkImageData::SafeDownCast(leaves[0].data);
-  flat = first ? flatAxisOf(first) : -2;
-  for (std::size_t number = 0; number < leaves.size(); ++number)
+  for (std::size_t number = 0; number < images.size(); ++number)
   {
-    auto* image = vtkImageData::SafeDownCast(leaves[number].data);
-    if (!image || !leaves[number].ofCells || flat == -2 || flatAxisOf(image) != flat ||
-      !image->GetDirectionMatrix()->IsIdentity())
+    const AmrImage& image = images[number];
+    if (image.flat != images[0].flat)
     {
       return {};
     }
-    const std::array<double, 3> spacing = spacingOf(image, flat);
-    const auto isAlike = [&spacing](const AmrLevel& level)
+    const auto isAlike = [&](const AmrLevel& level)
     {
-      return std::equal(spacing.begin(), spacing.end(), level.spacing.begin(),
+      return std::equal(image.spacing.begin(), image.spacing.end(), level.spacing.begin(),
         [](double a, double b) { return std::abs(a - b) < 1e-4 * b; });
     };
     auto level = std::find_if(levels.begin(), levels.end(), isAlike);
     if (level == levels.end())
     {
-      level = levels.insert(levels.end(), { spacing, {}, {} });
+      level = levels.insert(levels.end(), { image.spacing, {}, {} });
     }
-    level->blocks.push_back({ number, {}, cellsOf(image), {}, {} });
-    findOwnCells(image, level->blocks.back());
+    level->blocks.push_back({ number, {}, image.cells, image.ownBegin, image.ownEnd });
   }
   std::sort(levels.begin(), levels.end(),
     [](const AmrLevel& a, const AmrLevel& b)
@@ -139,13 +134,12 @@ std::vector<AmrLevel> sortedByLevel(const std::vector<Leaf>& leaves, int& flat)
 }
 
 /// Finds where the blocks lie. Returns whether there is such a lattice.
-bool place(const std::vector<Leaf>& leaves, std::vector<AmrLevel>& levels, int flat,
-  std::array<double, 3>& origin)
+bool place(
+  const std::vector<AmrImage>& images, std::vector<AmrLevel>& levels, std::array<double, 3>& origin)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto cornerOn = [&](const AmrBlock& block)
-    { return cornerOf(vtkImageData::SafeDownCast(leaves[block.leaf].data), flat)[axis]; };
+    const auto cornerOn = [&](const AmrBlock& block) { return images[block.leaf].corner[axis]; };
     double& coarsest = levels[0].spacing[axis];
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const AmrLevel& level : levels)
@@ -193,14 +187,43 @@ bool place(const std::vector<Leaf>& leaves, std::vector<AmrLevel>& levels, int f
 
 } // namespace
 
-std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
+std::optional<AmrImage> amrImageOf(const Leaf& leaf)
 {
-  AmrLevels found;
-  found.levels = sortedByLevel(leaves, found.flat);
-  if (found.levels.empty() || !place(leaves, found.levels, found.flat, found.origin))
+  auto* data = vtkImageData::SafeDownCast(leaf.data);
+  const int flat = data ? flatAxisOf(data) : -2;
+  if (!leaf.ofCells || flat == -2 || !data->GetDirectionMatrix()->IsIdentity())
   {
     return std::nullopt;
   }
+  AmrImage image{ cornerOf(data, flat), spacingOf(data, flat), cellsOf(data), {}, {}, flat };
+  findOwnCells(data, image);
+  return image;
+}
+
+std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves)
+{
+  std::vector<AmrImage> images;
+  for (const Leaf& leaf : leaves)
+  {
+    const std::optional<AmrImage> image = amrImageOf(leaf);
+    if (!image)
+    {
+      return std::nullopt;
+    }
+    images.push_back(*image);
+  }
+  return findLevels(images);
+}
+
+std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images)
+{
+  AmrLevels found;
+  found.levels = sortedByLevel(images);
+  if (found.levels.empty() || !place(images, found.levels, found.origin))
+  {
+    return std::nullopt;
+  }
+  found.flat = images[0].flat;
   // Blocks far apart: a lattice over all of them would be empty.
   std::size_t cells = 0;
   for (const AmrLevel& level : found.levels)
@@ -263,6 +286,17 @@ CellBox intersection(const CellBox& a, const CellBox& b)
     both.end[axis] = std::min(a.end[axis], b.end[axis]);
   }
   return both;
+}
+
+CellBox hullOf(const CellBox& a, const CellBox& b)
+{
+  CellBox hull;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    hull.begin[axis] = std::min(a.begin[axis], b.begin[axis]);
+    hull.end[axis] = std::max(a.end[axis], b.end[axis]);
+  }
+  return hull;
 }
 
 BoxBins::BoxBins(std::vector<CellBox> boxes)

@@ -22,10 +22,23 @@ inline std::size_t volume(const Counts& n)
     static_cast<std::size_t>(n[2]);
 }
 
+/// What is needed of an image with values in its cells to find its level.
+struct AmrImage
+{
+  std::array<double, 3> corner; // along a flat axis, half a unit before the plane
+  std::array<double, 3> spacing;
+  Counts cells; // along a flat axis: 1
+  Counts ownBegin,
+    ownEnd; // those that are no copies from others: a box, around which the copies lie
+  int flat; // the axis along which it has one layer of points; -1: none
+};
+/// Nothing where the leaf is no such image: it has point arrays, is turned, or has one point along several axes.
+std::optional<AmrImage> amrImageOf(const Leaf& leaf);
+
 /// A block, and where it lies on the lattice of its level.
 struct AmrBlock
 {
-  std::size_t leaf;         // of the source
+  std::size_t leaf;         // the image's number
   std::array<int, 3> first; // its first cell
   std::array<int, 3> cells;
   std::array<int, 3> ownBegin, ownEnd; // those within the block that are no copies from others
@@ -46,7 +59,9 @@ struct AmrLevels
   std::array<double, 3> origin; // the domain's first corner
 };
 
-/// Nothing where the leaves are no such blocks: with point arrays, turned, or not on one lattice.
+/// Nothing where they are not on one lattice.
+std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images);
+/// Nothing where the leaves are no such images, too.
 std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves);
 
 /// Flat levels in the axes of directionAcross().
@@ -100,6 +115,8 @@ struct CellBox
 
 CellBox boxOf(const AmrBlock& block);
 CellBox intersection(const CellBox& a, const CellBox& b);
+/// The smallest box around both.
+CellBox hullOf(const CellBox& a, const CellBox& b);
 
 /// Boxes in about as many equal bins, so that few are looked at for each box in question.
 class BoxBins

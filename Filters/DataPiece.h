@@ -45,8 +45,9 @@ public:
   /// Adds to a message where its gas ends, for PiecesSource: what kind of boundary, and that.
   enum class BoundaryKind : std::uint32_t
   {
-    OfMesh, ///< see MeshPiece::putBoundary()
-    OfImage ///< see ImagePiece::putBoundary()
+    OfMesh,  ///< see MeshPiece::putBoundary()
+    OfImage, ///< see ImagePiece::putBoundary()
+    OfAmr    ///< see AmrPiece::putBoundary()
   };
   virtual void putBoundary(std::vector<char>& message) const = 0;
   /// Only the values there, where there is a meshKey().

@@ -74,7 +74,7 @@ double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
 double GasBoundary::ambient(const std::vector<double>& values) const
 {
   const Triangles& surface = this->Faces.surface;
-  std::vector<std::pair<double, double>> parts; // N, area
+  std::vector<WeightedValue> parts; // N, area
   for (const bool ofAll : { false, true })
   {
     for (std::size_t t = 0; t < surface.size(); ++t)
@@ -86,7 +86,7 @@ double GasBoundary::ambient(const std::vector<double>& values) const
         {
           mean += values[static_cast<std::size_t>(corner)] / 3;
         }
-        parts.emplace_back(mean, norm(surface.normal(t)));
+        parts.push_back({ mean, norm(surface.normal(t)) });
       }
     }
     if (!parts.empty())

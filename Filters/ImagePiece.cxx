@@ -8,6 +8,7 @@
 #include "FieldFromImage.h"
 #include "FlatData.h"
 #include "Medium/Solids.h"
+#include "WeightedMedian.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -33,9 +34,6 @@ constexpr double cellBySpacing = 0.5;
 
 /// Of an index: so that no place is missed that is half of the way between two ranks' points.
 constexpr double rounding = 1e-6;
-
-/// N on the faces of the whole image that is sent to rank 0, at most.
-constexpr double mostOuterValues = 1e6;
 
 schlieren::Place kindAt(const schlieren::Field& field, std::size_t point)
 {

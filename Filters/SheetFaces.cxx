@@ -100,12 +100,12 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<vt
       roots[high] = low;
     }
   }
-  std::vector<std::vector<std::pair<double, double>>> parts(cuts.size()); // jump, area
+  std::vector<std::vector<WeightedValue>> parts(cuts.size()); // jump, area
   for (std::size_t face = 0; face < cuts.size(); ++face)
   {
     if (jumps[face] > 0)
     {
-      parts[rootOf(face)].emplace_back(jumps[face], cuts.areas[face]);
+      parts[rootOf(face)].push_back({ jumps[face], cuts.areas[face] });
     }
   }
   std::vector<unsigned char> areSheets(cuts.size(), 0);

@@ -4,21 +4,29 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace filters
 {
 
-/// Of values, each with its weight; NaN where there are none.
-inline double weightedMedian(std::vector<std::pair<double, double>> parts)
+/// Of more values from the border of the data those of each nth cell or point do as well.
+constexpr double mostOuterValues = 1e6;
+
+struct WeightedValue
+{
+  double value, weight;
+};
+
+/// NaN where there are no values.
+inline double weightedMedian(std::vector<WeightedValue> parts)
 {
   double all = 0;
-  for (const auto& part : parts)
+  for (const WeightedValue& part : parts)
   {
-    all += part.second;
+    all += part.weight;
   }
-  std::sort(parts.begin(), parts.end());
+  std::sort(parts.begin(), parts.end(),
+    [](const WeightedValue& a, const WeightedValue& b) { return a.value < b.value; });
   double below = 0;
   for (const auto& [value, weight] : parts)
   {

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "AmrFaces.h"
+#include "AmrLevels.h"
+#include "CellTree.h"
+#include "Vectors.h"
+#include "WeightedMedian.h"
+#include "WorkProgress.h"
+
+#include "Medium/MediumSource.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace filters
+{
+
+/**
+ * N, or another field, in the cells of adaptive meshes, and what is between the cells.
+ *
+ * Values of a lattice are made of cells of one level: the coarsest that is no coarser than the lattice. As in
+ * RefractivityOfAmr, a cell under finer blocks has the mean of the finer cells, and one that no block of its level
+ * holds has the mean over its place of a polynomial through the next coarser level; so the borders of blocks and levels
+ * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
+ *
+ * Cells that are hidden or whose value is not finite are solid.
+ *
+ * A rank may have some of the blocks, and copies of others' cells around them: then what is said of places in its own cells
+ * is what it would be with all blocks.
+ */
+class AmrField
+{
+public:
+  /// `levels`: of all blocks; turned, where they are flat (see turnedAcrossZ). `source` has the images of those that this
+  /// rank has, whose numbers begin with `firstImage`. To `tally` is added what is wrong with their values.
+  AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
+    const WorkProgress& progress = WorkProgress(), std::size_t firstImage = 0);
+
+  /// Its cells that a rank needs which has so many images from `firstImage` on: those around these.
+  std::vector<char> copiesFor(std::size_t firstImage, std::size_t images) const;
+  /// Adds what another rank's copiesFor() has returned.
+  void addCopies(const std::vector<char>& copies);
+
+  int flatAxis() const { return this->FlatAxis; }
+  std::int64_t ownCells() const { return this->OwnCells; } // with values
+  schlieren::Box bounds() const;                           // of the domain
+  /// Of its own blocks; infinite where the domain ends. low > high: there are none.
+  schlieren::Box ownBounds() const;
+  std::array<double, 3> voxelShape() const { return this->Levels[0].spacing; }
+
+  /// The faces around its own cells without gas, and those of its own gas beside what no block of any rank holds.
+  BoundaryFaces faces() const;
+
+  /// Values of its own cells at the border of the domain, each with an area; of more than a million on all ranks each nth.
+  std::vector<WeightedValue> outerValues() const;
+
+  /// Of the cells within a few cells of a box; see CellTree::content(). lowest > highest: there are none.
+  CellTree::Content contentOf(const schlieren::Box& box) const;
+
+  /// Whether one of its own cells holds the place. Outside of a domain that is a box, as at its border.
+  bool hasGasAt(const Point& place) const;
+  /// The same of all points of a lattice.
+  std::vector<unsigned char> gasAt(const schlieren::Lattice& lattice) const;
+  /// Whether it may hold any of them.
+  bool mayHold(const schlieren::Lattice& lattice) const;
+
+  /// At those points of a lattice whose indices are in `points`; NaN in solids.
+  void sample(const schlieren::Lattice& lattice, const CellBox& points, double* values) const;
+
+private:
+  /// Cells of a level that are known: those of a block, or the means of a finer block's.
+  struct Block
+  {
+    CellBox box;
+    std::vector<double> means;
+    std::vector<float> parts; // of a cell that its mean is of; 0: not known
+    std::vector<bool> solids; // which of the cells that are not known; empty: none
+    bool isOfLevel;           // rather than finer
+    bool isCopy;              // of another rank's
+
+    bool isSolid(std::size_t cell) const { return !this->solids.empty() && this->solids[cell]; }
+
+    /// Values of parts of the block, for contentOf(); lowest > highest: none.
+    struct Range
+    {
+      double lowest, highest;
+    };
+    Counts pieces;
+    std::vector<Range> ranges;
+    void findRanges();
+  };
+  struct Level
+  {
+    std::array<double, 3> spacing;
+    Counts cells;
+    std::vector<AmrBlock> all; // blocks of the level, of all ranks
+    std::unique_ptr<const BoxBins> binsOfAll;
+    std::vector<Block> blocks;
+    std::unique_ptr<const BoxBins> bins;
+  };
+  enum class Whose
+  {
+    All,
+    Own
+  };
+  static constexpr int pieceEdge = 8; // cells
+
+  static Block coarser(const Block& block, const Counts& ratio);
+  static Block cropped(const Block& block, const CellBox& box);
+  void sortBlocks();
+  void findMissingCells();
+  std::vector<Counts> margins() const;
+  int outerCellsForOne() const;
+  std::size_t axes() const
+  {
+    return this->FlatAxis >= 0 ? 2 : 3;
+  } // along which there are several cells
+  CellBox cellsIn(const Level& level, const schlieren::Box& box, int margin) const;
+  std::vector<double> valuesIn(std::size_t level, const CellBox& box) const;
+  std::size_t levelFor(const schlieren::Lattice& lattice) const;
+  CellState stateOf(std::size_t level, const Counts& cell, Whose whose) const;
+
+  int FlatAxis;
+  std::array<double, 3> Origin;
+  std::vector<Level> Levels;
+  std::int64_t OwnCells = 0;
+  std::vector<bool>
+    AreMissing; // cells of the coarsest level; empty: the domain is a box, with blocks all over
+};
+
+} // namespace filters
