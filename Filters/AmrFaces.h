@@ -69,4 +69,8 @@ private:
   std::unordered_map<std::uint64_t, std::int32_t> Points; // by their place on the finest level
 };
 
+/// Puts triangles and points in an order that does not depend on who has found them: of those that are as near, the first
+/// counts. Of the same ones one stays.
+void sortTriangles(BoundaryFaces& faces);
+
 } // namespace filters

@@ -3,7 +3,6 @@
 #include "AmrField.h"
 
 #include "AmrReconstruction.h"
-#include "DataParts.h"
 #include "LatticeDistances.h"
 #include "WeightedMedian.h"
 
@@ -40,6 +39,13 @@ void inTurn(std::ptrdiff_t rows, const std::function<void(std::ptrdiff_t, std::p
   work(0, rows);
 }
 
+/// A place on a face between cells belongs to the cell behind it, however it is rounded.
+double onFaces(double cells)
+{
+  const double face = std::round(cells);
+  return std::abs(cells - face) < rounding ? face : cells;
+}
+
 /// The cells of a block that are no copies.
 CellBox ownBoxOf(const AmrBlock& block)
 {
@@ -50,6 +56,32 @@ CellBox ownBoxOf(const AmrBlock& block)
     box.end[axis] = block.first[axis] + block.ownEnd[axis];
   }
   return box;
+}
+
+/// Cells of a block that are looked at together.
+constexpr int pieceEdge = 8;
+
+/// Calls visit(box) for the pieces of a box.
+template <class Visit>
+void forPieces(const CellBox& box, const Visit& visit)
+{
+  Counts pieces{};
+  for (std::size_t axis = 0; axis < 3 && !box.isEmpty(); ++axis)
+  {
+    pieces[axis] = (box.size()[axis] - 1) / pieceEdge + 1;
+  }
+  forCells({ 0, 0, 0 }, pieces,
+    [&](int i, int j, int k)
+    {
+      const Counts at{ i, j, k };
+      CellBox piece;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        piece.begin[axis] = box.begin[axis] + at[axis] * pieceEdge;
+        piece.end[axis] = std::min(piece.begin[axis] + pieceEdge, box.end[axis]);
+      }
+      visit(piece);
+    });
 }
 
 /// Those of a coarser level that a box meets.
@@ -164,19 +196,22 @@ AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
   const WorkProgress& progress, std::size_t firstImage)
   : FlatAxis(levels.flat)
   , Origin(levels.origin)
+  , Bounds(levels.bounds())
 {
   std::size_t done = 0;
-  for (const AmrLevel& level : levels.levels)
+  for (std::size_t number = 0; number < levels.levels.size(); ++number)
   {
+    const AmrLevel& level = levels.levels[number];
     std::vector<CellBox> boxes;
     std::transform(level.blocks.begin(), level.blocks.end(), std::back_inserter(boxes), boxOf);
-    this->Levels.push_back({ level.spacing, level.cells, level.blocks,
-      std::make_unique<const BoxBins>(std::move(boxes)), {}, nullptr });
+    this->Levels.push_back({ number, level.spacing, level.cells, level.blocks,
+      std::make_unique<const BoxBins>(std::move(boxes)),
+      std::make_unique<const BoxBins>(coveredCells(levels.levels, number)), {}, nullptr });
   }
   this->findMissingCells();
   for (std::size_t level = 0; level < this->Levels.size(); ++level)
   {
-    const BoxBins covered = coveredCells(levels.levels, level);
+    const BoxBins& covered = *this->Levels[level].covered;
     for (AmrBlock block : levels.levels[level].blocks)
     {
       if (block.leaf - firstImage >= source.leaves.size()) // or less than 0
@@ -268,57 +303,108 @@ std::vector<Counts> AmrField::margins() const
   return margins;
 }
 
-std::vector<char> AmrField::copiesFor(std::size_t firstImage, std::size_t images) const
+/// The own cells of a block that no finer block covers: boxes of at most `pieceEdge` cells along each axis around them.
+std::vector<CellBox> AmrField::uncoveredIn(const Level& level, const AmrBlock& block)
 {
-  std::vector<char> copies;
-  const std::vector<Counts> margins = this->margins();
-  for (std::size_t number = 0; number < this->Levels.size(); ++number)
-  {
-    const Level& level = this->Levels[number];
-    std::vector<CellBox> wanted;
-    for (const Level& other : this->Levels)
+  std::vector<CellBox> uncovered;
+  forPieces(ownBoxOf(block),
+    [&](const CellBox& piece)
     {
-      for (const AmrBlock& block : other.all)
+      std::vector<bool> isCovered;
+      bool isAllCovered = false;
+      level.covered->forPartsIn(piece,
+        [&](std::size_t, const CellBox& cells)
+        {
+          isAllCovered = isAllCovered || cells.size() == piece.size();
+          isCovered.resize(isAllCovered ? 0 : volume(piece.size()));
+          forCells(cells.begin, isAllCovered ? Counts{} : cells.size(),
+            [&](int i, int j, int k) { isCovered[piece.index(i, j, k)] = true; });
+        });
+      if (isAllCovered)
       {
-        const CellBox own = ownBoxOf(block);
-        if (block.leaf - firstImage >= images || own.isEmpty())
-        {
-          continue;
-        }
-        CellBox& box = wanted.emplace_back(other.cells[0] < level.cells[0]
-            ? finerBox(own, ratioOf(level.cells, other.cells))
-            : coarserBox(own, ratioOf(other.cells, level.cells)));
-        for (std::size_t axis = 0; axis < this->axes(); ++axis)
-        {
-          box.begin[axis] -= margins[number][axis];
-          box.end[axis] += margins[number][axis];
-        }
+        return;
       }
-    }
-    const BoxBins bins(std::move(wanted));
-    for (const Block& block : level.blocks)
-    {
-      std::optional<CellBox> part;
-      bins.forPartsIn(block.box,
-        [&](std::size_t, const CellBox& cells) { part = part ? hullOf(*part, cells) : cells; });
-      if (part && !block.isCopy)
+      std::size_t cell = 0;
+      std::optional<CellBox> hull;
+      forCells(piece.begin, isCovered.empty() ? Counts{} : piece.size(),
+        [&](int i, int j, int k)
+        {
+          if (!isCovered[cell++])
+          {
+            const CellBox here{ { i, j, k }, { i + 1, j + 1, k + 1 } };
+            hull = hull ? hullOf(*hull, here) : here;
+          }
+        });
+      if (isCovered.empty() || hull)
       {
-        const Block cells = cropped(block, *part);
-        put(static_cast<std::uint64_t>(number), copies);
-        put(cells.isOfLevel, copies);
-        put(cells.box, copies);
-        putAll(cells.means, copies);
-        putAll(cells.parts, copies);
-        putAll(std::vector<unsigned char>(cells.solids.begin(), cells.solids.end()), copies);
+        uncovered.push_back(hull.value_or(piece));
+      }
+    });
+  return uncovered;
+}
+
+void AmrField::putCopies(
+  std::size_t firstImage, std::size_t images, std::vector<char>& copies) const
+{
+  std::vector<std::vector<CellBox>> wanted(this->Levels.size());
+  const std::vector<Counts> margins = this->margins();
+  for (const Level& other : this->Levels)
+  {
+    for (const AmrBlock& block : other.all)
+    {
+      if (block.leaf - firstImage >= images) // or less than 0
+      {
+        continue;
+      }
+      for (const CellBox& own : uncoveredIn(other, block))
+      {
+        for (std::size_t number = 0; number < this->Levels.size(); ++number)
+        {
+          const Level& level = this->Levels[number];
+          CellBox& box = wanted[number].emplace_back(number > other.number
+              ? finerBox(own, ratioOf(level.cells, other.cells))
+              : coarserBox(own, ratioOf(other.cells, level.cells)));
+          for (std::size_t axis = 0; axis < this->axes(); ++axis)
+          {
+            box.begin[axis] -= margins[number][axis];
+            box.end[axis] += margins[number][axis];
+          }
+        }
       }
     }
   }
-  return copies;
+  for (std::size_t number = 0; number < this->Levels.size(); ++number)
+  {
+    const BoxBins bins(std::move(wanted[number]));
+    for (const Block& block : this->Levels[number].blocks)
+    {
+      if (block.isCopy)
+      {
+        continue;
+      }
+      forPieces(block.box,
+        [&](const CellBox& piece)
+        {
+          std::optional<CellBox> part;
+          bins.forPartsIn(piece,
+            [&](std::size_t, const CellBox& cells) { part = part ? hullOf(*part, cells) : cells; });
+          if (part)
+          {
+            const Block cells = cropped(block, *part);
+            put(static_cast<std::uint64_t>(number), copies);
+            put(cells.isOfLevel, copies);
+            put(cells.box, copies);
+            putAll(cells.means, copies);
+            putAll(cells.parts, copies);
+            putAll(std::vector<unsigned char>(cells.solids.begin(), cells.solids.end()), copies);
+          }
+        });
+    }
+  }
 }
 
-void AmrField::addCopies(const std::vector<char>& copies)
+void AmrField::addCopies(Reader& reader)
 {
-  Reader reader(copies);
   while (!reader.IsAtEnd())
   {
     Level& level = this->Levels.at(reader.Get<std::uint64_t>());
@@ -330,7 +416,6 @@ void AmrField::addCopies(const std::vector<char>& copies)
     block.parts = reader.GetAll<std::vector<float>>();
     const auto solids = reader.GetAll<std::vector<unsigned char>>();
     block.solids.assign(solids.begin(), solids.end());
-    block.findRanges();
     level.blocks.push_back(std::move(block));
   }
   this->sortBlocks();
@@ -374,7 +459,7 @@ bool AmrField::hasGasAt(const Point& place) const
     Counts cell;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double at = (place[axis] - this->Origin[axis]) / level.spacing[axis];
+      const double at = onFaces((place[axis] - this->Origin[axis]) / level.spacing[axis]);
       if (!this->AreMissing.empty() && (at < -rounding || at > level.cells[axis] + rounding))
       {
         return false;
@@ -468,17 +553,6 @@ BoundaryFaces AmrField::faces() const
     faces.addDomain();
   }
   return faces.take();
-}
-
-schlieren::Box AmrField::bounds() const
-{
-  const Level& coarsest = this->Levels[0];
-  schlieren::Box box{ this->Origin, this->Origin };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.high[axis] += coarsest.cells[axis] * coarsest.spacing[axis];
-  }
-  return box;
 }
 
 schlieren::Box AmrField::ownBounds() const
@@ -670,6 +744,16 @@ std::size_t AmrField::levelFor(const schlieren::Lattice& lattice) const
   return found;
 }
 
+std::array<double, 3> AmrField::reachOfContent() const
+{
+  std::array<double, 3> far = this->voxelShape();
+  for (double& along : far)
+  {
+    along *= reach + 1; // a box may begin anywhere in a cell
+  }
+  return far;
+}
+
 CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
 {
   CellTree::Content content{ infinity, -infinity, { infinity, infinity, infinity } };
@@ -680,7 +764,7 @@ CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
       [&](std::size_t number, const CellBox& cells)
       {
         const Block& block = level.blocks[number];
-        if (!block.isOfLevel)
+        if (!block.isOfLevel || block.isCopy)
         {
           return;
         }
@@ -727,7 +811,7 @@ void AmrField::sample(
     {
       const double at = lattice.first[axis] + point * lattice.spacing[axis] - this->Origin[axis];
       return std::clamp(
-        at / level.spacing[axis] - 0.5, -atBorder, level.cells[axis] - 1 + atBorder);
+        onFaces(at / level.spacing[axis]) - 0.5, -atBorder, level.cells[axis] - 1 + atBorder);
     };
     const auto placeOf = [&](int point)
     { return this->Origin[axis] + (middleOf(point) + 0.5) * level.spacing[axis]; };

@@ -5,6 +5,7 @@
 #include "AmrFaces.h"
 #include "AmrLevels.h"
 #include "CellTree.h"
+#include "DataParts.h"
 #include "Vectors.h"
 #include "WeightedMedian.h"
 #include "WorkProgress.h"
@@ -41,14 +42,14 @@ public:
   AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
     const WorkProgress& progress = WorkProgress(), std::size_t firstImage = 0);
 
-  /// Its cells that a rank needs which has so many images from `firstImage` on: those around these.
-  std::vector<char> copiesFor(std::size_t firstImage, std::size_t images) const;
-  /// Adds what another rank's copiesFor() has returned.
-  void addCopies(const std::vector<char>& copies);
+  /// Adds to a message its cells that a rank needs which has so many images from `firstImage` on: those around these.
+  void putCopies(std::size_t firstImage, std::size_t images, std::vector<char>& message) const;
+  /// Adds what other ranks' putCopies() have written.
+  void addCopies(Reader& copies);
 
   int flatAxis() const { return this->FlatAxis; }
   std::int64_t ownCells() const { return this->OwnCells; } // with values
-  schlieren::Box bounds() const;                           // of the domain
+  schlieren::Box bounds() const { return this->Bounds; }   // of the domain
   /// Of its own blocks; infinite where the domain ends. low > high: there are none.
   schlieren::Box ownBounds() const;
   std::array<double, 3> voxelShape() const { return this->Levels[0].spacing; }
@@ -59,8 +60,10 @@ public:
   /// Values of its own cells at the border of the domain, each with an area; of more than a million on all ranks each nth.
   std::vector<WeightedValue> outerValues() const;
 
-  /// Of the cells within a few cells of a box; see CellTree::content(). lowest > highest: there are none.
+  /// Of its own cells within a few cells of a box; see CellTree::content(). lowest > highest: there are none.
   CellTree::Content contentOf(const schlieren::Box& box) const;
+  /// How far from the box these are at most.
+  std::array<double, 3> reachOfContent() const;
 
   /// Whether one of its own cells holds the place. Outside of a domain that is a box, as at its border.
   bool hasGasAt(const Point& place) const;
@@ -96,10 +99,12 @@ private:
   };
   struct Level
   {
+    std::size_t number;
     std::array<double, 3> spacing;
     Counts cells;
     std::vector<AmrBlock> all; // blocks of the level, of all ranks
     std::unique_ptr<const BoxBins> binsOfAll;
+    std::unique_ptr<const BoxBins> covered; // by finer blocks
     std::vector<Block> blocks;
     std::unique_ptr<const BoxBins> bins;
   };
@@ -108,12 +113,12 @@ private:
     All,
     Own
   };
-  static constexpr int pieceEdge = 8; // cells
 
   static Block coarser(const Block& block, const Counts& ratio);
   static Block cropped(const Block& block, const CellBox& box);
   void sortBlocks();
   void findMissingCells();
+  static std::vector<CellBox> uncoveredIn(const Level& level, const AmrBlock& block);
   std::vector<Counts> margins() const;
   int outerCellsForOne() const;
   std::size_t axes() const
@@ -127,6 +132,7 @@ private:
 
   int FlatAxis;
   std::array<double, 3> Origin;
+  schlieren::Box Bounds;
   std::vector<Level> Levels;
   std::int64_t OwnCells = 0;
   std::vector<bool>

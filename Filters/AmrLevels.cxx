@@ -240,6 +240,17 @@ std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images)
   return found;
 }
 
+schlieren::Box AmrLevels::bounds() const
+{
+  const AmrLevel& coarsest = this->levels[0];
+  schlieren::Box box{ this->origin, this->origin };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.high[axis] += coarsest.cells[axis] * coarsest.spacing[axis];
+  }
+  return box;
+}
+
 AmrLevels turnedAcrossZ(AmrLevels levels)
 {
   if (levels.flat < 0)

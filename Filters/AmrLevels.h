@@ -4,6 +4,8 @@
 
 #include "RefractivitySource.h"
 
+#include "Medium/MediumSource.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -57,6 +59,8 @@ struct AmrLevels
   std::vector<AmrLevel> levels;
   int flat;                     // the axis along which the data have one layer of points; -1: none
   std::array<double, 3> origin; // the domain's first corner
+
+  schlieren::Box bounds() const; // of the domain
 };
 
 /// Nothing where they are not on one lattice.

@@ -12,7 +12,7 @@ namespace filters
 DataPiece::Summary AmrPiece::summary() const
 {
   return { this->Field.ownCells(), this->Field.ownBounds(),
-    this->Field.contentOf(this->Field.bounds()) };
+    this->Field.contentOf(this->Field.bounds()), this->Field.reachOfContent() };
 }
 
 void AmrPiece::putBoundary(std::vector<char>& message) const

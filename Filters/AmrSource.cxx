@@ -7,10 +7,22 @@
 namespace filters
 {
 
+namespace
+{
+
+BoundaryFaces facesOf(const AmrField& field)
+{
+  BoundaryFaces faces = field.faces();
+  sortTriangles(faces);
+  return faces;
+}
+
+} // namespace
+
 AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies,
   Outside outside, Tally& tally, const WorkProgress& progress)
   : Refractivity(levels, source, tally, progress.part(0, 0.9))
-  , Boundary(this->Refractivity.faces(), bodies, outside)
+  , Boundary(facesOf(this->Refractivity), bodies, outside)
 {
   progress.reach(1);
 }

@@ -43,6 +43,7 @@ public:
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override;
+  bool dependsOnLattice() const override { return true; }
 
   int fields() const override { return static_cast<int>(this->Fields.size()); }
   FieldRange rangeOfField(int field, const schlieren::Box& box) const override;

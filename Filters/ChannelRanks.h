@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PiecesSource.h"
+#include "PieceRanks.h"
+#include "PieceWorker.h"
 
 #include "Rays/Channel.h"
 

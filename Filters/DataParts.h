@@ -111,6 +111,14 @@ public:
     return values;
   }
 
+  /// Adds what is left to another message.
+  void GetRest(std::vector<char>& bytes)
+  {
+    bytes.insert(
+      bytes.end(), this->Bytes.begin() + static_cast<std::ptrdiff_t>(this->At), this->Bytes.end());
+    this->At = this->Bytes.size();
+  }
+
 private:
   [[noreturn]] static void Fail()
   {

@@ -7,6 +7,7 @@
 
 #include "Medium/MediumSource.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ public:
     std::int64_t cells; ///< or points; 0: no gas
     schlieren::Box bounds;
     CellTree::Content content;
+    std::array<double, 3> reach{}; ///< from a box, of what contentOf() knows of its surroundings
   };
   virtual Summary summary() const = 0;
   /// For the user; mostly empty.

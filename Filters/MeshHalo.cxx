@@ -15,6 +15,7 @@
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -112,22 +113,25 @@ std::int32_t pieceKindsOf(vtkDataObject* data)
   {
     return dimensionOf(image) == 3 ? PieceOfImage : NoPieces;
   }
-  bool areAll = true;
+  bool areAll = true, areImages = true;
   int dimension = -1; // there are none
   for (vtkDataObject* leaf : leavesOf(data))
   {
     auto* set = vtkDataSet::SafeDownCast(leaf);
     if (set && set->GetNumberOfPoints() > 0)
     {
-      areAll = areAll && isMesh(set);
+      const bool isOneImage = vtkImageData::SafeDownCast(set) != nullptr;
+      areAll = areAll && (isMesh(set) || isOneImage);
+      areImages = areImages && isOneImage;
       dimension = std::max(dimension, dimensionOf(set));
     }
   }
-  if (!areAll)
+  if (!areAll || (dimension >= 0 && dimension < 3))
   {
     return NoPieces;
   }
-  return dimension < 0 ? PiecesOfMeshes | PieceOfImage : dimension == 3 ? PiecesOfMeshes : NoPieces;
+  const std::int32_t kinds = areImages ? PiecesOfMeshes | PiecesOfBlocks : PiecesOfMeshes;
+  return dimension < 0 ? kinds | PieceOfImage : kinds;
 }
 
 Outline outlineOf(vtkDataSet* data)
@@ -137,9 +141,14 @@ Outline outlineOf(vtkDataSet* data)
   {
     outer.isGrid = true;
     outer.extent = extentOf(data, false);
-    outer.layers = vtkImageData::SafeDownCast(data) ? ImagePiece::layers
-      : hasCellValues(data)                         ? layersForCells
-                                                    : layersForPoints;
+    outer.layers = hasCellValues(data) ? layersForCells : layersForPoints;
+    if (auto* image = vtkImageData::SafeDownCast(data))
+    {
+      outer.layers = ImagePiece::layers;
+      image->GetOrigin(outer.place.data());
+      image->GetSpacing(outer.place.data() + 3);
+      std::copy_n(image->GetDirectionMatrix()->GetData(), 9, outer.place.data() + 6);
+    }
     return outer;
   }
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
@@ -266,6 +275,10 @@ vtkSmartPointer<vtkDataSet> cellsWithin(vtkDataSet* grid, const Outline::Extent&
 vtkSmartPointer<vtkDataSet> withCopies(
   vtkDataSet* mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& others)
 {
+  if (others.empty() && isGrid(mesh))
+  {
+    return mesh; // cells that are marked as copies may be other blocks'
+  }
   const vtkSmartPointer<vtkDataSet> own = withFlags(mesh, 0);
   if (others.empty())
   {

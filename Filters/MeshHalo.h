@@ -26,8 +26,9 @@ namespace filters
 enum PieceKinds : std::int32_t
 {
   NoPieces = 0,
-  PiecesOfMeshes = 1, // all datasets are unstructured meshes, curvilinear or rectilinear grids
-  PieceOfImage = 2    // one image
+  PiecesOfMeshes = 1, // all datasets are meshes, grids or images
+  PieceOfImage = 2,   // one image
+  PiecesOfBlocks = 4  // all datasets are images, which may be blocks of adaptive meshes
 };
 std::int32_t pieceKindsOf(vtkDataObject* data);
 
@@ -50,7 +51,8 @@ struct Outline
 
   bool isGrid = false;
   Extent extent{};
-  int layers = 0; // of cells that a grid needs of others, around its own
+  std::array<double, 15> place{}; // of an image: origin, spacing and direction
+  int layers = 0;                 // of cells that a grid needs of others, around its own
   std::vector<vtkIdType> ids;
   std::vector<PointName> names;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceWorker.h"
 
+#include "AmrPiece.h"
 #include "FieldFromImage.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <map>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -56,6 +58,20 @@ void forEach(std::size_t count, const Work& work)
 
 } // namespace
 
+struct PieceWorker::FieldOfBlocks
+{
+  AmrField field;
+  Tally tally;
+  std::string label;
+  std::vector<std::uint64_t> firstImages; // of each rank, and the number of all
+};
+
+PieceWorker::PieceWorker(vtkRefractiveIndex* self)
+  : Self(self)
+{
+}
+PieceWorker::~PieceWorker() = default;
+
 std::vector<char> pieceRequest(PieceWorker::Kind kind)
 {
   std::vector<char> request;
@@ -74,6 +90,7 @@ void PieceWorker::ReleasePiece()
   this->Lacks.clear();
   this->Parts.clear();
   this->Outlines.clear();
+  this->Field.reset();
   this->Piece.reset();
 }
 
@@ -116,6 +133,20 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
   {
     case Outline:
       this->GiveOutline(answer);
+      break;
+    case Levels:
+      this->MakeField(request);
+      break;
+    case CellsAround:
+    {
+      const FieldOfBlocks& own = this->FieldOf();
+      const auto other = request.Get<std::uint64_t>();
+      own.field.putCopies(
+        own.firstImages.at(other), own.firstImages.at(other + 1) - own.firstImages[other], answer);
+      break;
+    }
+    case AddCells:
+      this->FieldOf().field.addCopies(request);
       break;
     case Copies:
       this->GiveCopies(request, answer);
@@ -176,11 +207,14 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
   }
 }
 
-/// The ranges of fields that FieldMean needs; of each mesh its slot and where others may continue.
+/// The ranges of fields that FieldMean needs; whether the data are an image; whether all are images for AmrField, and these; of
+/// each mesh its slot and where others may continue.
 void PieceWorker::GiveOutline(std::vector<char>& answer)
 {
   this->ReleasePiece();
   std::vector<FieldMean::Range> ranges;
+  std::vector<AmrImage> images;
+  bool isImage = false, areAmrImages = true;
   if (hasPoints(this->Data))
   {
     try
@@ -191,6 +225,13 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
       {
         ranges = mean->rangesIn(source.leaves);
       }
+      isImage = vtkImageData::SafeDownCast(this->Data) != nullptr;
+      for (const Leaf& leaf : source.leaves)
+      {
+        const std::optional<AmrImage> image = isImage ? std::nullopt : amrImageOf(leaf);
+        areAmrImages = areAmrImages && image;
+        images.push_back(image.value_or(AmrImage{}));
+      }
       this->Parts = partsOf(this->Data, arraysOf(this->Self));
     }
     catch (const ArraysMissing& problem)
@@ -199,13 +240,16 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
     }
   }
   putAll(ranges, answer);
-  put(static_cast<std::uint64_t>(this->Parts.size()), answer);
+  put(isImage, answer);
+  put(areAmrImages, answer);
+  putAll(areAmrImages ? images : std::vector<AmrImage>(), answer);
   for (const Part& part : this->Parts)
   {
     const filters::Outline& outline = this->Outlines.emplace_back(outlineOf(part.data));
     putAll(part.slot, answer);
     put(outline.isGrid, answer);
     put(outline.extent, answer);
+    put(outline.place, answer);
     put(outline.layers, answer);
     putAll(outline.names, answer);
   }
@@ -234,11 +278,88 @@ void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
   }
 }
 
-/// The request: the piece's number, ranges of fields for FieldMean, the extent of all parts of an image, bodies for it, and
-/// packed cells of others. The answer: what the constructor of PiecesSource reads.
+/// The request: ranges of fields, the first image of each rank and the number of all, the levels of all blocks, and this
+/// rank's number.
+void PieceWorker::MakeField(Reader& request)
+{
+  const auto ranges = request.GetAll<std::vector<FieldMean::Range>>();
+  const auto firstImages = request.GetAll<std::vector<std::uint64_t>>();
+  AmrLevels levels{};
+  levels.flat = request.Get<int>();
+  levels.origin = request.Get<std::array<double, 3>>();
+  levels.levels.resize(request.Get<std::uint64_t>());
+  for (AmrLevel& level : levels.levels)
+  {
+    level.spacing = request.Get<std::array<double, 3>>();
+    level.cells = request.Get<Counts>();
+    level.blocks = request.GetAll<std::vector<AmrBlock>>();
+  }
+  const auto rank = request.Get<std::uint64_t>();
+  Source source;
+  Tally tally;
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (const Part& part : this->Parts)
+  {
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), part.data);
+  }
+  this->Parts.clear();
+  this->Outlines.clear();
+  if (blocks->GetNumberOfBlocks() > 0)
+  {
+    source = this->SourceOf(blocks, ranges);
+  }
+  AmrField field(levels, source, tally, {}, firstImages.at(rank));
+  this->Field.reset(new FieldOfBlocks{ std::move(field), tally, source.label, firstImages });
+}
+
+PieceWorker::FieldOfBlocks& PieceWorker::FieldOf()
+{
+  if (!this->Field)
+  {
+    throw std::runtime_error(
+      "A rank does not have its blocks of the input any more. Update the filter again.");
+  }
+  return *this->Field;
+}
+
+/// The request: the piece's number, what the data are, and what that needs, see PieceOfParts(). The answer: what the
+/// constructor of PiecesSource reads.
 void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
 {
   this->Number = request.Get<std::uint64_t>();
+  const auto kind = request.Get<DataKind>();
+  if (!this->Lacks.empty())
+  {
+    this->Piece = std::make_unique<MeshPiece>(
+      std::vector<vtkSmartPointer<vtkDataSet>>(), CellTree::Reconstruction::Linear);
+    throw ArraysMissing(this->Lacks);
+  }
+  Tally tally;
+  std::string label;
+  if (kind == Blocks)
+  {
+    FieldOfBlocks& made = this->FieldOf();
+    tally = made.tally;
+    label = made.label;
+    this->Piece = std::make_unique<AmrPiece>(std::move(made.field));
+    this->Field.reset();
+  }
+  else
+  {
+    this->Piece = this->PieceOfParts(kind, request, tally, label);
+  }
+  put(this->Piece->summary(), answer);
+  put(tally, answer);
+  putAll(label, answer);
+  putAll(this->Piece->warning(), answer);
+  put(this->Piece->meshKey(), answer);
+}
+
+/// Of meshes or an image. The rest of the request: ranges of fields for FieldMean, the extent of all parts of an image,
+/// bodies for it, and packed cells of others.
+std::unique_ptr<const DataPiece> PieceWorker::PieceOfParts(
+  DataKind kind, Reader& request, Tally& tally, std::string& label)
+{
   const auto ranges = request.GetAll<std::vector<FieldMean::Range>>();
   const auto whole = request.Get<Outline::Extent>();
   const vtkSmartPointer<vtkDataObject> bodies =
@@ -251,33 +372,19 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
     Part part = unpack(reader);
     copies[std::move(part.slot)].push_back(std::move(part.data));
   }
+  const Outline::Extent own = this->Outlines.empty() ? whole : this->Outlines[0].extent;
   std::vector<vtkSmartPointer<vtkDataSet>> parts;
   for (const Part& part : this->Parts)
   {
     parts.push_back(withCopies(part.data, copies[part.slot]));
   }
-  const Outline::Extent own = this->Outlines.empty() ? whole : this->Outlines[0].extent;
   this->Parts.clear();
   this->Outlines.clear();
   copies.clear();
-
-  if (!this->Lacks.empty())
-  {
-    this->Piece = std::make_unique<MeshPiece>(
-      std::vector<vtkSmartPointer<vtkDataSet>>(), CellTree::Reconstruction::Linear);
-    throw ArraysMissing(this->Lacks);
-  }
-  Tally tally;
-  std::string label;
   const std::shared_ptr<PieceMesh> before = std::exchange(this->Mesh, nullptr);
-  auto* image = parts.size() == 1 ? vtkImageData::SafeDownCast(parts[0]) : nullptr;
-  this->Piece = image ? this->PieceOfImage(image, { whole, own }, bodies, ranges, tally, label)
-                      : this->PieceOfMeshes(parts, ranges, before, tally, label);
-  put(this->Piece->summary(), answer);
-  put(tally, answer);
-  putAll(label, answer);
-  putAll(this->Piece->warning(), answer);
-  put(this->Piece->meshKey(), answer);
+  return kind == Image && !parts.empty() ? this->PieceOfImage(vtkImageData::SafeDownCast(parts[0]),
+                                             { whole, own }, bodies, ranges, tally, label)
+                                         : this->PieceOfMeshes(parts, ranges, before, tally, label);
 }
 
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(

@@ -29,7 +29,10 @@ public:
   /// The first bytes of each message. Other messages on the same channel have other numbers.
   enum Kind : std::uint32_t
   {
-    Outline = 200, // the surfaces of its meshes, the extents of its grids
+    Outline = 200, // the surfaces of its meshes, the extents of its grids, the places of its blocks
+    Levels,        // of the blocks of all ranks
+    CellsAround,   // those of another rank
+    AddCells,      // of other ranks, around its own
     Copies,        // cells around points that others have, too
     Make,          // the piece, with others' copies
     Boundary,      // of the piece, or its values alone
@@ -39,6 +42,13 @@ public:
     Forget,        // the piece
     Answer
   };
+  /// What data that stay are.
+  enum DataKind : std::uint32_t
+  {
+    Meshes,
+    Image,
+    Blocks
+  };
   enum State : std::int32_t
   {
     Done,
@@ -47,10 +57,8 @@ public:
   };
 
   /// With the properties of `self`, which must outlive this.
-  explicit PieceWorker(vtkRefractiveIndex* self)
-    : Self(self)
-  {
-  }
+  explicit PieceWorker(vtkRefractiveIndex* self);
+  ~PieceWorker();
 
   /// What the rank has of the input until the piece is made.
   void SetData(vtkDataObject* data) { this->Data = data; }
@@ -72,8 +80,11 @@ private:
   void Respond(Reader& request, std::vector<char>& answer);
   void GiveOutline(std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
+  void MakeField(Reader& request);
   void MakePiece(Reader& request, std::vector<char>& answer);
   void ReleasePiece();
+  std::unique_ptr<const DataPiece> PieceOfParts(
+    DataKind kind, Reader& request, Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfMeshes(
     const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
     const std::vector<FieldMean::Range>& ranges, const std::shared_ptr<PieceMesh>& before,
@@ -89,6 +100,9 @@ private:
   std::vector<Part> Parts;
   std::vector<filters::Outline> Outlines; // of them
   std::string Lacks;                      // what to say where the data have not the arrays
+  struct FieldOfBlocks;
+  FieldOfBlocks& FieldOf();
+  std::unique_ptr<FieldOfBlocks> Field; // until others' cells have come
   std::unique_ptr<const DataPiece> Piece;
   std::shared_ptr<PieceMesh> Mesh; // of the last piece of meshes
   std::uint64_t Number = 0;        // of the piece

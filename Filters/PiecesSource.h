@@ -3,9 +3,9 @@
 #pragma once
 
 #include "GasBoundary.h"
-#include "ImagePiece.h"
 #include "LatticesOfMesh.h"
-#include "MeshFaces.h"
+#include "PieceBoundaries.h"
+#include "PieceRanks.h"
 #include "PieceWorker.h"
 #include "RefractivityModels.h"
 
@@ -21,21 +21,6 @@
 namespace filters
 {
 
-/// The ranks, each with a PieceWorker; rank 0 is the first.
-class PieceRanks
-{
-public:
-  PieceRanks() = default;
-  PieceRanks(const PieceRanks&) = delete;
-  PieceRanks& operator=(const PieceRanks&) = delete;
-  virtual ~PieceRanks() = default;
-
-  virtual std::size_t Count() const = 0;
-  /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. Throws
-  /// std::runtime_error where a rank does not answer.
-  virtual std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) = 0;
-};
-
 /// What of a PiecesSource depends on the meshes alone, and not on their values: it is kept from one time step to the next.
 struct PiecesMesh
 {
@@ -48,9 +33,9 @@ struct PiecesMesh
 };
 
 /**
- * The refractivity of meshes, or of an image, that are spread over several ranks, for the tree on rank 0. Each rank keeps
- * its own cells or points and samples them; what rank 0 has is the boundary of all: of the faces of each rank's cells those
- * that no other rank's face meets; of an image the faces around points without gas.
+ * The refractivity of meshes, of an image or of adaptive blocks that are spread over several ranks, for the tree on rank 0.
+ * Each rank keeps its own cells or points and samples them; what rank 0 has is the boundary of all: of the faces of each
+ * rank's cells those that no other rank's face meets; of an image or of blocks the faces around points or cells without gas.
  */
 class PiecesSource : public schlieren::MediumSource
 {
@@ -85,32 +70,12 @@ private:
   static BoxKey keyOf(const schlieren::Box& box);
   static LatticeKey keyOf(const schlieren::Lattice& lattice);
 
-  /// What the ranks answer about their boundaries, see DataPiece::putBoundary().
-  struct BoundaryOfMeshes
-  {
-    std::vector<CellTree::Sizes> sizes;
-    std::vector<double> cells;
-    Faces faces;
-
-    void add(Reader& reader, std::int64_t ofRank);
-  };
-  struct BoundaryOfImage
-  {
-    std::size_t parts = 0;
-    Point origin{};
-    std::array<double, 3> spacing{};
-    std::array<double, 9> direction{};
-    BoundaryFaces faces;
-    std::vector<ImagePiece::OuterValue> outer;
-
-    void add(Reader& reader);
-  };
-
-  std::vector<std::vector<char>> requestsForPieces(vtkDataObject* bodies) const;
   void findBoundary(vtkDataObject* bodies, Outside outside, PiecesMesh kept,
     std::vector<std::uint64_t> keys, const WorkProgress& progress);
   void makeBoundary(
     BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress);
+  void makeBoundary(
+    BoundaryOfAmr of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress);
   void makeBoundary(BoundaryOfImage of, vtkDataObject* bodies, const WorkProgress& progress);
   std::vector<std::vector<char>> request(std::vector<std::vector<char>> requests) const;
   std::vector<char> request(PieceWorker::Kind kind) const;
@@ -128,6 +93,7 @@ private:
   std::array<double, 3> VoxelShape{ 1, 1, 1 };
   std::array<double, 9> Direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
   CellTree::Content All{};
+  std::array<double, 3> Reach{}; // see DataPiece::Summary
   std::shared_ptr<const GasBoundary> Boundary;
   PiecesMesh Mesh{};
   double Ambient = 0;

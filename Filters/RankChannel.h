@@ -33,8 +33,8 @@ namespace filters
 namespace ranks
 {
 
-/// What a rank has of an input: numbers of points and cells, bounds.
-using Holdings = std::array<double, 8>;
+/// What a rank has of an input: numbers of points and cells, bounds, and a number that is the same only if the meshes are.
+using Holdings = std::array<double, 9>;
 
 /// The first bytes of messages. Those of rays have other numbers.
 enum Kind : std::uint32_t

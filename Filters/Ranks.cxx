@@ -6,12 +6,14 @@
 #include "GatheredData.h"
 #include "InputDescription.h"
 #include "MeshHalo.h"
+#include "MeshKey.h"
 #include "RankChannel.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -23,6 +25,7 @@
 #include "vtkRectilinearGrid.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
+#include "vtkUniformGridAMR.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -53,9 +56,40 @@ constexpr double secondsForInputs = 10;
 constexpr double partsOfOwnTime = 10;
 constexpr double secondsWithout = 2; // where nothing upstream runs
 
+/// Adds where a dataset is, and some of its points and cells.
+void addPlaces(Hash& hash, vtkDataSet* data)
+{
+  const auto addPoint = [&](vtkIdType id)
+  {
+    double at[3];
+    data->GetPoint(id, at);
+    hash.add(at, 3);
+  };
+  const vtkIdType most = 200;
+  const auto forSome = [most](vtkIdType count, const auto& add)
+  {
+    for (vtkIdType n = 0; n < std::min(count, most); ++n)
+    {
+      add(count <= most ? n : n * (count / most));
+    }
+  };
+  double bounds[6];
+  data->GetBounds(bounds);
+  hash.add(bounds, 6);
+  forSome(data->GetNumberOfPoints(), addPoint);
+  vtkNew<vtkIdList> points;
+  forSome(data->GetNumberOfCells(),
+    [&](vtkIdType cell)
+    {
+      data->GetCellPoints(cell, points);
+      std::for_each(points->begin(), points->end(), addPoint);
+    });
+}
+
 Holdings holdingsOf(vtkDataObject* input)
 {
   Holdings holdings{};
+  Hash places;
   vtkBoundingBox box;
   for (vtkDataObject* leaf : leavesOf(input))
   {
@@ -72,12 +106,14 @@ Holdings holdingsOf(vtkDataObject* input)
         }
       }
       box.AddBounds(data->GetBounds());
+      addPlaces(places, data);
     }
   }
   if (box.IsValid())
   {
     box.GetBounds(holdings.data() + 2);
   }
+  holdings[8] = static_cast<double>(places.value() >> 11); // exact
   return holdings;
 }
 
@@ -132,7 +168,7 @@ bool isDivisible(vtkInformation* inInfo, double maxCells)
   return vtkUnstructuredGrid::SafeDownCast(data) || vtkRectilinearGrid::SafeDownCast(data) ||
     vtkStructuredGrid::SafeDownCast(data) || vtkMultiBlockDataSet::SafeDownCast(data) ||
     vtkPartitionedDataSetCollection::SafeDownCast(data) ||
-    vtkPartitionedDataSet::SafeDownCast(data);
+    vtkPartitionedDataSet::SafeDownCast(data) || vtkUniformGridAMR::SafeDownCast(data);
 }
 
 void requestPiece(vtkInformation* inInfo, int piece, int pieces)
@@ -560,7 +596,7 @@ bool FilterRanks::Meeting::CanStayInPieces(double maxCells) const
   {
     cells += holdings[rank][1];
   }
-  cells /= (kinds & PieceOfImage) != 0 ? cellsOfImageForOne : 1;
+  cells /= (kinds & (PieceOfImage | PiecesOfBlocks)) != 0 ? cellsOfImageForOne : 1;
   return kinds != NoPieces && ranks.size() > 1 && cells > maxCells;
 }
 

@@ -11,6 +11,7 @@
 #include "GasChoices.h"
 #include "ImageSource.h"
 #include "MeshSearch.h"
+#include "PiecesSource.h"
 #include "RefractivityOfBodies.h"
 #include "SamplingBox.h"
 

@@ -5,6 +5,7 @@
 #include "ChannelRanks.h"
 #include "InputDescription.h"
 #include "MeshSearch.h"
+#include "PiecesSource.h"
 #include "Ranks.h"
 #include "RefractiveIndexInternals.h"
 #include "RefractivityOfBodies.h"

@@ -83,6 +83,9 @@ public:
   /// True: what the data are is known to other processes, and contentOf() and sample() need to be prepared for, many at
   /// once. contentOf(bounds()) and rangeOfField() never do.
   virtual bool isRemote() const { return false; }
+  /// True: the value of a point may depend a little on the lattice that it belongs to. Then lattices are those that are requested
+  /// of remote sources, so that the medium does not depend on where the data are.
+  virtual bool dependsOnLattice() const { return false; }
   /// Until the next call, contentOf() answers for these boxes. Called by one thread, as the next one.
   virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
   /// The same of sample() and lattices.

@@ -187,3 +187,29 @@ inline void expectSame(const schlieren::MediumSource& whole, const schlieren::Me
   EXPECT_LT(worst, 1e2 * tolerance);
   EXPECT_LT(std::sqrt(squares / count), tolerance);
 }
+
+/// The ranges of values in boxes, to the last bit: so trees are divided in the same way.
+inline void expectSameContents(
+  const schlieren::MediumSource& whole, const schlieren::MediumSource& pieces)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1, 0.8);
+  std::vector<schlieren::Box> boxes;
+  for (int i = 0; i < 60; ++i)
+  {
+    const Vec low{ place(random), place(random), place(random) };
+    const double size = 0.01 * (1 + i);
+    boxes.push_back({ low, { low[0] + size, low[1] + size, low[2] + size } });
+  }
+  pieces.prepareContents(boxes);
+  for (const schlieren::Box& box : boxes)
+  {
+    const auto a = whole.contentOf(box), b = pieces.contentOf(box);
+    if (a.hasGas)
+    {
+      EXPECT_EQ(a.lowest, b.lowest);
+      EXPECT_EQ(a.highest, b.highest);
+      EXPECT_EQ(a.cellSize, b.cellSize);
+    }
+  }
+}

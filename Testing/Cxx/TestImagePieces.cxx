@@ -6,6 +6,7 @@
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
@@ -108,23 +109,7 @@ TEST(ImagePieces, SayTheSameOfBoxes)
   {
     Ranks ranks(partsOf(extents, [](const Extent& extent) { return imageOf(extent); }));
     const auto pieces = ranks.make();
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> place(-1, 0.8);
-    std::vector<schlieren::Box> boxes;
-    for (int i = 0; i < 60; ++i)
-    {
-      const Vec low{ place(random), place(random), place(random) };
-      const double size = 0.01 * (1 + i);
-      boxes.push_back({ low, { low[0] + size, low[1] + size, low[2] + size } });
-    }
-    pieces->prepareContents(boxes);
-    for (const schlieren::Box& box : boxes)
-    {
-      const auto a = whole->contentOf(box), b = pieces->contentOf(box);
-      EXPECT_EQ(a.lowest, b.lowest);
-      EXPECT_EQ(a.highest, b.highest);
-      EXPECT_EQ(a.cellSize, b.cellSize);
-    }
+    expectSameContents(*whole, *pieces);
   }
 }
 
@@ -163,6 +148,26 @@ TEST(ImagePieces, WallsAndBodiesGoOn)
       expectSame(*whole, *ranks.make(bodies), 1e-5);
     }
   }
+}
+
+// As parts of a partitioned dataset, too; but not where some of it is missing between them.
+TEST(ImagePieces, MayBePartsOfAComposite)
+{
+  const auto parted = [](const Extent& extent)
+  {
+    vtkNew<vtkPartitionedDataSet> parts;
+    parts->SetPartition(0, imageOf(extent));
+    return Data(parts);
+  };
+  Ranks ranks(partsOf(cuts()[1], parted));
+  expectSame(*inOnePiece(imageOf()), *ranks.make(), precision);
+
+  const std::vector<Extent> apart{ { -7, 8, 3, 38, 0, 27 }, { 12, 34, 3, 38, 0, 27 } };
+  Ranks ranksApart(partsOf(apart, parted));
+  const auto pieces = ranksApart.make();
+  const schlieren::Box gap{ { -0.18, 0.1, -0.1 }, { -0.12, 0.2, 0.1 } };
+  pieces->prepareContents({ gap });
+  EXPECT_FALSE(pieces->contentOf(gap).hasGas);
 }
 
 TEST(ImagePieces, PartsOfDifferentImagesAreRefused)

@@ -298,9 +298,9 @@ TEST(Pieces, GiveTheValuesOnTheirBoundaryAlone)
 TEST(Pieces, AreOfMeshesAndImagesWithVolume)
 {
   using namespace filters;
-  EXPECT_EQ(pieceKindsOf(nullptr), PiecesOfMeshes | PieceOfImage);
-  EXPECT_EQ(
-    pieceKindsOf(vtkSmartPointer<vtkUnstructuredGrid>::New()), PiecesOfMeshes | PieceOfImage);
+  constexpr std::int32_t any = PiecesOfMeshes | PieceOfImage | PiecesOfBlocks;
+  EXPECT_EQ(pieceKindsOf(nullptr), any);
+  EXPECT_EQ(pieceKindsOf(vtkSmartPointer<vtkUnstructuredGrid>::New()), any);
   EXPECT_EQ(pieceKindsOf(wholeMesh()), PiecesOfMeshes);
   EXPECT_EQ(pieceKindsOf(gridOf({ 0, 2, 0, 2, 0, 2 })), PiecesOfMeshes);
   EXPECT_EQ(
@@ -311,6 +311,11 @@ TEST(Pieces, AreOfMeshesAndImagesWithVolume)
   EXPECT_EQ(pieceKindsOf(flat), NoPieces);
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, cube(3));
+  EXPECT_EQ(pieceKindsOf(blocks), PiecesOfMeshes | PiecesOfBlocks);
+  blocks->SetBlock(1, wholeMesh());
+  EXPECT_EQ(pieceKindsOf(blocks), PiecesOfMeshes);
+  blocks->SetBlock(0, flat);
+  blocks->SetBlock(1, nullptr);
   EXPECT_EQ(pieceKindsOf(blocks), NoPieces);
 }
 

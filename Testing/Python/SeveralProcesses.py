@@ -119,6 +119,21 @@ def put_place(image, extent):
     image.SetSpacing(2 / n, 2 / n, 2 / n)
     image.SetExtent(*extent)
 
+def put_block(blocks, level, at):
+    block = vtkImageData()
+    size = 0.125 / 2**level
+    block.SetDimensions(9, 9, 9)
+    block.SetSpacing(size, size, size)
+    block.SetOrigin(*(np.array(at) * 8 * size - 1 / 2**level))
+    x, y, z = (block.GetOrigin()[i] + size * (np.arange(8) + 0.5) for i in range(3))
+    x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
+    rho = 1.2 + 0.1 * np.exp(-(x * x + y * y + z * z) / 0.16)
+    rho[np.broadcast_to((abs(x + 0.5) < 0.2) & (abs(y - 0.1) < 0.2) & (abs(z - 0.2) < 0.4), rho.shape)] = np.nan
+    values = numpy_to_vtk(rho.ravel(), deep=1)
+    values.SetName("rho")
+    block.GetCellData().AddArray(values)
+    blocks.SetBlock(level * 8 + at[0] + 2 * at[1] + 4 * at[2], block)
+
 isGrid = kind in ("image", "rectilinear", "curvilinear")
 first, last = (n * rank // number, n * (rank + 1) // number) if isGrid else (0, n)
 z, y, x = np.meshgrid(axis(first, last), axis(0, n), axis(0, n), indexing="ij")
@@ -141,6 +156,14 @@ elif kind == "curvilinear":
     points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], 1), deep=1))
     output.SetPoints(points)
     put_values(output, x, y, z)
+elif kind == "amr":
+    # A cube of 8 blocks, in its middle 8 of half the size, and again, one by one to the ranks: those of three ranks have
+    # the same numbers of cells and the same bounds.
+    for n in range(24):
+        if n * 7 % number == rank:
+            put_block(output, n // 8, [n % 2, n // 2 % 2, n // 4 % 2])
+        else:
+            output.SetBlock(n, None)
 else:
     image = vtkImageData()
     put_place(image, extent)
@@ -180,11 +203,12 @@ def gathered():
     found = {}
     for kind, output in (("image", "vtkImageData"), ("rectilinear", "vtkRectilinearGrid"),
                          ("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
-                         ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid")):
+                         ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid"),
+                         ("amr", "vtkMultiblockDataSet")):
         source = ProgrammableSource(OutputDataSetType=output, Script=BALL.replace("KIND", repr(kind)),
                                     ScriptRequestInformation=WHOLE_EXTENT.replace(
-                                        "IS_GRID", str(output != "vtkUnstructuredGrid")))
-        density = ["CELLS" if kind == "cell data" else "POINTS", "rho"]
+                                        "IS_GRID", str(kind in ("image", "rectilinear", "curvilinear"))))
+        density = ["CELLS" if kind in ("cell data", "amr") else "POINTS", "rho"]
         seen = Schlieren(Input=source, Density=density, ImageSize=[40, 40], ViewDirection=[0.2, -0.6, -0.8])
         for array in ("Intensity", "Deflection", "OpticalPathDifference"):
             found[f"{kind}: {array}"] = image_array(seen, array)
@@ -196,22 +220,27 @@ def gathered():
 def in_pieces():
     """Data that stay where they are, cut by straight and oblique planes: images, which mind small steps of the density
     where pieces meet, and a body. Without one, an image on one rank keeps its grid."""
-    from paraview.simple import ProgrammableSource, Sphere, Transform, Wavelet
+    from paraview.simple import (GroupDatasets, PointDatatoCellData, ProgrammableSource, Sphere, Transform,
+                                 Wavelet)
     from plugin_testing import Schlieren, image_array
     found = {}
     body = Sphere(Radius=0.2, Center=[0.5, 0.2, 0])
     sources = [(kind, ProgrammableSource(OutputDataSetType=output, Script=BALL.replace("KIND", repr(kind)),
                                          ScriptRequestInformation=WHOLE_EXTENT.replace(
-                                             "IS_GRID", str(output != "vtkUnstructuredGrid"))),
-                ["CELLS" if kind == "cell data" else "POINTS", "rho"],
-                body if kind in ("image", "hexahedra") else None)
+                                             "IS_GRID", str(kind in ("image", "rectilinear", "curvilinear")))),
+                ["CELLS" if kind in ("cell data", "amr") else "POINTS", "rho"],
+                body if kind in ("image", "hexahedra", "amr") else None)
                for kind, output in (("image", "vtkImageData"), ("rectilinear", "vtkRectilinearGrid"),
                                     ("curvilinear", "vtkStructuredGrid"), ("hexahedra", "vtkUnstructuredGrid"),
-                                    ("tetrahedra", "vtkUnstructuredGrid"), ("cell data", "vtkUnstructuredGrid"))]
+                                    ("tetrahedra", "vtkUnstructuredGrid"), ("amr", "vtkMultiblockDataSet"),
+                                    ("cell data", "vtkUnstructuredGrid"))]
     # Each rank gets what it requests.
     wavelet = Wavelet(WholeExtent=[-12, 14, -10, 10, -9, 9])
+    blocks = GroupDatasets(Input=[PointDatatoCellData(Input=Wavelet(WholeExtent=[*ends, -10, 10, -9, 9]))
+                                  for ends in ((-12, 0), (0, 14))])
     sources[:0] = [("requested image", wavelet, ["POINTS", "RTData"], Sphere(Radius=4, Center=[1, 2, 3])),
-                   ("requested grid", Transform(Input=wavelet), ["POINTS", "RTData"], None)]
+                   ("requested grid", Transform(Input=wavelet), ["POINTS", "RTData"], None),
+                   ("requested blocks", blocks, ["CELLS", "RTData"], None)]
     for kind, source, density, bodies in sources:
         seen = Schlieren(Input=source, Density=density, Bodies=bodies, ImageSize=[100, 100],
                          ViewDirection=[0.2, -0.6, -0.8], GatherLimit=0, MediumTolerance=1e-3,
@@ -576,7 +605,7 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 24 + 41 + 8 + 10, len(one)
+    assert isSanitized or len(one) == 72 + 18 + 28 + 51 + 8 + 10, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}

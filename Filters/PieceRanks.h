@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "DataParts.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace filters
+{
+
+/// The ranks, each with a PieceWorker; rank 0 is the first.
+class PieceRanks
+{
+public:
+  PieceRanks() = default;
+  PieceRanks(const PieceRanks&) = delete;
+  PieceRanks& operator=(const PieceRanks&) = delete;
+  virtual ~PieceRanks() = default;
+
+  virtual std::size_t Count() const = 0;
+  /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. Throws
+  /// std::runtime_error where a rank does not answer.
+  virtual std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) = 0;
+};
+
+/// Begins to read an answer. Throws what the rank says that is wrong: ArraysMissing or std::runtime_error.
+Reader readerOf(const std::vector<char>& answer);
+
+} // namespace filters

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "AmrLevels.h"
+#include "PieceRanks.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+class vtkDataObject;
+
+namespace filters
+{
+
+/// What rank 0 requests of the ranks so that each makes its piece.
+struct PieceRequests
+{
+  std::optional<AmrLevels> levels;     // where the data are such blocks
+  std::vector<std::vector<char>> make; // PieceWorker::Make, of each rank
+};
+
+/// Finds the ranges of fields that are those of all ranks, where the parts of one mesh on several ranks meet, or the levels of
+/// blocks, and which cells of others each rank needs there. `number`: of the pieces. `bodies`: may be null. Throws
+/// std::runtime_error where a rank fails.
+PieceRequests requestsForPieces(PieceRanks& ranks, std::uint64_t number, vtkDataObject* bodies);
+
+} // namespace filters
