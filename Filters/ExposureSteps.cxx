@@ -73,12 +73,15 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 
 //------------------------------------------------------------------------------
 ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
-  vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure)
+  vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
+  FilterRanks::Part part, double maxCells)
   : Filter(filter)
   , Ranks(ranks)
   , Inputs(inputs)
   , Outputs(outputs)
   , Exposure(exposure)
+  , Part(part)
+  , MaxCells(maxCells)
 {
 }
 
@@ -95,7 +98,7 @@ ExposureSteps::~ExposureSteps()
   }
   // So that the next request is not taken for another one.
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps.front());
-  this->Ranks.Request(this->Filter, this->Inputs);
+  this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
   for (int port = 0; port < this->Outputs->GetNumberOfInformationObjects(); ++port)
   {
     // Else the pipeline gives them that of the input.
@@ -115,12 +118,12 @@ void ExposureSteps::Meet(std::vector<std::string> arrays)
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::MeetWithAll(double maxCells)
+void ExposureSteps::MeetWithAll()
 {
   this->Meeting->SetOutcome(true); // the other ranks do the same
   this->Meeting.reset();
-  this->Ranks.SetTooFew(maxCells);
-  this->Ranks.Request(this->Filter, this->Inputs);
+  this->Ranks.SetTooFew(this->MaxCells);
+  this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
   this->UpdateInputs();
   this->Meet(this->Arrays);
 }
@@ -150,7 +153,7 @@ bool ExposureSteps::Resume()
   this->Meeting.reset(); // the other ranks continue, too
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
-  this->Ranks.Request(this->Filter, this->Inputs);
+  this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
   this->UpdateInputs();
   this->Meet(this->Arrays);
   return true;
@@ -166,16 +169,23 @@ void ExposureSteps::Keep()
       ", which is within ExposureTime: see what is reported before. Repair that step, or set "
       "ExposureTime to 0.");
   }
-  const FilterRanks::Inputs inputs = this->Meeting->Gather();
-  for (int port = 0; port < Ports; ++port)
+  const FilterRanks::Inputs inputs = this->Meeting->Gather(this->MaxCells);
+  this->Keep(0, inputs.data);
+  this->Keep(1, inputs.bodies);
+}
+
+//------------------------------------------------------------------------------
+void ExposureSteps::KeepPiece() { this->Keep(0, vtkDataObject::GetData(this->Inputs[0])); }
+
+//------------------------------------------------------------------------------
+void ExposureSteps::Keep(int port, vtkDataObject* data)
+{
+  this->Earlier[port] = this->Later[port];
+  this->Later[port] = nullptr;
+  if (data)
   {
-    this->Earlier[port] = this->Later[port];
-    this->Later[port] = nullptr;
-    if (vtkDataObject* data = port == 0 ? inputs.data : inputs.bodies)
-    {
-      this->Later[port].TakeReference(data->NewInstance());
-      this->Later[port]->ShallowCopy(data);
-    }
+    this->Later[port].TakeReference(data->NewInstance());
+    this->Later[port]->ShallowCopy(data);
   }
 }
 
@@ -193,13 +203,20 @@ vtkSmartPointer<vtkDataObject> ExposureSteps::GetData(
   }
   catch (const std::runtime_error& difference)
   {
-    const std::vector<double>& steps = this->Exposure.Steps;
-    throw std::runtime_error("There are no data between the time steps " +
-      textOf(steps[instant.earlier]) + " and " + textOf(steps[instant.later]) +
-      ", which ExposureTime needs: " + difference.what() +
-      ". Set ExposureTime to 0, or give data with the same cells at all times, as Resample To "
-      "Image makes them.");
+    this->ThrowNoneBetween(instant, difference.what());
   }
+}
+
+//------------------------------------------------------------------------------
+void ExposureSteps::ThrowNoneBetween(
+  const TimeExposure::Instant& instant, const std::string& difference) const
+{
+  const std::vector<double>& steps = this->Exposure.Steps;
+  throw std::runtime_error("There are no data between the time steps " +
+    textOf(steps[instant.earlier]) + " and " + textOf(steps[instant.later]) +
+    ", which ExposureTime needs: " + difference +
+    ". Set ExposureTime to 0, or give data with the same cells at all times, as Resample To Image "
+    "makes them.");
 }
 
 } // namespace filters

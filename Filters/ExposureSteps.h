@@ -35,8 +35,10 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 class ExposureSteps
 {
 public:
+  /// `part`, `maxCells`: what was requested of the first step, see FilterRanks::Request(), and what Gather() is to leave where it is.
   ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks, vtkInformationVector** inputs,
-    vtkInformationVector* outputs, const TimeExposure& exposure);
+    vtkInformationVector* outputs, const TimeExposure& exposure, FilterRanks::Part part,
+    double maxCells);
   ~ExposureSteps();
   ExposureSteps(const ExposureSteps&) = delete;
   ExposureSteps& operator=(const ExposureSteps&) = delete;
@@ -46,28 +48,42 @@ public:
   FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
 
   /// Where pieces are too few, see FilterRanks: updates the inputs once more, all of them on rank 0, and meets again.
-  void MeetWithAll(double maxCells);
+  void MeetWithAll();
 
   /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
   bool Resume();
 
-  /// On rank 0: keeps the data of the step. Throws std::runtime_error with a message for the user, as the next one.
+  /// On rank 0: keeps the data of the step, of data that stay on their ranks its own piece. Throws std::runtime_error with a
+  /// message for the user, as the next ones.
   void Keep();
+  /// On other ranks: keeps their pieces.
+  void KeepPiece();
 
   /// The data of an input at an instant, for which the step must be there.
   bool IsBefore(const TimeExposure::Instant& instant) const { return this->Step < instant.later; }
   vtkSmartPointer<vtkDataObject> GetData(int port, const TimeExposure::Instant& instant) const;
 
+  /// Says that there are no data at an instant because those before and after it differ.
+  [[noreturn]] void ThrowNoneBetween(
+    const TimeExposure::Instant& instant, const std::string& difference) const;
+
+  /// On other ranks: what they have kept of the step, and of the one before; may be null.
+  vtkDataObject* GetPiece() const { return this->Later[0]; }
+  vtkDataObject* GetEarlierPiece() const { return this->Earlier[0]; }
+
 private:
   static constexpr int Ports = 2;
 
   void UpdateInputs();
+  void Keep(int port, vtkDataObject* data);
 
   vtkAlgorithm* Filter;
   FilterRanks& Ranks;
   vtkInformationVector** Inputs;
   vtkInformationVector* Outputs;
   const TimeExposure& Exposure;
+  const FilterRanks::Part Part;
+  const double MaxCells;
   std::vector<std::string> Arrays;
   std::optional<FilterRanks::Meeting> Meeting;
   std::size_t Step = 0;

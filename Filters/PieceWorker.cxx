@@ -3,6 +3,7 @@
 #include "PieceWorker.h"
 
 #include "AmrPiece.h"
+#include "BetweenTimeSteps.h"
 #include "FieldFromImage.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
@@ -79,6 +80,12 @@ std::vector<char> pieceRequest(PieceWorker::Kind kind)
   return request;
 }
 
+void PieceWorker::SetData(vtkDataObject* data, vtkDataObject* earlier)
+{
+  this->Data = this->Later = data;
+  this->Earlier = earlier;
+}
+
 void PieceWorker::Release()
 {
   this->ReleasePiece();
@@ -131,6 +138,16 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
 {
   switch (request.Get<std::uint32_t>())
   {
+    case Instant:
+    {
+      const auto ratio = request.Get<double>();
+      this->Data = this->Later;
+      if (ratio < 1)
+      {
+        this->Data = betweenTimeSteps(this->Earlier, this->Later, ratio);
+      }
+      break;
+    }
     case Outline:
       this->GiveOutline(answer);
       break;

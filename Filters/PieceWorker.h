@@ -29,7 +29,8 @@ public:
   /// The first bytes of each message. Other messages on the same channel have other numbers.
   enum Kind : std::uint32_t
   {
-    Outline = 200, // the surfaces of its meshes, the extents of its grids, the places of its blocks
+    Instant = 200, // between two time steps
+    Outline,       // the surfaces of its meshes, the extents of its grids, the places of its blocks
     Levels,        // of the blocks of all ranks
     CellsAround,   // those of another rank
     AddCells,      // of other ranks, around its own
@@ -60,11 +61,11 @@ public:
   explicit PieceWorker(vtkRefractiveIndex* self);
   ~PieceWorker();
 
-  /// What the rank has of the input until the piece is made.
-  void SetData(vtkDataObject* data) { this->Data = data; }
+  /// What the rank has of the input until the piece is made, and of the time step before; may be null.
+  void SetData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
   void Release(); // the piece, and what is kept for the next one
 
-  static bool IsFor(std::uint32_t kind) { return kind >= Outline && kind < Answer; }
+  static bool IsFor(std::uint32_t kind) { return kind >= Instant && kind < Answer; }
 
   /// The answer to a request. Throws nothing: errors are answers.
   std::vector<char> Respond(const std::vector<char>& request);
@@ -96,7 +97,9 @@ private:
   const DataPiece& PieceOf(Reader& request) const;
 
   vtkRefractiveIndex* Self;
-  vtkDataObject* Data = nullptr;
+  vtkSmartPointer<vtkDataObject> Data; // Later, or what is between the two
+  vtkDataObject* Later = nullptr;
+  vtkDataObject* Earlier = nullptr;
   std::vector<Part> Parts;
   std::vector<filters::Outline> Outlines; // of them
   std::string Lacks;                      // what to say where the data have not the arrays

@@ -298,7 +298,21 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
     {
       steps.Resume();
       inside.Images.SetWorkers(steps.GetMeeting().GetWorkers());
+      this->Medium->SetPieceChannels(steps.GetMeeting().GetChannels());
       steps.Keep();
+    }
+    if (inside.Ranks.AreInPieces())
+    {
+      const bool isBetween = instant.earlier != instant.later;
+      try
+      {
+        this->Medium->SetInstantOfPieces(isBetween ? instant.ratio : 1);
+      }
+      catch (const std::runtime_error& problem)
+      {
+        steps.ThrowNoneBetween(instant, problem.what());
+      }
+      inside.MediumTime = 0; // what is known of the input is the same for all instants
     }
     const auto input = steps.GetData(0, instant);
     const auto bodies = steps.GetData(vtkRefractiveIndex::BODIES, instant);

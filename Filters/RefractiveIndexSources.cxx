@@ -283,7 +283,26 @@ void vtkRefractiveIndex::ReleasePieces()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceData(vtkDataObject* data) { this->Pieces->GetOwn().SetData(data); }
+void vtkRefractiveIndex::SetPieceData(vtkDataObject* data, vtkDataObject* earlier)
+{
+  this->Pieces->GetOwn().SetData(data, earlier);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetInstantOfPieces(double ratio)
+{
+  std::vector<char> request = pieceRequest(PieceWorker::Instant);
+  put(ratio, request);
+  std::vector<std::vector<char>> requests(this->Pieces->Count(), request);
+  requests[0].clear();
+  for (const std::vector<char>& answer : this->Pieces->Request(std::move(requests)))
+  {
+    if (!answer.empty())
+    {
+      readerOf(answer); // throws what has gone wrong
+    }
+  }
+}
 
 //------------------------------------------------------------------------------
 std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)

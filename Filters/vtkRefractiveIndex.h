@@ -521,8 +521,9 @@ public:
   /**
    * The same of meshes that stay on several ranks, on rank 0, while the channels to all other ranks (null: one that
    * has not come) are set, as they have to be whenever anything is requested of the source. `input`: what rank 0 has.
-   * CanUsePieces(): whether the properties are for that. On the other ranks SetPieceData() says what they have, and
-   * RespondForPiece() answers messages; empty: a message is for somebody else.
+   * CanUsePieces(): whether the properties are for that. On the other ranks SetPieceData() says what they have, of a time
+   * step and of the one before, and RespondForPiece() answers messages; empty: a message is for somebody else.
+   * SetInstantOfPieces() makes what these have that between the two steps, `ratio` of the way; 1 or more: of the later.
    */
   VTK_WRAPEXCLUDE bool CanUsePieces();
   VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
@@ -530,7 +531,8 @@ public:
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
   /// Frees them on all ranks, where there are any.
   VTK_WRAPEXCLUDE void ReleasePieces();
-  VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data);
+  VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
+  VTK_WRAPEXCLUDE void SetInstantOfPieces(double ratio);
   VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
   ///@}
 

@@ -133,7 +133,7 @@ std::vector<char> vtkSchlierenFilter::Respond(const std::vector<char>& message)
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CanUsePieces()
 {
-  return this->Inside->Exposure.IsNone() && !this->ColorByField && this->Medium->CanUsePieces();
+  return !this->ColorByField && this->Medium->CanUsePieces();
 }
 
 //------------------------------------------------------------------------------
@@ -432,7 +432,10 @@ int vtkSchlierenFilter::RequestData(
   setComplete(outputVector);
 
   this->PassToMedium();
-  ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure);
+  const double maxCells =
+    this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
+  ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure,
+    partFor(this->CanUsePieces()), maxCells);
   const bool isExposure = !inside.Exposure.IsNone();
   inside.Instant = 0;
   inside.FirstInstant.reset();
@@ -447,13 +450,21 @@ int vtkSchlierenFilter::RequestData(
   {
     const auto serve = [&]()
     {
-      this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
+      if (isExposure && this->CanUsePieces())
+      {
+        steps.KeepPiece();
+        this->Medium->SetPieceData(steps.GetPiece(), steps.GetEarlierPiece());
+      }
+      else
+      {
+        this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
+      }
       return steps.GetMeeting().Serve(threadsFrom(*this),
         [this](const std::vector<char>& message) { return this->Respond(message); });
     };
     if (serve())
     {
-      steps.MeetWithAll(this->GatherLimit);
+      steps.MeetWithAll();
       serve();
     }
     while (steps.Resume())
@@ -463,11 +474,9 @@ int vtkSchlierenFilter::RequestData(
     this->Medium->SetPieceData(nullptr);
     return 1;
   }
-  const double maxCells =
-    this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
   if (steps.GetMeeting().AreTooFew(maxCells))
   {
-    steps.MeetWithAll(maxCells);
+    steps.MeetWithAll();
   }
   const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
 

@@ -294,9 +294,9 @@ def distributed():
     return found
 
 
-def exposed():
+def exposed(limit=10000000):
     """Exposures over time steps of which each rank has a part, or rank 0 all."""
-    from paraview.simple import ProgrammableSource
+    from paraview.simple import ProgrammableSource, Sphere
     from plugin_testing import Schlieren, image_array
     found = {}
     times = """
@@ -307,16 +307,20 @@ time = info.Get(key) if info.Has(key) else 0
 info.Set(self.GetExecutive().TIME_STEPS(), [0, 0.5, 1], 3)
 info.Set(self.GetExecutive().TIME_RANGE(), [0, 1], 2)
 """
-    for kind, output in (("image", "vtkImageData"), ("tetrahedra", "vtkUnstructuredGrid")):
+    body = Sphere(Radius=0.2, Center=[0.5, 0.2, 0])
+    for kind, output in (("image", "vtkImageData"), ("tetrahedra", "vtkUnstructuredGrid"), ("amr", "vtkMultiblockDataSet")):
         moving = times + BALL.replace("KIND", repr(kind)).replace("-(x * x", "-((x - time)**2") + """
 output.GetInformation().Set(output.DATA_TIME_STEP(), time)
 """
         source = ProgrammableSource(OutputDataSetType=output, Script=moving,
                                     ScriptRequestInformation=WHOLE_EXTENT.replace(
                                         "IS_GRID", str(output == "vtkImageData")) + steps)
-        seen = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[40, 40], ExposureTime=0.8,
-                         ExposureSamples=4)
+        seen = Schlieren(Input=source, Density=["CELLS" if kind == "amr" else "POINTS", "rho"], ImageSize=[40, 40],
+                         Bodies=body if kind == "image" else None, ExposureTime=0.8, ExposureSamples=4, GatherLimit=limit)
         seen.UpdatePipeline(0.5)
+        seen.UpdatePropertyInformation()
+        stays = is_rank0() and on_several() and limit == 0
+        assert ("on their ranks" in seen.GetProperty("Grid").GetData()) == stays, kind
         assert "ExposureInterval" in seen.FieldData.keys() or not is_rank0()
         for array in ("Intensity", "Deflection", "OpticalPathDifference"):
             found[f"{kind}: {array}"] = image_array(seen, array)
@@ -324,6 +328,11 @@ output.GetInformation().Set(output.DATA_TIME_STEP(), time)
         seen.UpdatePipeline(0.5)
         found[f"{kind} at the instant"] = image_array(seen, "Intensity")
     return found
+
+
+def exposed_in_pieces():
+    """The same of data that stay where they are."""
+    return exposed(limit=0)
 
 
 # A source with 16 x 16 x 16 cells at times 0 and 1. As KIND says, each rank has all of them whatever is requested
@@ -582,7 +591,7 @@ def run_results(command, parts, file):
 
 
 SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed,
-         "distributed": distributed}
+         "exposed pieces": exposed_in_pieces, "distributed": distributed}
 PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     np.savez(sys.argv[-1], **{f"{part}: {name}": values for part in sys.argv[1:-1]
@@ -605,8 +614,8 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 28 + 51 + 8 + 10, len(one)
-    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "distributed"] if not isSanitized else [])),
+    assert isSanitized or len(one) == 72 + 18 + 28 + 51 + 12 + 12 + 10, len(one)
+    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
         assert several.keys() == {name for name in one if name.split(":")[0] in parts}
@@ -614,7 +623,7 @@ else:
             assert values.size > 0, name
             if name.startswith("gathered: cell data"):  # means of points' cells are summed in another order
                 assert np.abs(one[name] - values).max() <= 1e-6 * np.abs(one[name]).max(), name
-            elif name.startswith("pieces:"):
+            elif name.startswith(("pieces:", "exposed pieces:")):
                 # Slabs of two cells do not reach all that values of cells depend on.
                 limit = 1e-3 if name.startswith("pieces: cell data") else 1e-6
                 assert np.abs(one[name] - values).max() <= limit * np.abs(one[name]).max(), name
