@@ -4,34 +4,43 @@
 
 #include "DataParts.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <limits>
 
 namespace filters
 {
 
 DataPiece::Summary AmrPiece::summary() const
 {
-  return { this->Field.ownCells(), this->Field.ownBounds(),
-    this->Field.contentOf(this->Field.bounds()), this->Field.reachOfContent() };
+  return { this->Fields[0].ownCells(), this->Fields[0].ownBounds(),
+    this->Fields[0].contentOf(this->Fields[0].bounds()), this->Fields[0].reachOfContent() };
 }
 
 void AmrPiece::putBoundary(std::vector<char>& message) const
 {
-  const BoundaryFaces faces = this->Field.faces();
+  const BoundaryFaces faces = this->Fields[0].faces();
   put(BoundaryKind::OfAmr, message);
   putAll(faces.surface.points, message);
   putAll(faces.surface.corners, message);
   putAll(faces.hidesBehind, message);
-  putAll(this->Field.outerValues(), message);
+  putAll(this->Fields[0].outerValues(), message);
+}
+
+schlieren::MediumSource::FieldRange AmrPiece::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const CellTree::Content content =
+    this->Fields[static_cast<std::size_t>(field) + 1].contentOf(box);
+  return { content.lowest, content.highest };
 }
 
 DataPiece::Samples AmrPiece::sample(const schlieren::Lattice& lattice) const
 {
-  if (!this->Field.mayHold(lattice))
+  if (!this->Fields[0].mayHold(lattice))
   {
     return {};
   }
-  Samples samples{ this->Field.gasAt(lattice), {} };
+  Samples samples{ this->Fields[0].gasAt(lattice), {} };
   const CellBox all{ { 0, 0, 0 }, lattice.points };
   CellBox part{ all.end, all.begin }; // around its own points
   std::size_t point = 0;
@@ -49,11 +58,27 @@ DataPiece::Samples AmrPiece::sample(const schlieren::Lattice& lattice) const
     return {};
   }
   std::vector<double> values(volume(part.size()));
-  this->Field.sample(lattice, part, values.data());
-  samples.values.resize(samples.found.size());
-  std::size_t from = 0;
-  forCells(part.begin, part.size(),
-    [&](int i, int j, int k) { samples.values[all.index(i, j, k)] = values[from++]; });
+  const auto sampleTo = [&](const AmrField& field, double* to)
+  {
+    field.sample(lattice, part, values.data());
+    std::size_t from = 0;
+    forCells(part.begin, part.size(),
+      [&](int i, int j, int k) { to[all.index(i, j, k)] = values[from++]; });
+  };
+  const std::size_t size = samples.found.size();
+  samples.values.resize(size);
+  sampleTo(this->Fields[0], samples.values.data());
+  samples.fields.resize((this->Fields.size() - 1) * size, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t number = 1; number < this->Fields.size(); ++number)
+  {
+    double* const to = samples.fields.data() + (number - 1) * size;
+    sampleTo(this->Fields[number], to);
+    const std::vector<unsigned char> isKnown = this->Fields[number].gasAt(lattice);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      to[i] = isKnown[i] ? to[i] : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
   return samples;
 }
 

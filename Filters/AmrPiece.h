@@ -5,6 +5,7 @@
 #include "AmrField.h"
 #include "DataPiece.h"
 
+#include <utility>
 #include <vector>
 
 namespace filters
@@ -14,9 +15,9 @@ namespace filters
 class AmrPiece : public DataPiece
 {
 public:
-  /// `field`: with the copies of others' cells.
-  explicit AmrPiece(AmrField field)
-    : Field(std::move(field))
+  /// N, and further fields of the same blocks; with the copies of others' cells.
+  explicit AmrPiece(std::vector<AmrField> fields)
+    : Fields(std::move(fields))
   {
   }
 
@@ -25,13 +26,16 @@ public:
   void putBoundary(std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override
   {
-    return this->Field.contentOf(box);
+    return this->Fields[0].contentOf(box);
   }
-  bool holds(const Point& place) const override { return this->Field.hasGasAt(place); }
+  bool holds(const Point& place) const override { return this->Fields[0].hasGasAt(place); }
+  int fields() const override { return static_cast<int>(this->Fields.size()) - 1; }
+  schlieren::MediumSource::FieldRange rangeOfField(
+    int field, const schlieren::Box& box) const override;
   Samples sample(const schlieren::Lattice& lattice) const override;
 
 private:
-  AmrField Field;
+  std::vector<AmrField> Fields;
 };
 
 } // namespace filters

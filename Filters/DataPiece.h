@@ -61,11 +61,21 @@ public:
   /// Whether there is gas of its own.
   virtual bool holds(const Point& place) const = 0;
 
-  /// N at the points of a lattice that it holds. `found` is empty where no point is.
+  /// Further fields, and the range of one in a box; see MediumSource.
+  virtual int fields() const { return 0; }
+  virtual schlieren::MediumSource::FieldRange rangeOfField(
+    int /*field*/, const schlieren::Box& /*box*/) const
+  {
+    return { 1, 0 };
+  }
+
+  /// N at the points of a lattice that it holds, and the fields there: field after field, NaN where one has no value. `found` is
+  /// empty where no point is.
   struct Samples
   {
     std::vector<unsigned char> found;
     std::vector<double> values;
+    std::vector<double> fields{};
   };
   virtual Samples sample(const schlieren::Lattice& lattice) const = 0;
 };

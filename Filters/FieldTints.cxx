@@ -48,8 +48,10 @@ void requireFields(vtkRefractiveIndex* medium)
   filters::fieldMeanFrom(medium); // whether its lists belong together
 }
 
-/// Makes of a filter one that finds a single field, between 0 and 1, as if it were a refractivity.
-void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::size_t field)
+/// Makes of a filter one that finds a single field, between 0 and 1, as if it were a refractivity. `ranges`: see
+/// forFieldImages().
+void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::size_t field,
+  const std::vector<FieldMean::Range>& ranges)
 {
   reader->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
   reader->SetRefractivityScale(1);
@@ -63,6 +65,11 @@ void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::si
   {
     reader->AddFieldRange(medium->GetFieldRanges()[2 * field]);
     reader->AddFieldRange(medium->GetFieldRanges()[2 * field + 1]);
+  }
+  else if (!ranges.empty() && ranges[field][0] < ranges[field][1])
+  {
+    reader->AddFieldRange(ranges[field][0]);
+    reader->AddFieldRange(ranges[field][1]);
   }
 }
 
@@ -106,18 +113,59 @@ void probe(vtkImageData* image, vtkImageData* grid)
 
 } // namespace
 
-std::vector<FieldValues> fieldValues(
-  vtkRefractiveIndex* medium, vtkDataObject* input, const filters::Source& ofMedium)
+std::vector<RangeOfField> rangesOfFields(vtkRefractiveIndex* medium, vtkDataObject* input)
+{
+  requireFields(medium);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const RangeOfField none{ { infinity, -infinity }, "" };
+  std::vector<RangeOfField> ranges(medium->GetFields().size(), none);
+  for (std::size_t number = 0; number < ranges.size(); ++number)
+  {
+    vtkNew<vtkRefractiveIndex> reader;
+    chooseField(reader, medium, number, {});
+    try
+    {
+      const Source source = chooseSource(reader, input);
+      ranges[number].range = std::get<FieldMean>(source.model).rangesIn(source.leaves).at(0);
+    }
+    catch (const ArraysMissing& problem)
+    {
+      ranges[number].lacks = problem.what();
+    }
+  }
+  return ranges;
+}
+
+std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* input,
+  const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges)
 {
   requireFields(medium);
   std::vector<FieldValues> fields(medium->GetFields().size());
   for (std::size_t number = 0; number < fields.size(); ++number)
   {
     vtkNew<vtkRefractiveIndex> reader;
-    chooseField(reader, medium, number);
+    chooseField(reader, medium, number, ranges);
     FieldValues& field = fields[number];
-    field.source = filters::chooseSource(reader, input);
-    std::get<filters::FieldMean>(field.source.model).findRanges(field.source.leaves);
+    try
+    {
+      field.source = filters::chooseSource(reader, input);
+      if (ranges.empty())
+      {
+        std::get<filters::FieldMean>(field.source.model).findRanges(field.source.leaves);
+      }
+    }
+    catch (const ArraysMissing&)
+    {
+      if (ranges.empty())
+      {
+        throw;
+      }
+      field.source.model = modelFrom(reader); // another part has it
+    }
+    if (!ranges.empty())
+    {
+      std::get<FieldMean>(field.source.model).setRanges({ ranges[number] });
+    }
     const std::vector<filters::Leaf> found = std::move(field.source.leaves);
     field.source.leaves.clear();
     for (const filters::Leaf& leaf : ofMedium.leaves)
@@ -162,7 +210,8 @@ void bringToCells(FieldValues& field)
 }
 
 void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
-  int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
+  const std::vector<FieldMean::Range>& ranges)
 {
   requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
@@ -174,7 +223,7 @@ void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageDa
   for (std::size_t field = 0; field < count; ++field)
   {
     vtkNew<vtkRefractiveIndex> reader;
-    chooseField(reader, medium, field);
+    chooseField(reader, medium, field, ranges);
     reader->SetSamplingDimensions(refractivity->GetDimensions());
     reader->SetSamplingBounds(medium->GetSamplingBounds());
     reader->SetNumberOfThreads(threads);

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "RefractivitySource.h"
+#include "TransferFunctions.h"
 
 #include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -31,17 +33,28 @@ struct FieldValues
   std::vector<vtkSmartPointer<vtkDataArray>> made; // those of its arrays that are not the input's
 };
 
-/// The fields of `medium`, which takes `ofMedium` from `input`.
-std::vector<FieldValues> fieldValues(
-  vtkRefractiveIndex* medium, vtkDataObject* input, const filters::Source& ofMedium);
+/// Of a field in a part of the data.
+struct RangeOfField
+{
+  FieldMean::Range range; // low > high: it has no values
+  std::string lacks;      // what to say where no part has the field; empty: this one has
+};
+/// Of the fields of `medium`.
+std::vector<RangeOfField> rangesOfFields(vtkRefractiveIndex* medium, vtkDataObject* input);
+
+/// The fields of `medium`, which takes `ofMedium` from `input`. `ranges`: of all parts of the data, of which this may not have
+/// all fields; empty: these are all.
+std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* input,
+  const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
 
 /// Makes values at points those of cells: their mean.
 void bringToCells(FieldValues& field);
 
 /// Calls take(number, image) for each field with its values, as if they were a refractivity, on the grid of
-/// `refractivity`, which `medium` has made from `input`.
+/// `refractivity`, which `medium` has made from `input`. `ranges`: of all parts of the data; empty: this is all.
 void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
-  int threads, const std::function<void(std::size_t, vtkImageData*)>& take);
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
+  const std::vector<FieldMean::Range>& ranges = {});
 
 /// The gradients of the fields on the grid of `refractivity`, which `medium` has made from `input`: what
 /// schlieren::FieldGradients::values needs.

@@ -467,15 +467,25 @@ DataPiece::Samples ImagePiece::sample(const schlieren::Lattice& lattice) const
   std::vector<unsigned char> hasGas(values.size());
   this->sample(0, part, values.data(), hasGas.data());
   const CellBox of{ { 0, 0, 0 }, lattice.points };
-  std::size_t from = 0;
-  forCells(begin, part.points,
-    [&](int i, int j, int k)
+  const auto forOwn = [&](const auto& visit)
+  {
+    std::size_t from = 0;
+    forCells(begin, part.points, [&](int i, int j, int k) { visit(from++, of.index(i, j, k)); });
+  };
+  forOwn(
+    [&](std::size_t from, std::size_t to)
     {
-      const std::size_t to = of.index(i, j, k);
       samples.found[to] = hasGas[from];
       samples.values[to] = values[from];
-      ++from;
     });
+  for (int field = 1; field <= this->fields(); ++field)
+  {
+    const std::size_t first = samples.fields.size();
+    samples.fields.resize(first + size, nan);
+    this->sample(static_cast<std::size_t>(field), part, values.data(), nullptr);
+    forOwn([&](std::size_t from, std::size_t to)
+      { samples.fields[first + to] = hasGas[from] ? values[from] : nan; });
+  }
   return samples;
 }
 

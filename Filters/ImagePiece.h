@@ -56,7 +56,7 @@ public:
 
   /// One more field at the same points, as if it were a refractivity. It gets the next number, from 1 on.
   void addField(vtkImageData* values, int threads);
-  std::size_t fields() const { return this->Splines.size() - 1; }
+  int fields() const override { return static_cast<int>(this->Splines.size()) - 1; }
 
   bool hasGas() const { return this->KnownPoints > 0; }
   schlieren::Box bounds() const;
@@ -90,6 +90,12 @@ public:
   void putBoundary(std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
+  schlieren::MediumSource::FieldRange rangeOfField(
+    int field, const schlieren::Box& box) const override
+  {
+    const ImageSpline::Range range = this->rangeOf(static_cast<std::size_t>(field) + 1, box);
+    return { range.lowest, range.highest };
+  }
   Samples sample(const schlieren::Lattice& lattice) const override;
 
 private:

@@ -50,7 +50,7 @@ void ImageSource::sample(const schlieren::Lattice& lattice, double* refractivity
 schlieren::MediumSource::FieldRange ImageSource::rangeOfField(
   int field, const schlieren::Box& box) const
 {
-  return this->Piece.rangeOf(static_cast<std::size_t>(field + 1), box);
+  return this->Piece.rangeOfField(field, box);
 }
 
 void ImageSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
@@ -58,9 +58,9 @@ void ImageSource::sampleWithFields(const schlieren::Lattice& lattice, double* re
 {
   this->sample(lattice, refractivity, places, distances);
   const auto size = static_cast<std::size_t>(lattice.size());
-  for (std::size_t field = 1; field <= this->Piece.fields(); ++field)
+  for (int field = 1; field <= this->Piece.fields(); ++field)
   {
-    this->Piece.sample(field, lattice, values, nullptr);
+    this->Piece.sample(static_cast<std::size_t>(field), lattice, values, nullptr);
     for (std::size_t point = 0; point < size; ++point)
     {
       values[point] = places[point] == schlieren::Place::Gas

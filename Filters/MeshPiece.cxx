@@ -140,12 +140,16 @@ DataPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
   const auto size = static_cast<std::size_t>(lattice.size());
   samples.found.resize(size);
   samples.values.resize(size);
-  this->Values.sample(lattice, samples.values.data(), samples.found.data());
+  CellsOfLattice cells;
+  this->Values.sample(lattice, samples.values.data(), samples.found.data(),
+    this->Fields.count() > 0 ? &cells : nullptr);
   if (std::none_of(
         samples.found.begin(), samples.found.end(), [](unsigned char is) { return is != 0; }))
   {
-    samples = {};
+    return {};
   }
+  samples.fields.resize(static_cast<std::size_t>(this->Fields.count()) * size);
+  this->Fields.sample(lattice, cells, samples.fields.data());
   return samples;
 }
 

@@ -5,6 +5,7 @@
 #include "CellSampler.h"
 #include "CellTree.h"
 #include "DataPiece.h"
+#include "FieldsOfMesh.h"
 #include "MeshFaces.h"
 
 #include "vtkSmartPointer.h"
@@ -42,6 +43,12 @@ public:
     CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr);
   std::shared_ptr<PieceMesh> mesh() const { return this->Mesh; }
 
+  /// One more field of its cells; see FieldsOfMesh.
+  void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
+  {
+    this->Fields.add(leaves, this->Cells.mesh());
+  }
+
   Summary summary() const override;
   std::string warning() const override { return this->Mesh->warning; }
   std::uint64_t meshKey() const override { return this->Mesh->key; }
@@ -50,6 +57,12 @@ public:
   void putBoundaryValues(std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
+  int fields() const override { return this->Fields.count(); }
+  schlieren::MediumSource::FieldRange rangeOfField(
+    int field, const schlieren::Box& box) const override
+  {
+    return this->Fields.rangeOf(field, box);
+  }
   Samples sample(const schlieren::Lattice& lattice) const override;
 
 private:
@@ -60,6 +73,7 @@ private:
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
+  FieldsOfMesh Fields;
 };
 
 } // namespace filters

@@ -150,16 +150,7 @@ schlieren::MediumSource::Content MeshSource::contentOf(const schlieren::Box& box
 void MeshSource::addField(
   const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const WorkProgress& progress)
 {
-  this->Fields.push_back(std::unique_ptr<const FieldOfMesh>(
-    new FieldOfMesh{ leaves, CellTree(pointersTo(leaves), this->Cells.mesh(), progress) }));
-}
-
-schlieren::MediumSource::FieldRange MeshSource::rangeOfField(
-  int field, const schlieren::Box& box) const
-{
-  const CellTree& cells = this->Fields[static_cast<std::size_t>(field)]->cells;
-  const CellTree::Content content = cells.content({ box.low, box.high });
-  return { content.lowest, content.highest };
+  this->Fields.add(leaves, this->Cells.mesh(), progress);
 }
 
 void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
@@ -172,7 +163,7 @@ void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* ref
     known->copyTo(places, distances, size);
     if (values)
     {
-      this->sampleFields(lattice, known->cells, values);
+      this->Fields.sample(lattice, known->cells, values);
     }
     return;
   }
@@ -183,36 +174,11 @@ void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* ref
   this->Boundary->sample(lattice, isFound.data(), places, distances);
   if (values)
   {
-    this->sampleFields(lattice, cells, values);
+    this->Fields.sample(lattice, cells, values);
   }
   if (isKept)
   {
     this->Lattices->keep(lattice, knownLattice(std::move(cells), places, distances, size));
-  }
-}
-
-/// In the cells that hold the lattice's points.
-void MeshSource::sampleFields(
-  const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
-{
-  const auto size = static_cast<std::size_t>(lattice.size());
-  std::vector<unsigned char> isFound(size, 0);
-  for (const std::uint16_t point : cells.points)
-  {
-    isFound[point] = 1;
-  }
-  for (const auto& field : this->Fields)
-  {
-    const CellSampler sampler(field->cells);
-    if (!sampler.sample(lattice, cells, values))
-    {
-      sampler.sample(lattice, values, isFound.data());
-    }
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      values[i] = isFound[i] ? values[i] : std::numeric_limits<double>::quiet_NaN();
-    }
-    values += size;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "CellSampler.h"
 #include "CellTree.h"
+#include "FieldsOfMesh.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
 #include "LatticesOfMesh.h"
@@ -83,15 +84,15 @@ public:
     this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
   }
 
-  int fields() const override { return static_cast<int>(this->Fields.size()); }
-  FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
+  int fields() const override { return this->Fields.count(); }
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override
+  {
+    return this->Fields.rangeOf(field, box);
+  }
   void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
-  void sampleFields(
-    const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
-
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;
   CellSampler Values;
@@ -102,12 +103,7 @@ private:
   schlieren::Box Bounds;
   std::string Warning; // of the mesh
 
-  struct FieldOfMesh
-  {
-    std::vector<vtkSmartPointer<vtkDataSet>> leaves;
-    CellTree cells; // on the mesh of Cells
-  };
-  std::vector<std::unique_ptr<const FieldOfMesh>> Fields;
+  FieldsOfMesh Fields;
 };
 
 } // namespace filters

@@ -6,6 +6,7 @@
 #include "MeshHalo.h"
 #include "PieceWorker.h"
 #include "RefractivityModels.h"
+#include "RefractivitySource.h"
 
 #include "vtkDataObject.h"
 
@@ -13,6 +14,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -59,16 +61,19 @@ struct Outlines
   std::map<Slot, std::unordered_map<PointName, std::vector<Point>, HashOfPlace>> points;
   std::map<Slot, std::vector<Grid>> grids;
   std::vector<FieldMean::Range> ranges;
+  std::vector<FieldMean::Range> rangesOfFields; // that tint
   bool isImage = false; // also of a composite, where each rank has one part of it
   Outline::Extent whole{ 0, -1, 0, -1, 0, -1 }; // of the image
   bool areAmrImages = true;                     // all that the ranks have
   std::vector<AmrImage> images;
   std::vector<std::uint64_t> firstImages; // of each rank, and the number of all
 
-  explicit Outlines(PieceRanks& ranks);
+  Outlines(PieceRanks& ranks, bool hasFields);
 
 private:
   void add(std::uint32_t rank, Reader& reader);
+  void addFields(Reader& reader);
+  std::vector<std::string> lacks; // of each field; empty: a rank has it
 
   struct PartOfImage
   {
@@ -82,10 +87,21 @@ private:
   std::size_t parts = 0; // of any kind
 };
 
-Outlines::Outlines(PieceRanks& ranks)
+/// Joins the ranges of fields on two ranks.
+void join(std::vector<FieldMean::Range>& ranges, const std::vector<FieldMean::Range>& others)
 {
-  const auto answers = ranks.Request(
-    std::vector<std::vector<char>>(ranks.Count(), pieceRequest(PieceWorker::Outline)));
+  ranges.resize(std::max(ranges.size(), others.size()), { infinity, -infinity });
+  for (std::size_t n = 0; n < others.size(); ++n)
+  {
+    ranges[n] = { std::min(ranges[n][0], others[n][0]), std::max(ranges[n][1], others[n][1]) };
+  }
+}
+
+Outlines::Outlines(PieceRanks& ranks, bool hasFields)
+{
+  std::vector<char> request = pieceRequest(PieceWorker::Outline);
+  put(hasFields, request);
+  const auto answers = ranks.Request(std::vector<std::vector<char>>(ranks.Count(), request));
   for (std::uint32_t rank = 0; rank < answers.size(); ++rank)
   {
     Reader reader = readerOf(answers[rank]);
@@ -94,6 +110,28 @@ Outlines::Outlines(PieceRanks& ranks)
   }
   this->firstImages.push_back(this->images.size());
   this->isImage = this->isImage || this->arePartsOfOneImage();
+  for (const std::string& missing : this->lacks)
+  {
+    if (!missing.empty())
+    {
+      throw ArraysMissing(missing);
+    }
+  }
+}
+
+void Outlines::addFields(Reader& reader)
+{
+  join(this->rangesOfFields, reader.GetAll<std::vector<FieldMean::Range>>());
+  const auto count = reader.Get<std::uint64_t>();
+  for (std::size_t field = 0; field < count; ++field)
+  {
+    const auto lacking = reader.GetAll<std::string>();
+    if (field == this->lacks.size())
+    {
+      this->lacks.push_back(lacking);
+    }
+    this->lacks[field] = lacking.empty() ? lacking : this->lacks[field];
+  }
 }
 
 /// Whether they are all there is, and one on each rank, side by side.
@@ -121,13 +159,8 @@ bool Outlines::arePartsOfOneImage() const
 /// What PieceWorker::GiveOutline() has written.
 void Outlines::add(std::uint32_t rank, Reader& reader)
 {
-  const auto ofRank = reader.GetAll<std::vector<FieldMean::Range>>();
-  this->ranges.resize(std::max(this->ranges.size(), ofRank.size()), { infinity, -infinity });
-  for (std::size_t n = 0; n < ofRank.size(); ++n)
-  {
-    this->ranges[n] = { std::min(this->ranges[n][0], ofRank[n][0]),
-      std::max(this->ranges[n][1], ofRank[n][1]) };
-  }
+  join(this->ranges, reader.GetAll<std::vector<FieldMean::Range>>());
+  this->addFields(reader);
   const bool isPartOfImage = reader.Get<bool>();
   this->isImage = this->isImage || isPartOfImage;
   const bool areOfRank = reader.Get<bool>();
@@ -245,6 +278,7 @@ void exchangeBlocks(PieceRanks& ranks, const Outlines& outlines, const AmrLevels
 {
   std::vector<char> request = pieceRequest(PieceWorker::Levels);
   putAll(outlines.ranges, request);
+  putAll(outlines.rangesOfFields, request);
   putAll(outlines.firstImages, request);
   put(levels.flat, request);
   put(levels.origin, request);
@@ -291,10 +325,11 @@ void exchangeBlocks(PieceRanks& ranks, const Outlines& outlines, const AmrLevels
 
 } // namespace
 
-PieceRequests requestsForPieces(PieceRanks& ranks, std::uint64_t number, vtkDataObject* bodies)
+PieceRequests requestsForPieces(
+  PieceRanks& ranks, std::uint64_t number, vtkDataObject* bodies, bool hasFields)
 {
-  const Outlines outlines(ranks);
-  PieceRequests requests;
+  const Outlines outlines(ranks, hasFields);
+  PieceRequests requests{ {}, outlines.rangesOfFields.size(), {} };
   if (!outlines.isImage && outlines.areAmrImages && !outlines.images.empty())
   {
     requests.levels = findLevels(outlines.images);
@@ -312,6 +347,7 @@ PieceRequests requestsForPieces(PieceRanks& ranks, std::uint64_t number, vtkData
     return requests;
   }
   putAll(outlines.ranges, make);
+  putAll(outlines.rangesOfFields, make);
   put(outlines.whole, make);
   putAll(packedData(bodies, {}), make);
   requests.make.assign(ranks.Count(), make);

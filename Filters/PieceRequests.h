@@ -5,6 +5,7 @@
 #include "AmrLevels.h"
 #include "PieceRanks.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,12 +19,14 @@ namespace filters
 struct PieceRequests
 {
   std::optional<AmrLevels> levels;     // where the data are such blocks
+  std::size_t fields;                  // besides N
   std::vector<std::vector<char>> make; // PieceWorker::Make, of each rank
 };
 
 /// Finds the ranges of fields that are those of all ranks, where the parts of one mesh on several ranks meet, or the levels of
-/// blocks, and which cells of others each rank needs there. `number`: of the pieces. `bodies`: may be null. Throws
-/// std::runtime_error where a rank fails.
-PieceRequests requestsForPieces(PieceRanks& ranks, std::uint64_t number, vtkDataObject* bodies);
+/// blocks, and which cells of others each rank needs there. `number`: of the pieces. `bodies`: may be null. `hasFields`: whether
+/// they get the fields that tint. Throws std::runtime_error where a rank fails or none has a field.
+PieceRequests requestsForPieces(
+  PieceRanks& ranks, std::uint64_t number, vtkDataObject* bodies, bool hasFields);
 
 } // namespace filters

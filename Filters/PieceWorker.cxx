@@ -5,6 +5,7 @@
 #include "AmrPiece.h"
 #include "BetweenTimeSteps.h"
 #include "FieldFromImage.h"
+#include "FieldTints.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
 #include "GatheredData.h"
@@ -59,9 +60,9 @@ void forEach(std::size_t count, const Work& work)
 
 } // namespace
 
-struct PieceWorker::FieldOfBlocks
+struct PieceWorker::FieldsOfBlocks
 {
-  AmrField field;
+  std::vector<AmrField> fields; // the first is N
   Tally tally;
   std::string label;
   std::vector<std::uint64_t> firstImages; // of each rank, and the number of all
@@ -97,7 +98,7 @@ void PieceWorker::ReleasePiece()
   this->Lacks.clear();
   this->Parts.clear();
   this->Outlines.clear();
-  this->Field.reset();
+  this->Fields.reset();
   this->Piece.reset();
 }
 
@@ -149,21 +150,33 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       break;
     }
     case Outline:
-      this->GiveOutline(answer);
+      this->GiveOutline(request, answer);
       break;
     case Levels:
-      this->MakeField(request);
+      this->MakeFields(request);
       break;
     case CellsAround:
     {
-      const FieldOfBlocks& own = this->FieldOf();
+      const FieldsOfBlocks& own = this->OwnFields();
       const auto other = request.Get<std::uint64_t>();
-      own.field.putCopies(
-        own.firstImages.at(other), own.firstImages.at(other + 1) - own.firstImages[other], answer);
+      const std::size_t images = own.firstImages.at(other + 1) - own.firstImages[other];
+      for (std::size_t number = 0; number < own.fields.size(); ++number)
+      {
+        std::vector<char> copies;
+        own.fields[number].putCopies(own.firstImages[other], images, copies);
+        put(static_cast<std::uint64_t>(number), answer);
+        putAll(copies, answer);
+      }
       break;
     }
     case AddCells:
-      this->FieldOf().field.addCopies(request);
+      while (!request.IsAtEnd())
+      {
+        AmrField& field = this->OwnFields().fields.at(request.Get<std::uint64_t>());
+        const auto copies = request.GetAll<std::vector<char>>();
+        Reader reader(copies);
+        field.addCopies(reader);
+      }
       break;
     case Copies:
       this->GiveCopies(request, answer);
@@ -191,6 +204,13 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
             [&](const Point& place) { return piece.holds(place) ? 1 : 0; });
         });
       putAll(contents, answer);
+      for (int field = 0; field < piece.fields(); ++field)
+      {
+        for (const schlieren::Box& box : boxes)
+        {
+          put(piece.rangeOfField(field, box), answer);
+        }
+      }
       break;
     }
     case Hold:
@@ -212,6 +232,7 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       {
         putAll(ofLattice.found, answer);
         putAll(ofLattice.values, answer);
+        putAll(ofLattice.fields, answer);
       }
       break;
     }
@@ -224,12 +245,14 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
   }
 }
 
-/// The ranges of fields that FieldMean needs; whether the data are an image; whether all are images for AmrField, and these; of
-/// each mesh its slot and where others may continue.
-void PieceWorker::GiveOutline(std::vector<char>& answer)
+/// The request: whether the fields that tint are needed. The answer: the ranges of fields that FieldMean needs, and those of the
+/// ones that tint; whether the data are an image; whether all are images for AmrField, and these; of each mesh its slot and where
+/// others may continue.
+void PieceWorker::GiveOutline(Reader& request, std::vector<char>& answer)
 {
   this->ReleasePiece();
-  std::vector<FieldMean::Range> ranges;
+  std::vector<FieldMean::Range> ranges, rangesOfFields;
+  std::vector<std::string> lacks; // of the fields
   std::vector<AmrImage> images;
   bool isImage = false, areAmrImages = true;
   if (hasPoints(this->Data))
@@ -241,6 +264,13 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
       if (const auto* mean = std::get_if<FieldMean>(&source.model))
       {
         ranges = mean->rangesIn(source.leaves);
+      }
+      const bool hasFields = request.Get<bool>();
+      for (const RangeOfField& field :
+        hasFields ? filters::rangesOfFields(this->Self, this->Data) : std::vector<RangeOfField>())
+      {
+        rangesOfFields.push_back(field.range);
+        lacks.push_back(field.lacks);
       }
       isImage = vtkImageData::SafeDownCast(this->Data) != nullptr;
       for (const Leaf& leaf : source.leaves)
@@ -257,6 +287,12 @@ void PieceWorker::GiveOutline(std::vector<char>& answer)
     }
   }
   putAll(ranges, answer);
+  putAll(rangesOfFields, answer);
+  put(static_cast<std::uint64_t>(lacks.size()), answer);
+  for (const std::string& missing : lacks)
+  {
+    putAll(missing, answer);
+  }
   put(isImage, answer);
   put(areAmrImages, answer);
   putAll(areAmrImages ? images : std::vector<AmrImage>(), answer);
@@ -295,11 +331,12 @@ void PieceWorker::GiveCopies(Reader& request, std::vector<char>& answer) const
   }
 }
 
-/// The request: ranges of fields, the first image of each rank and the number of all, the levels of all blocks, and this
-/// rank's number.
-void PieceWorker::MakeField(Reader& request)
+/// The request: ranges of fields, and of those that tint, the first image of each rank and the number of all, the levels of all
+/// blocks, and this rank's number.
+void PieceWorker::MakeFields(Reader& request)
 {
   const auto ranges = request.GetAll<std::vector<FieldMean::Range>>();
+  const auto rangesOfFields = request.GetAll<std::vector<FieldMean::Range>>();
   const auto firstImages = request.GetAll<std::vector<std::uint64_t>>();
   AmrLevels levels{};
   levels.flat = request.Get<int>();
@@ -312,8 +349,6 @@ void PieceWorker::MakeField(Reader& request)
     level.blocks = request.GetAll<std::vector<AmrBlock>>();
   }
   const auto rank = request.Get<std::uint64_t>();
-  Source source;
-  Tally tally;
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (const Part& part : this->Parts)
   {
@@ -321,22 +356,35 @@ void PieceWorker::MakeField(Reader& request)
   }
   this->Parts.clear();
   this->Outlines.clear();
+  auto made = std::make_unique<FieldsOfBlocks>();
+  made->firstImages = firstImages;
+  const std::uint64_t first = firstImages.at(rank);
+  Source source;
+  std::vector<FieldValues> fields(rangesOfFields.size());
   if (blocks->GetNumberOfBlocks() > 0)
   {
     source = this->SourceOf(blocks, ranges);
+    fields = this->FieldsOf(blocks, source, rangesOfFields);
   }
-  AmrField field(levels, source, tally, {}, firstImages.at(rank));
-  this->Field.reset(new FieldOfBlocks{ std::move(field), tally, source.label, firstImages });
+  made->label = source.label;
+  made->fields.emplace_back(levels, source, made->tally, WorkProgress(), first);
+  for (FieldValues& field : fields)
+  {
+    Tally notReported;
+    bringToCells(field);
+    made->fields.emplace_back(levels, field.source, notReported, WorkProgress(), first);
+  }
+  this->Fields = std::move(made);
 }
 
-PieceWorker::FieldOfBlocks& PieceWorker::FieldOf()
+PieceWorker::FieldsOfBlocks& PieceWorker::OwnFields()
 {
-  if (!this->Field)
+  if (!this->Fields)
   {
     throw std::runtime_error(
       "A rank does not have its blocks of the input any more. Update the filter again.");
   }
-  return *this->Field;
+  return *this->Fields;
 }
 
 /// The request: the piece's number, what the data are, and what that needs, see PieceOfParts(). The answer: what the
@@ -355,11 +403,11 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   std::string label;
   if (kind == Blocks)
   {
-    FieldOfBlocks& made = this->FieldOf();
+    FieldsOfBlocks& made = this->OwnFields();
     tally = made.tally;
     label = made.label;
-    this->Piece = std::make_unique<AmrPiece>(std::move(made.field));
-    this->Field.reset();
+    this->Piece = std::make_unique<AmrPiece>(std::move(made.fields));
+    this->Fields.reset();
   }
   else
   {
@@ -370,14 +418,20 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   putAll(label, answer);
   putAll(this->Piece->warning(), answer);
   put(this->Piece->meshKey(), answer);
+  for (int field = 0; field < this->Piece->fields(); ++field)
+  {
+    put(this->Piece->rangeOfField(field, this->Piece->summary().bounds), answer);
+  }
 }
 
-/// Of meshes or an image. The rest of the request: ranges of fields for FieldMean, the extent of all parts of an image,
-/// bodies for it, and packed cells of others.
+/// Of meshes or an image. The rest of the request: ranges of fields for FieldMean, and of those that tint, the extent of all
+/// parts of an image, bodies for it, and packed cells of others.
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfParts(
   DataKind kind, Reader& request, Tally& tally, std::string& label)
 {
-  const auto ranges = request.GetAll<std::vector<FieldMean::Range>>();
+  Ranges ranges;
+  ranges.ofModel = request.GetAll<std::vector<FieldMean::Range>>();
+  ranges.ofFields = request.GetAll<std::vector<FieldMean::Range>>();
   const auto whole = request.Get<Outline::Extent>();
   const vtkSmartPointer<vtkDataObject> bodies =
     gatheredData({ request.GetAll<std::vector<char>>() });
@@ -405,11 +459,11 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfParts(
 }
 
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
-  const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
-  const std::vector<FieldMean::Range>& ranges, const std::shared_ptr<PieceMesh>& before,
-  Tally& tally, std::string& label)
+  const std::vector<vtkSmartPointer<vtkDataSet>>& parts, const Ranges& ranges,
+  const std::shared_ptr<PieceMesh>& before, Tally& tally, std::string& label)
 {
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+  std::vector<std::vector<vtkSmartPointer<vtkDataSet>>> leavesOfFields(ranges.ofFields.size());
   const bool isSmooth = this->Self->GetReconstruction() != vtkRefractiveIndex::LINEAR_IN_CELLS;
   if (!parts.empty())
   {
@@ -418,27 +472,38 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
     {
       data->SetBlock(data->GetNumberOfBlocks(), part);
     }
-    Source source = this->SourceOf(data, ranges);
+    Source source = this->SourceOf(data, ranges.ofModel);
     label = source.label;
     source.leaves.erase(std::remove_if(source.leaves.begin(), source.leaves.end(),
                           [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
       source.leaves.end());
     if (!source.leaves.empty())
     {
-      leaves = preparedLeaves(source, isSmooth ? CellValues::Known : CellValues::Averaged, tally);
+      const CellValues cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
+      leaves = preparedLeaves(source, cellValues, tally);
+      const std::vector<FieldValues> fields = this->FieldsOf(data, source, ranges.ofFields);
+      for (std::size_t number = 0; number < fields.size(); ++number)
+      {
+        Tally notReported;
+        leavesOfFields[number] = preparedLeaves(fields[number].source, cellValues, notReported);
+      }
     }
   }
   auto piece = std::make_unique<MeshPiece>(
     leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear, before);
   this->Mesh = piece->mesh();
+  for (const auto& ofField : leavesOfFields)
+  {
+    piece->addField(ofField);
+  }
   return piece;
 }
 
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,
-  ImagePiece::Extents extents, vtkDataObject* bodies, const std::vector<FieldMean::Range>& ranges,
-  Tally& tally, std::string& label) const
+  ImagePiece::Extents extents, vtkDataObject* bodies, const Ranges& ranges, Tally& tally,
+  std::string& label) const
 {
-  const Source source = this->SourceOf(image, ranges);
+  const Source source = this->SourceOf(image, ranges.ofModel);
   label = source.label;
   vtkNew<vtkImageData> refractivity;
   tally = convertImage(source, this->Self->GetDoublePrecision(), refractivity);
@@ -451,9 +516,24 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,
       --extents.own[high];
     }
   }
-  return std::make_unique<ImagePiece>(refractivity, extents,
-    turnedBack(bodies, gridFrom(refractivity).direction),
-    vtkSMPTools::GetEstimatedNumberOfThreads());
+  const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
+  auto piece = std::make_unique<ImagePiece>(
+    refractivity, extents, turnedBack(bodies, gridFrom(refractivity).direction), threads);
+  if (!ranges.ofFields.empty())
+  {
+    forFieldImages(
+      this->Self, image, refractivity, threads,
+      [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, ranges.ofFields);
+  }
+  return piece;
+}
+
+/// Those that tint.
+std::vector<FieldValues> PieceWorker::FieldsOf(
+  vtkDataObject* data, const Source& source, const std::vector<FieldMean::Range>& ranges) const
+{
+  return ranges.empty() ? std::vector<FieldValues>()
+                        : fieldValues(this->Self, data, source, ranges);
 }
 
 /// With the ranges of all ranks.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "DataPiece.h"
+#include "FieldTints.h"
 #include "ImagePiece.h"
 #include "MeshHalo.h"
 #include "MeshPiece.h"
@@ -78,22 +79,29 @@ public:
   };
 
 private:
+  /// Of all ranks.
+  struct Ranges
+  {
+    std::vector<FieldMean::Range> ofModel;
+    std::vector<FieldMean::Range> ofFields; // that tint
+  };
+
   void Respond(Reader& request, std::vector<char>& answer);
-  void GiveOutline(std::vector<char>& answer);
+  void GiveOutline(Reader& request, std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
-  void MakeField(Reader& request);
+  void MakeFields(Reader& request);
   void MakePiece(Reader& request, std::vector<char>& answer);
   void ReleasePiece();
   std::unique_ptr<const DataPiece> PieceOfParts(
     DataKind kind, Reader& request, Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfMeshes(
-    const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
-    const std::vector<FieldMean::Range>& ranges, const std::shared_ptr<PieceMesh>& before,
-    Tally& tally, std::string& label);
+    const std::vector<vtkSmartPointer<vtkDataSet>>& parts, const Ranges& ranges,
+    const std::shared_ptr<PieceMesh>& before, Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfImage(vtkImageData* image, ImagePiece::Extents extents,
-    vtkDataObject* bodies, const std::vector<FieldMean::Range>& ranges, Tally& tally,
-    std::string& label) const;
+    vtkDataObject* bodies, const Ranges& ranges, Tally& tally, std::string& label) const;
   Source SourceOf(vtkDataObject* data, const std::vector<FieldMean::Range>& ranges) const;
+  std::vector<FieldValues> FieldsOf(
+    vtkDataObject* data, const Source& source, const std::vector<FieldMean::Range>& ranges) const;
   const DataPiece& PieceOf(Reader& request) const;
 
   vtkRefractiveIndex* Self;
@@ -103,9 +111,9 @@ private:
   std::vector<Part> Parts;
   std::vector<filters::Outline> Outlines; // of them
   std::string Lacks;                      // what to say where the data have not the arrays
-  struct FieldOfBlocks;
-  FieldOfBlocks& FieldOf();
-  std::unique_ptr<FieldOfBlocks> Field; // until others' cells have come
+  struct FieldsOfBlocks;
+  FieldsOfBlocks& OwnFields();
+  std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
   std::unique_ptr<const DataPiece> Piece;
   std::shared_ptr<PieceMesh> Mesh; // of the last piece of meshes
   std::uint64_t Number = 0;        // of the piece

@@ -48,6 +48,18 @@ void extend(CellTree::Content& content, const CellTree::Content& by)
   }
 }
 
+void extend(
+  schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by)
+{
+  if (by.lowest <= by.highest)
+  {
+    const bool isFirst = range.lowest > range.highest;
+    range.lowest = isFirst ? by.lowest : std::min(range.lowest, by.lowest);
+    range.highest = isFirst ? by.highest : std::max(range.highest, by.highest);
+  }
+}
+
+constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
 constexpr CellTree::Content nothing{ 1, 0, { infinity, infinity, infinity } };
 
 } // namespace
@@ -78,12 +90,13 @@ std::vector<std::vector<char>> PiecesSource::request(std::vector<std::vector<cha
 }
 
 PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies,
-  Outside outside, PiecesMesh kept, const WorkProgress& progress)
+  Outside outside, bool hasFields, PiecesMesh kept, const WorkProgress& progress)
   : Ranks(std::move(ranks))
 {
   static std::atomic<std::uint64_t> sources{ 0 };
   this->Number = ++sources;
-  PieceRequests requests = requestsForPieces(*this->Ranks, this->Number, bodies);
+  PieceRequests requests = requestsForPieces(*this->Ranks, this->Number, bodies, hasFields);
+  this->RangesOfFields.resize(requests.fields, nowhere);
   progress.reach(0.2);
 
   Hash ofBodies;
@@ -111,6 +124,10 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
       this->CellsOfRanks.back() = summary.cells;
       if (summary.cells > 0)
       {
+        for (FieldRange& range : this->RangesOfFields)
+        {
+          extend(range, reader.Get<FieldRange>());
+        }
         this->BoundsOfRanks.back() = summary.bounds;
         extend(this->Bounds, summary.bounds);
         extend(this->All, summary.content);
@@ -313,7 +330,8 @@ void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) con
   this->Contents.clear();
   for (const schlieren::Box& box : boxes)
   {
-    this->Contents[keyOf(box)] = { nothing, {} };
+    this->Contents[keyOf(box)] = { { nothing, {} },
+      std::vector<FieldRange>(this->RangesOfFields.size(), nowhere) };
   }
   const auto withReach = [this](schlieren::Box box)
   {
@@ -330,11 +348,18 @@ void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) con
       const auto found = answer.GetAll<std::vector<PieceWorker::Content>>();
       for (std::size_t i = 0; i < ofRank.size(); ++i)
       {
-        PieceWorker::Content& content = this->Contents[keyOf(ofRank[i])];
+        PieceWorker::Content& content = this->Contents[keyOf(ofRank[i])].content;
         extend(content.cells, found.at(i).cells);
         for (std::size_t n = 0; n < content.holds.size(); ++n)
         {
           content.holds[n] = content.holds[n] | found[i].holds[n];
+        }
+      }
+      for (std::size_t field = 0; field < this->RangesOfFields.size(); ++field)
+      {
+        for (const schlieren::Box& box : ofRank)
+        {
+          extend(this->Contents[keyOf(box)].fields[field], answer.Get<FieldRange>());
         }
       }
     });
@@ -357,6 +382,7 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
         DataPiece::Samples more;
         more.found = answer.GetAll<std::vector<unsigned char>>();
         more.values = answer.GetAll<std::vector<double>>();
+        more.fields = answer.GetAll<std::vector<double>>();
         DataPiece::Samples& samples = this->Samples[keyOf(lattice)];
         if (samples.found.empty())
         {
@@ -369,6 +395,10 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
           {
             samples.found[i] = 1;
             samples.values[i] = more.values.at(i);
+            for (std::size_t at = i; at < more.fields.size(); at += more.found.size())
+            {
+              samples.fields.at(at) = more.fields[at];
+            }
           }
         }
       }
@@ -379,7 +409,7 @@ schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& b
 {
   const bool isAll = box.low == this->Bounds.low && box.high == this->Bounds.high;
   const PieceWorker::Content found =
-    isAll ? PieceWorker::Content{ this->All, {} } : this->Contents.at(keyOf(box));
+    isAll ? PieceWorker::Content{ this->All, {} } : this->Contents.at(keyOf(box)).content;
   Content content{ 1, 0, nothing.cellSize, false, false, false };
   const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
   this->Boundary->findPlaces(
@@ -420,6 +450,25 @@ void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivit
   {
     lattices->keep(lattice, knownLattice({}, places, distances, size));
   }
+}
+
+schlieren::MediumSource::FieldRange PiecesSource::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const auto number = static_cast<std::size_t>(field);
+  const auto found = this->Contents.find(keyOf(box));
+  return found == this->Contents.end() ? this->RangesOfFields[number]
+                                       : found->second.fields[number];
+}
+
+void PiecesSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances, double* values) const
+{
+  this->sample(lattice, refractivity, places, distances);
+  const std::vector<double>& fields = this->Samples.at(keyOf(lattice)).fields;
+  std::fill_n(values, static_cast<std::size_t>(lattice.size()) * this->RangesOfFields.size(),
+    std::numeric_limits<double>::quiet_NaN());
+  std::copy(fields.begin(), fields.end(), values);
 }
 
 } // namespace filters

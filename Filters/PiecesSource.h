@@ -41,9 +41,10 @@ class PiecesSource : public schlieren::MediumSource
 {
 public:
   /// Makes the pieces of the data that the ranks have. `bodies`: may be null. `outside`: of meshes; images have none.
-  /// `kept`: of another source, which may be of the same meshes. Throws std::runtime_error with a message for the user.
+  /// `hasFields`: those that tint, too. `kept`: of another source, which may be of the same meshes. Throws
+  /// std::runtime_error with a message for the user.
   PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies, Outside outside,
-    PiecesMesh kept = {}, const WorkProgress& progress = WorkProgress());
+    bool hasFields, PiecesMesh kept = {}, const WorkProgress& progress = WorkProgress());
   const PiecesMesh& mesh() const { return this->Mesh; }
 
   bool hasGas() const { return this->Cells > 0; }
@@ -59,6 +60,12 @@ public:
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
     float* distances) const override;
+
+  int fields() const override { return static_cast<int>(this->RangesOfFields.size()); }
+  /// Of a box whose contents are not prepared, that of all data.
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
+  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+    schlieren::Place* places, float* distances, double* values) const override;
 
   bool isRemote() const override { return true; }
   void prepareContents(const std::vector<schlieren::Box>& boxes) const override;
@@ -96,12 +103,18 @@ private:
   std::array<double, 3> Reach{}; // see DataPiece::Summary
   std::shared_ptr<const GasBoundary> Boundary;
   PiecesMesh Mesh{};
+  std::vector<FieldRange> RangesOfFields;
   double Ambient = 0;
   Tally Valid;
   std::string Warning, Label;
 
   // What has been prepared.
-  mutable std::map<BoxKey, PieceWorker::Content> Contents;
+  struct Known
+  {
+    PieceWorker::Content content;
+    std::vector<FieldRange> fields;
+  };
+  mutable std::map<BoxKey, Known> Contents;
   mutable std::map<LatticeKey, DataPiece::Samples> Samples;
 };
 

@@ -317,7 +317,7 @@ std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& m
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfPieces(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning)
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   this->Grid.clear();
   this->Search->release();
@@ -332,7 +332,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
       [&]
       {
         made = std::make_shared<PiecesSource>(this->Pieces, bodies,
-          static_cast<filters::Outside>(this->Outside), *this->MeshOfPieces, progressOf(this));
+          static_cast<filters::Outside>(this->Outside), contents == WITH_FIELDS,
+          *this->MeshOfPieces, progressOf(this));
         *this->MeshOfPieces = made->mesh();
       });
   }

@@ -528,7 +528,8 @@ public:
   VTK_WRAPEXCLUDE bool CanUsePieces();
   VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning);
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
+    SourceContents contents = REFRACTIVITY_ALONE);
   /// Frees them on all ranks, where there are any.
   VTK_WRAPEXCLUDE void ReleasePieces();
   VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data, vtkDataObject* earlier = nullptr);

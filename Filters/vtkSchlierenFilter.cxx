@@ -131,10 +131,7 @@ std::vector<char> vtkSchlierenFilter::Respond(const std::vector<char>& message)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSchlierenFilter::CanUsePieces()
-{
-  return !this->ColorByField && this->Medium->CanUsePieces();
-}
+bool vtkSchlierenFilter::CanUsePieces() { return this->Medium->CanUsePieces(); }
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
@@ -270,18 +267,18 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
 {
   const Internals& inside = *this->Inside;
   auto made = std::make_shared<MadeRefractivity>();
+  const auto contents =
+    this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
   if (inside.Ranks.AreInPieces())
   {
-    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning);
+    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents);
   }
   else
   {
     this->Medium->ReleasePieces();
     if (this->Medium->CanMakeSource(input, bodies))
     {
-      made->Source = this->Medium->MakeSource(input, bodies, made->Warning,
-        this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS
-                           : vtkRefractiveIndex::REFRACTIVITY_ALONE);
+      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
     }
   }
   if (!made->Source && !this->Medium->GetAbortExecute())

@@ -843,8 +843,8 @@ public:
    * piece of meshes; where these have no more cells in all, rank 0 requests all, and where they are spread over the ranks
    * even so, they are sent to it. Larger ones stay where they are: each rank has its cells, with copies of others'
    * around them, and samples them for the medium; so do images, which become a tree of bricks, and adaptive meshes of more
-   * than 16 times as many cells. 0: so do all of these. Two-dimensional data, and all where ColorByField, ExposureTime or
-   * SamplingDimensions are in use are always sent. The default is 10^7.
+   * than 16 times as many cells. 0: so do all of these. Two-dimensional data, and all where SamplingDimensions
+   * or SamplingBounds are in use are always sent. The default is 10^7.
    */
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);

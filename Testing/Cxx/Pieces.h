@@ -98,9 +98,10 @@ struct Ranks
     }
     this->Filters[0]->SetPieceChannels(channels);
   }
-  std::shared_ptr<const schlieren::MediumSource> make(vtkDataObject* bodies = nullptr)
+  std::shared_ptr<const schlieren::MediumSource> make(vtkDataObject* bodies = nullptr,
+    vtkRefractiveIndex::SourceContents contents = vtkRefractiveIndex::REFRACTIVITY_ALONE)
   {
-    return this->Filters[0]->MakeSourceOfPieces(this->Parts[0], bodies, this->Warning);
+    return this->Filters[0]->MakeSourceOfPieces(this->Parts[0], bodies, this->Warning, contents);
   }
 
   std::vector<Data> Parts;

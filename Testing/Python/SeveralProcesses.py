@@ -253,6 +253,11 @@ def in_pieces():
         found[f"{kind}: Shadowgraph"] = image_array(seen, "Intensity")
         seen.ViewDirection = [0, 0, -1]
         found[f"{kind}: along a cut"] = image_array(seen, "Deflection")
+        seen.Fields = [density[1]]
+        seen.ColorByField = 1
+        found[f"{kind}: tinted"] = image_array(seen, "Color").astype(np.float64)
+        assert found[f"{kind}: tinted"].size == 0 or np.ptp(found[f"{kind}: tinted"]) > 20, kind
+        seen.ColorByField = 0
     # Time-sliced: the same number of steps on all ranks, whoever knows that the image is finished.
     seen.TimeLimit = 0.05
     seen.ViewDirection = [1, 0, 0.3]
@@ -614,7 +619,7 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(pvbatch, parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 28 + 51 + 12 + 12 + 10, len(one)
+    assert isSanitized or len(one) == 72 + 18 + 28 + 61 + 12 + 12 + 10, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
@@ -626,6 +631,7 @@ else:
             elif name.startswith(("pieces:", "exposed pieces:")):
                 # Slabs of two cells do not reach all that values of cells depend on.
                 limit = 1e-3 if name.startswith("pieces: cell data") else 1e-6
+                limit = 1 / 127 if name == "pieces: cell data: tinted" else limit  # one level of a colour
                 assert np.abs(one[name] - values).max() <= limit * np.abs(one[name]).max(), name
             elif name.startswith("distributed:") and "Blocked" not in name:
                 # Rays are rounded differently, and now and then one takes a step in another leaf.
