@@ -108,6 +108,12 @@ private:
     std::vector<Block> blocks;
     std::unique_ptr<const BoxBins> bins;
   };
+  /// Cells of a block that are looked at together, along each axis.
+  static constexpr int pieceEdge = 8;
+  /// What a value depends on is no more cells of the lattice's level away: two coefficients of the spline, of which each
+  /// depends on two cells more. Of the next coarser level it is half as far, and what a polynomial reads.
+  static constexpr int cellsOfSpline = 4;
+
   enum class Whose
   {
     All,

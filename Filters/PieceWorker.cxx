@@ -366,6 +366,11 @@ void PieceWorker::MakeFields(Reader& request)
     source = this->SourceOf(blocks, ranges);
     fields = this->FieldsOf(blocks, source, rangesOfFields);
   }
+  if (source.leaves.size() != firstImages.at(rank + 1) - first)
+  {
+    throw std::runtime_error("A rank's blocks are not those that it has told rank 0 of. Update the "
+                             "filter again.");
+  }
   made->label = source.label;
   made->fields.emplace_back(levels, source, made->tally, WorkProgress(), first);
   for (FieldValues& field : fields)

@@ -1,0 +1,396 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Which cells an AmrField knows: those of its blocks, their means on coarser levels, and copies of other ranks'.
+#include "AmrField.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What a polynomial through cells of the next coarser level reads on each side.
+constexpr int cellsOfPolynomial = 2;
+
+/// The cells of a block that are no copies.
+CellBox ownBoxOf(const AmrBlock& block)
+{
+  CellBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.begin[axis] = block.first[axis] + block.ownBegin[axis];
+    box.end[axis] = block.first[axis] + block.ownEnd[axis];
+  }
+  return box;
+}
+
+/// Calls visit(box) for the pieces of a box.
+template <class Visit>
+void forPieces(const CellBox& box, int pieceEdge, const Visit& visit)
+{
+  Counts pieces{};
+  for (std::size_t axis = 0; axis < 3 && !box.isEmpty(); ++axis)
+  {
+    pieces[axis] = (box.size()[axis] - 1) / pieceEdge + 1;
+  }
+  forCells({ 0, 0, 0 }, pieces,
+    [&](int i, int j, int k)
+    {
+      const Counts at{ i, j, k };
+      CellBox piece;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        piece.begin[axis] = box.begin[axis] + at[axis] * pieceEdge;
+        piece.end[axis] = std::min(piece.begin[axis] + pieceEdge, box.end[axis]);
+      }
+      visit(piece);
+    });
+}
+
+/// Those of a coarser level that a box meets.
+CellBox coarserBox(const CellBox& box, const Counts& ratio)
+{
+  CellBox coarse;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    coarse.begin[axis] = box.begin[axis] / ratio[axis];
+    coarse.end[axis] = (box.end[axis] - 1) / ratio[axis] + 1;
+  }
+  return coarse;
+}
+
+CellBox finerBox(const CellBox& box, const Counts& ratio)
+{
+  CellBox fine;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    fine.begin[axis] = box.begin[axis] * ratio[axis];
+    fine.end[axis] = box.end[axis] * ratio[axis];
+  }
+  return fine;
+}
+
+} // namespace
+
+void AmrField::Block::findRanges()
+{
+  const Counts size = this->box.size();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    this->pieces[axis] = (size[axis] - 1) / pieceEdge + 1;
+  }
+  this->ranges.assign(volume(this->pieces), { infinity, -infinity });
+  const CellBox all{ { 0, 0, 0 }, this->pieces };
+  std::size_t cell = 0;
+  forCells({ 0, 0, 0 }, size,
+    [&](int i, int j, int k)
+    {
+      if (this->parts[cell] > 0)
+      {
+        Range& range = this->ranges[all.index(i / pieceEdge, j / pieceEdge, k / pieceEdge)];
+        range.lowest = std::min(range.lowest, this->means[cell]);
+        range.highest = std::max(range.highest, this->means[cell]);
+      }
+      ++cell;
+    });
+}
+
+/// The means over the cells of the next coarser level.
+AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
+{
+  Block result{};
+  result.box = coarserBox(block.box, ratio);
+  result.means.assign(volume(result.box.size()), 0);
+  result.parts.assign(result.means.size(), 0);
+  const float part = 1 / static_cast<float>(volume(ratio));
+  std::size_t cell = 0;
+  forCells(block.box.begin, block.box.size(),
+    [&](int i, int j, int k)
+    {
+      const std::size_t to = result.box.index(i / ratio[0], j / ratio[1], k / ratio[2]);
+      if (block.isSolid(cell))
+      {
+        result.solids.resize(result.means.size());
+        result.solids[to] = true;
+      }
+      if (block.parts[cell] > 0)
+      {
+        const float more = part * block.parts[cell];
+        result.parts[to] += more;
+        result.means[to] += static_cast<double>(more) * block.means[cell];
+      }
+      ++cell;
+    });
+  for (std::size_t to = 0; to < result.means.size(); ++to)
+  {
+    result.means[to] /= result.parts[to] > 0 ? static_cast<double>(result.parts[to]) : 1;
+    if (result.isSolid(to) && result.parts[to] > 0)
+    {
+      result.solids[to] = false;
+    }
+  }
+  return result;
+}
+
+/// A part of a block.
+AmrField::Block AmrField::cropped(const Block& block, const CellBox& box)
+{
+  Block part{ box, {}, {}, {}, block.isOfLevel, true, {}, {} };
+  part.means.resize(volume(box.size()));
+  part.parts.resize(part.means.size());
+  part.solids.resize(block.solids.empty() ? 0 : part.means.size());
+  std::size_t to = 0;
+  forCells(box.begin, box.size(),
+    [&](int i, int j, int k)
+    {
+      const std::size_t from = block.box.index(i, j, k);
+      part.means[to] = block.means[from];
+      part.parts[to] = block.parts[from];
+      if (!part.solids.empty())
+      {
+        part.solids[to] = block.solids[from];
+      }
+      ++to;
+    });
+  return part;
+}
+
+AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
+  const WorkProgress& progress, std::size_t firstImage)
+  : FlatAxis(levels.flat)
+  , Origin(levels.origin)
+  , Bounds(levels.bounds())
+{
+  std::size_t done = 0;
+  for (std::size_t number = 0; number < levels.levels.size(); ++number)
+  {
+    const AmrLevel& level = levels.levels[number];
+    std::vector<CellBox> boxes;
+    std::transform(level.blocks.begin(), level.blocks.end(), std::back_inserter(boxes), boxOf);
+    this->Levels.push_back({ number, level.spacing, level.cells, level.blocks,
+      std::make_unique<const BoxBins>(std::move(boxes)),
+      std::make_unique<const BoxBins>(coveredCells(levels.levels, number)), {}, nullptr });
+  }
+  this->findMissingCells();
+  for (std::size_t level = 0; level < this->Levels.size(); ++level)
+  {
+    const BoxBins& covered = *this->Levels[level].covered;
+    for (AmrBlock block : levels.levels[level].blocks)
+    {
+      if (block.leaf - firstImage >= source.leaves.size()) // or less than 0
+      {
+        continue;
+      }
+      block.leaf -= firstImage;
+      AmrValues values = valuesOf(covered, block, source, tally);
+      Block own{ boxOf(block), std::move(values.values), {}, {}, true, false, {}, {} };
+      own.parts.assign(own.means.size(), 0);
+      for (std::size_t cell = 0; cell < own.means.size(); ++cell)
+      {
+        const bool isKnown = values.counts[cell] && !std::isnan(own.means[cell]);
+        own.parts[cell] = isKnown ? 1.f : 0.f;
+        this->OwnCells += isKnown ? 1 : 0;
+        if (values.counts[cell] && !isKnown)
+        {
+          own.solids.resize(own.means.size());
+          own.solids[cell] = true;
+        }
+      }
+      own.findRanges();
+      this->Levels[level].blocks.push_back(std::move(own));
+      const Block* finer = &this->Levels[level].blocks.back();
+      for (std::size_t below = level; below > 0; --below)
+      {
+        const Counts ratio = ratioOf(this->Levels[below].cells, this->Levels[below - 1].cells);
+        this->Levels[below - 1].blocks.push_back(coarser(*finer, ratio));
+        finer = &this->Levels[below - 1].blocks.back();
+      }
+      ++done;
+      progress.reach(static_cast<double>(done) / static_cast<double>(source.leaves.size()));
+    }
+  }
+  this->sortBlocks();
+}
+
+/// Puts them into bins.
+void AmrField::sortBlocks()
+{
+  for (Level& level : this->Levels)
+  {
+    std::vector<CellBox> boxes;
+    for (const Block& block : level.blocks)
+    {
+      boxes.push_back(block.box);
+    }
+    level.bins = std::make_unique<const BoxBins>(std::move(boxes));
+  }
+}
+
+/// Those of the coarsest level that no block has.
+void AmrField::findMissingCells()
+{
+  const CellBox domain{ { 0, 0, 0 }, this->Levels[0].cells };
+  this->AreMissing.assign(volume(domain.end), true);
+  for (const Level& level : this->Levels)
+  {
+    const Counts ratio = ratioOf(level.cells, domain.end);
+    for (const AmrBlock& block : level.all)
+    {
+      if (const CellBox own = ownBoxOf(block); !own.isEmpty())
+      {
+        const CellBox coarse = coarserBox(own, ratio);
+        forCells(coarse.begin, coarse.size(),
+          [&](int i, int j, int k) { this->AreMissing[domain.index(i, j, k)] = false; });
+      }
+    }
+  }
+  if (std::find(this->AreMissing.begin(), this->AreMissing.end(), true) == this->AreMissing.end())
+  {
+    this->AreMissing = {};
+  }
+}
+
+/// How many cells of each level around a rank's own others' copies are.
+std::vector<Counts> AmrField::margins() const
+{
+  std::vector<Counts> margins(this->Levels.size(), { cellsOfSpline, cellsOfSpline, cellsOfSpline });
+  for (std::size_t level = this->Levels.size() - 1; level > 0; --level)
+  {
+    const Counts ratio = ratioOf(this->Levels[level].cells, this->Levels[level - 1].cells);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const int coarse = (margins[level][axis] - 1) / ratio[axis] + 1 + cellsOfPolynomial;
+      margins[level - 1][axis] = std::max(coarse, cellsOfSpline);
+    }
+  }
+  return margins;
+}
+
+/// The own cells of a block that no finer block covers: boxes of at most `pieceEdge` cells along each axis around them.
+std::vector<CellBox> AmrField::uncoveredIn(const Level& level, const AmrBlock& block)
+{
+  std::vector<CellBox> uncovered;
+  forPieces(ownBoxOf(block), pieceEdge,
+    [&](const CellBox& piece)
+    {
+      std::vector<bool> isCovered;
+      bool isAllCovered = false;
+      level.covered->forPartsIn(piece,
+        [&](std::size_t, const CellBox& cells)
+        {
+          isAllCovered = isAllCovered || cells.size() == piece.size();
+          isCovered.resize(isAllCovered ? 0 : volume(piece.size()));
+          forCells(cells.begin, isAllCovered ? Counts{} : cells.size(),
+            [&](int i, int j, int k) { isCovered[piece.index(i, j, k)] = true; });
+        });
+      if (isAllCovered)
+      {
+        return;
+      }
+      std::size_t cell = 0;
+      std::optional<CellBox> hull;
+      forCells(piece.begin, isCovered.empty() ? Counts{} : piece.size(),
+        [&](int i, int j, int k)
+        {
+          if (!isCovered[cell++])
+          {
+            const CellBox here{ { i, j, k }, { i + 1, j + 1, k + 1 } };
+            hull = hull ? hullOf(*hull, here) : here;
+          }
+        });
+      if (isCovered.empty() || hull)
+      {
+        uncovered.push_back(hull.value_or(piece));
+      }
+    });
+  return uncovered;
+}
+
+void AmrField::putCopies(
+  std::size_t firstImage, std::size_t images, std::vector<char>& copies) const
+{
+  std::vector<std::vector<CellBox>> wanted(this->Levels.size());
+  const std::vector<Counts> margins = this->margins();
+  for (const Level& other : this->Levels)
+  {
+    for (const AmrBlock& block : other.all)
+    {
+      if (block.leaf - firstImage >= images) // or less than 0
+      {
+        continue;
+      }
+      for (const CellBox& own : uncoveredIn(other, block))
+      {
+        for (std::size_t number = 0; number < this->Levels.size(); ++number)
+        {
+          const Level& level = this->Levels[number];
+          CellBox& box = wanted[number].emplace_back(number > other.number
+              ? finerBox(own, ratioOf(level.cells, other.cells))
+              : coarserBox(own, ratioOf(other.cells, level.cells)));
+          for (std::size_t axis = 0; axis < this->axes(); ++axis)
+          {
+            box.begin[axis] -= margins[number][axis];
+            box.end[axis] += margins[number][axis];
+          }
+        }
+      }
+    }
+  }
+  for (std::size_t number = 0; number < this->Levels.size(); ++number)
+  {
+    const BoxBins bins(std::move(wanted[number]));
+    for (const Block& block : this->Levels[number].blocks)
+    {
+      if (block.isCopy)
+      {
+        continue;
+      }
+      forPieces(block.box, pieceEdge,
+        [&](const CellBox& piece)
+        {
+          std::optional<CellBox> part;
+          bins.forPartsIn(piece,
+            [&](std::size_t, const CellBox& cells) { part = part ? hullOf(*part, cells) : cells; });
+          if (part)
+          {
+            const Block cells = cropped(block, *part);
+            put(static_cast<std::uint64_t>(number), copies);
+            put(cells.isOfLevel, copies);
+            put(cells.box, copies);
+            putAll(cells.means, copies);
+            putAll(cells.parts, copies);
+            putAll(std::vector<unsigned char>(cells.solids.begin(), cells.solids.end()), copies);
+          }
+        });
+    }
+  }
+}
+
+void AmrField::addCopies(Reader& reader)
+{
+  while (!reader.IsAtEnd())
+  {
+    Level& level = this->Levels.at(reader.Get<std::uint64_t>());
+    Block block{};
+    block.isCopy = true;
+    block.isOfLevel = reader.Get<bool>();
+    block.box = reader.Get<CellBox>();
+    block.means = reader.GetAll<std::vector<double>>();
+    block.parts = reader.GetAll<std::vector<float>>();
+    const auto solids = reader.GetAll<std::vector<unsigned char>>();
+    block.solids.assign(solids.begin(), solids.end());
+    level.blocks.push_back(std::move(block));
+  }
+  this->sortBlocks();
+}
+
+} // namespace filters
