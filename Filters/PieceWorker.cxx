@@ -368,8 +368,9 @@ void PieceWorker::MakeFields(Reader& request)
   }
   if (source.leaves.size() != firstImages.at(rank + 1) - first)
   {
-    throw std::runtime_error("A rank's blocks are not those that it has told rank 0 of. Update the "
-                             "filter again.");
+    throw std::runtime_error(
+      "A rank's blocks are not those that rank 0 knows of. Update the filter "
+      "again.");
   }
   made->label = source.label;
   made->fields.emplace_back(levels, source, made->tally, WorkProgress(), first);

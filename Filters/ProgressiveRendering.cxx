@@ -144,7 +144,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     inside.FailedAt != now && inside.Shown[IMAGE_PORT].IsThere() &&
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
-      describeInputs(this, inside.Ranks, inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
+      this->DescribeInputs(inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
         inside.Ranks.GetInput(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField);
@@ -165,7 +165,7 @@ bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
     inside.holdsRefractivityOf(
-      describeInputs(this, inside.Ranks, input, bodies), this->Medium, this->ColorByField);
+      this->DescribeInputs(input, bodies), this->Medium, this->ColorByField);
 }
 
 //------------------------------------------------------------------------------

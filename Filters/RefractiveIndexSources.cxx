@@ -73,11 +73,11 @@ void filters::addText(std::string& text, const std::string& more)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies)
+bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
-  if ((source.image && !bodies) || SamplingBox(this->SamplingBounds).isGiven() ||
+  if ((source.image && !bodies && !imagesToo) || SamplingBox(this->SamplingBounds).isGiven() ||
     !std::all_of(given, given + 3, isZero))
   {
     return false;
@@ -123,7 +123,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
   {
     throw std::runtime_error(bodiesCoverAll);
   }
-  if (!made->meetsBodies())
+  if (bodies && !made->meetsBodies())
   {
     addText(warning, bodiesAreOutside);
   }

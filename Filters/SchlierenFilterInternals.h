@@ -135,8 +135,4 @@ namespace filters
 /// Contribution of the progress bar that belongs to finding the refractivity.
 inline constexpr double mediumFraction = 0.2;
 
-/// Everything of the inputs that the refractivity depends on.
-std::vector<double> describeInputs(
-  vtkAlgorithm* filter, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies);
-
 } // namespace filters

@@ -13,11 +13,12 @@ namespace filters
 /// What a number that is found for an image belongs to.
 struct ImageCircumstances
 {
-  std::optional<double> time;              ///< unset: data without time steps
-  std::vector<double> upstream;            ///< times of what makes the data
-  std::optional<std::vector<double>> data; ///< describeInputs; unset: of several times
-  std::vector<double> medium;              ///< and, of k, the kind of cutoff: its settings
-  std::vector<double> rays;                ///< of k: camera, quality, light
+  std::optional<double> time;   ///< unset: data without time steps
+  std::vector<double> upstream; ///< times of what makes the data
+  std::optional<std::vector<double>>
+    data;                     ///< vtkSchlierenFilter::DescribeInputs(); unset: of several times
+  std::vector<double> medium; ///< and, of k, the kind of cutoff: its settings
+  std::vector<double> rays;   ///< of k: camera, quality, light
 };
 
 /// Camera, quality and light: all of the settings that an automatic k depends on, but the medium and the cutoff.

@@ -94,20 +94,36 @@ void tellPlaces(vtkInformationVector* outputs)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<double> filters::describeInputs(
-  vtkAlgorithm* filter, const FilterRanks& ranks, vtkDataObject* input, vtkDataObject* bodies)
+std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtkDataObject* bodies)
 {
+  const FilterRanks& ranks = this->Inside->Ranks;
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
   std::vector<double> description =
-    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(filter, 0));
+    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
   description.push_back(ranks.GetGatherings()); // of what other ranks have
+  description.push_back(this->ImagesBecomeTrees(input));
   if (bodies)
   {
     const std::vector<double> ofBodies =
-      describeInput(bodies, upstreamTime(filter, vtkRefractiveIndex::BODIES));
+      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
     description.insert(description.end(), ofBodies.begin(), ofBodies.end());
   }
   return description;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
+{
+  const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
+  if (!hasOtherRanks() || !input || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF ||
+    this->ColorByField || this->PathModel == DIFFERENCE || isBentOtherwise)
+  {
+    return false;
+  }
+  const double bytes = static_cast<double>(input->GetNumberOfElements(vtkDataObject::POINT)) *
+    (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float));
+  return this->DistributedMedium == DISTRIBUTED_MEDIUM_ON ||
+    bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
 
 //------------------------------------------------------------------------------
@@ -219,7 +235,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 {
   Internals& inside = *this->Inside;
   this->PassToMedium();
-  std::vector<double> description = describeInputs(this, inside.Ranks, input, bodies);
+  std::vector<double> description = this->DescribeInputs(input, bodies);
   if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField))
   {
     return true;
@@ -276,7 +292,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   else
   {
     this->Medium->ReleasePieces();
-    if (this->Medium->CanMakeSource(input, bodies))
+    if (this->Medium->CanMakeSource(input, bodies, this->ImagesBecomeTrees(input)))
     {
       made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
     }
@@ -341,7 +357,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       vtkDataObject* bodies = ranks.GetInput(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
-            describeInputs(this, ranks, input, bodies), this->Medium, this->ColorByField))
+            this->DescribeInputs(input, bodies), this->Medium, this->ColorByField))
       {
         grid = this->Inside->field().grid;
       }

@@ -754,9 +754,10 @@ public:
 
   ///@{
   /**
-   * Of meshes, and of images with Bodies or that stay on their ranks, where there are several processes: whether each has all voxels (off, the default), or a part of them and
-   * MediumMemory for it (on; auto: where all do not fit into MediumMemory). Rays then go from process to process. No
-   * effect on a GPU, with ColorByField, and where rays bend with another Integrator than LEAPFROG.
+   * Where there are several processes, whether each has all voxels (off, the default), or a part of them and MediumMemory
+   * for it (on; auto: where all do not fit into MediumMemory). Rays then go from process to process, and images, whose
+   * own grid is not divided, become a tree within MediumTolerance. No effect on a GPU, with ColorByField, and where rays
+   * bend with another Integrator than LEAPFROG.
    */
   vtkSetClampMacro(DistributedMedium, int, DISTRIBUTED_MEDIUM_OFF, DISTRIBUTED_MEDIUM_ON);
   vtkGetMacro(DistributedMedium, int);
@@ -977,6 +978,10 @@ private:
   bool Continues(vtkDataObject* input, vtkDataObject* bodies);
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
   std::vector<char> Respond(const std::vector<char>& message);
+  /// Everything of the inputs that the refractivity depends on.
+  std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
+  /// Whether images without Bodies are not their own grids, of which ranks cannot have parts.
+  bool ImagesBecomeTrees(vtkDataObject* input) const;
   /// Whether data that several ranks have may stay where they are.
   bool CanUsePieces();
   /// Works on an image between updates. Whether an update has something to do now.
