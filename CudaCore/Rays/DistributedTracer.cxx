@@ -54,14 +54,9 @@ struct DistributedTracer<Real>::State
   template <class Values>
   void sendArray(Channel& channel, std::uint32_t number, const Values& values)
   {
-    const ArrayMessage head{ RayWorker::Array, number, version };
-    const std::size_t bytes = values.size() * sizeof(values[0]);
-    std::vector<char> message = messageOf(head, bytes);
-    if (bytes > 0)
-    {
-      std::memcpy(message.data() + sizeof(head), values.data(), bytes);
-    }
-    channel.send(std::move(message));
+    sendPieces({ RayWorker::Array, number, version }, values.data(),
+      values.size() * sizeof(values[0]),
+      [&](std::vector<char> piece) { channel.send(std::move(piece)); });
   }
 
   void sendStructure(Channel& channel, std::int32_t owner)

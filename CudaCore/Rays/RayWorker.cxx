@@ -3,6 +3,7 @@
 #include "Rays/RayWorker.h"
 
 #include "Device/Parallel.h"
+#include "Device/UninitialisedAllocator.h"
 #include "Rays/DistributedRays.h"
 #include "Rays/TeamMessages.h"
 
@@ -23,8 +24,10 @@ struct RayWorker::Arrays
 {
   struct Cached
   {
-    std::uint64_t version = 0; ///< 0: there is none
-    std::vector<char> message; ///< that it came in
+    std::uint64_t version = 0; ///< 0: there is none, or not all of it
+    std::uint64_t coming = 0;  ///< version of which there are `known` bytes
+    std::size_t known = 0;
+    std::vector<char, UninitialisedAllocator<char>> bytes;
   };
   std::array<Cached, arraysOfTask> cached;
 
@@ -57,10 +60,16 @@ struct RayWorker::Arrays
     doublesOnCuda = {};
   }
 
-  void keep(std::vector<char>&& message)
+  /// A piece of an array. Where there is no memory for it, it is not there.
+  void keep(const std::vector<char>& message)
   {
     ArrayMessage head;
-    if (read(message, head) && head.array < arraysOfTask)
+    if (!read(message, head) || head.array >= arraysOfTask)
+    {
+      return;
+    }
+    Cached& array = cached[head.array];
+    if (head.first == 0)
     {
       if (head.array == samplesOfTask) // of another medium
       {
@@ -69,7 +78,25 @@ struct RayWorker::Arrays
         doubles.reset();
         leaveCuda();
       }
-      cached[head.array] = { head.version, std::move(message) };
+      array = {}; // first: two at once might not fit
+      try
+      {
+        array.bytes.resize(static_cast<std::size_t>(head.bytes));
+        array.coming = head.version;
+      }
+      catch (const std::exception&)
+      {
+        return;
+      }
+    }
+    const std::size_t count = message.size() - sizeof(head);
+    if (array.coming == head.version && array.known == head.first &&
+      count <= array.bytes.size() - array.known)
+    {
+      std::copy_n(message.begin() + sizeof(head), count,
+        array.bytes.begin() + static_cast<std::ptrdiff_t>(array.known));
+      array.known += count;
+      array.version = array.known == array.bytes.size() ? head.version : 0;
     }
   }
 
@@ -176,7 +203,7 @@ struct RayWorker::Arrays
         }
         if (request.offsets[n] != nowhere && isComplete)
         {
-          const void* first = cached[n].message.data() + sizeof(ArrayMessage);
+          const void* first = cached[n].bytes.data();
           pointer = static_cast<Value*>(first) + request.offsets[n];
         }
       });
@@ -191,9 +218,9 @@ struct RayWorker::Arrays
       if (request.offsets[n] != nowhere)
       {
         using Value = std::remove_reference_t<decltype(*array.first)>;
-        const std::vector<char>& message = cached[n].message;
-        array.first = reinterpret_cast<Value*>(message.data() + sizeof(ArrayMessage));
-        array.count = (message.size() - sizeof(ArrayMessage)) / sizeof(Value);
+        const void* first = cached[n].bytes.data();
+        array.first = static_cast<Value*>(first);
+        array.count = cached[n].bytes.size() / sizeof(Value);
       }
     };
     MediumArrays<Real> arrays;
@@ -368,7 +395,7 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
 {
   if (kindOf(message) == Array)
   {
-    arrays_->keep(std::move(message));
+    arrays_->keep(message);
     return;
   }
   if (kindOf(message) == AskDevice)

@@ -39,13 +39,38 @@ void forArrays(RayTask<Real>& task, const Visit& visit)
   visit(8, task.gradients.bricks);
 }
 
-/// The beginning of a message with an array, whose values follow.
+/// The beginning of a message with a piece of an array, which follows. Pieces come in their order; so neither side has a
+/// large array twice.
 struct ArrayMessage
 {
   std::uint32_t kind = RayWorker::Array;
   std::uint32_t array = 0;
   std::uint64_t version = 0;
+  std::uint64_t first = 0; ///< byte of the array
+  std::uint64_t bytes = 0; ///< of the array
 };
+constexpr std::size_t bytesOfArrayPiece = std::size_t{ 16 } << 20;
+
+/// Calls send(message) for the pieces of an array, at least one. `head`: its number and version.
+template <class Send>
+void sendPieces(ArrayMessage head, const void* array, std::size_t bytes, const Send& send)
+{
+  head.bytes = bytes;
+  do
+  {
+    const std::size_t count =
+      std::min(bytes - static_cast<std::size_t>(head.first), bytesOfArrayPiece);
+    std::vector<char> message(sizeof(head) + count);
+    std::memcpy(message.data(), &head, sizeof(head));
+    if (count > 0)
+    {
+      std::memcpy(
+        message.data() + sizeof(head), static_cast<const char*>(array) + head.first, count);
+    }
+    send(std::move(message));
+    head.first += count;
+  } while (head.first < bytes);
+}
 
 struct TilesHead
 {

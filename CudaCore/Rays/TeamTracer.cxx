@@ -132,12 +132,11 @@ struct TeamTracer<Real>::State
       {
         continue;
       }
-      const ArrayMessage head{ RayWorker::Array, static_cast<std::uint32_t>(n), arrays[n].version };
-      std::vector<char> ofArray = messageOf(head, arrays[n].bytes);
-      std::memcpy(ofArray.data() + sizeof(head), arrays[n].first, arrays[n].bytes);
       Channel* first = lacking.front();
       lacking.erase(lacking.begin());
-      first->sendWith(lacking, std::move(ofArray));
+      sendPieces({ RayWorker::Array, static_cast<std::uint32_t>(n), arrays[n].version },
+        arrays[n].first, arrays[n].bytes,
+        [&](std::vector<char> piece) { first->sendWith(lacking, std::move(piece)); });
     }
   }
 

@@ -6,7 +6,10 @@
 #include "SameImage.h"
 #include "WorkerThread.h"
 
+#include <cmath>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -242,6 +245,56 @@ TEST(Team, AbortsAtOnce)
   const Monitor aborting{ {}, [&] { return ++questions > 3; }, {} };
   EXPECT_TRUE(bench.render(flow.tinted(), oblique(), aborting).aborted);
   expectSameImage(bench.render(flow.tinted(), oblique()), Bench().render(flow.tinted(), oblique()));
+}
+
+// No side has a large medium twice.
+TEST(Team, SendsLargeArraysInPieces)
+{
+  const SampledField<float> flow(cube(180, 1), // 23 MB
+    [](double x, double y, double z)
+    { return 3e-4 * std::exp(-(x * x + 2 * y * y + z * z) / 0.1); });
+  Scene scene = oblique();
+  scene.fieldColors.clear();
+  const Image alone = Bench().render(flow.field, scene);
+  Worker worker;
+  Bench bench;
+  bench.setWorkers({ worker.channel() });
+  expectSameImage(bench.render(flow.field, scene), alone);
+  EXPECT_EQ(worker.arrays(), 2);
+  EXPECT_GT(worker.tiles(), 0);
+}
+
+/// Pieces of an array, as a worker gets them.
+std::vector<std::vector<char>> piecesOf(const std::vector<char>& array, std::uint64_t version)
+{
+  std::vector<std::vector<char>> pieces;
+  sendPieces({ RayWorker::Array, 0, version }, array.data(), array.size(),
+    [&](std::vector<char> piece) { pieces.push_back(std::move(piece)); });
+  return pieces;
+}
+
+TEST(Team, PiecesOfAnArrayAreAllOfIt)
+{
+  for (const std::size_t bytes :
+    { std::size_t{ 0 }, std::size_t{ 5 }, bytesOfArrayPiece, 2 * bytesOfArrayPiece + 3 })
+  {
+    std::vector<char> array(bytes), together;
+    for (std::size_t i = 0; i < bytes; ++i)
+    {
+      array[i] = static_cast<char>(i % 127);
+    }
+    for (const std::vector<char>& piece : piecesOf(array, 3))
+    {
+      ArrayMessage head;
+      ASSERT_TRUE(read(piece, head));
+      EXPECT_EQ(head.version, 3u);
+      EXPECT_EQ(head.bytes, bytes);
+      EXPECT_EQ(head.first, together.size());
+      EXPECT_LE(piece.size(), sizeof(head) + bytesOfArrayPiece);
+      together.insert(together.end(), piece.begin() + sizeof(head), piece.end());
+    }
+    EXPECT_EQ(together, array);
+  }
 }
 
 TEST(Team, IgnoresMessagesThatMakeNoSense)
