@@ -86,6 +86,7 @@ private:
     bool isOfLevel;           // rather than finer
     bool isCopy;              // of another rank's
 
+    bool isEmpty() const; // nothing is known of any cell
     bool isSolid(std::size_t cell) const { return !this->solids.empty() && this->solids[cell]; }
 
     /// Values of parts of the block, for contentOf(); lowest > highest: none.
@@ -127,10 +128,8 @@ private:
   static std::vector<CellBox> uncoveredIn(const Level& level, const AmrBlock& block);
   std::vector<Counts> margins() const;
   int outerCellsForOne() const;
-  std::size_t axes() const
-  {
-    return this->FlatAxis >= 0 ? 2 : 3;
-  } // along which there are several cells
+  /// Along which there are several cells.
+  std::size_t axes() const { return this->FlatAxis >= 0 ? 2 : 3; }
   CellBox cellsIn(const Level& level, const schlieren::Box& box, int margin) const;
   std::vector<double> valuesIn(std::size_t level, const CellBox& box) const;
   std::size_t levelFor(const schlieren::Lattice& lattice) const;
@@ -141,8 +140,8 @@ private:
   schlieren::Box Bounds;
   std::vector<Level> Levels;
   std::int64_t OwnCells = 0;
-  std::vector<bool>
-    AreMissing; // cells of the coarsest level; empty: the domain is a box, with blocks all over
+  // Cells of the coarsest level that no block has; empty: the domain is a box, with blocks all over.
+  std::vector<bool> AreMissing;
 };
 
 } // namespace filters

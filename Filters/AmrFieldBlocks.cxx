@@ -81,6 +81,12 @@ CellBox finerBox(const CellBox& box, const Counts& ratio)
 
 } // namespace
 
+bool AmrField::Block::isEmpty() const
+{
+  return this->solids.empty() &&
+    std::all_of(this->parts.begin(), this->parts.end(), [](float part) { return part == 0; });
+}
+
 void AmrField::Block::findRanges()
 {
   const Counts size = this->box.size();
@@ -360,9 +366,9 @@ void AmrField::putCopies(
           std::optional<CellBox> part;
           bins.forPartsIn(piece,
             [&](std::size_t, const CellBox& cells) { part = part ? hullOf(*part, cells) : cells; });
-          if (part)
+          const Block cells = part ? cropped(block, *part) : Block{};
+          if (!cells.isEmpty())
           {
-            const Block cells = cropped(block, *part);
             put(static_cast<std::uint64_t>(number), copies);
             put(cells.isOfLevel, copies);
             put(cells.box, copies);

@@ -170,13 +170,7 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       break;
     }
     case AddCells:
-      while (!request.IsAtEnd())
-      {
-        AmrField& field = this->OwnFields().fields.at(request.Get<std::uint64_t>());
-        const auto copies = request.GetAll<std::vector<char>>();
-        Reader reader(copies);
-        field.addCopies(reader);
-      }
+      this->AddCopies(request);
       break;
     case Copies:
       this->GiveCopies(request, answer);
@@ -391,6 +385,25 @@ PieceWorker::FieldsOfBlocks& PieceWorker::OwnFields()
       "A rank does not have its blocks of the input any more. Update the filter again.");
   }
   return *this->Fields;
+}
+
+/// The request: of each other rank and each field, its number and what AmrField::putCopies() has written.
+void PieceWorker::AddCopies(Reader& request)
+{
+  std::vector<AmrField>& fields = this->OwnFields().fields;
+  std::vector<std::vector<char>> copies(fields.size());
+  while (!request.IsAtEnd())
+  {
+    std::vector<char>& ofField = copies.at(request.Get<std::uint64_t>());
+    const auto more = request.GetAll<std::vector<char>>();
+    ofField.insert(ofField.end(), more.begin(), more.end());
+  }
+  for (std::size_t number = 0; number < fields.size(); ++number)
+  {
+    Reader reader(copies[number]);
+    fields[number].addCopies(reader);
+    std::vector<char>().swap(copies[number]);
+  }
 }
 
 /// The request: the piece's number, what the data are, and what that needs, see PieceOfParts(). The answer: what the

@@ -90,6 +90,7 @@ private:
   void GiveOutline(Reader& request, std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
   void MakeFields(Reader& request);
+  void AddCopies(Reader& request);
   void MakePiece(Reader& request, std::vector<char>& answer);
   void ReleasePiece();
   std::unique_ptr<const DataPiece> PieceOfParts(

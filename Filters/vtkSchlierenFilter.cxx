@@ -114,8 +114,11 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
 {
+  const std::vector<vtkDataObject*> leaves = leavesOf(input);
+  const bool hasImage = std::any_of(leaves.begin(), leaves.end(),
+    [](vtkDataObject* leaf) { return vtkImageData::SafeDownCast(leaf) != nullptr; });
   const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
-  if (!hasOtherRanks() || !input || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF ||
+  if (!hasOtherRanks() || !hasImage || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF ||
     this->ColorByField || this->PathModel == DIFFERENCE || isBentOtherwise)
   {
     return false;
