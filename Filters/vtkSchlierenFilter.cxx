@@ -36,9 +36,9 @@ namespace
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
-FilterRanks::Part partFor(bool canUsePieces)
+FilterRanks::Part partFor(vtkRefractiveIndex* medium)
 {
-  return canUsePieces ? FilterRanks::Part::Piece : FilterRanks::Part::All;
+  return medium->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
 }
 
 /// Whether two array selections say the same.
@@ -119,7 +119,7 @@ bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
     [](vtkDataObject* leaf) { return vtkImageData::SafeDownCast(leaf) != nullptr; });
   const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
   if (!hasOtherRanks() || !hasImage || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF ||
-    this->ColorByField || this->PathModel == DIFFERENCE || isBentOtherwise)
+    this->ColorByField || this->PathModel == DIFFERENCE || isBentOtherwise || this->Device == CUDA)
   {
     return false;
   }
@@ -148,9 +148,6 @@ std::vector<char> vtkSchlierenFilter::Respond(const std::vector<char>& message)
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   return this->Medium->RespondForPiece(message);
 }
-
-//------------------------------------------------------------------------------
-bool vtkSchlierenFilter::CanUsePieces() { return this->Medium->CanUsePieces(); }
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
@@ -422,8 +419,7 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  if (this->Inside->Ranks.Request(
-        this, inputVector, partFor(this->CanUsePieces()), this->GatherLimit))
+  if (this->Inside->Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
   {
     this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
@@ -433,7 +429,7 @@ int vtkSchlierenFilter::RequestUpdateExtent(
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo)
 {
-  this->Inside->Ranks.RequestData(inInfo, partFor(this->CanUsePieces()), this->GatherLimit);
+  this->Inside->Ranks.RequestData(inInfo, partFor(this->Medium), this->GatherLimit);
 }
 
 //------------------------------------------------------------------------------
@@ -449,9 +445,9 @@ int vtkSchlierenFilter::RequestData(
 
   this->PassToMedium();
   const double maxCells =
-    this->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
+    this->Medium->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
   ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure,
-    partFor(this->CanUsePieces()), maxCells);
+    partFor(this->Medium), maxCells);
   const bool isExposure = !inside.Exposure.IsNone();
   inside.Instant = 0;
   inside.FirstInstant.reset();
@@ -466,7 +462,7 @@ int vtkSchlierenFilter::RequestData(
   {
     const auto serve = [&]()
     {
-      if (isExposure && this->CanUsePieces())
+      if (isExposure && this->Medium->CanUsePieces())
       {
         steps.KeepPiece();
         this->Medium->SetPieceData(steps.GetPiece(), steps.GetEarlierPiece());

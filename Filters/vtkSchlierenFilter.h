@@ -982,8 +982,6 @@ private:
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
   /// Whether images without Bodies are not their own grids, of which ranks cannot have parts.
   bool ImagesBecomeTrees(vtkDataObject* input) const;
-  /// Whether data that several ranks have may stay where they are.
-  bool CanUsePieces();
   /// Works on an image between updates. Whether an update has something to do now.
   bool WorkOn();
   /// Refine() there. Whether the next update has more to show.
