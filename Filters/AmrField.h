@@ -44,8 +44,9 @@ public:
 
   /// Adds to a message its cells that a rank needs which has so many images from `firstImage` on: those around these.
   void putCopies(std::size_t firstImage, std::size_t images, std::vector<char>& message) const;
-  /// Adds what other ranks' putCopies() have written.
+  /// Adds what another rank's putCopies() has written. After the last one blocks are to be sorted again.
   void addCopies(Reader& copies);
+  void sortBlocks();
 
   int flatAxis() const { return this->FlatAxis; }
   std::int64_t ownCells() const { return this->OwnCells; } // with values
@@ -123,7 +124,6 @@ private:
 
   static Block coarser(const Block& block, const Counts& ratio);
   static Block cropped(const Block& block, const CellBox& box);
-  void sortBlocks();
   void findMissingCells();
   static std::vector<CellBox> uncoveredIn(const Level& level, const AmrBlock& block);
   std::vector<Counts> margins() const;

@@ -396,7 +396,6 @@ void AmrField::addCopies(Reader& reader)
     block.solids.assign(solids.begin(), solids.end());
     level.blocks.push_back(std::move(block));
   }
-  this->sortBlocks();
 }
 
 } // namespace filters

@@ -391,18 +391,16 @@ PieceWorker::FieldsOfBlocks& PieceWorker::OwnFields()
 void PieceWorker::AddCopies(Reader& request)
 {
   std::vector<AmrField>& fields = this->OwnFields().fields;
-  std::vector<std::vector<char>> copies(fields.size());
   while (!request.IsAtEnd())
   {
-    std::vector<char>& ofField = copies.at(request.Get<std::uint64_t>());
-    const auto more = request.GetAll<std::vector<char>>();
-    ofField.insert(ofField.end(), more.begin(), more.end());
+    AmrField& field = fields.at(request.Get<std::uint64_t>());
+    const auto copies = request.GetAll<std::vector<char>>();
+    Reader reader(copies);
+    field.addCopies(reader);
   }
-  for (std::size_t number = 0; number < fields.size(); ++number)
+  for (AmrField& field : fields)
   {
-    Reader reader(copies[number]);
-    fields[number].addCopies(reader);
-    std::vector<char>().swap(copies[number]);
+    field.sortBlocks();
   }
 }
 
