@@ -76,6 +76,14 @@ void addPlaces(Hash& hash, vtkDataSet* data)
   double bounds[6];
   data->GetBounds(bounds);
   hash.add(bounds, 6);
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      hash.add(static_cast<std::uint64_t>(image->GetDimensions()[axis]));
+    }
+    return; // they say where all points are, and there may be very many blocks
+  }
   forSome(data->GetNumberOfPoints(), addPoint);
   vtkNew<vtkIdList> points;
   forSome(data->GetNumberOfCells(),

@@ -114,12 +114,15 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
 {
-  const std::vector<vtkDataObject*> leaves = leavesOf(input);
-  const bool hasImage = std::any_of(leaves.begin(), leaves.end(),
-    [](vtkDataObject* leaf) { return vtkImageData::SafeDownCast(leaf) != nullptr; });
   const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
-  if (!hasOtherRanks() || !hasImage || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF ||
-    this->ColorByField || this->PathModel == DIFFERENCE || isBentOtherwise || this->Device == CUDA)
+  if (this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF || !hasOtherRanks() || this->ColorByField ||
+    this->PathModel == DIFFERENCE || isBentOtherwise || this->Device == CUDA)
+  {
+    return false;
+  }
+  const std::vector<vtkDataObject*> leaves = leavesOf(input);
+  if (std::none_of(leaves.begin(), leaves.end(),
+        [](vtkDataObject* leaf) { return vtkImageData::SafeDownCast(leaf) != nullptr; }))
   {
     return false;
   }
