@@ -72,6 +72,45 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 }
 
 //------------------------------------------------------------------------------
+bool updateInputs(vtkAlgorithm* filter)
+{
+  bool areThere = true;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    if (filter->GetNumberOfInputConnections(port) > 0)
+    {
+      auto* upstream = Pipeline::SafeDownCast(filter->GetInputExecutive(port, 0));
+      vtkAlgorithmOutput* from = filter->GetInputConnection(port, 0);
+      areThere = upstream && upstream->Update(from->GetIndex()) && areThere;
+    }
+  }
+  return areThere;
+}
+
+//------------------------------------------------------------------------------
+void setTime(vtkInformationVector* outputs, double time)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject::GetData(outputs, port)
+      ->GetInformation()
+      ->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data)
+{
+  if (!data)
+  {
+    return nullptr;
+  }
+  auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+  copy->ShallowCopy(data);
+  return copy;
+}
+
+//------------------------------------------------------------------------------
 ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
   FilterRanks::Part part, double maxCells)
@@ -99,13 +138,7 @@ ExposureSteps::~ExposureSteps()
   // So that the next request is not taken for another one.
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps.front());
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  for (int port = 0; port < this->Outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    // Else the pipeline gives them that of the input.
-    vtkDataObject::GetData(this->Outputs, port)
-      ->GetInformation()
-      ->Set(vtkDataObject::DATA_TIME_STEP(), this->Exposure.Time);
-  }
+  setTime(this->Outputs, this->Exposure.Time);
 }
 
 //------------------------------------------------------------------------------
@@ -124,23 +157,8 @@ void ExposureSteps::MeetWithAll()
   this->Meeting.reset();
   this->Ranks.SetTooFew(this->MaxCells);
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  this->UpdateInputs();
+  this->IsThere = updateInputs(this->Filter);
   this->Meet(this->Arrays);
-}
-
-//------------------------------------------------------------------------------
-void ExposureSteps::UpdateInputs()
-{
-  this->IsThere = true;
-  for (int port = 0; port < Ports; ++port)
-  {
-    if (this->Filter->GetNumberOfInputConnections(port) > 0)
-    {
-      auto* upstream = Pipeline::SafeDownCast(this->Filter->GetInputExecutive(port, 0));
-      vtkAlgorithmOutput* from = this->Filter->GetInputConnection(port, 0);
-      this->IsThere = upstream && upstream->Update(from->GetIndex()) && this->IsThere;
-    }
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -154,7 +172,7 @@ bool ExposureSteps::Resume()
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  this->UpdateInputs();
+  this->IsThere = updateInputs(this->Filter);
   this->Meet(this->Arrays);
   return true;
 }
@@ -181,12 +199,7 @@ void ExposureSteps::KeepPiece() { this->Keep(0, vtkDataObject::GetData(this->Inp
 void ExposureSteps::Keep(int port, vtkDataObject* data)
 {
   this->Earlier[port] = this->Later[port];
-  this->Later[port] = nullptr;
-  if (data)
-  {
-    this->Later[port].TakeReference(data->NewInstance());
-    this->Later[port]->ShallowCopy(data);
-  }
+  this->Later[port] = sharedCopy(data);
 }
 
 //------------------------------------------------------------------------------

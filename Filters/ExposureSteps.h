@@ -27,6 +27,15 @@ TimeExposure exposureFor(vtkInformation* input, vtkInformation* output, double l
 /// Requests another time of all inputs than that of the output.
 void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
 
+/// Updates what is upstream of all inputs. False where something there has failed.
+bool updateInputs(vtkAlgorithm* filter);
+
+/// Says of what time the outputs are, which the pipeline else takes from the input.
+void setTime(vtkInformationVector* outputs, double time);
+
+/// A copy that shares the arrays and keeps them while upstream makes others; null of null.
+vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data);
+
 /// The data of an image, for RequestData of a filter that has those of the first step of its exposure, or of the only
 /// one where there is none. What is upstream is updated for one step after the other, on all ranks, and two of them
 /// are kept. (VTK's CONTINUE_EXECUTING would do the same, but never ends where the data of a step cannot be read.)
@@ -74,7 +83,6 @@ public:
 private:
   static constexpr int Ports = 2;
 
-  void UpdateInputs();
   void Keep(int port, vtkDataObject* data);
 
   vtkAlgorithm* Filter;

@@ -13,6 +13,7 @@
 #include "SceneFromSettings.h"
 
 #include "vtkCommand.h"
+#include "vtkExecutive.h"
 #include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
@@ -23,6 +24,17 @@ using namespace filters;
 
 namespace
 {
+
+/// What the data of a step take.
+double kibibytesOf(const TimeStep& step)
+{
+  double sum = 0;
+  for (vtkDataObject* data : { step.data.Get(), step.bodies.Get() })
+  {
+    sum += data ? static_cast<double>(data->GetActualMemorySize()) : 0;
+  }
+  return sum;
+}
 
 bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
 {
@@ -144,10 +156,20 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     inside.FailedAt != now && inside.Shown[IMAGE_PORT].IsThere() &&
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
-      this->DescribeInputs(inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
-        inside.Ranks.GetInput(
+      this->DescribeInputs(this->InputOfImage(0, this->GetInputDataObject(0, 0)),
+        this->InputOfImage(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField);
+}
+
+//------------------------------------------------------------------------------
+vtkDataObject* vtkSchlierenFilter::InputOfImage(int port, vtkDataObject* own)
+{
+  if (const TimeStep* step = this->Inside->Ahead.Current(this))
+  {
+    return port == 0 ? step->data : step->bodies;
+  }
+  return this->Inside->Ranks.GetInput(port, own);
 }
 
 //------------------------------------------------------------------------------
@@ -248,7 +270,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
 {
   Internals& inside = *this->Inside;
   inside.Done = 0;
-  schlieren::Field field = inside.field();
+  schlieren::Field field = Internals::fieldOf(*inside.Refractivity);
   field.ambient = !this->AutoAmbientRefractivity ? this->AmbientRefractivity
     : inside.FirstInstant                        ? inside.FirstInstant->ambient
                                                  : this->KeptAmbient();
@@ -276,10 +298,70 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
-  return inside.Images.Begin(field, scene,
-    this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
-                                  : TimeSlicedImage::Paths::OfScene,
-    seconds, monitor);
+  const auto paths = this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
+                                                   : TimeSlicedImage::Paths::OfScene;
+  const auto trace = [&](const schlieren::Monitor& ofTrace)
+  { return inside.Images.Begin(field, scene, paths, seconds, ofTrace); };
+  return isPreview || seconds > 0 ? trace(monitor)
+                                  : this->TraceAndReadAhead(trace, scene, field.ambient, monitor);
+}
+
+//------------------------------------------------------------------------------
+schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
+  const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
+  const schlieren::Scene& scene, const std::optional<double>& ambient,
+  const schlieren::Monitor& monitor)
+{
+  Internals& inside = *this->Inside;
+  const TimeStep* step = inside.Ahead.Current(this);
+  const auto next = step ? inside.Ahead.Predict(this->GetExecutive()->GetInputInformation(0, 0))
+                         : std::optional<double>();
+  if (!next || kibibytesOf(*step) > this->ReadAheadMemory * 1024.0)
+  {
+    return trace(monitor);
+  }
+  inside.IsReadingAhead = true;
+  const auto read = [&]
+  {
+    this->ReadAhead(*next, scene, ambient);
+    inside.IsReadingAhead = false;
+  };
+  return traceWhile(read, trace, monitor);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ReadAhead(
+  double time, const schlieren::Scene& scene, const std::optional<double>& ambient)
+{
+  Internals& inside = *this->Inside;
+  TimeStep* step = inside.Ahead.Read(this, this->GetExecutive()->GetInputInformation(), time);
+  if (!step)
+  {
+    return;
+  }
+  try
+  {
+    step->refractivity = this->FindOrMakeRefractivity(
+      step->data, step->bodies, this->DescribeInputs(step->data, step->bodies));
+    // Its medium is another one where it needs the ambient refractivity that is being found now.
+    const bool isAmbientKnown = !this->LockAmbient || !inside.FindsAmbient;
+    const bool hasTints = this->ColorByField && step->refractivity && !step->refractivity->Source;
+    if (!step->refractivity || !isAmbientKnown || hasTints || this->PathModel == DIFFERENCE)
+    {
+      return;
+    }
+    schlieren::Field field = Internals::fieldOf(*step->refractivity);
+    field.ambient = ambient;
+    field.lengthScale = this->LengthScale;
+    field.gradients = { static_cast<int>(scene.fieldColors.size()), nullptr, field.version };
+    step->bench = std::make_unique<schlieren::Bench>();
+    step->bench->setMedia(mediaOfProcess());
+    step->bench->prepare(
+      field, scene, { nullptr, [this]() { return this->GetAbortExecute() != 0; } });
+  }
+  catch (const std::exception&) // the request for that step will say it
+  {
+  }
 }
 
 //------------------------------------------------------------------------------

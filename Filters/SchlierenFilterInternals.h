@@ -3,6 +3,7 @@
 #pragma once
 
 #include "LastImage.h"
+#include "NextStep.h"
 #include "Ranks.h"
 #include "RgbImages.h"
 #include "SceneFromSettings.h"
@@ -61,16 +62,16 @@ struct vtkSchlierenFilter::Internals
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // what a source was divided into
 
-  schlieren::Field field() const
+  static schlieren::Field fieldOf(const MadeRefractivity& made)
   {
-    if (!this->Refractivity->Source)
+    if (!made.Source)
     {
-      return filters::fieldFrom(this->Refractivity->Image);
+      return filters::fieldFrom(made.Image);
     }
     schlieren::Field field;
-    field.source = this->Refractivity->Source;
+    field.source = made.Source;
     field.grid = schlieren::coarsestGrid(*field.source);
-    field.version = this->Refractivity->SourceTime;
+    field.version = made.SourceTime;
     return field;
   }
 
@@ -100,6 +101,9 @@ struct vtkSchlierenFilter::Internals
   filters::SensitivityLock AmbientLock;
   bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // of the last update; unset for data without time steps
+
+  filters::NextStep Ahead;
+  bool IsReadingAhead = false; // what is made now is of the next time step
 
   filters::TimeExposure Exposure; // of the last request
   std::size_t Instant = 0;        // of these, the one that is being made

@@ -187,6 +187,7 @@ struct ResourceSettings
   int Device = 0;
   int NumberOfThreads = 0;
   int GatherLimit = 10000000;
+  int ReadAheadMemory = 0;
   double TimeLimit = 0;
 
   template <class Visit>
@@ -198,6 +199,7 @@ struct ResourceSettings
     use("Device", this->Device);
     use("NumberOfThreads", this->NumberOfThreads);
     use("GatherLimit", this->GatherLimit);
+    use("ReadAheadMemory", this->ReadAheadMemory);
     use("TimeLimit", this->TimeLimit);
   }
 };

@@ -77,6 +77,22 @@ bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
   return false;
 }
 
+/// The time that is requested. Data without time steps are the same at all times, and VTK need not run a filter for another one.
+std::optional<double> timeOf(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* inInfo = inputs[0]->GetInformationObject(0);
+  vtkInformation* outInfo =
+    outputs->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
+  const bool hasTime = inInfo->Has(Pipeline::TIME_STEPS()) || inInfo->Has(Pipeline::TIME_RANGE());
+  if (!hasTime || !outInfo->Has(Pipeline::UPDATE_TIME_STEP()))
+  {
+    return {};
+  }
+  return outInfo->Get(Pipeline::UPDATE_TIME_STEP());
+}
+
 const char* const noIndexYet = "No image: the refractive index is not known yet";
 
 /// Gives the executive the extents of the outputs.
@@ -228,6 +244,10 @@ void vtkSchlierenFilter::OnMediumProgress()
 void vtkSchlierenFilter::Progress(double fraction)
 {
   const Internals& inside = *this->Inside;
+  if (inside.IsReadingAhead)
+  {
+    return;
+  }
   const auto instants =
     static_cast<double>(std::max<std::size_t>(1, inside.Exposure.Instants.size()));
   this->UpdateProgress((static_cast<double>(inside.Instant) + fraction) / instants);
@@ -249,26 +269,10 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
-  // Pieces belong to the ranks of this filter.
-  const bool canShare = !inside.Ranks.AreInPieces();
-  RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
-  std::shared_ptr<const MadeRefractivity> made = canShare ? findRefractivity(key) : nullptr;
-  if (made)
+  const auto made = this->FindOrMakeRefractivity(input, bodies, description);
+  if (!made)
   {
-    this->Medium->ReleasePieces();
-    this->Medium->SetMesh(made->Mesh);
-  }
-  else
-  {
-    made = this->MakeRefractivity(input, bodies);
-    if (!made)
-    {
-      return false;
-    }
-    if (canShare)
-    {
-      shareRefractivity(std::move(key), made);
-    }
+    return false;
   }
   inside.Refractivity = made;
   if (!made->Warning.empty())
@@ -278,6 +282,29 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
   return true;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
+  vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
+{
+  if (this->Inside->Ranks.AreInPieces()) // they belong to the ranks of this filter
+  {
+    return this->MakeRefractivity(input, bodies);
+  }
+  RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
+  if (std::shared_ptr<const MadeRefractivity> found = findRefractivity(key))
+  {
+    this->Medium->ReleasePieces();
+    this->Medium->SetMesh(found->Mesh);
+    return found;
+  }
+  std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
+  if (made)
+  {
+    shareRefractivity(std::move(key), made);
+  }
+  return made;
 }
 
 //------------------------------------------------------------------------------
@@ -352,17 +379,16 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   {
     // Where the image lies depends on the input's points: RequestData corrects what is stated here
     // before the input has been produced.
-    const FilterRanks& ranks = this->Inside->Ranks;
-    if (vtkDataObject* input = ranks.GetInput(0, vtkDataObject::GetData(inputVector[0])))
+    if (vtkDataObject* input = this->InputOfImage(0, vtkDataObject::GetData(inputVector[0])))
     {
       this->PassToMedium();
       schlieren::Grid grid;
-      vtkDataObject* bodies = ranks.GetInput(vtkRefractiveIndex::BODIES,
+      vtkDataObject* bodies = this->InputOfImage(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
             this->DescribeInputs(input, bodies), this->Medium, this->ColorByField))
       {
-        grid = this->Inside->field().grid;
+        grid = Internals::fieldOf(*this->Inside->Refractivity).grid;
       }
       else
       {
@@ -421,6 +447,10 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   if (!inside.Exposure.IsNone())
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
+  }
+  else if (const auto time = timeOf(request, inputVector, outputVector))
+  {
+    inside.Ahead.Request(this, inputVector, *time);
   }
   if (this->Inside->Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
   {
@@ -504,6 +534,10 @@ int vtkSchlierenFilter::RequestData(
           vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
     }
     tellPlaces(outputVector);
+    if (inside.Time && inside.Ahead.Current(this))
+    {
+      setTime(outputVector, *inside.Time); // upstream may have another one
+    }
   };
   if (this->GetStopped())
   {
@@ -511,17 +545,7 @@ int vtkSchlierenFilter::RequestData(
     return 1;
   }
 
-  // Data without time steps are the same at all times, and VTK need not run this for another one.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  vtkInformation* outInfo =
-    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
-  inside.Time.reset();
-  if ((inInfo->Has(Pipeline::TIME_STEPS()) || inInfo->Has(Pipeline::TIME_RANGE())) &&
-    outInfo->Has(Pipeline::UPDATE_TIME_STEP()))
-  {
-    inside.Time = outInfo->Get(Pipeline::UPDATE_TIME_STEP());
-  }
+  inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
   try
@@ -529,6 +553,17 @@ int vtkSchlierenFilter::RequestData(
     const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(maxCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
+    TimeStep* step = nullptr;
+    if (isExposure || !inside.Time || this->ReadAheadMemory == 0 || hasOtherRanks())
+    {
+      inside.Ahead.Release();
+    }
+    else
+    {
+      step = &inside.Ahead.Arrive(this, *inside.Time, input, bodies);
+      input = step->data;
+      bodies = step->bodies;
+    }
     if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
     {
       this->ForgetImage();
@@ -549,6 +584,10 @@ int vtkSchlierenFilter::RequestData(
     isMade = isMade &&
       (isExposure ? this->Expose(steps, output, histogram)
                   : this->Render(output, histogram, continues));
+    if (step)
+    {
+      step->bench.reset(); // the image's own has the medium now
+    }
     if (isMade)
     {
       showLast();

@@ -59,10 +59,12 @@
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for GradedFilter
 
-#include <memory>   // for std::unique_ptr, std::shared_ptr
-#include <optional> // for std::optional
-#include <string>   // for std::string
-#include <vector>   // for std::vector
+#include <algorithm>  // for std::max
+#include <functional> // for std::function
+#include <memory>     // for std::unique_ptr, std::shared_ptr
+#include <optional>   // for std::optional
+#include <string>     // for std::string
+#include <vector>     // for std::vector
 
 class vtkPiecewiseFunction;
 struct MadeRefractivity;
@@ -77,6 +79,7 @@ namespace schlieren
 {
 struct Image;
 struct Monitor;
+struct Scene;
 } // namespace schlieren
 
 class VTKSCHLIERENFILTERS_EXPORT vtkSchlierenFilter : public vtkImageAlgorithm,
@@ -854,6 +857,19 @@ public:
 
   ///@{
   /**
+   * Memory, MiB, that the data of the next time step may take, which is then read while the image of this one is
+   * traced, and its medium made; 0 (the default): it is read when it is requested. The next step is the one that is
+   * as far from this one as this one from that before, at first the one after it. As much is taken to be needed as this
+   * one takes; the medium comes on top, see MediumMemory. What is upstream has the data of the next step afterwards.
+   * No effect where ParaView runs as several processes, on exposures and with a TimeLimit. The images do not depend
+   * on it, and another value is no reason to make one again.
+   */
+  void SetReadAheadMemory(int mebibytes) { this->ReadAheadMemory = std::max(0, mebibytes); }
+  vtkGetMacro(ReadAheadMemory, int);
+  ///@}
+
+  ///@{
+  /**
    * What this filter has done since it was made: media built, meshes prepared for it (see
    * vtkRefractiveIndex::MakeSource), grids chosen for meshes, cells of meshes searched for a grid's points, and rays
    * traced. They stand still where an update could use what was there.
@@ -966,6 +982,9 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
+  /// That of another filter, or a new one. Null if aborted.
+  std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(
+    vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description);
   /// Null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
     vtkDataObject* input, vtkDataObject* bodies);
@@ -976,6 +995,14 @@ private:
   vtkMTimeType GetTimeOfImage();
   /// Whether an update has only to resume the image that is not finished.
   bool Continues(vtkDataObject* input, vtkDataObject* bodies);
+  /// On rank 0: what there is of an input, of the time of the last image; `own`: what upstream has.
+  vtkDataObject* InputOfImage(int port, vtkDataObject* own);
+  /// Reads the next time step, where there is memory for it, and makes its medium, while `trace` is at work in another thread.
+  schlieren::Image TraceAndReadAhead(
+    const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
+    const schlieren::Scene& scene, const std::optional<double>& ambient,
+    const schlieren::Monitor& monitor);
+  void ReadAhead(double time, const schlieren::Scene& scene, const std::optional<double>& ambient);
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
   std::vector<char> Respond(const std::vector<char>& message);
   /// Everything of the inputs that the refractivity depends on.

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include "Schlieren.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+
+class vtkAlgorithm;
+class vtkDataObject;
+class vtkInformation;
+class vtkInformationVector;
+struct MadeRefractivity;
+
+namespace filters
+{
+
+/// A time step of a filter's inputs, and what has been made of it.
+struct TimeStep
+{
+  double time = 0;
+  vtkSmartPointer<vtkDataObject> data, bodies; // copies that share the arrays; bodies may be null
+  std::shared_ptr<const MadeRefractivity> refractivity; // null: not made yet
+  std::unique_ptr<schlieren::Bench> bench;              // that has the medium; likewise
+};
+
+/// The time step that will probably be requested next, which a filter reads while it traces the image of this one.
+/// As upstream has that step then, this one is kept, too. Both are forgotten when anything upstream changes.
+class NextStep
+{
+public:
+  /// In RequestUpdateExtent for a time: where its step is kept, requests nothing else than upstream has.
+  void Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time) const;
+
+  /// In RequestData for a time: its step, which is that of the inputs unless it is kept.
+  TimeStep& Arrive(vtkAlgorithm* filter, double time, vtkDataObject* data, vtkDataObject* bodies);
+
+  /// Whether the step of the last image is kept; null: it is not.
+  const TimeStep* Current(vtkAlgorithm* filter) const;
+
+  /// The time step that follows the current one as that has followed the one before; unset where there is none, where
+  /// the current time is not that of a step, and where that step is there already.
+  std::optional<double> Predict(vtkInformation* input) const;
+
+  /// Updates the inputs for a time, and afterwards requests the current one again. Null where there are no data.
+  TimeStep* Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
+
+  void Release();
+
+private:
+  bool IsValid(vtkAlgorithm* filter) const;
+
+  std::optional<TimeStep> This, Next;
+  vtkMTimeType UpstreamTime = 0;
+  bool IsKeepable = true;       // false: what is upstream changes with each step
+  std::optional<double> Before; // the time of the image before
+};
+
+/// What `trace` returns, which runs in a thread of its own while `read` runs in this one. The monitor is called in this one,
+/// as soon as `read` has returned.
+schlieren::Image traceWhile(const std::function<void()>& read,
+  const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
+  const schlieren::Monitor& monitor);
+
+} // namespace filters
