@@ -16,6 +16,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <system_error>
 
 namespace filters
 {
@@ -148,8 +149,15 @@ schlieren::Image traceWhile(const std::function<void()>& read,
   schlieren::Monitor ofThread;
   ofThread.aborted = [&] { return isAborted.load(); };
   ofThread.progress = [&](double fraction) { done = fraction; };
-  // Its destructor waits.
-  std::future<schlieren::Image> image = std::async(std::launch::async, trace, ofThread);
+  std::future<schlieren::Image> image; // its destructor waits
+  try
+  {
+    image = std::async(std::launch::async, trace, ofThread);
+  }
+  catch (const std::system_error&) // the system gives no more threads
+  {
+    return trace(monitor);
+  }
   read();
   do
   {

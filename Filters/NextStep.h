@@ -41,7 +41,7 @@ public:
   /// In RequestData for a time: its step, which is that of the inputs unless it is kept.
   TimeStep& Arrive(vtkAlgorithm* filter, double time, vtkDataObject* data, vtkDataObject* bodies);
 
-  /// Whether the step of the last image is kept; null: it is not.
+  /// The step of the last image; null where it is not kept.
   const TimeStep* Current(vtkAlgorithm* filter) const;
 
   /// The time step that follows the current one as that has followed the one before; unset where there is none, where
@@ -63,7 +63,7 @@ private:
 };
 
 /// What `trace` returns, which runs in a thread of its own while `read` runs in this one. The monitor is called in this one,
-/// as soon as `read` has returned.
+/// as soon as `read` has returned. Where there is no thread for it, nothing is read.
 schlieren::Image traceWhile(const std::function<void()>& read,
   const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
   const schlieren::Monitor& monitor);

@@ -320,9 +320,9 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
   {
     return trace(monitor);
   }
-  inside.IsReadingAhead = true;
   const auto read = [&]
   {
+    inside.IsReadingAhead = true;
     this->ReadAhead(*next, scene, ambient);
     inside.IsReadingAhead = false;
   };
@@ -334,13 +334,13 @@ void vtkSchlierenFilter::ReadAhead(
   double time, const schlieren::Scene& scene, const std::optional<double>& ambient)
 {
   Internals& inside = *this->Inside;
-  TimeStep* step = inside.Ahead.Read(this, this->GetExecutive()->GetInputInformation(), time);
-  if (!step)
-  {
-    return;
-  }
   try
   {
+    TimeStep* step = inside.Ahead.Read(this, this->GetExecutive()->GetInputInformation(), time);
+    if (!step)
+    {
+      return;
+    }
     step->refractivity = this->FindOrMakeRefractivity(
       step->data, step->bodies, this->DescribeInputs(step->data, step->bodies));
     // Its medium is another one where it needs the ambient refractivity that is being found now.
