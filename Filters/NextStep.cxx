@@ -47,9 +47,10 @@ bool NextStep::IsValid(vtkAlgorithm* filter) const
 }
 
 //------------------------------------------------------------------------------
-void NextStep::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time) const
+void NextStep::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time)
 {
-  if (!this->IsValid(filter) || !(isOf(this->This, time) || isOf(this->Next, time)))
+  this->HasRequested = this->IsValid(filter) && (isOf(this->This, time) || isOf(this->Next, time));
+  if (!this->HasRequested)
   {
     return;
   }
@@ -69,8 +70,7 @@ void NextStep::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, doub
 TimeStep& NextStep::Arrive(
   vtkAlgorithm* filter, double time, vtkDataObject* data, vtkDataObject* bodies)
 {
-  const bool isValid = this->IsValid(filter);
-  if (isValid && isOf(this->This, time))
+  if (this->HasRequested && isOf(this->This, time))
   {
     return *this->This;
   }
@@ -78,7 +78,7 @@ TimeStep& NextStep::Arrive(
   {
     this->Before = this->This->time;
   }
-  if (isValid && isOf(this->Next, time))
+  if (this->HasRequested && isOf(this->Next, time))
   {
     this->This = std::move(this->Next);
   }

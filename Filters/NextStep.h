@@ -36,9 +36,9 @@ class NextStep
 {
 public:
   /// In RequestUpdateExtent for a time: where its step is kept, requests nothing else than upstream has.
-  void Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time) const;
+  void Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
 
-  /// In RequestData for a time: its step, which is that of the inputs unless it is kept.
+  /// In RequestData for the same time: its step, which is that of the inputs unless it is kept.
   TimeStep& Arrive(vtkAlgorithm* filter, double time, vtkDataObject* data, vtkDataObject* bodies);
 
   /// The step of the last image; null where it is not kept.
@@ -58,6 +58,7 @@ private:
 
   std::optional<TimeStep> This, Next;
   vtkMTimeType UpstreamTime = 0;
+  bool HasRequested = false;    // what is requested: the inputs may be of another time
   bool IsKeepable = true;       // false: what is upstream changes with each step
   std::optional<double> Before; // the time of the image before
 };

@@ -103,6 +103,7 @@ struct vtkSchlierenFilter::Internals
   std::optional<double> Time; // of the last update; unset for data without time steps
 
   filters::NextStep Ahead;
+  bool MayReadAhead = false;   // in the last request
   bool IsReadingAhead = false; // what is made now is of the next time step
 
   filters::TimeExposure Exposure; // of the last request

@@ -448,9 +448,16 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  else if (const auto time = timeOf(request, inputVector, outputVector))
+  const auto time = timeOf(request, inputVector, outputVector);
+  inside.MayReadAhead =
+    this->ReadAheadMemory > 0 && time && inside.Exposure.IsNone() && !hasOtherRanks();
+  if (inside.MayReadAhead)
   {
     inside.Ahead.Request(this, inputVector, *time);
+  }
+  else
+  {
+    inside.Ahead.Release();
   }
   if (this->Inside->Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
   {
@@ -554,11 +561,7 @@ int vtkSchlierenFilter::RequestData(
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
     TimeStep* step = nullptr;
-    if (isExposure || !inside.Time || this->ReadAheadMemory == 0 || hasOtherRanks())
-    {
-      inside.Ahead.Release();
-    }
-    else
+    if (inside.MayReadAhead)
     {
       step = &inside.Ahead.Arrive(this, *inside.Time, input, bodies);
       input = step->data;

@@ -273,6 +273,40 @@ TEST_F(ReadAhead, NothingIsReadWhereThereIsNoMemoryForIt)
   EXPECT_EQ(this->filter->GetReadAheadMemory(), 0);
 }
 
+// Upstream has another step then.
+TEST_F(ReadAhead, CanBeSwitchedOffAtAnyTime)
+{
+  auto plain = this->connected(0);
+  plain->SetAutoKScale(false);
+  plain->SetKnifeEdgeAngle(90);
+  plain->UpdateTimeStep(1);
+  const auto expected = valuesOf(plain, "Intensity");
+  plain->SetExposureTime(1);
+  plain->SetExposureSamples(3);
+  plain->UpdateTimeStep(1);
+  const auto exposed = valuesOf(plain, "Intensity");
+  EXPECT_NE(exposed, expected);
+  for (const bool isExposed : { false, true })
+  {
+    this->filter = this->connected(1024);
+    this->filter->SetAutoKScale(false);
+    this->filter->UpdateTimeStep(0);
+    this->filter->UpdateTimeStep(1);
+    this->filter->SetKnifeEdgeAngle(90);
+    if (isExposed)
+    {
+      this->filter->SetExposureTime(1);
+      this->filter->SetExposureSamples(3);
+    }
+    else
+    {
+      this->filter->SetReadAheadMemory(0);
+    }
+    this->filter->UpdateTimeStep(1);
+    EXPECT_EQ(valuesOf(this->filter, "Intensity"), isExposed ? exposed : expected);
+  }
+}
+
 TEST_F(ReadAhead, NothingIsReadForExposuresSlicesOfTimeAndSteadyData)
 {
   this->filter->SetTimeLimit(1e-9);
