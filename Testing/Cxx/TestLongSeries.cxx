@@ -158,3 +158,9 @@ TEST_F(LongSeries, OfExposures)
       filter->SetExposureSamples(2);
     });
 }
+
+TEST_F(LongSeries, OfStepsThatAreReadAhead)
+{
+  expectNoGrowth([](double time) { return meshAt(time, 0); },
+    [](vtkSchlierenFilter* filter) { filter->SetReadAheadMemory(64); });
+}
