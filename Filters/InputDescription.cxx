@@ -20,6 +20,8 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 namespace filters
 {
 
@@ -89,6 +91,16 @@ vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port)
   }
   auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(port, 0));
   return upstream ? upstream->GetPipelineMTime() : 0;
+}
+
+vtkMTimeType upstreamTime(vtkAlgorithm* filter)
+{
+  vtkMTimeType time = 0;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    time = std::max(time, upstreamTime(filter, port));
+  }
+  return time;
 }
 
 std::vector<vtkDataObject*> leavesOf(vtkDataObject* data)

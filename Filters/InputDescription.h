@@ -14,6 +14,8 @@ namespace filters
 
 /// The newest time of everything that the input of a port comes from; 0 where there is none.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
+/// The same of all ports.
+vtkMTimeType upstreamTime(vtkAlgorithm* filter);
 
 /// What a composite holds, or else the data itself; nothing for null.
 std::vector<vtkDataObject*> leavesOf(vtkDataObject* data);

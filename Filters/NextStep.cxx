@@ -26,16 +26,6 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-vtkMTimeType timeUpstream(vtkAlgorithm* filter)
-{
-  vtkMTimeType time = 0;
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
-  {
-    time = std::max(time, upstreamTime(filter, port));
-  }
-  return time;
-}
-
 bool isOf(const std::optional<TimeStep>& step, double time) { return step && step->time == time; }
 
 } // namespace
@@ -43,7 +33,7 @@ bool isOf(const std::optional<TimeStep>& step, double time) { return step && ste
 //------------------------------------------------------------------------------
 bool NextStep::IsValid(vtkAlgorithm* filter) const
 {
-  return this->UpstreamTime == timeUpstream(filter);
+  return this->UpstreamTime == upstreamTime(filter);
 }
 
 //------------------------------------------------------------------------------
@@ -87,7 +77,7 @@ TimeStep& NextStep::Arrive(
     this->This = TimeStep{ time, sharedCopy(data), sharedCopy(bodies), nullptr, nullptr };
   }
   this->Next.reset();
-  this->UpstreamTime = timeUpstream(filter);
+  this->UpstreamTime = upstreamTime(filter);
   return *this->This;
 }
 

@@ -251,11 +251,7 @@ FilterRanks::~FilterRanks() = default;
 //------------------------------------------------------------------------------
 void FilterRanks::CountChanges(vtkAlgorithm* filter)
 {
-  vtkMTimeType time = 0;
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
-  {
-    time = std::max(time, upstreamTime(filter, port));
-  }
+  const vtkMTimeType time = upstreamTime(filter);
   if (this->Now.changes == 0 || time > this->CountedAt.GetMTime())
   {
     ++this->Now.changes;

@@ -375,9 +375,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   setComplete(outputVector);
 
   // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
-  const auto latestChange = [this]() {
-    return std::max({ this->GetMTime(), upstreamTime(this, 0), upstreamTime(this, BODIES) });
-  };
+  const auto latestChange = [this]() { return std::max(this->GetMTime(), upstreamTime(this)); };
   const vtkMTimeType now = latestChange();
   if (this->FailedAt == now)
   {

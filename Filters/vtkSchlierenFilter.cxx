@@ -184,8 +184,7 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfProperties()
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 {
-  return std::max({ this->GetTimeOfProperties(), upstreamTime(this, 0),
-    upstreamTime(this, vtkRefractiveIndex::BODIES) });
+  return std::max(this->GetTimeOfProperties(), upstreamTime(this));
 }
 
 //------------------------------------------------------------------------------
