@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What vtkSchlierenFilter makes of its inputs before there is a view.
+#include "SchlierenFilterInternals.h"
+
+#include "FieldTints.h"
+#include "GasChoices.h"
+#include "InputDescription.h"
+#include "RefractivitySource.h"
+#include "SceneFromSettings.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+
+#include <algorithm>
+#include <utility>
+
+using namespace filters;
+
+namespace
+{
+
+/// Whether two array selections say the same.
+bool sameSelection(vtkInformation* a, vtkInformation* b)
+{
+  const auto name = [](vtkInformation* info)
+  {
+    const char* text =
+      info->Has(vtkDataObject::FIELD_NAME()) ? info->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+    return std::string(text ? text : "");
+  };
+  const auto number = [](vtkInformation* info, vtkInformationIntegerKey* key)
+  { return info->Has(key) ? info->Get(key) : -1; };
+  return name(a) == name(b) &&
+    number(a, vtkDataObject::FIELD_ASSOCIATION()) ==
+    number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
+    number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
+    number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtkDataObject* bodies)
+{
+  const FilterRanks& ranks = this->Inside->Ranks;
+  // A source that makes less than was requested, as those that spread their data do, runs at each update.
+  std::vector<double> description =
+    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
+  description.push_back(ranks.GetGatherings()); // of what other ranks have
+  description.push_back(this->ImagesBecomeTrees(input));
+  if (bodies)
+  {
+    const std::vector<double> ofBodies =
+      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
+    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  }
+  return description;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
+{
+  const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
+  if (this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF || !hasOtherRanks() || this->ColorByField ||
+    this->PathModel == DIFFERENCE || isBentOtherwise || this->Device == CUDA)
+  {
+    return false;
+  }
+  const std::vector<vtkDataObject*> leaves = leavesOf(input);
+  if (std::none_of(leaves.begin(), leaves.end(),
+        [](vtkDataObject* leaf) { return vtkImageData::SafeDownCast(leaf) != nullptr; }))
+  {
+    return false;
+  }
+  const double bytes = static_cast<double>(input->GetNumberOfElements(vtkDataObject::POINT)) *
+    (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float));
+  return this->DistributedMedium == DISTRIBUTED_MEDIUM_ON ||
+    bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::PassToMedium()
+{
+  // Otherwise another wavelength would make the same refractivity once more.
+  if (filters::usesWavelength(this->Medium))
+  {
+    this->Medium->SetWavelength(this->Wavelength);
+  }
+  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::MASK; ++index)
+  {
+    vtkInformation* selection = this->GetInputArrayInformation(index);
+    if (!sameSelection(selection, this->Medium->GetInputArrayInformation(index)))
+    {
+      this->Medium->SetInputArrayToProcess(index, selection);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies)
+{
+  Internals& inside = *this->Inside;
+  this->PassToMedium();
+  std::vector<double> description = this->DescribeInputs(input, bodies);
+  if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField))
+  {
+    return true;
+  }
+  inside.MediumTime = 0;
+  inside.FieldGradients.clear();
+  this->Medium->AbortExecuteOff();
+  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
+  inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
+  inside.Grid.clear();
+  const auto made = this->FindOrMakeRefractivity(input, bodies, description);
+  if (!made)
+  {
+    return false;
+  }
+  inside.Refractivity = made;
+  if (!made->Warning.empty())
+  {
+    vtkWarningMacro(<< made->Warning);
+  }
+  inside.Input = std::move(description);
+  inside.MediumTime = this->Medium->GetMTime();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
+  vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
+{
+  if (this->Inside->Ranks.AreInPieces()) // they belong to the ranks of this filter
+  {
+    return this->MakeRefractivity(input, bodies);
+  }
+  RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
+  if (std::shared_ptr<const MadeRefractivity> found = findRefractivity(key))
+  {
+    this->Medium->ReleasePieces();
+    this->Medium->SetMesh(found->Mesh);
+    return found;
+  }
+  std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
+  if (made)
+  {
+    shareRefractivity(std::move(key), made);
+  }
+  return made;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
+  vtkDataObject* input, vtkDataObject* bodies)
+{
+  const Internals& inside = *this->Inside;
+  auto made = std::make_shared<MadeRefractivity>();
+  const auto contents =
+    this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
+  if (inside.Ranks.AreInPieces())
+  {
+    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents);
+  }
+  else
+  {
+    this->Medium->ReleasePieces();
+    if (this->Medium->CanMakeSource(input, bodies, this->ImagesBecomeTrees(input)))
+    {
+      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
+    }
+  }
+  if (!made->Source && !this->Medium->GetAbortExecute())
+  {
+    if (this->ColorByField)
+    {
+      this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
+    }
+    made->Warning = this->Medium->Convert(input, made->Image, bodies);
+    if (!this->Medium->GetAbortExecute())
+    {
+      mergeMasks(made->Image);
+    }
+  }
+  if (this->Medium->GetAbortExecute())
+  {
+    return nullptr;
+  }
+  vtkTimeStamp now;
+  now.Modified();
+  made->SourceTime = now.GetMTime();
+  made->Mesh = this->Medium->GetMesh();
+  made->Grid = this->Medium->GetGrid();
+  return made;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
+{
+  Internals& inside = *this->Inside;
+  if (!this->ColorByField || inside.Refractivity->Source)
+  {
+    inside.FieldGradients = std::vector<float>();
+  }
+  else if (inside.FieldGradients.empty())
+  {
+    inside.FieldGradients =
+      fieldGradients(this->Medium, input, inside.Refractivity->Image, threadsFrom(*this));
+  }
+}
