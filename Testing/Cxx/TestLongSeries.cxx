@@ -69,9 +69,13 @@ vtkSmartPointer<vtkDataObject> meshAt(double time, double moves)
 
 constexpr int manySteps = 500;
 
-/// Goes through a series, whose first hundred steps find what serves the later ones.
+constexpr std::size_t MiB = std::size_t{ 1 } << 20;
+
+/// Goes through a series, whose first hundred steps find what serves the later ones. `inPart`: bytes of pages that may
+/// come to be in use in part.
 void expectNoGrowth(const std::function<vtkSmartPointer<vtkDataObject>(double)>& make,
-  const std::function<void(vtkSchlierenFilter*)>& set, int steps = manySteps)
+  const std::function<void(vtkSchlierenFilter*)>& set, int steps = manySteps,
+  std::size_t inPart = 2 * MiB)
 {
   const int warmedUp = 96, last = steps - 4; // of the same phase
   vtkNew<Changing> source;
@@ -101,8 +105,7 @@ void expectNoGrowth(const std::function<vtkSmartPointer<vtkDataObject>(double)>&
     {
       // Of each step less than the smallest array: malloc keeps some small pieces of each size for later.
       EXPECT_LT(memoryInUse(), inUse + (last - warmedUp) * 200);
-      EXPECT_LT(
-        residentBytes(), resident + (std::size_t{ 1 } << 21)); // with what is in use in part
+      EXPECT_LT(residentBytes(), resident + inPart);
     }
   }
 }
@@ -161,6 +164,8 @@ TEST_F(LongSeries, OfExposures)
 
 TEST_F(LongSeries, OfStepsThatAreReadAhead)
 {
+  // Two threads allocate at once: which pages are in use in part depends on their timing. After 3000 steps there are no
+  // more of them.
   expectNoGrowth([](double time) { return meshAt(time, 0); },
-    [](vtkSchlierenFilter* filter) { filter->SetReadAheadMemory(64); });
+    [](vtkSchlierenFilter* filter) { filter->SetReadAheadMemory(64); }, manySteps, 16 * MiB);
 }
