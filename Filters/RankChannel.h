@@ -4,12 +4,7 @@
 // What the ranks of a filter send each other to meet, and how.
 #pragma once
 
-#include "vtkMultiProcessController.h"
-
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-#include "vtkMPICommunicator.h"
-#include "vtkMPIController.h"
-#endif
+#include "RankOutbox.h"
 
 #include "Rays/Channel.h"
 #include "Rays/RayWorker.h"
@@ -21,7 +16,6 @@
 #include <cstring>
 #include <deque>
 #include <exception>
-#include <list>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -113,9 +107,9 @@ public:
     const auto size = static_cast<std::int64_t>(message.size());
     std::vector<char> head(sizeof(size));
     std::memcpy(head.data(), &size, sizeof(size));
-    this->Begin(std::move(head));
-    this->Begin(std::move(message));
-    while (size > largestSmall && this->HasUnsent())
+    this->Outgoing.Send(std::move(head), this->Rank, this->Tag);
+    this->Outgoing.Send(std::move(message), this->Rank, this->Tag);
+    while (size > largestSmall && this->Outgoing.HasUnsent())
     {
       waitABit();
     }
@@ -230,6 +224,7 @@ public:
     return {};
   }
   bool isOpen() const override { return this->Guest.has_value(); }
+  std::int32_t address() const override { return this->Rank; }
 
   // On rank 0: of a rank that waits for it, and of one that is at the meeting.
   std::optional<HelloMessage> Greeting, Guest;
@@ -244,7 +239,7 @@ public:
   /// Takes what has arrived.
   void Poll()
   {
-    this->HasUnsent();
+    this->Outgoing.HasUnsent();
     while (this->HasArrived())
     {
       std::int64_t size = 0;
@@ -299,34 +294,14 @@ private:
 
   static constexpr std::int64_t largestSmall = 1 << 16;
   static constexpr std::int64_t bytesOfPiece = 1 << 18;
-  static constexpr std::size_t largestPiece = std::size_t{ 1 } << 30; // MPI counts by integers
-
-  /// Calls visit(first, count) for the pieces of a message.
-  template <class Visit>
-  static void ForPieces(std::size_t size, const Visit& visit)
-  {
-    for (std::size_t first = 0; first < size; first += largestPiece)
-    {
-      visit(first, static_cast<int>(std::min(largestPiece, size - first)));
-    }
-  }
-
   void Receive(char* bytes, std::size_t size)
   {
-    ForPieces(size,
+    forPieces(size,
       [&](std::size_t first, int count)
       { this->Controller->Receive(bytes + first, count, this->Rank, this->Tag); });
   }
 
-  // MPI's own way to send may wait until the other process receives, however little it is.
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
-  struct Unsent
-  {
-    std::vector<char> bytes;
-    std::vector<vtkMPICommunicator::Request> requests;
-  };
-  std::list<Unsent> Outgoing; // which MPI reads
-
   /// On their way to up to two ranks.
   class Pieces
   {
@@ -365,37 +340,6 @@ private:
     std::vector<vtkMPICommunicator::Request> Requests;
   };
 
-  void Begin(std::vector<char> bytes)
-  {
-    auto* mpi = vtkMPIController::SafeDownCast(this->Controller);
-    this->Outgoing.push_back({ std::move(bytes), {} });
-    Unsent& last = this->Outgoing.back();
-    ForPieces(last.bytes.size(),
-      [&](std::size_t first, int count)
-      {
-        last.requests.emplace_back();
-        mpi->NoBlockSend(static_cast<const char*>(last.bytes.data()) + first, count, this->Rank,
-          this->Tag, last.requests.back());
-      });
-  }
-  bool HasUnsent()
-  {
-    const auto isSent = [](vtkMPICommunicator::Request& request) { return request.Test() != 0; };
-    while (!this->Outgoing.empty())
-    {
-      std::vector<vtkMPICommunicator::Request>& requests = this->Outgoing.front().requests;
-      while (!requests.empty() && isSent(requests.back()))
-      {
-        requests.pop_back();
-      }
-      if (!requests.empty())
-      {
-        return true;
-      }
-      this->Outgoing.pop_front();
-    }
-    return false;
-  }
 #else
   struct Pieces
   {
@@ -403,12 +347,11 @@ private:
     void Send(const char*, std::int64_t) {}
     void Wait() {}
   };
-  void Begin(std::vector<char>) {}
-  bool HasUnsent() { return false; }
 #endif
 
   vtkMultiProcessController* Controller;
   int Rank, Tag;
+  Outbox Outgoing{ this->Controller };
   std::deque<std::vector<char>> Messages;
 };
 

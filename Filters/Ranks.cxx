@@ -8,6 +8,7 @@
 #include "MeshHalo.h"
 #include "MeshKey.h"
 #include "RankChannel.h"
+#include "RankPeers.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
@@ -227,7 +228,9 @@ void setComplete(vtkInformationVector* outputs)
 //------------------------------------------------------------------------------
 struct FilterRanks::Others
 {
+  /// With three tags from this one on.
   Others(vtkMultiProcessController* controller, int tag)
+    : Peers(controller, tag + 2)
   {
     const bool isFirst = controller->GetLocalProcessId() == 0;
     const int ranks = controller->GetNumberOfProcesses();
@@ -240,7 +243,8 @@ struct FilterRanks::Others
   std::vector<Holdings> HoldingsOf(int input, vtkDataObject* own) const;
 
   std::vector<std::unique_ptr<RankChannel>> Channels; // on rank 0: to all others; there: to it
-  schlieren::RayWorker Worker;                        // not on rank 0
+  RankPeers Peers;                                    // not on rank 0
+  schlieren::RayWorker Worker;                        // likewise
   int Meetings = 0;                                   // likewise
 };
 
@@ -300,7 +304,8 @@ bool FilterRanks::Request(
   {
     // All ranks run their filters in the same order.
     static int filters = 0;
-    this->Inside = std::make_unique<Others>(controller, firstTag + 2 * (filters++ % 5000));
+    constexpr int most = 3500; // all tags are below 32768, which MPI grants
+    this->Inside = std::make_unique<Others>(controller, firstTag + 3 * (filters++ % most));
   }
   this->RequestedAt = Clock::now();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -443,6 +448,14 @@ bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
   while (this->HasMet)
   {
     RankChannel& channel = *this->Of.Inside->Channels[0];
+    if (!channel.hasMessage())
+    {
+      if (!this->Of.Inside->Worker.advance(channel, this->Of.Inside->Peers, threads))
+      {
+        waitABit();
+      }
+      continue;
+    }
     std::vector<char> message = channel.receive();
     if (read<ShortMessage>(message).kind == Ask)
     {

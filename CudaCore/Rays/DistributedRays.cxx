@@ -164,6 +164,19 @@ void visitAdvance(const KernelChoice& kernel, Simd simd, const Visit& visit)
   visit(advanceOneByOne<Number>(kernel));
 }
 
+/// A ray that has not entered the grid, in a message.
+struct BegunRay
+{
+  std::int64_t ray = 0;
+  std::int32_t leaf = 0;
+};
+
+/// Before rays in a message.
+struct RayCounts
+{
+  std::uint64_t begun = 0, others = 0;
+};
+
 } // namespace
 
 std::uint64_t newNumber()
@@ -173,12 +186,71 @@ std::uint64_t newNumber()
 }
 
 template <class Real>
-std::vector<char> AdvancedRays<Real>::toMessage(std::uint64_t number) const
+void TravellingRays<Real>::write(std::vector<char>& message) const
 {
-  AdvancedMessage head;
-  head.number = number;
+  std::vector<BegunRay> begun;
+  std::vector<SuspendedRay<Real>> others;
+  for (const SuspendedRay<Real>& ray : rays)
+  {
+    if (ray.leaf == SuspendedRay<Real>::nowhere)
+    {
+      begun.push_back({ ray.ray, ray.next });
+    }
+    else
+    {
+      others.push_back(ray);
+    }
+  }
+  const auto append = [&message](const auto* first, std::size_t count)
+  {
+    const char* bytes = reinterpret_cast<const char*>(first);
+    message.insert(message.end(), bytes, bytes + count * sizeof(*first));
+  };
+  const RayCounts counts{ begun.size(), others.size() };
+  append(&counts, 1);
+  append(begun.data(), begun.size());
+  append(others.data(), others.size());
+}
+
+template <class Real>
+std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::size_t at)
+{
+  RayCounts counts;
+  if (at > message.size() || message.size() - at < sizeof(counts))
+  {
+    return 0;
+  }
+  std::memcpy(&counts, message.data() + at, sizeof(counts));
+  at += sizeof(counts);
+  const std::size_t bytesOfBegun = counts.begun * sizeof(BegunRay);
+  const std::size_t bytesOfOthers = counts.others * sizeof(SuspendedRay<Real>);
+  if (counts.begun > message.size() || counts.others > message.size() ||
+    message.size() - at < bytesOfBegun + bytesOfOthers)
+  {
+    return 0;
+  }
+  std::vector<BegunRay> begun(counts.begun);
+  if (!begun.empty())
+  {
+    std::memcpy(begun.data(), message.data() + at, bytesOfBegun);
+  }
+  for (const BegunRay& ray : begun)
+  {
+    begin(ray.ray, ray.leaf);
+  }
+  if (counts.others > 0)
+  {
+    rays.resize(rays.size() + counts.others);
+    std::memcpy(rays.data() + (rays.size() - counts.others), message.data() + at + bytesOfBegun,
+      bytesOfOthers);
+  }
+  return at + bytesOfBegun + bytesOfOthers;
+}
+
+template <class Real>
+std::vector<char> AdvancedRays<Real>::toMessage(AdvancedMessage head) const
+{
   head.ended = ended.size();
-  head.suspended = suspended.size();
   head.worstDrift = worstDrift;
   std::vector<char> message = messageOf(head);
   const char* first = reinterpret_cast<const char*>(ended.data());
@@ -203,7 +275,7 @@ bool AdvancedRays<Real>::fromMessage(const std::vector<char>& message)
     std::memcpy(ended.data(), message.data() + sizeof(head), bytes);
   }
   worstDrift = head.worstDrift;
-  return suspended.read(message, sizeof(head) + bytes, head.suspended) == message.size();
+  return suspended.read(message, sizeof(head) + bytes) == message.size();
 }
 
 template <class Real>
@@ -231,6 +303,8 @@ AdvancedRays<Real> advanceRays(
   return all;
 }
 
+template struct TravellingRays<float>;
+template struct TravellingRays<double>;
 template struct AdvancedRays<float>;
 template struct AdvancedRays<double>;
 template AdvancedRays<float> advanceRays(

@@ -10,7 +10,10 @@
 #include "Rays/TeamMessages.h"
 #include "Rays/Tracer.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace schlieren
@@ -43,28 +46,17 @@ struct TravellingRays
     return taken;
   }
 
-  void write(std::vector<char>& message) const
-  {
-    const char* first = reinterpret_cast<const char*>(rays.data());
-    message.insert(message.end(), first, first + rays.size() * sizeof(SuspendedRay<Real>));
-  }
+  /// Of those that have not entered the grid only the numbers of the rays and of their first leaves.
+  void write(std::vector<char>& message) const;
 
-  /// From a message, behind its first bytes. Where they end; 0 where there are too few.
-  std::size_t read(const std::vector<char>& message, std::size_t at, std::size_t count)
-  {
-    const std::size_t bytes = count * sizeof(SuspendedRay<Real>);
-    if (at > message.size() || count > message.size() || message.size() - at < bytes)
-    {
-      return 0;
-    }
-    rays.resize(count);
-    if (bytes > 0)
-    {
-      std::memcpy(rays.data(), message.data() + at, bytes);
-    }
-    return at + bytes;
-  }
+  /// More rays, from a message, from some byte on. Where they end; 0 where there are fewer than it says.
+  std::size_t read(const std::vector<char>& message, std::size_t at);
 };
+
+/// A channel sends messages of up to 64 kB without waiting for the other process, which may be sending, too. So many rays
+/// fit into one, with what has become of them.
+template <class Real>
+constexpr std::size_t raysAtOnce = (60000 - 512) / sizeof(SuspendedRay<Real>);
 
 /// The beginning of a message with bricks of a tree for a worker, as DeliveredBricks has them, with segments to be
 /// summed up in these, or with numbers of bricks.
@@ -81,26 +73,26 @@ struct BricksMessage
 /// A number that no other call returns.
 std::uint64_t newNumber();
 
-/// The beginning of a message with rays for a worker; see TilesMessage. The rays follow. The samples and maps are those of
-/// the tree that the worker has been given.
+/// What a worker needs to take rays through its part of the medium, once for each trace; see TilesMessage. The samples and
+/// maps are those of the tree that it has been given. Behind it come the addresses of all owners, for Peers.
 template <class Real>
-struct AdvanceMessage
+struct BeginMessage
 {
-  struct Head : TilesHead
-  {
-    std::int64_t rays = 0;
-    std::uint64_t tree = 0;
-    std::int64_t firstSample = 0; ///< from the first of all to where the task's pointers point
-  };
-  Head head{};
+  RequestHead head{ RayWorker::BeginRays, sizeof(Real), 0 };
+  std::uint64_t tree = 0;
+  std::int64_t firstSample = 0; ///< from the first of all to where the task's pointers point
   Simd simd = Simd::None;
   Pass pass{};
   RayTask<Real> task{}; ///< its pointers mean nothing
   std::array<std::uint64_t, arraysOfTask> versions{};
   std::array<std::int64_t, arraysOfTask> offsets{};
 };
-static_assert(std::is_trivially_copyable_v<AdvanceMessage<float>>);
-static_assert(std::is_trivially_copyable_v<AdvanceMessage<double>>);
+
+/// The beginning of a message with rays for a worker, from the first process or from another worker. The rays follow.
+using AdvanceMessage = RequestHead;
+
+static_assert(std::is_trivially_copyable_v<BeginMessage<float>>);
+static_assert(std::is_trivially_copyable_v<BeginMessage<double>>);
 static_assert(std::is_trivially_copyable_v<SuspendedRay<float>>);
 
 struct EndedRay
@@ -109,13 +101,30 @@ struct EndedRay
   RayExit exit;
 };
 
-/// The beginning of a worker's answer to SumUp and FetchBricks, behind which comes what is found, and to Advance, behind which come the ended rays and the suspended ones.
+/// Messages with rays.
+struct RayTraffic
+{
+  std::int64_t messages = 0, bytes = 0;
+  std::int64_t states = 0; ///< of rays, to workers
+
+  void add(const RayTraffic& more)
+  {
+    messages += more.messages;
+    bytes += more.bytes;
+    states += more.states;
+  }
+};
+
+/// The beginning of a worker's answer to SumUp and FetchBricks, behind which comes what is found, or of what becomes of
+/// rays, behind which come the ended rays and those that have come to the first process's part.
 struct AdvancedMessage
 {
   std::uint32_t kind = RayWorker::Advanced; ///< or Found
+  std::int32_t taken = 0; ///< messages with rays from the first process since the last answer
   std::uint64_t number = 0;
-  std::uint64_t ended = 0, suspended = 0;
+  std::uint64_t ended = 0;
   double worstDrift = 0;
+  RayTraffic handedOn{}; ///< to other workers
 };
 
 /// What has become of rays on one process.
@@ -126,9 +135,10 @@ struct AdvancedRays
   TravellingRays<Real> suspended; ///< that have come to other processes' leaves
   double worstDrift = 0;
 
-  std::vector<char> toMessage(std::uint64_t number) const;
+  std::vector<char> toMessage(AdvancedMessage head) const;
   bool fromMessage(const std::vector<char>& message);
 };
+static_assert(sizeof(EndedRay) <= sizeof(SuspendedRay<float>)); // see raysAtOnce
 
 /// Takes rays as far as the medium is here. `simd` must be one that the processor has.
 template <class Real>

@@ -17,10 +17,7 @@ namespace schlieren
 namespace
 {
 
-/// A channel sends messages of up to 64 kB without waiting for the other process, which may be sending, too.
-constexpr std::size_t largestMessage = 60000;
-
-/// Messages that a worker is given before it answers the first.
+/// Messages that a worker is given before it says that it has taken the first.
 constexpr int givenAtOnce = 3;
 
 /// Rays of a part that are begun before any of them has ended: enough to keep all processes busy, and few enough for a
@@ -40,7 +37,7 @@ struct DistributedTracer<Real>::State
   struct Worker
   {
     bool hasTree = false;
-    int given = 0; ///< messages that it has not answered
+    int given = 0; ///< messages that it has not taken
   };
   std::vector<Worker> workers;
 
@@ -64,6 +61,36 @@ struct DistributedTracer<Real>::State
     sendArray(channel, 2, tree.leavesOf(owner));
     sendArray(channel, 3, tree.roots());
     sendArray(channel, 4, tree.children());
+  }
+
+  /// Sends all workers what the rays of a trace need.
+  void begin(const BeginMessage<Real>& trace)
+  {
+    std::vector<std::int32_t> addresses{ -1 }; // no worker sends this process anything as to a peer
+    for (const Channel* channel : owners.channels())
+    {
+      addresses.push_back(channel->address());
+    }
+    const std::size_t bytes = addresses.size() * sizeof(addresses[0]);
+    for (std::size_t n = 0; n < workers.size(); ++n)
+    {
+      Channel& channel = *owners.channels()[n];
+      const auto owner = static_cast<std::int32_t>(n + 1);
+      if (!channel.isOpen())
+      {
+        throwAbsentOwner(owner);
+      }
+      if (!workers[n].hasTree)
+      {
+        sendStructure(channel, owner);
+        workers[n].hasTree = true;
+      }
+      std::vector<char> message = messageOf(trace, bytes);
+      std::memcpy(message.data() + sizeof(trace), addresses.data(), bytes);
+      traffic.own.add({ 1, static_cast<std::int64_t>(message.size()), 0 });
+      channel.send(std::move(message));
+      workers[n].given = 0;
+    }
   }
 };
 
@@ -90,27 +117,25 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const std::vector<Channel*>& workers = state.owners.channels();
   const std::size_t count = workers.size() + 1;
 
-  AdvanceMessage<Real> message;
-  message.head.kind = RayWorker::Advance;
-  message.head.bytesOfReal = sizeof(Real);
-  message.head.number = newNumber();
-  message.head.tree = state.owners.tree();
-  message.head.firstSample = task.medium.samples - state.tree.samples().data();
-  message.simd = simd;
-  message.pass = pass;
-  message.task = task;
+  BeginMessage<Real> start;
+  start.head.number = newNumber();
+  start.tree = state.owners.tree();
+  start.firstSample = task.medium.samples - state.tree.samples().data();
+  start.simd = simd;
+  start.pass = pass;
+  start.task = task;
   const std::array<const void*, arraysOfTask> arrays{ nullptr, nullptr, task.medium.leaves,
     task.medium.finder.roots, task.medium.finder.children };
-  forArrays(message.task,
+  forArrays(start.task,
     [&](std::size_t n, auto*& pointer)
     {
-      message.offsets[n] = arrays[n] != nullptr ? 0 : nowhere;
-      message.versions[n] = state.version;
+      start.offsets[n] = arrays[n] != nullptr ? 0 : nowhere;
+      start.versions[n] = state.version;
       pointer = nullptr;
     });
+  state.begin(start);
+  const AdvanceMessage head{ RayWorker::Advance, sizeof(Real), start.head.number };
 
-  constexpr std::size_t raysAtOnce =
-    (largestMessage - sizeof(message)) / sizeof(SuspendedRay<Real>);
   std::vector<TravellingRays<Real>> waiting(count); // for a part
   std::int64_t underWay = 0;
 
@@ -132,7 +157,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     for (const SuspendedRay<Real>& ray : advanced.suspended.rays)
     {
       const std::int32_t owner = ownerOf(ray.next);
-      if (owner < 0 || owner == static_cast<std::int32_t>(from))
+      if (owner < 0 || (owner == 0) == (from == 0)) // workers send this process its own only
       {
         throw Error(
           "A ray has been handed on to nobody: ranks disagree about the medium. Update again.");
@@ -178,8 +203,8 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     while (channel.hasMessage())
     {
       const std::vector<char> answer = channel.receive();
-      AdvancedMessage head;
-      if (!read(answer, head) || head.number != message.head.number)
+      AdvancedMessage got;
+      if (!read(answer, got) || got.number != head.number)
       {
         continue; // of a trace that has failed
       }
@@ -188,9 +213,9 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       {
         throwAbsentOwner(static_cast<std::int32_t>(n + 1));
       }
-      --state.workers[n].given;
-      ++state.traffic.messages;
-      state.traffic.bytes += static_cast<std::int64_t>(answer.size());
+      state.workers[n].given -= got.taken;
+      state.traffic.own.add({ 1, static_cast<std::int64_t>(answer.size()), 0 });
+      state.traffic.amongWorkers.add(got.handedOn);
       take(n + 1, advanced);
       hasReceived = true;
     }
@@ -205,29 +230,18 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     Channel& channel = *workers[n];
     typename State::Worker& worker = state.workers[n];
     while (waiting[n + 1].size() > 0 &&
-      (worker.given == 0 || (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce)))
+      (worker.given == 0 ||
+        (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce<Real>)))
     {
-      if (!worker.hasTree)
-      {
-        state.sendStructure(channel, static_cast<std::int32_t>(n + 1));
-        worker.hasTree = true;
-      }
-      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce);
-      message.head.rays = static_cast<std::int64_t>(rays.size());
-      std::vector<char> request = messageOf(message);
+      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce<Real>);
+      std::vector<char> request = messageOf(head);
       rays.write(request);
-      ++state.traffic.messages;
-      state.traffic.bytes += static_cast<std::int64_t>(request.size());
-      state.traffic.states += message.head.rays;
+      state.traffic.own.add(
+        { 1, static_cast<std::int64_t>(request.size()), static_cast<std::int64_t>(rays.size()) });
       ++worker.given;
       channel.send(std::move(request));
     }
   };
-  for (typename State::Worker& worker : state.workers)
-  {
-    worker.given = 0; // by a trace that has failed
-  }
-
   TileQueue tiles = traced.tilesLeft(pass);
   const TileQueue::Tiles all = tiles.left();
   const std::int64_t most = raysPerPart * static_cast<std::int64_t>(count);
@@ -246,7 +260,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     }
     if (waiting[0].size() > 0)
     {
-      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce), threads, simd));
+      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce<Real>), threads, simd));
       isIdle = false;
     }
     if (underWay == 0 && (isStopped || tiles.left().count() == 0))

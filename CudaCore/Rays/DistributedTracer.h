@@ -4,6 +4,7 @@
 
 #include "Medium/Medium.h"
 #include "Rays/BrickChannels.h"
+#include "Rays/DistributedRays.h"
 #include "Rays/Tracer.h"
 
 #include <cstdint>
@@ -13,7 +14,8 @@
 namespace schlieren
 {
 
-/// Traces rays through a tree whose bricks several processes have, see BrickOwners. It begins all rays, passes on those that come from one part to another, and collects what becomes of them.
+/// Traces rays through a tree whose bricks several processes have, see BrickOwners. It begins
+/// all rays, takes them through its own part, and collects those that end; workers hand on rays to each other.
 template <class Real>
 class DistributedTracer
 {
@@ -27,11 +29,11 @@ public:
   bool trace(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
     const Monitor& monitor, Simd simd = bestSimd());
 
-  /// What has been sent between processes since the beginning, in both directions.
+  /// What has been sent since the beginning: between this process and workers, in both directions, and by workers to
+  /// each other.
   struct Traffic
   {
-    std::int64_t messages = 0, bytes = 0; ///< with rays
-    std::int64_t states = 0;              ///< of rays, to workers
+    RayTraffic own, amongWorkers;
   };
   const Traffic& traffic() const;
 

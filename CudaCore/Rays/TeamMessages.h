@@ -72,11 +72,16 @@ void sendPieces(ArrayMessage head, const void* array, std::size_t bytes, const S
   } while (head.first < bytes);
 }
 
-struct TilesHead
+/// The first bytes of all requests of rays and of a tree's parts.
+struct RequestHead
 {
-  std::uint32_t kind = RayWorker::Tiles;
+  std::uint32_t kind = 0;
   std::uint32_t bytesOfReal = 0;
-  std::uint64_t number = 0; ///< of the trace that requests them
+  std::uint64_t number = 0; ///< that answers repeat, mostly of the trace
+};
+
+struct TilesHead : RequestHead
+{
   TileQueue::Tiles tiles{ 0, 0 };
 };
 
@@ -90,7 +95,7 @@ struct DeviceMessage
 template <class Real>
 struct TilesMessage
 {
-  TilesHead head{ RayWorker::Tiles, sizeof(Real) };
+  TilesHead head{ { RayWorker::Tiles, sizeof(Real), 0 }, { 0, 0 } };
   Device device = Device::Cpu;
   Simd simd = Simd::None; ///< of the CPU
   Pass pass{};

@@ -136,11 +136,14 @@ void compare(const Flow& flow, const Direction& direction, std::size_t processes
   const Difference difference = differenceOf(parts.traced.exits, alone.traced.exits);
   const double rays = static_cast<double>(parts.traced.crossed) * turns;
   const auto& traffic = tracer.traffic();
-  std::printf("| %s | %s | %zu | %.3f | %.2f | %.2f | %.2f | %.0f | %.4f | %.1e | %.1e | %.1e |\n",
+  const auto perRay = [rays](std::int64_t count) { return static_cast<double>(count) / rays; };
+  std::printf("| %s | %s | %zu | %.3f | %.2f | %.2f | %.2f | %.0f | %.4f | %.0f | %.4f | %.1e | "
+              "%.1e | %.1e |\n",
     flow.name, direction.name, processes, median(seconds), median(ratio),
-    *std::min_element(ratio.begin(), ratio.end()), static_cast<double>(traffic.states) / rays,
-    static_cast<double>(traffic.bytes) / rays, static_cast<double>(traffic.messages) / rays,
-    difference.worst, difference.mean, difference.above);
+    *std::min_element(ratio.begin(), ratio.end()),
+    perRay(traffic.own.states + traffic.amongWorkers.states), perRay(traffic.own.bytes),
+    perRay(traffic.own.messages), perRay(traffic.amongWorkers.bytes),
+    perRay(traffic.amongWorkers.messages), difference.worst, difference.mean, difference.above);
   std::fflush(stdout);
 }
 
@@ -149,9 +152,11 @@ void compare(const Flow& flow, const Direction& direction, std::size_t processes
 int main(int count, char** arguments)
 {
   const int turns = count > 1 ? std::max(std::atoi(arguments[1]), 1) : 5;
-  std::puts("| medium | view | processes | seconds of one that has all | times as long | least | "
-            "states/ray | bytes/ray | messages/ray | worst difference | mean | above 1e-6 |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::puts(
+    "| medium | view | processes | seconds of one that has all | times as long | least | "
+    "states/ray | bytes/ray of the first process | messages/ray of it | bytes/ray among others | "
+    "messages/ray among them | worst difference | mean | above 1e-6 |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   const Flow flows[] = { { "three balls", std::make_shared<BallsSource>(threeBalls(1e-4)),
                            { 0, 0, 0 }, 0.6, 1e-4 },
     { "bow shock and body", std::make_shared<BowShockSource>(), { 0.5, 0, 0 }, 3, 6. / 512 } };

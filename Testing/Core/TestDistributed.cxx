@@ -92,7 +92,10 @@ double expectSame(const Setting& setting, const Traced<Real>& alone, double tole
       expectCloseRays(rays, expected, tolerance);
       expected = std::move(rays);
     }
-    perRay = static_cast<double>(tracer.traffic().states) / static_cast<double>(rays.crossed);
+    const auto& traffic = tracer.traffic();
+    EXPECT_EQ(traffic.amongWorkers.states > 0, count > 1);
+    perRay = static_cast<double>(traffic.own.states + traffic.amongWorkers.states) /
+      static_cast<double>(rays.crossed);
   }
   return perRay;
 }
@@ -279,6 +282,35 @@ TEST(Distributed, SaysWhichRankDoesNotAnswer)
   }
 }
 
+// While others hand on rays to it.
+TEST(Distributed, SaysWhichOfManyRanksDoesNotAnswer)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  for (const Worker::Fault fault : { Worker::Fault::Leaves, Worker::Fault::LosesEverything })
+  {
+    SCOPED_TRACE(static_cast<int>(fault));
+    Worker first, third, faulty(fault, 30);
+    const auto owners = std::make_shared<BrickChannels>(
+      std::vector<Channel*>{ first.channel(), faulty.channel(), third.channel() });
+    const Traced<float> traced(setting, owners);
+    DistributedTracer<float> tracer(traced.medium, *owners);
+    try
+    {
+      for (int again = 0; again < 100; ++again)
+      {
+        TracedPass rays;
+        rays.resize(traced.pass, 0);
+        tracer.trace(traced.task, traced.pass, rays, 1, {});
+      }
+      FAIL() << "no error";
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("Rank 2 "), std::string::npos) << error.what();
+    }
+  }
+}
+
 Scene sceneOf(DistributedMedium distribution)
 {
   Scene scene;
@@ -418,7 +450,7 @@ TEST(DistributedImage, IsMadeAnewAfterAFault)
   const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
   const Scene scene = sceneOf(DistributedMedium::On);
   const auto media = std::make_shared<SharedMedia>();
-  Worker good, faulty(Worker::Fault::LosesEverything, 8);
+  Worker good, faulty(Worker::Fault::LosesEverything, 5);
   Bench bench;
   bench.setMedia(media);
   bench.setWorkers({ good.channel(), faulty.channel() });

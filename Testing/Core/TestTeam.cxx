@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -301,12 +302,32 @@ TEST(Team, IgnoresMessagesThatMakeNoSense)
 {
   Mail to, from;
   const std::atomic<bool> isOpen{ true };
-  End channel(to, from, isOpen);
+  End channel(to, from, isOpen, 0);
   RayWorker worker;
+  PeerThread sender(from), peers(from);
   for (const std::size_t bytes : { 0u, 3u, 4u, 40u })
   {
     worker.answer(std::vector<char>(bytes, 7), channel, 1);
+    sender.send(peers.address(), std::vector<char>(bytes, 7));
+    worker.advance(channel, peers, 1);
   }
+  EXPECT_FALSE(worker.advance(channel, peers, 1));
+  // Of requests that it knows it says that it lacks what they need.
+  for (std::uint32_t kind = RayWorker::Array; kind <= RayWorker::DeviceIs; ++kind)
+  {
+    for (const std::size_t bytes : { 4u, 40u, 4000u })
+    {
+      std::vector<char> message(bytes, 7);
+      std::memcpy(message.data(), &kind, sizeof(kind));
+      worker.answer(message, channel, 1);
+      while (!to.isEmpty())
+      {
+        const std::uint32_t answer = RayWorker::kindOf(to.take());
+        EXPECT_EQ(answer, kind == RayWorker::AskDevice ? RayWorker::DeviceIs : RayWorker::Lacking);
+      }
+    }
+  }
+  EXPECT_FALSE(worker.advance(channel, peers, 1));
   EXPECT_TRUE(to.isEmpty());
 }
 
