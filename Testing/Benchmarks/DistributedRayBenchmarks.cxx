@@ -5,7 +5,7 @@
 // here, against those of one process that has all. 512^2 rays, Quadratic and Leapfrog in single precision, medians of all
 // turns. Also how far deflections are from those of that process, by the largest one.
 //
-//   SchlierenDistributedRayBenchmarks [turns]
+//   SchlierenDistributedRayBenchmarks [turns [processes ...]]
 #include "MeasuredTrees.h"
 #include "Rays/DistributedTracer.h"
 #include "WorkerThread.h"
@@ -152,6 +152,15 @@ void compare(const Flow& flow, const Direction& direction, std::size_t processes
 int main(int count, char** arguments)
 {
   const int turns = count > 1 ? std::max(std::atoi(arguments[1]), 1) : 5;
+  std::vector<std::size_t> numbers;
+  for (int n = 2; n < count; ++n)
+  {
+    numbers.push_back(static_cast<std::size_t>(std::max(std::atoi(arguments[n]), 1)));
+  }
+  if (numbers.empty())
+  {
+    numbers = { 1, 4 };
+  }
   std::puts(
     "| medium | view | processes | seconds of one that has all | times as long | least | "
     "states/ray | bytes/ray of the first process | messages/ray of it | bytes/ray among others | "
@@ -164,7 +173,7 @@ int main(int count, char** arguments)
   {
     for (const Direction& direction : { directions[0], directions[2] })
     {
-      for (const std::size_t processes : { 1u, 4u })
+      for (const std::size_t processes : numbers)
       {
         compare(flow, direction, processes, turns);
       }
