@@ -37,10 +37,20 @@ namespace filters
 class AmrField
 {
 public:
+  /// What a value depends on is no more cells of the lattice's level away: two coefficients of the spline, of which each
+  /// depends on two cells more. Of the next coarser level it is half as far, and what a polynomial reads.
+  static constexpr int cellsOfSpline = 4;
+
   /// `levels`: of all blocks; turned, where they are flat (see turnedAcrossZ). `source` has the images of those that this
   /// rank has, whose numbers begin with `firstImage`. To `tally` is added what is wrong with their values.
   AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
     const WorkProgress& progress = WorkProgress(), std::size_t firstImage = 0);
+
+  /// Moves its own blocks of some images into a message, and adds those of a message of another rank to its own.
+  void putBlocks(const std::vector<std::uint64_t>& images, std::vector<char>& message);
+  void addBlocks(Reader& blocks);
+  /// Gives images other numbers, by those that they have. Blocks are sorted again.
+  void renumber(const std::vector<std::uint64_t>& numbers);
 
   /// Adds to a message its cells that a rank needs which has so many images from `firstImage` on: those around these.
   void putCopies(std::size_t firstImage, std::size_t images, std::vector<char>& message) const;
@@ -86,6 +96,7 @@ private:
     std::vector<bool> solids; // which of the cells that are not known; empty: none
     bool isOfLevel;           // rather than finer
     bool isCopy;              // of another rank's
+    std::uint64_t image;      // that it has been made of; of a copy nothing
 
     bool isEmpty() const; // nothing is known of any cell
     bool isSolid(std::size_t cell) const { return !this->solids.empty() && this->solids[cell]; }
@@ -112,10 +123,6 @@ private:
   };
   /// Cells of a block that are looked at together, along each axis.
   static constexpr int pieceEdge = 8;
-  /// What a value depends on is no more cells of the lattice's level away: two coefficients of the spline, of which each
-  /// depends on two cells more. Of the next coarser level it is half as far, and what a polynomial reads.
-  static constexpr int cellsOfSpline = 4;
-
   enum class Whose
   {
     All,
@@ -124,6 +131,9 @@ private:
 
   static Block coarser(const Block& block, const Counts& ratio);
   static Block cropped(const Block& block, const CellBox& box);
+  static void putCells(const Block& block, std::vector<char>& message);
+  static Block cellsFrom(Reader& reader);
+  void addOwn(std::size_t level, Block block);
   void findMissingCells();
   static std::vector<CellBox> uncoveredIn(const Level& level, const AmrBlock& block);
   std::vector<Counts> margins() const;

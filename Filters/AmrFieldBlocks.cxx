@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace filters
@@ -114,6 +115,7 @@ void AmrField::Block::findRanges()
 AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
 {
   Block result{};
+  result.image = block.image;
   result.box = coarserBox(block.box, ratio);
   result.means.assign(volume(result.box.size()), 0);
   result.parts.assign(result.means.size(), 0);
@@ -150,7 +152,7 @@ AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
 /// A part of a block.
 AmrField::Block AmrField::cropped(const Block& block, const CellBox& box)
 {
-  Block part{ box, {}, {}, {}, block.isOfLevel, true, {}, {} };
+  Block part{ box, {}, {}, {}, block.isOfLevel, true, 0, {}, {} };
   part.means.resize(volume(box.size()));
   part.parts.resize(part.means.size());
   part.solids.resize(block.solids.empty() ? 0 : part.means.size());
@@ -198,33 +200,40 @@ AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
       }
       block.leaf -= firstImage;
       AmrValues values = valuesOf(covered, block, source, tally);
-      Block own{ boxOf(block), std::move(values.values), {}, {}, true, false, {}, {} };
+      Block own{ boxOf(block), std::move(values.values), {}, {}, true, false,
+        block.leaf + firstImage, {}, {} };
       own.parts.assign(own.means.size(), 0);
       for (std::size_t cell = 0; cell < own.means.size(); ++cell)
       {
         const bool isKnown = values.counts[cell] && !std::isnan(own.means[cell]);
         own.parts[cell] = isKnown ? 1.f : 0.f;
-        this->OwnCells += isKnown ? 1 : 0;
         if (values.counts[cell] && !isKnown)
         {
           own.solids.resize(own.means.size());
           own.solids[cell] = true;
         }
       }
-      own.findRanges();
-      this->Levels[level].blocks.push_back(std::move(own));
-      const Block* finer = &this->Levels[level].blocks.back();
-      for (std::size_t below = level; below > 0; --below)
-      {
-        const Counts ratio = ratioOf(this->Levels[below].cells, this->Levels[below - 1].cells);
-        this->Levels[below - 1].blocks.push_back(coarser(*finer, ratio));
-        finer = &this->Levels[below - 1].blocks.back();
-      }
+      this->addOwn(level, std::move(own));
       ++done;
       progress.reach(static_cast<double>(done) / static_cast<double>(source.leaves.size()));
     }
   }
   this->sortBlocks();
+}
+
+/// With what it says of coarser levels.
+void AmrField::addOwn(std::size_t level, Block block)
+{
+  block.findRanges();
+  this->OwnCells += std::count(block.parts.begin(), block.parts.end(), 1.f);
+  this->Levels[level].blocks.push_back(std::move(block));
+  const Block* finer = &this->Levels[level].blocks.back();
+  for (std::size_t below = level; below > 0; --below)
+  {
+    const Counts ratio = ratioOf(this->Levels[below].cells, this->Levels[below - 1].cells);
+    this->Levels[below - 1].blocks.push_back(coarser(*finer, ratio));
+    finer = &this->Levels[below - 1].blocks.back();
+  }
 }
 
 /// Puts them into bins.
@@ -321,6 +330,78 @@ std::vector<CellBox> AmrField::uncoveredIn(const Level& level, const AmrBlock& b
   return uncovered;
 }
 
+void AmrField::putCells(const Block& block, std::vector<char>& message)
+{
+  put(block.isOfLevel, message);
+  put(block.box, message);
+  putAll(block.means, message);
+  putAll(block.parts, message);
+  putAll(std::vector<unsigned char>(block.solids.begin(), block.solids.end()), message);
+}
+
+/// What putCells() has written.
+AmrField::Block AmrField::cellsFrom(Reader& reader)
+{
+  Block block{};
+  block.isOfLevel = reader.Get<bool>();
+  block.box = reader.Get<CellBox>();
+  block.means = reader.GetAll<std::vector<double>>();
+  block.parts = reader.GetAll<std::vector<float>>();
+  const auto solids = reader.GetAll<std::vector<unsigned char>>();
+  block.solids.assign(solids.begin(), solids.end());
+  return block;
+}
+
+void AmrField::putBlocks(const std::vector<std::uint64_t>& images, std::vector<char>& message)
+{
+  const std::set<std::uint64_t> moved(images.begin(), images.end());
+  for (Level& level : this->Levels)
+  {
+    const auto isMoved = [&](const Block& block)
+    { return !block.isCopy && moved.count(block.image) > 0; };
+    for (const Block& block : level.blocks)
+    {
+      if (block.isOfLevel && isMoved(block))
+      {
+        this->OwnCells -= std::count(block.parts.begin(), block.parts.end(), 1.f);
+        put(static_cast<std::uint64_t>(level.number), message);
+        put(block.image, message);
+        putCells(block, message);
+      }
+    }
+    level.blocks.erase(
+      std::remove_if(level.blocks.begin(), level.blocks.end(), isMoved), level.blocks.end());
+  }
+}
+
+void AmrField::addBlocks(Reader& reader)
+{
+  while (!reader.IsAtEnd())
+  {
+    const auto level = reader.Get<std::uint64_t>();
+    const auto image = reader.Get<std::uint64_t>();
+    Block block = cellsFrom(reader);
+    block.image = image;
+    this->addOwn(level, std::move(block));
+  }
+}
+
+void AmrField::renumber(const std::vector<std::uint64_t>& numbers)
+{
+  for (Level& level : this->Levels)
+  {
+    for (AmrBlock& block : level.all)
+    {
+      block.leaf = numbers.at(block.leaf);
+    }
+    for (Block& block : level.blocks)
+    {
+      block.image = block.isCopy ? block.image : numbers.at(block.image);
+    }
+  }
+  this->sortBlocks();
+}
+
 void AmrField::putCopies(
   std::size_t firstImage, std::size_t images, std::vector<char>& copies) const
 {
@@ -370,11 +451,7 @@ void AmrField::putCopies(
           if (!cells.isEmpty())
           {
             put(static_cast<std::uint64_t>(number), copies);
-            put(cells.isOfLevel, copies);
-            put(cells.box, copies);
-            putAll(cells.means, copies);
-            putAll(cells.parts, copies);
-            putAll(std::vector<unsigned char>(cells.solids.begin(), cells.solids.end()), copies);
+            putCells(cells, copies);
           }
         });
     }
@@ -386,15 +463,8 @@ void AmrField::addCopies(Reader& reader)
   while (!reader.IsAtEnd())
   {
     Level& level = this->Levels.at(reader.Get<std::uint64_t>());
-    Block block{};
-    block.isCopy = true;
-    block.isOfLevel = reader.Get<bool>();
-    block.box = reader.Get<CellBox>();
-    block.means = reader.GetAll<std::vector<double>>();
-    block.parts = reader.GetAll<std::vector<float>>();
-    const auto solids = reader.GetAll<std::vector<unsigned char>>();
-    block.solids.assign(solids.begin(), solids.end());
-    level.blocks.push_back(std::move(block));
+    level.blocks.push_back(cellsFrom(reader));
+    level.blocks.back().isCopy = true;
   }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceRequests.h"
 
+#include "AmrField.h"
+#include "AmrOwners.h"
 #include "GatheredData.h"
 #include "MeshHalo.h"
 #include "PieceWorker.h"
@@ -272,6 +274,101 @@ void addCopiesOfMeshes(
   }
 }
 
+/// What some ranks answer is requested of one: it gets their answers behind the request's kind.
+void passOn(PieceRanks& ranks, std::vector<std::vector<char>> requests, std::size_t to,
+  PieceWorker::Kind kind)
+{
+  auto answers = ranks.Request(std::move(requests));
+  requests.assign(ranks.Count(), {});
+  requests[to] = pieceRequest(kind);
+  for (std::vector<char>& answer : answers)
+  {
+    if (!answer.empty())
+    {
+      readerOf(answer).GetRest(requests[to]);
+      std::vector<char>().swap(answer); // before the next is added
+    }
+  }
+  readerOf(ranks.Request(std::move(requests))[to]);
+}
+
+/// Gives each rank neighbouring blocks, where that saves copies. The first image of each rank, and the number of all.
+std::vector<std::uint64_t> gatherNeighbours(
+  PieceRanks& ranks, std::vector<std::uint64_t> firstImages, const AmrLevels& levels)
+{
+  const auto owners = betterOwners(levels, firstImages, AmrField::cellsOfSpline);
+  if (!owners)
+  {
+    return firstImages;
+  }
+  std::vector<std::size_t> cells(owners->size()); // of each image
+  for (const AmrLevel& level : levels.levels)
+  {
+    for (const AmrBlock& block : level.blocks)
+    {
+      cells[block.leaf] = volume(block.cells);
+    }
+  }
+  constexpr std::size_t cellsAtOnce = std::size_t{ 1 } << 20; // so that rank 0 never has many
+  std::vector<std::uint64_t> numbers(owners->size()), newFirst;
+  std::uint64_t count = 0;
+  for (std::uint64_t to = 0; to < ranks.Count(); ++to)
+  {
+    newFirst.push_back(count);
+    std::vector<std::vector<std::uint64_t>> given(ranks.Count());
+    std::size_t sum = 0;
+    const auto pass = [&]
+    {
+      std::vector<std::vector<char>> requests(ranks.Count());
+      for (std::size_t from = 0; from < given.size(); ++from)
+      {
+        if (!given[from].empty())
+        {
+          requests[from] = pieceRequest(PieceWorker::GiveBlocks);
+          putAll(given[from], requests[from]);
+          given[from].clear();
+        }
+      }
+      passOn(ranks, std::move(requests), to, PieceWorker::TakeBlocks);
+      sum = 0;
+    };
+    for (std::uint64_t from = 0; from < ranks.Count(); ++from)
+    {
+      for (std::uint64_t image = firstImages[from]; image < firstImages[from + 1]; ++image)
+      {
+        if ((*owners)[image] != to)
+        {
+          continue;
+        }
+        numbers[image] = count++;
+        if (from != to)
+        {
+          given[from].push_back(image);
+          sum += cells[image];
+        }
+        if (sum > cellsAtOnce)
+        {
+          pass();
+        }
+      }
+    }
+    if (sum > 0)
+    {
+      pass();
+    }
+  }
+  newFirst.push_back(count);
+  std::vector<char> request = pieceRequest(PieceWorker::Renumber);
+  putAll(numbers, request);
+  putAll(newFirst, request);
+  for (const std::vector<char>& answer :
+    ranks.Request(std::vector<std::vector<char>>(ranks.Count(), request)))
+  {
+    readerOf(answer); // throws what has gone wrong
+  }
+  return newFirst;
+}
+
 /// Tells all ranks the levels, and gives each the cells of others that it needs: one by one, so that rank 0 never has those of
 /// many.
 void exchangeBlocks(PieceRanks& ranks, const Outlines& outlines, const AmrLevels& levels)
@@ -298,9 +395,11 @@ void exchangeBlocks(PieceRanks& ranks, const Outlines& outlines, const AmrLevels
   {
     readerOf(answer); // throws what has gone wrong
   }
+  const std::vector<std::uint64_t> firstImages =
+    gatherNeighbours(ranks, outlines.firstImages, levels);
   for (std::uint64_t to = 0; to < ranks.Count(); ++to)
   {
-    if (outlines.firstImages[to] == outlines.firstImages[to + 1])
+    if (firstImages[to] == firstImages[to + 1])
     {
       continue;
     }
@@ -308,18 +407,7 @@ void exchangeBlocks(PieceRanks& ranks, const Outlines& outlines, const AmrLevels
     put(to, request);
     requests.assign(ranks.Count(), request);
     requests[to].clear();
-    auto answers = ranks.Request(std::move(requests));
-    requests.assign(ranks.Count(), {});
-    requests[to] = pieceRequest(PieceWorker::AddCells);
-    for (std::vector<char>& answer : answers)
-    {
-      if (!answer.empty())
-      {
-        readerOf(answer).GetRest(requests[to]);
-        std::vector<char>().swap(answer); // before the next is added
-      }
-    }
-    readerOf(ranks.Request(std::move(requests))[to]);
+    passOn(ranks, std::move(requests), to, PieceWorker::AddCells);
   }
 }
 

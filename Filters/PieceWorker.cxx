@@ -6,6 +6,7 @@
 #include "BetweenTimeSteps.h"
 #include "FieldFromImage.h"
 #include "FieldTints.h"
+#include "FieldsOfBlocks.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
 #include "GatheredData.h"
@@ -59,14 +60,6 @@ void forEach(std::size_t count, const Work& work)
 }
 
 } // namespace
-
-struct PieceWorker::FieldsOfBlocks
-{
-  std::vector<AmrField> fields; // the first is N
-  Tally tally;
-  std::string label;
-  std::vector<std::uint64_t> firstImages; // of each rank, and the number of all
-};
 
 PieceWorker::PieceWorker(vtkRefractiveIndex* self)
   : Self(self)
@@ -155,22 +148,20 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
     case Levels:
       this->MakeFields(request);
       break;
-    case CellsAround:
-    {
-      const FieldsOfBlocks& own = this->OwnFields();
-      const auto other = request.Get<std::uint64_t>();
-      const std::size_t images = own.firstImages.at(other + 1) - own.firstImages[other];
-      for (std::size_t number = 0; number < own.fields.size(); ++number)
-      {
-        std::vector<char> copies;
-        own.fields[number].putCopies(own.firstImages[other], images, copies);
-        put(static_cast<std::uint64_t>(number), answer);
-        putAll(copies, answer);
-      }
+    case GiveBlocks:
+      this->OwnFields().giveBlocks(request, answer);
       break;
-    }
+    case TakeBlocks:
+      this->OwnFields().takeBlocks(request);
+      break;
+    case Renumber:
+      this->OwnFields().renumber(request);
+      break;
+    case CellsAround:
+      this->OwnFields().giveCellsAround(request, answer);
+      break;
     case AddCells:
-      this->AddCopies(request);
+      this->OwnFields().addCells(request);
       break;
     case Copies:
       this->GiveCopies(request, answer);
@@ -377,7 +368,7 @@ void PieceWorker::MakeFields(Reader& request)
   this->Fields = std::move(made);
 }
 
-PieceWorker::FieldsOfBlocks& PieceWorker::OwnFields()
+FieldsOfBlocks& PieceWorker::OwnFields()
 {
   if (!this->Fields)
   {
@@ -385,23 +376,6 @@ PieceWorker::FieldsOfBlocks& PieceWorker::OwnFields()
       "A rank does not have its blocks of the input any more. Update the filter again.");
   }
   return *this->Fields;
-}
-
-/// The request: of each other rank and each field, its number and what AmrField::putCopies() has written.
-void PieceWorker::AddCopies(Reader& request)
-{
-  std::vector<AmrField>& fields = this->OwnFields().fields;
-  while (!request.IsAtEnd())
-  {
-    AmrField& field = fields.at(request.Get<std::uint64_t>());
-    const auto copies = request.GetAll<std::vector<char>>();
-    Reader reader(copies);
-    field.addCopies(reader);
-  }
-  for (AmrField& field : fields)
-  {
-    field.sortBlocks();
-  }
 }
 
 /// The request: the piece's number, what the data are, and what that needs, see PieceOfParts(). The answer: what the

@@ -23,6 +23,8 @@ class vtkRefractiveIndex;
 namespace filters
 {
 
+struct FieldsOfBlocks;
+
 /// Answers what a PiecesSource, on rank 0, requests of a rank about its piece of the data.
 class PieceWorker
 {
@@ -33,6 +35,9 @@ public:
     Instant = 200, // between two time steps
     Outline,       // the surfaces of its meshes, the extents of its grids, the places of its blocks
     Levels,        // of the blocks of all ranks
+    GiveBlocks,    // its blocks of some images, which it has no more
+    TakeBlocks,    // from other ranks
+    Renumber,      // all images
     CellsAround,   // those of another rank
     AddCells,      // of other ranks, around its own
     Copies,        // cells around points that others have, too
@@ -90,7 +95,6 @@ private:
   void GiveOutline(Reader& request, std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
   void MakeFields(Reader& request);
-  void AddCopies(Reader& request);
   void MakePiece(Reader& request, std::vector<char>& answer);
   void ReleasePiece();
   std::unique_ptr<const DataPiece> PieceOfParts(
@@ -112,7 +116,6 @@ private:
   std::vector<Part> Parts;
   std::vector<filters::Outline> Outlines; // of them
   std::string Lacks;                      // what to say where the data have not the arrays
-  struct FieldsOfBlocks;
   FieldsOfBlocks& OwnFields();
   std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
   std::unique_ptr<const DataPiece> Piece;

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Blocks of adaptive meshes on several ranks, against the same blocks on one.
+#include "AmrOwners.h"
 #include "BallOnLevels.h"
 #include "Pieces.h"
 
 #include "vtkMultiBlockDataSet.h"
 #include "vtkSphereSource.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <stdexcept>
 
@@ -248,4 +251,108 @@ TEST(AmrPieces, OnlyCellsBesideBlocksAreSent)
   ranks.make();
   // 4 layers of 16 x 16 cells each way, of 8 + 4 (+ 1) bytes, and the triangles of none.
   EXPECT_LT(ranks.Channels[1]->Bytes, 2 * 4 * 16 * 16 * 13 + 40000);
+}
+
+// Blocks that are dealt out one by one: each rank gets neighbouring ones, so few copies.
+TEST(AmrPieces, ScatteredBlocksAreGathered)
+{
+  const auto blocks = blocksOn(2, { 4, 4, 4 }, [](int level, const Vec&) { return level == 1; });
+  const auto whole = inOnePiece(together(blocks), true);
+  Ranks ranks(dealt(blocks, 4, Order::InTurn), true);
+  expectSame(*whole, *ranks.make(), rounding);
+  std::size_t bytes = 0;
+  for (const auto& channel : ranks.Channels)
+  {
+    bytes += channel->Bytes;
+  }
+  // Three quarters move, from a rank to the first and on. Copies on all sides of each would be 7 times the cells, twice.
+  const std::size_t cells = 64 * 64 * 64;
+  EXPECT_LT(bytes, 4 * cells * 13);
+}
+
+namespace
+{
+
+constexpr std::size_t imagesOfLevels = 128;
+
+/// The first of each of so many ranks, and the number of all.
+std::vector<std::uint64_t> imagesOfRanks(std::size_t ranks)
+{
+  std::vector<std::uint64_t> first;
+  for (std::size_t rank = 0; rank <= ranks; ++rank)
+  {
+    first.push_back(imagesOfLevels * rank / ranks);
+  }
+  return first;
+}
+
+/// Two levels of blocks of 8 x 8 x 8 cells, whose images are in this order.
+filters::AmrLevels levelsOf(const std::function<std::size_t(std::size_t)>& order)
+{
+  filters::AmrLevels levels{};
+  levels.flat = -1;
+  std::size_t image = 0;
+  for (const int count : { 4, 8 })
+  {
+    filters::AmrLevel level{ { 1. / count, 1. / count, 1. / count },
+      { 8 * count, 8 * count, 8 * count }, {} };
+    filters::forCells({ 0, 0, 0 }, { 4, 4, 4 },
+      [&](int i, int j, int k)
+      {
+        level.blocks.push_back(
+          { order(image++), { 8 * i, 8 * j, 8 * k }, { 8, 8, 8 }, { 0, 0, 0 }, { 8, 8, 8 } });
+      });
+    levels.levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+double countOf(const std::vector<std::uint64_t>& owners, std::uint64_t rank)
+{
+  return static_cast<double>(std::count(owners.begin(), owners.end(), rank));
+}
+
+} // namespace
+
+TEST(AmrOwners, AreNeighbours)
+{
+  constexpr std::size_t images = imagesOfLevels, ranks = 4;
+  const auto scattered = levelsOf([](std::size_t image) { return image * 37 % images; });
+  const auto owners = filters::betterOwners(scattered, imagesOfRanks(ranks), 4).value();
+  ASSERT_EQ(owners.size(), images);
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    EXPECT_NEAR(countOf(owners, rank), images / ranks, 1) << rank;
+  }
+  // Most blocks have neighbours on their own rank.
+  int together = 0, pairs = 0;
+  for (const filters::AmrLevel& level : scattered.levels)
+  {
+    for (const filters::AmrBlock& a : level.blocks)
+    {
+      for (const filters::AmrBlock& b : level.blocks)
+      {
+        const int distance = std::abs(a.first[0] - b.first[0]) + std::abs(a.first[1] - b.first[1]) +
+          std::abs(a.first[2] - b.first[2]);
+        pairs += distance == 8 ? 1 : 0;
+        together += distance == 8 && owners[a.leaf] == owners[b.leaf] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(together, 0.7 * pairs); // 0.25 where they are scattered
+}
+
+TEST(AmrOwners, StayWhereTheyAreNeighboursAlready)
+{
+  const auto inARow = levelsOf([](std::size_t image) { return image % 64 * 2 + image / 64; });
+  EXPECT_FALSE(filters::betterOwners(inARow, imagesOfRanks(4), 4));
+  EXPECT_FALSE(filters::betterOwners(inARow, imagesOfRanks(1), 4));
+}
+
+TEST(AmrOwners, ARankWithoutAnyGetsNone)
+{
+  const auto scattered = levelsOf([](std::size_t image) { return image * 37 % imagesOfLevels; });
+  const auto owners = filters::betterOwners(scattered, { 0, 40, 40, 90, 128 }, 4).value();
+  EXPECT_EQ(countOf(owners, 1), 0);
+  EXPECT_NEAR(countOf(owners, 0), 43, 1);
 }

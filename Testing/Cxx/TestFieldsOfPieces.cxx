@@ -88,7 +88,8 @@ std::vector<Case> cases()
   std::vector<Case> found{ { "mesh", meshOf(all), {}, false, nullptr },
     { "mesh of cells", meshOf(all), {}, true, nullptr },
     { "image", imageOf(all), {}, false, sphere->GetOutput() },
-    { "blocks", blocksOf(extents, 0, 3), {}, true, nullptr } };
+    { "blocks", blocksOf(extents, 0, 3), {}, true, nullptr },
+    { "scattered blocks", {}, {}, true, nullptr } };
   for (std::size_t n = 0; n < extents.size(); ++n)
   {
     found[0].parts.push_back(meshOf(extents[n]));
@@ -96,6 +97,16 @@ std::vector<Case> cases()
     found[2].parts.push_back(imageOf(extents[n]));
     found[3].parts.push_back(blocksOf(extents, n, 1));
   }
+  std::array<std::vector<Extent>, 3> scattered; // of two ranks, and of both
+  for (int n = 0; n < 64; ++n)
+  {
+    const int x = n % 4 * 6, y = n / 4 % 4 * 5, z = n / 16 * 5;
+    const Extent extent{ x, x + 6, y, y + 5, z, z + 5 };
+    scattered[static_cast<std::size_t>((n + n / 4 + n / 16) % 2)].push_back(extent);
+    scattered[2].push_back(extent);
+  }
+  found[4].whole = blocksOf(scattered[2], 0, 64);
+  found[4].parts = { blocksOf(scattered[0], 0, 32), blocksOf(scattered[1], 0, 32) };
   for (Case& one : found)
   {
     one.parts.insert(one.parts.begin() + 1, nullptr); // this rank has nothing
