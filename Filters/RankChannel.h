@@ -4,6 +4,7 @@
 // What the ranks of a filter send each other to meet, and how.
 #pragma once
 
+#include "RankHoldings.h"
 #include "RankOutbox.h"
 
 #include "Rays/Channel.h"
@@ -26,9 +27,6 @@ namespace filters
 
 namespace ranks
 {
-
-/// What a rank has of an input: numbers of points and cells, bounds, and a number that is the same only if the meshes are.
-using Holdings = std::array<double, 9>;
 
 /// The first bytes of messages. Those of rays have other numbers.
 enum Kind : std::uint32_t

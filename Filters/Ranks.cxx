@@ -6,28 +6,23 @@
 #include "GatheredData.h"
 #include "InputDescription.h"
 #include "MeshHalo.h"
-#include "MeshKey.h"
 #include "RankChannel.h"
+#include "RankHoldings.h"
 #include "RankPeers.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
-#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUniformGridAMR.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -57,75 +52,6 @@ constexpr double secondsForInputs = 10;
 constexpr double partsOfOwnTime = 10;
 constexpr double secondsWithout = 2; // where nothing upstream runs
 
-/// Adds where a dataset is, and some of its points and cells.
-void addPlaces(Hash& hash, vtkDataSet* data)
-{
-  const auto addPoint = [&](vtkIdType id)
-  {
-    double at[3];
-    data->GetPoint(id, at);
-    hash.add(at, 3);
-  };
-  const vtkIdType most = 200;
-  const auto forSome = [most](vtkIdType count, const auto& add)
-  {
-    for (vtkIdType n = 0; n < std::min(count, most); ++n)
-    {
-      add(count <= most ? n : n * (count / most));
-    }
-  };
-  double bounds[6];
-  data->GetBounds(bounds);
-  hash.add(bounds, 6);
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      hash.add(static_cast<std::uint64_t>(image->GetDimensions()[axis]));
-    }
-    return; // they say where all points are, and there may be very many blocks
-  }
-  forSome(data->GetNumberOfPoints(), addPoint);
-  vtkNew<vtkIdList> points;
-  forSome(data->GetNumberOfCells(),
-    [&](vtkIdType cell)
-    {
-      data->GetCellPoints(cell, points);
-      std::for_each(points->begin(), points->end(), addPoint);
-    });
-}
-
-Holdings holdingsOf(vtkDataObject* input)
-{
-  Holdings holdings{};
-  Hash places;
-  vtkBoundingBox box;
-  for (vtkDataObject* leaf : leavesOf(input))
-  {
-    auto* data = vtkDataSet::SafeDownCast(leaf);
-    if (data && data->GetNumberOfPoints() > 0)
-    {
-      holdings[0] += static_cast<double>(data->GetNumberOfPoints());
-      holdings[1] += static_cast<double>(data->GetNumberOfCells());
-      if (vtkUnsignedCharArray* ghosts = data->GetCellGhostArray())
-      {
-        for (vtkIdType i = 0; i < ghosts->GetNumberOfValues(); ++i)
-        {
-          holdings[1] -= ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATECELL ? 1 : 0;
-        }
-      }
-      box.AddBounds(data->GetBounds());
-      addPlaces(places, data);
-    }
-  }
-  if (box.IsValid())
-  {
-    box.GetBounds(holdings.data() + 2);
-  }
-  holdings[8] = static_cast<double>(places.value() >> 11); // exact
-  return holdings;
-}
-
 /// Null where there is one process.
 vtkMultiProcessController* controllerOfRanks()
 {
@@ -138,23 +64,6 @@ std::string absenceOf(std::size_t rank, std::size_t ranks)
   return "Rank " + std::to_string(rank) + " of " + std::to_string(ranks) +
     " does not say what it has of the input, so it is not known whether rank 0 has all of it. "
     "See what that rank has reported, or use one process.";
-}
-
-/// The ranks that have data which rank 0 and those before them have not.
-std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
-{
-  std::vector<std::size_t> more;
-  const Holdings* first = nullptr;
-  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
-  {
-    const Holdings& holdings = ofRanks[rank];
-    if (holdings[0] > 0 && (first == nullptr || holdings != *first))
-    {
-      more.push_back(rank);
-      first = first == nullptr ? &holdings : first;
-    }
-  }
-  return more;
 }
 
 /// One rank can have so many times as many cells of an image as of a mesh: it takes some 10 bytes a point, a mesh some 200.

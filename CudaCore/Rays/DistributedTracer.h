@@ -14,8 +14,8 @@
 namespace schlieren
 {
 
-/// Traces rays through a tree whose bricks several processes have, see BrickOwners. It begins
-/// all rays, takes them through its own part, and collects those that end; workers hand on rays to each other.
+/// Traces rays through a tree whose bricks several processes have, see BrickOwners. It begins all rays, takes them through
+/// its own part, and collects those that end; workers hand on rays to each other.
 template <class Real>
 class DistributedTracer
 {
