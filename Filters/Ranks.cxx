@@ -378,6 +378,7 @@ bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
     const auto head = read<ShortMessage>(message);
     if (head.kind == End)
     {
+      this->Of.Inside->Worker.endTrace();
       channel.send(messageOf(ShortMessage{ Ended, 0 }));
       return head.number != 0;
     }

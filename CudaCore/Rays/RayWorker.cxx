@@ -283,4 +283,6 @@ bool RayWorker::advance(Channel& channel, Peers& peers, int threads)
   return hasRays;
 }
 
+void RayWorker::endTrace() { arrays_->part.endTrace(); }
+
 } // namespace schlieren

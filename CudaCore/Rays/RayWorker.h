@@ -45,6 +45,9 @@ public:
   /// none. To be called while there is no message to be answered. Throws nothing.
   bool advance(Channel& channel, Peers& peers, int threads);
 
+  /// Forgets rays that are left by a trace that has failed.
+  void endTrace();
+
 private:
   struct Arrays;
   std::unique_ptr<Arrays> arrays_;

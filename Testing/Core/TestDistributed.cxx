@@ -10,8 +10,10 @@
 #include "WorkerThread.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -309,6 +311,100 @@ TEST(Distributed, SaysWhichOfManyRanksDoesNotAnswer)
       EXPECT_NE(std::string(error.what()).find("Rank 2 "), std::string::npos) << error.what();
     }
   }
+}
+
+/// A worker in this thread, which works whenever somebody looks for messages. The messages of a trace may come late to it.
+class LateWorker : public Channel
+{
+  Mail answers_, requests_;
+
+public:
+  explicit LateWorker(bool isLate = false)
+    : isLate_(isLate)
+  {
+  }
+
+  void send(std::vector<char> message) override
+  {
+    isHeld_ = isHeld_ || (isLate_ && RayWorker::kindOf(message) == RayWorker::BeginRays);
+    isHeld_ ? held_.push_back(std::move(message)) : worker.answer(std::move(message), there_, 1);
+  }
+  bool hasMessage() override
+  {
+    if (!isStuck)
+    {
+      const bool hasWorked = worker.advance(there_, peers, 1);
+      raysBeforeBegin += hasWorked && isHeld_ ? 1 : 0;
+      if (isHeld_ && (hasWorked || ++polls_ > 1000))
+      {
+        isHeld_ = isLate_ = false;
+        for (std::vector<char>& message : std::exchange(held_, {}))
+        {
+          worker.answer(std::move(message), there_, 1);
+        }
+      }
+    }
+    return !answers_.isEmpty();
+  }
+  std::vector<char> receive() override { return answers_.take(); }
+  bool isOpen() const override { return isOpenNow; }
+  std::int32_t address() const override { return peers.address(); }
+
+  RayWorker worker;
+  PeerThread peers{ requests_ };
+  int raysBeforeBegin = 0; ///< how often others' have come
+  bool isStuck = false;    ///< takes no rays further
+  std::atomic<bool> isOpenNow{ true };
+
+private:
+  End there_{ answers_, requests_, isOpenNow, 0 };
+  std::deque<std::vector<char>> held_;
+  bool isLate_, isHeld_ = false;
+  int polls_ = 0;
+};
+
+// One worker hands on rays to another that does not know the trace yet.
+TEST(Distributed, RaysMayComeBeforeTheirTrace)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  const Team<float> team(setting, 2);
+  DistributedTracer<float> tracer(team.traced->medium, *team.owners);
+  TracedPass expected, rays;
+  expected.resize(team.traced->pass, 0);
+  ASSERT_TRUE(tracer.trace(team.traced->task, team.traced->pass, expected, 1, {}));
+
+  LateWorker first, late(true);
+  const auto owners = std::make_shared<BrickChannels>(std::vector<Channel*>{ &first, &late });
+  const Traced<float> traced(setting, owners);
+  DistributedTracer<float> again(traced.medium, *owners);
+  rays.resize(traced.pass, 0);
+  ASSERT_TRUE(again.trace(traced.task, traced.pass, rays, 1, {}));
+  EXPECT_EQ(late.raysBeforeBegin, 1);
+  expectSameRays(rays, expected);
+}
+
+TEST(Distributed, RaysOfATraceThatHasFailedAreForgotten)
+{
+  const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
+  LateWorker worker;
+  const auto owners = std::make_shared<BrickChannels>(std::vector<Channel*>{ &worker });
+  const Traced<float> traced(setting, owners);
+  DistributedTracer<float> tracer(traced.medium, *owners);
+  worker.isStuck = true;
+  int questions = 0;
+  const Monitor leaves{ {},
+    [&]
+    {
+      worker.isOpenNow = ++questions < 10;
+      return false;
+    },
+    {} };
+  TracedPass rays;
+  rays.resize(traced.pass, 0);
+  EXPECT_THROW(tracer.trace(traced.task, traced.pass, rays, 1, leaves), Error);
+  EXPECT_TRUE(worker.worker.advance(worker, worker.peers, 1));
+  worker.worker.endTrace();
+  EXPECT_FALSE(worker.worker.advance(worker, worker.peers, 1));
 }
 
 Scene sceneOf(DistributedMedium distribution)
