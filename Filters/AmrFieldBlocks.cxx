@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -182,10 +181,8 @@ AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
   for (std::size_t number = 0; number < levels.levels.size(); ++number)
   {
     const AmrLevel& level = levels.levels[number];
-    std::vector<CellBox> boxes;
-    std::transform(level.blocks.begin(), level.blocks.end(), std::back_inserter(boxes), boxOf);
     this->Levels.push_back({ number, level.spacing, level.cells, level.blocks,
-      std::make_unique<const BoxBins>(std::move(boxes)),
+      std::make_unique<const BoxBins>(binsOf(level)),
       std::make_unique<const BoxBins>(coveredCells(levels.levels, number)), {}, nullptr });
   }
   this->findMissingCells();

@@ -10,6 +10,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace filters
@@ -337,6 +338,13 @@ BoxBins::BoxBins(std::vector<CellBox> boxes)
     this->forBins(this->Boxes[number],
       [&](std::size_t bin, const CellBox&) { this->Bins[bin].push_back(number); });
   }
+}
+
+BoxBins binsOf(const AmrLevel& level)
+{
+  std::vector<CellBox> boxes;
+  std::transform(level.blocks.begin(), level.blocks.end(), std::back_inserter(boxes), boxOf);
+  return BoxBins(std::move(boxes));
 }
 
 BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level)

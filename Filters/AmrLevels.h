@@ -182,6 +182,9 @@ private:
   std::vector<std::vector<std::size_t>> Bins;
 };
 
+/// Of the blocks of a level.
+BoxBins binsOf(const AmrLevel& level);
+
 /// The cells of a level that finer blocks cover.
 BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level);
 

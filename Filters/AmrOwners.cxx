@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -23,9 +22,7 @@ double copiesBetween(const AmrLevels& levels, const Owners& owners, int margin)
   double copies = 0;
   for (const AmrLevel& level : levels.levels)
   {
-    std::vector<CellBox> boxes;
-    std::transform(level.blocks.begin(), level.blocks.end(), std::back_inserter(boxes), boxOf);
-    const BoxBins bins(std::move(boxes));
+    const BoxBins bins = binsOf(level);
     for (const AmrBlock& block : level.blocks)
     {
       CellBox around = boxOf(block);

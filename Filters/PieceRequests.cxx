@@ -274,6 +274,15 @@ void addCopiesOfMeshes(
   }
 }
 
+/// Of all ranks. Throws what has gone wrong.
+void requestAll(PieceRanks& ranks, std::vector<std::vector<char>> requests)
+{
+  for (const std::vector<char>& answer : ranks.Request(std::move(requests)))
+  {
+    readerOf(answer);
+  }
+}
+
 /// What some ranks answer is requested of one: it gets their answers behind the request's kind.
 void passOn(PieceRanks& ranks, std::vector<std::vector<char>> requests, std::size_t to,
   PieceWorker::Kind kind)
@@ -290,6 +299,22 @@ void passOn(PieceRanks& ranks, std::vector<std::vector<char>> requests, std::siz
     }
   }
   readerOf(ranks.Request(std::move(requests))[to]);
+}
+
+/// Moves blocks of some images of each rank to one rank.
+void moveBlocks(
+  PieceRanks& ranks, const std::vector<std::vector<std::uint64_t>>& images, std::size_t to)
+{
+  std::vector<std::vector<char>> requests(ranks.Count());
+  for (std::size_t from = 0; from < images.size(); ++from)
+  {
+    if (!images[from].empty())
+    {
+      requests[from] = pieceRequest(PieceWorker::GiveBlocks);
+      putAll(images[from], requests[from]);
+    }
+  }
+  passOn(ranks, std::move(requests), to, PieceWorker::TakeBlocks);
 }
 
 /// Gives each rank neighbouring blocks, where that saves copies. The first image of each rank, and the number of all.
@@ -315,23 +340,9 @@ std::vector<std::uint64_t> gatherNeighbours(
   for (std::uint64_t to = 0; to < ranks.Count(); ++to)
   {
     newFirst.push_back(count);
-    std::vector<std::vector<std::uint64_t>> given(ranks.Count());
-    std::size_t sum = 0;
-    const auto pass = [&]
-    {
-      std::vector<std::vector<char>> requests(ranks.Count());
-      for (std::size_t from = 0; from < given.size(); ++from)
-      {
-        if (!given[from].empty())
-        {
-          requests[from] = pieceRequest(PieceWorker::GiveBlocks);
-          putAll(given[from], requests[from]);
-          given[from].clear();
-        }
-      }
-      passOn(ranks, std::move(requests), to, PieceWorker::TakeBlocks);
-      sum = 0;
-    };
+    const std::vector<std::vector<std::uint64_t>> none(ranks.Count());
+    std::vector<std::vector<std::uint64_t>> moving = none;
+    std::size_t sum = 0; // of their cells
     for (std::uint64_t from = 0; from < ranks.Count(); ++from)
     {
       for (std::uint64_t image = firstImages[from]; image < firstImages[from + 1]; ++image)
@@ -343,29 +354,26 @@ std::vector<std::uint64_t> gatherNeighbours(
         numbers[image] = count++;
         if (from != to)
         {
-          given[from].push_back(image);
+          moving[from].push_back(image);
           sum += cells[image];
         }
         if (sum > cellsAtOnce)
         {
-          pass();
+          moveBlocks(ranks, std::exchange(moving, none), to);
+          sum = 0;
         }
       }
     }
     if (sum > 0)
     {
-      pass();
+      moveBlocks(ranks, moving, to);
     }
   }
   newFirst.push_back(count);
   std::vector<char> request = pieceRequest(PieceWorker::Renumber);
   putAll(numbers, request);
   putAll(newFirst, request);
-  for (const std::vector<char>& answer :
-    ranks.Request(std::vector<std::vector<char>>(ranks.Count(), request)))
-  {
-    readerOf(answer); // throws what has gone wrong
-  }
+  requestAll(ranks, std::vector<std::vector<char>>(ranks.Count(), request));
   return newFirst;
 }
 
@@ -391,10 +399,7 @@ void exchangeBlocks(PieceRanks& ranks, const Outlines& outlines, const AmrLevels
   {
     put(rank, requests[rank]);
   }
-  for (const std::vector<char>& answer : ranks.Request(std::move(requests)))
-  {
-    readerOf(answer); // throws what has gone wrong
-  }
+  requestAll(ranks, std::move(requests));
   const std::vector<std::uint64_t> firstImages =
     gatherNeighbours(ranks, outlines.firstImages, levels);
   for (std::uint64_t to = 0; to < ranks.Count(); ++to)

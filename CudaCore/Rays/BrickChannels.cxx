@@ -60,11 +60,7 @@ std::vector<std::vector<LeafSums>> BrickChannels::sumUp(
   std::vector<std::vector<LeafSums>> sums(answers.size());
   for (std::size_t owner = 0; owner < answers.size(); ++owner)
   {
-    if (!answers[owner].empty())
-    {
-      sums[owner].resize(answers[owner].size() / sizeof(LeafSums));
-      std::memcpy(sums[owner].data(), answers[owner].data(), answers[owner].size());
-    }
+    sums[owner] = valuesFrom<LeafSums>(0, answers[owner]);
   }
   return sums;
 }

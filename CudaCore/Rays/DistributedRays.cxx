@@ -201,15 +201,9 @@ void TravellingRays<Real>::write(std::vector<char>& message) const
       others.push_back(ray);
     }
   }
-  const auto append = [&message](const auto* first, std::size_t count)
-  {
-    const char* bytes = reinterpret_cast<const char*>(first);
-    message.insert(message.end(), bytes, bytes + count * sizeof(*first));
-  };
-  const RayCounts counts{ begun.size(), others.size() };
-  append(&counts, 1);
-  append(begun.data(), begun.size());
-  append(others.data(), others.size());
+  append(std::vector<RayCounts>{ { begun.size(), others.size() } }, message);
+  append(begun, message);
+  append(others, message);
 }
 
 template <class Real>
@@ -253,8 +247,7 @@ std::vector<char> AdvancedRays<Real>::toMessage(AdvancedMessage head) const
   head.ended = ended.size();
   head.worstDrift = worstDrift;
   std::vector<char> message = messageOf(head);
-  const char* first = reinterpret_cast<const char*>(ended.data());
-  message.insert(message.end(), first, first + ended.size() * sizeof(EndedRay));
+  append(ended, message);
   suspended.write(message);
   return message;
 }

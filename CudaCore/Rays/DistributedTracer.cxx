@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <thread>
 #include <utility>
 
@@ -71,7 +70,6 @@ struct DistributedTracer<Real>::State
     {
       addresses.push_back(channel->address());
     }
-    const std::size_t bytes = addresses.size() * sizeof(addresses[0]);
     for (std::size_t n = 0; n < workers.size(); ++n)
     {
       Channel& channel = *owners.channels()[n];
@@ -85,8 +83,8 @@ struct DistributedTracer<Real>::State
         sendStructure(channel, owner);
         workers[n].hasTree = true;
       }
-      std::vector<char> message = messageOf(trace, bytes);
-      std::memcpy(message.data() + sizeof(trace), addresses.data(), bytes);
+      std::vector<char> message = messageOf(trace);
+      append(addresses, message);
       traffic.own.add({ 1, static_cast<std::int64_t>(message.size()), 0 });
       channel.send(std::move(message));
       workers[n].given = 0;

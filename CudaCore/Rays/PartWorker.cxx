@@ -3,29 +3,12 @@
 #include "Rays/PartWorker.h"
 
 #include "Rays/Tracer.h"
+#include "Schlieren.h"
 
-#include <cstring>
 #include <utility>
 
 namespace schlieren
 {
-
-namespace
-{
-
-/// What a message has behind its head.
-template <class Item>
-std::vector<Item> itemsBehind(std::size_t head, const std::vector<char>& message)
-{
-  std::vector<Item> items((message.size() - head) / sizeof(Item));
-  if (!items.empty())
-  {
-    std::memcpy(items.data(), message.data() + head, items.size() * sizeof(Item));
-  }
-  return items;
-}
-
-} // namespace
 
 void PartWorker::clear()
 {
@@ -105,28 +88,23 @@ bool PartWorker::find(
   found.kind = RayWorker::Found;
   found.number = head.number;
   std::vector<char> answer = messageOf(found);
-  const auto append = [&](const auto& values)
-  {
-    const char* first = reinterpret_cast<const char*>(values.data());
-    answer.insert(answer.end(), first, first + values.size() * sizeof(values[0]));
-  };
   if (head.kind == RayWorker::SumUp)
   {
     std::vector<LeafSums> sums;
-    if (!own.sumUp(itemsBehind<LeafSegment>(sizeof(head), message), sums, threads))
+    if (!own.sumUp(valuesFrom<LeafSegment>(sizeof(head), message), sums, threads))
     {
       return false;
     }
-    append(sums);
+    append(sums, answer);
   }
   else
   {
     std::vector<char> samples;
-    if (!own.fetch(itemsBehind<std::int32_t>(sizeof(head), message), samples))
+    if (!own.fetch(valuesFrom<std::int32_t>(sizeof(head), message), samples))
     {
       return false;
     }
-    append(samples);
+    append(samples, answer);
   }
   channel.send(std::move(answer));
   return true;
@@ -152,7 +130,7 @@ bool PartWorker::begin(const std::vector<char>& message)
   request.task.medium.gasDistances = part<Real>().tree->gasDistances().data() + request.firstSample;
   part<Real>().request = request;
   bytesOfReal_ = sizeof(Real);
-  addresses_ = itemsBehind<std::int32_t>(sizeof(request), message);
+  addresses_ = valuesFrom<std::int32_t>(sizeof(request), message);
   taken_ = 0;
   bool areTaken = true;
   for (const std::vector<char>& rays : std::exchange(early_, {}))
@@ -190,36 +168,31 @@ bool PartWorker::take(const std::vector<char>& message)
   }
 }
 
-bool PartWorker::advance(Channel& channel, Peers& peers, int threads, bool& hasRays)
+bool PartWorker::advance(Channel& channel, Peers& peers, int threads)
 {
-  hasRays = false;
-  bool areTaken = true;
+  bool hasReceived = false;
   for (std::vector<char> rays = peers.receive(); !rays.empty(); rays = peers.receive())
   {
-    hasRays = true;
-    areTaken = take(rays) && areTaken;
+    hasReceived = true;
+    if (!take(rays))
+    {
+      throw Error("Another rank has sent rays that are not as many as it says.");
+    }
   }
-  if (!areTaken)
-  {
-    return false;
-  }
-  if (part<float>().waiting.size() > 0)
-  {
-    hasRays = true;
-    return advancePart<float>(channel, peers, threads);
-  }
-  if (part<double>().waiting.size() > 0)
-  {
-    hasRays = true;
-    return advancePart<double>(channel, peers, threads);
-  }
-  return true;
+  const bool hasAdvanced =
+    advancePart<float>(channel, peers, threads) || advancePart<double>(channel, peers, threads);
+  return hasReceived || hasAdvanced;
 }
 
+/// False where no rays of this precision wait.
 template <class Real>
 bool PartWorker::advancePart(Channel& channel, Peers& peers, int threads)
 {
   Part<Real>& here = part<Real>();
+  if (here.waiting.size() == 0)
+  {
+    return false;
+  }
   const BeginMessage<Real>& request = here.request;
   AdvancedRays<Real> advanced = advanceRays(
     request.task, request.pass, here.waiting.takeBack(raysAtOnce<Real>), threads, request.simd);
@@ -231,7 +204,7 @@ bool PartWorker::advancePart(Channel& channel, Peers& peers, int threads)
     const auto owner = static_cast<std::size_t>(~next.brick);
     if (next.isResident() || owner >= toOwners.size())
     {
-      return false;
+      throw Error("A ray has come to a leaf that nobody has.");
     }
     toOwners[owner].rays.push_back(ray);
   }

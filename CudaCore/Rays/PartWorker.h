@@ -32,8 +32,8 @@ public:
   /// Does what a message of BrickChannels or of a DistributedTracer requests. False where it has not what that needs.
   bool answer(const std::vector<char>& message, Channel& channel, int threads);
 
-  /// See RayWorker::advance(). `hasRays`: whether there were any; throws where there is no memory for what becomes of them.
-  bool advance(Channel& channel, Peers& peers, int threads, bool& hasRays);
+  /// See RayWorker::advance(). Throws where there is no memory for what becomes of the rays, or something is wrong with them.
+  bool advance(Channel& channel, Peers& peers, int threads);
 
   /// Of the trace that has begun last.
   std::uint64_t trace() const { return trace_; }

@@ -267,20 +267,16 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
 bool RayWorker::advance(Channel& channel, Peers& peers, int threads)
 {
   PartWorker& part = arrays_->part;
-  bool hasRays = false, isDone = false;
   try
   {
-    isDone = part.advance(channel, peers, threads, hasRays);
+    return part.advance(channel, peers, threads);
   }
-  catch (const std::exception&) // there is no memory
-  {
-  }
-  if (!isDone)
+  catch (const std::exception&)
   {
     part.endTrace();
     sendLacking(part.trace(), { 0, 0 }, channel);
+    return true;
   }
-  return hasRays;
 }
 
 void RayWorker::endTrace() { arrays_->part.endTrace(); }

@@ -144,6 +144,25 @@ bool read(const std::vector<char>& message, Head& head)
   return true;
 }
 
+template <class Value>
+void append(const std::vector<Value>& values, std::vector<char>& message)
+{
+  const char* first = reinterpret_cast<const char*>(values.data());
+  message.insert(message.end(), first, first + values.size() * sizeof(Value));
+}
+
+/// All that a message has from a byte on.
+template <class Value>
+std::vector<Value> valuesFrom(std::size_t first, const std::vector<char>& message)
+{
+  std::vector<Value> values((message.size() - first) / sizeof(Value));
+  if (!values.empty())
+  {
+    std::memcpy(values.data(), message.data() + first, values.size() * sizeof(Value));
+  }
+  return values;
+}
+
 /// A tile as a pass of its own, with the same rays.
 inline Pass passOfTile(const Pass& pass, std::int64_t tile)
 {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -256,6 +257,31 @@ TEST(Distributed, ResumesAfterPauses)
   expectSameRays(rays, expected);
 }
 
+/// Traces often enough for any fault to show.
+void traceOften(const Traced<float>& traced, const BrickChannels& owners)
+{
+  DistributedTracer<float> tracer(traced.medium, owners);
+  for (int again = 0; again < 100; ++again)
+  {
+    TracedPass rays;
+    rays.resize(traced.pass, 0);
+    tracer.trace(traced.task, traced.pass, rays, 1, {});
+  }
+}
+
+void expectErrorAbout(const std::string& rank, const std::function<void()>& work)
+{
+  try
+  {
+    work();
+    FAIL() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find(rank), std::string::npos) << error.what();
+  }
+}
+
 TEST(Distributed, SaysWhichRankDoesNotAnswer)
 {
   const Setting setting{ std::make_shared<BallsSource>(threeBalls(3e-2)) };
@@ -264,22 +290,12 @@ TEST(Distributed, SaysWhichRankDoesNotAnswer)
     for (const int after : { 0, 3, 12 }) // before there is a tree, while it is made, and later
     {
       SCOPED_TRACE(testing::Message() << static_cast<int>(fault) << " after " << after);
-      try
-      {
-        const Team<float> team(setting, 1, fault, after);
-        DistributedTracer<float> tracer(team.traced->medium, *team.owners);
-        for (int again = 0; again < 100; ++again)
+      expectErrorAbout("Rank 1 ",
+        [&]
         {
-          TracedPass rays;
-          rays.resize(team.traced->pass, 0);
-          tracer.trace(team.traced->task, team.traced->pass, rays, 1, {});
-        }
-        FAIL() << "no error";
-      }
-      catch (const Error& error)
-      {
-        EXPECT_NE(std::string(error.what()).find("Rank 1 "), std::string::npos) << error.what();
-      }
+          const Team<float> team(setting, 1, fault, after);
+          traceOften(*team.traced, *team.owners);
+        });
     }
   }
 }
@@ -295,21 +311,7 @@ TEST(Distributed, SaysWhichOfManyRanksDoesNotAnswer)
     const auto owners = std::make_shared<BrickChannels>(
       std::vector<Channel*>{ first.channel(), faulty.channel(), third.channel() });
     const Traced<float> traced(setting, owners);
-    DistributedTracer<float> tracer(traced.medium, *owners);
-    try
-    {
-      for (int again = 0; again < 100; ++again)
-      {
-        TracedPass rays;
-        rays.resize(traced.pass, 0);
-        tracer.trace(traced.task, traced.pass, rays, 1, {});
-      }
-      FAIL() << "no error";
-    }
-    catch (const Error& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("Rank 2 "), std::string::npos) << error.what();
-    }
+    expectErrorAbout("Rank 2 ", [&] { traceOften(traced, *owners); });
   }
 }
 
