@@ -142,12 +142,17 @@ ExposureSteps::~ExposureSteps()
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::Meet(std::vector<std::string> arrays)
+void ExposureSteps::Meet(const FilterRanks::Inputs& own)
 {
-  this->Arrays = std::move(arrays);
-  this->Meeting.emplace(this->Ranks,
-    FilterRanks::Inputs{ vtkDataObject::GetData(this->Inputs[0]),
-      vtkDataObject::GetData(this->Inputs[1]), this->Arrays });
+  this->Arrays = own.arrays;
+  this->Meeting.emplace(this->Ranks, own);
+}
+
+//------------------------------------------------------------------------------
+void ExposureSteps::MeetAgain()
+{
+  this->Meet({ vtkDataObject::GetData(this->Inputs[0]), vtkDataObject::GetData(this->Inputs[1]),
+    this->Arrays });
 }
 
 //------------------------------------------------------------------------------
@@ -158,7 +163,7 @@ void ExposureSteps::MeetWithAll()
   this->Ranks.SetTooFew(this->MaxCells);
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
   this->IsThere = updateInputs(this->Filter);
-  this->Meet(this->Arrays);
+  this->MeetAgain();
 }
 
 //------------------------------------------------------------------------------
@@ -173,7 +178,7 @@ bool ExposureSteps::Resume()
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
   this->IsThere = updateInputs(this->Filter);
-  this->Meet(this->Arrays);
+  this->MeetAgain();
   return true;
 }
 

@@ -52,8 +52,8 @@ public:
   ExposureSteps(const ExposureSteps&) = delete;
   ExposureSteps& operator=(const ExposureSteps&) = delete;
 
-  /// The ranks meet for the first step. `arrays`: that are needed of the data.
-  void Meet(std::vector<std::string> arrays);
+  /// The ranks meet for the first step, with what this one has of it.
+  void Meet(const FilterRanks::Inputs& own);
   FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
 
   /// Where pieces are too few, see FilterRanks: updates the inputs once more, all of them on rank 0, and meets again.
@@ -83,6 +83,7 @@ public:
 private:
   static constexpr int Ports = 2;
 
+  void MeetAgain();
   void Keep(int port, vtkDataObject* data);
 
   vtkAlgorithm* Filter;

@@ -28,6 +28,21 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 bool isOf(const std::optional<TimeStep>& step, double time) { return step && step->time == time; }
 
+/// Which part of the inputs is requested.
+std::vector<int> requestedPieces(vtkAlgorithm* filter, vtkInformationVector** inputs)
+{
+  std::vector<int> pieces;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* inInfo = inputs[port]->GetInformationObject(0))
+    {
+      pieces.push_back(inInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()));
+      pieces.push_back(inInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+    }
+  }
+  return pieces;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -39,7 +54,8 @@ bool NextStep::IsValid(vtkAlgorithm* filter) const
 //------------------------------------------------------------------------------
 void NextStep::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time)
 {
-  this->HasRequested = this->IsValid(filter) && (isOf(this->This, time) || isOf(this->Next, time));
+  this->HasRequested = this->IsValid(filter) && this->Pieces == requestedPieces(filter, inputs) &&
+    (isOf(this->This, time) || isOf(this->Next, time));
   if (!this->HasRequested)
   {
     return;
@@ -57,8 +73,7 @@ void NextStep::Request(vtkAlgorithm* filter, vtkInformationVector** inputs, doub
 }
 
 //------------------------------------------------------------------------------
-TimeStep& NextStep::Arrive(
-  vtkAlgorithm* filter, double time, vtkDataObject* data, vtkDataObject* bodies)
+TimeStep& NextStep::Arrive(vtkAlgorithm* filter, double time, vtkInformationVector** inputs)
 {
   if (this->HasRequested && isOf(this->This, time))
   {
@@ -74,10 +89,12 @@ TimeStep& NextStep::Arrive(
   }
   else
   {
-    this->This = TimeStep{ time, sharedCopy(data), sharedCopy(bodies), nullptr, nullptr };
+    this->This = TimeStep{ time, sharedCopy(vtkDataObject::GetData(inputs[0])),
+      sharedCopy(vtkDataObject::GetData(inputs[1])), nullptr, nullptr };
   }
   this->Next.reset();
   this->UpstreamTime = upstreamTime(filter);
+  this->Pieces = requestedPieces(filter, inputs);
   return *this->This;
 }
 
@@ -111,7 +128,7 @@ std::optional<double> NextStep::Predict(vtkInformation* input) const
 }
 
 //------------------------------------------------------------------------------
-TimeStep* NextStep::Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time)
+const TimeStep* NextStep::Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time)
 {
   this->Next.reset();
   requestTime(filter, inputs, time);
@@ -123,7 +140,7 @@ TimeStep* NextStep::Read(vtkAlgorithm* filter, vtkInformationVector** inputs, do
       sharedCopy(vtkDataObject::GetData(inputs[1])), nullptr, nullptr };
   }
   requestTime(filter, inputs, this->This->time);
-  return this->Next ? &*this->Next : nullptr;
+  return this->GetNext();
 }
 
 //------------------------------------------------------------------------------

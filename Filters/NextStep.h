@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -25,21 +26,24 @@ namespace filters
 struct TimeStep
 {
   double time = 0;
-  vtkSmartPointer<vtkDataObject> data, bodies; // copies that share the arrays; bodies may be null
+  vtkSmartPointer<vtkDataObject> data,
+    bodies; // copies that share the arrays, of this rank; bodies may be null
   std::shared_ptr<const MadeRefractivity> refractivity; // null: not made yet
   std::unique_ptr<schlieren::Bench> bench;              // that has the medium; likewise
 };
 
 /// The time step that will probably be requested next, which a filter reads while it traces the image of this one.
-/// As upstream has that step then, this one is kept, too. Both are forgotten when anything upstream changes.
+/// As upstream has that step then, this one is kept, too. Both are forgotten when anything upstream changes, and where
+/// another part of the data is requested than before. Ranks have it alike.
 class NextStep
 {
 public:
-  /// In RequestUpdateExtent for a time: where its step is kept, requests nothing else than upstream has.
+  /// In RequestUpdateExtent for a time, after what is requested is known: where its step is kept, requests nothing else
+  /// than upstream has.
   void Request(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
 
   /// In RequestData for the same time: its step, which is that of the inputs unless it is kept.
-  TimeStep& Arrive(vtkAlgorithm* filter, double time, vtkDataObject* data, vtkDataObject* bodies);
+  TimeStep& Arrive(vtkAlgorithm* filter, double time, vtkInformationVector** inputs);
 
   /// The step of the last image; null where it is not kept.
   const TimeStep* Current(vtkAlgorithm* filter) const;
@@ -49,7 +53,16 @@ public:
   std::optional<double> Predict(vtkInformation* input) const;
 
   /// Updates the inputs for a time, and afterwards requests the current one again. Null where there are no data.
-  TimeStep* Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
+  const TimeStep* Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
+
+  /// The step that has been read; null where there is none.
+  TimeStep* GetNext() { return this->Next ? &*this->Next : nullptr; }
+  /// Forgets it.
+  void Drop() { this->Next.reset(); }
+
+  /// Whether what is upstream can be read ahead: it cannot where it changes with each step.
+  bool GetKeepable() const { return this->IsKeepable; }
+  void SetKeepable(bool isKeepable) { this->IsKeepable = isKeepable; }
 
   void Release();
 
@@ -58,8 +71,9 @@ private:
 
   std::optional<TimeStep> This, Next;
   vtkMTimeType UpstreamTime = 0;
-  bool HasRequested = false;    // what is requested: the inputs may be of another time
-  bool IsKeepable = true;       // false: what is upstream changes with each step
+  std::vector<int> Pieces;   // that were requested of This and Next
+  bool HasRequested = false; // what is requested: the inputs may be of another time
+  bool IsKeepable = true;
   std::optional<double> Before; // the time of the image before
 };
 

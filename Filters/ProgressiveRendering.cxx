@@ -17,6 +17,7 @@
 #include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <utility>
 
@@ -167,7 +168,7 @@ vtkDataObject* vtkSchlierenFilter::InputOfImage(int port, vtkDataObject* own)
 {
   if (const TimeStep* step = this->Inside->Ahead.Current(this))
   {
-    return port == 0 ? step->data : step->bodies;
+    own = port == 0 ? step->data : step->bodies;
   }
   return this->Inside->Ranks.GetInput(port, own);
 }
@@ -320,48 +321,91 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
   {
     return trace(monitor);
   }
+  if (hasOtherRanks() && !inside.Meeting->CanReadAhead())
+  {
+    if (!std::exchange(inside.HasWarnedOfMpi, true))
+    {
+      vtkWarningMacro(<< "ReadAheadMemory has no effect: MPI has been initialized for one thread, "
+                         "and both reading and tracing need it. Set OMPI_MPI_THREAD_LEVEL=3 (Open "
+                         "MPI) or MPIR_CVAR_DEFAULT_THREAD_LEVEL=MPI_THREAD_MULTIPLE (MPICH) in "
+                         "the environment of all ranks.");
+    }
+    return trace(monitor);
+  }
+  std::atomic<bool> isTraced{ false }; // or has failed
+  const auto traceWithRanks = [&](const schlieren::Monitor& ofTrace)
+  {
+    const struct AtEnd
+    {
+      std::atomic<bool>& isTraced;
+      ~AtEnd() { this->isTraced = true; }
+    } atEnd{ isTraced };
+    inside.Meeting->BeginToRead(*next);
+    schlieren::Image image = trace(ofTrace);
+    inside.Meeting->WaitForReaders();
+    return image;
+  };
   const auto read = [&]
   {
     inside.IsReadingAhead = true;
-    this->ReadAhead(*next, scene, ambient);
+    try
+    {
+      this->ReadAhead(*next, scene, ambient, isTraced);
+    }
+    catch (const std::exception&) // the request for that step will say it
+    {
+    }
+    if (hasOtherRanks() && !inside.Meeting->KeepsNext())
+    {
+      inside.Ahead.Drop();
+    }
     inside.IsReadingAhead = false;
   };
-  return traceWhile(read, trace, monitor);
+  return traceWhile(read, hasOtherRanks() ? traceWithRanks : trace, monitor);
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::ReadAhead(
-  double time, const schlieren::Scene& scene, const std::optional<double>& ambient)
+void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
+  const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
 {
   Internals& inside = *this->Inside;
-  try
+  FilterRanks::Inputs own;
+  auto read = inside.readStep(this, this->GetExecutive()->GetInputInformation(), time, own);
+  bool isAllHere = true;
+  if (hasOtherRanks())
   {
-    TimeStep* step = inside.Ahead.Read(this, this->GetExecutive()->GetInputInformation(), time);
-    if (!step)
-    {
-      return;
-    }
-    step->refractivity = this->FindOrMakeRefractivity(
-      step->data, step->bodies, this->DescribeInputs(step->data, step->bodies));
-    // Its medium is another one where it needs the ambient refractivity that is being found now.
-    const bool isAmbientKnown = !this->LockAmbient || !inside.FindsAmbient;
-    const bool hasTints = this->ColorByField && step->refractivity && !step->refractivity->Source;
-    if (!step->refractivity || !isAmbientKnown || hasTints || this->PathModel == DIFFERENCE)
-    {
-      return;
-    }
-    schlieren::Field field = Internals::fieldOf(*step->refractivity);
-    field.ambient = ambient;
-    field.lengthScale = this->LengthScale;
-    field.gradients = { static_cast<int>(scene.fieldColors.size()), nullptr, field.version };
-    step->bench = std::make_unique<schlieren::Bench>();
-    step->bench->setMedia(mediaOfProcess());
-    step->bench->prepare(
-      field, scene, { nullptr, [this]() { return this->GetAbortExecute() != 0; } });
+    read = inside.Meeting->MeetAhead(read, own, isTraced, isAllHere);
+    inside.Ahead.SetKeepable(read.isKeepable);
+    // What needs the other ranks is made when they meet for it.
+    isAllHere =
+      isAllHere && !inside.Ranks.AreInPieces() && this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF;
   }
-  catch (const std::exception&) // the request for that step will say it
+  if (read.isThere && isAllHere)
   {
+    this->MakeAhead(*inside.Ahead.GetNext(), scene, ambient);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::MakeAhead(
+  TimeStep& step, const schlieren::Scene& scene, const std::optional<double>& ambient)
+{
+  step.refractivity = this->FindOrMakeRefractivity(
+    step.data, step.bodies, this->DescribeInputs(step.data, step.bodies));
+  // Its medium is another one where it needs the ambient refractivity that is being found now.
+  const bool isAmbientKnown = !this->LockAmbient || !this->Inside->FindsAmbient;
+  const bool hasTints = this->ColorByField && step.refractivity && !step.refractivity->Source;
+  if (!step.refractivity || !isAmbientKnown || hasTints || this->PathModel == DIFFERENCE)
+  {
+    return;
+  }
+  schlieren::Field field = Internals::fieldOf(*step.refractivity);
+  field.ambient = ambient;
+  field.lengthScale = this->LengthScale;
+  field.gradients = { static_cast<int>(scene.fieldColors.size()), nullptr, field.version };
+  step.bench = std::make_unique<schlieren::Bench>();
+  step.bench->setMedia(mediaOfProcess());
+  step.bench->prepare(field, scene, { nullptr, [this]() { return this->GetAbortExecute() != 0; } });
 }
 
 //------------------------------------------------------------------------------

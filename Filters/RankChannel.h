@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
@@ -40,7 +41,9 @@ enum Kind : std::uint32_t
   Ended,     // to rank 0, an answer to End
   Ask,       // to others, before they get pieces
   Ready,     // to rank 0, an answer to Ask
-  Relay      // to others: a message comes in pieces
+  Relay,     // to others: a message comes in pieces
+  ReadStep,  // to others: a time step that they read while they trace rays
+  StepIsRead // to rank 0, an answer to ReadStep
 };
 
 struct HelloMessage
@@ -51,6 +54,25 @@ struct HelloMessage
   double timeStep = 0;
   Holdings inputs[2] = {};
   std::int32_t pieceKinds = 0; // of the first of them, see pieceKindsOf()
+  std::int32_t canReadAhead = 0;
+};
+struct ReadStepMessage
+{
+  std::uint32_t kind = ReadStep;
+  double time = 0;
+};
+struct StepIsReadMessage
+{
+  std::uint32_t kind = StepIsRead;
+  std::int32_t isThere = 0;
+  std::int32_t isKeepable = 1;
+  Holdings inputs[2] = {};
+};
+struct EndMessage
+{
+  std::uint32_t kind = End;
+  std::int32_t outcome = 0;
+  std::int32_t dropsNext = 0; // of what has been read ahead
 };
 /// Where pieces come from, and where they are sent on to.
 struct RelayMessage
@@ -63,7 +85,7 @@ struct RelayMessage
 struct ShortMessage
 {
   std::uint32_t kind = 0;
-  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; End: the outcome
+  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text
   std::int32_t number = 0;
 };
 
@@ -93,8 +115,8 @@ inline void waitABit() { std::this_thread::sleep_for(std::chrono::microseconds(1
 class RankChannel : public schlieren::Channel
 {
 public:
-  RankChannel(vtkMultiProcessController* controller, int rank, int tag)
-    : Controller(controller)
+  RankChannel(Communicator* communicator, int rank, int tag)
+    : Of(communicator)
     , Rank(rank)
     , Tag(tag)
   {
@@ -137,7 +159,7 @@ public:
     nodes.insert(nodes.begin(), nullptr); // this process
     const auto rankOf = [&](std::size_t node)
     {
-      return node == 0        ? this->Controller->GetLocalProcessId()
+      return node == 0        ? this->Of->GetLocalProcessId()
         : node < nodes.size() ? nodes[node]->Rank
                               : -1;
     };
@@ -175,7 +197,7 @@ public:
         message.resize(static_cast<std::size_t>(first + count));
       }
       char* piece = hasRoom ? message.data() + first : passing.data();
-      this->Controller->Receive(piece, count, head.from, this->Tag + 1);
+      this->Of->Receive(piece, count, head.from, this->Tag + 1);
       pieces.Send(piece, count);
       if (!hasRoom)
       {
@@ -226,6 +248,8 @@ public:
 
   // On rank 0: of a rank that waits for it, and of one that is at the meeting.
   std::optional<HelloMessage> Greeting, Guest;
+  StepIsReadMessage NextStep;         // likewise, of a rank that has read it
+  std::atomic<bool> HasRead{ false }; // likewise, for any thread: NextStep is there
 
   /// Leaves the meeting, or a rank 0 that has not come.
   void Close()
@@ -252,6 +276,10 @@ public:
         case Leave:
           this->Greeting.reset();
           this->Close();
+          break;
+        case StepIsRead:
+          this->NextStep = read<StepIsReadMessage>(message);
+          this->HasRead = true;
           break;
         default:
           this->Messages.push_back(std::move(message));
@@ -282,10 +310,7 @@ private:
   {
     int has = 0;
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
-    if (auto* mpi = vtkMPIController::SafeDownCast(this->Controller))
-    {
-      mpi->Iprobe(this->Rank, this->Tag, &has, nullptr);
-    }
+    this->Of->Iprobe(this->Rank, this->Tag, &has, nullptr);
 #endif
     return has != 0;
   }
@@ -296,7 +321,7 @@ private:
   {
     forPieces(size,
       [&](std::size_t first, int count)
-      { this->Controller->Receive(bytes + first, count, this->Rank, this->Tag); });
+      { this->Of->Receive(bytes + first, count, this->Rank, this->Tag); });
   }
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
@@ -312,13 +337,12 @@ private:
     /// The bytes must stay until it has waited.
     void Send(const char* bytes, std::int64_t count)
     {
-      auto* mpi = vtkMPIController::SafeDownCast(this->Channel.Controller);
       for (const int rank : this->To)
       {
         if (rank >= 0)
         {
           this->Requests.emplace_back();
-          mpi->NoBlockSend(
+          this->Channel.Of->NoBlockSend(
             bytes, static_cast<int>(count), rank, this->Channel.Tag + 1, this->Requests.back());
         }
       }
@@ -347,9 +371,9 @@ private:
   };
 #endif
 
-  vtkMultiProcessController* Controller;
+  Communicator* Of;
   int Rank, Tag;
-  Outbox Outgoing{ this->Controller };
+  Outbox Outgoing{ this->Of };
   std::deque<std::vector<char>> Messages;
 };
 

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vtkMultiProcessController.h"
+#include "vtkCommunicator.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 #include "vtkMPICommunicator.h"
-#include "vtkMPIController.h"
 #endif
 
 #include <algorithm>
@@ -20,6 +19,12 @@ namespace filters
 
 namespace ranks
 {
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+using Communicator = vtkMPICommunicator;
+#else
+using Communicator = vtkCommunicator; // there are no other ranks
+#endif
 
 /// Calls visit(first, count) for the pieces of a message: MPI counts by integers.
 template <class Visit>
@@ -36,8 +41,8 @@ void forPieces(std::size_t size, const Visit& visit)
 class Outbox
 {
 public:
-  explicit Outbox(vtkMultiProcessController* controller)
-    : Controller(controller)
+  explicit Outbox(Communicator* communicator)
+    : Of(communicator)
   {
   }
 
@@ -45,14 +50,13 @@ public:
   /// Returns at once.
   void Send(std::vector<char> bytes, int rank, int tag)
   {
-    auto* mpi = vtkMPIController::SafeDownCast(this->Controller);
     this->Unsent.push_back({ std::move(bytes), {} });
     Message& last = this->Unsent.back();
     forPieces(last.bytes.size(),
       [&](std::size_t first, int count)
       {
         last.requests.emplace_back();
-        mpi->NoBlockSend(static_cast<const char*>(last.bytes.data()) + first, count, rank, tag,
+        this->Of->NoBlockSend(static_cast<const char*>(last.bytes.data()) + first, count, rank, tag,
           last.requests.back());
       });
   }
@@ -90,7 +94,7 @@ private:
 
 private:
 #endif
-  vtkMultiProcessController* Controller;
+  Communicator* Of;
 };
 
 } // namespace ranks

@@ -4,6 +4,8 @@
 
 #include "RankOutbox.h"
 
+#include "vtkMultiProcessController.h"
+
 #include "Rays/Channel.h"
 
 #include <cstdint>
@@ -20,8 +22,8 @@ namespace ranks
 class RankPeers : public schlieren::Peers
 {
 public:
-  RankPeers(vtkMultiProcessController* controller, int tag)
-    : Controller(controller)
+  RankPeers(Communicator* communicator, int tag)
+    : Of(communicator)
     , Tag(tag)
   {
   }
@@ -39,24 +41,20 @@ public:
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
     int has = 0, from = 0, size = 0;
     const char* type = nullptr; // says that it counts bytes
-    auto* mpi = vtkMPIController::SafeDownCast(this->Controller);
-    if (mpi)
-    {
-      mpi->Iprobe(vtkMultiProcessController::ANY_SOURCE, this->Tag, &has, &from, type, &size);
-    }
+    this->Of->Iprobe(vtkMultiProcessController::ANY_SOURCE, this->Tag, &has, &from, type, &size);
     if (has != 0)
     {
       message.resize(static_cast<std::size_t>(size));
-      mpi->Receive(message.data(), size, from, this->Tag);
+      this->Of->Receive(message.data(), size, from, this->Tag);
     }
 #endif
     return message;
   }
 
 private:
-  vtkMultiProcessController* Controller;
+  Communicator* Of;
   int Tag;
-  Outbox Outgoing{ this->Controller };
+  Outbox Outgoing{ this->Of };
 };
 
 } // namespace ranks

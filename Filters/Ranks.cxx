@@ -6,9 +6,7 @@
 #include "GatheredData.h"
 #include "InputDescription.h"
 #include "MeshHalo.h"
-#include "RankChannel.h"
-#include "RankHoldings.h"
-#include "RankPeers.h"
+#include "RanksInternals.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataSet.h"
@@ -16,7 +14,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkMultiProcessController.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkRectilinearGrid.h"
@@ -24,6 +21,10 @@
 #include "vtkStructuredGrid.h"
 #include "vtkUniformGridAMR.h"
 #include "vtkUnstructuredGrid.h"
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+#include "vtkMPI.h"
+#endif
 
 #include <algorithm>
 #include <array>
@@ -55,8 +56,25 @@ constexpr double secondsWithout = 2; // where nothing upstream runs
 /// Null where there is one process.
 vtkMultiProcessController* controllerOfRanks()
 {
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+  auto* controller =
+    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
+#else
+  return nullptr;
+#endif
+}
+
+/// Whether several threads may use MPI at once.
+bool canUseMpiInThreads()
+{
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+  int level = MPI_THREAD_SINGLE;
+  MPI_Query_thread(&level);
+  return level == MPI_THREAD_MULTIPLE;
+#else
+  return false;
+#endif
 }
 
 std::string absenceOf(std::size_t rank, std::size_t ranks)
@@ -133,29 +151,6 @@ void setComplete(vtkInformationVector* outputs)
     }
   }
 }
-
-//------------------------------------------------------------------------------
-struct FilterRanks::Others
-{
-  /// With three tags from this one on.
-  Others(vtkMultiProcessController* controller, int tag)
-    : Peers(controller, tag + 2)
-  {
-    const bool isFirst = controller->GetLocalProcessId() == 0;
-    const int ranks = controller->GetNumberOfProcesses();
-    for (int rank = isFirst ? 1 : 0; rank < (isFirst ? ranks : 1); ++rank)
-    {
-      this->Channels.push_back(std::make_unique<RankChannel>(controller, rank, tag));
-    }
-  }
-
-  std::vector<Holdings> HoldingsOf(int input, vtkDataObject* own) const;
-
-  std::vector<std::unique_ptr<RankChannel>> Channels; // on rank 0: to all others; there: to it
-  RankPeers Peers;                                    // not on rank 0
-  schlieren::RayWorker Worker;                        // likewise
-  int Meetings = 0;                                   // likewise
-};
 
 //------------------------------------------------------------------------------
 FilterRanks::FilterRanks() = default;
@@ -290,6 +285,7 @@ void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
     }
     channel->Close(); // to what is left of meetings before
     channel->Guest = std::exchange(channel->Greeting, std::nullopt);
+    channel->HasRead = false;
     if (channel->isOpen())
     {
       channel->send(messageOf(ShortMessage{ Begin, channel->Guest->meeting }));
@@ -306,6 +302,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   hello.meeting = meeting;
   hello.changes = this->Of.Now.changes;
   hello.timeStep = this->Of.Now.timeStep;
+  hello.canReadAhead = canUseMpiInThreads() ? 1 : 0;
   if (this->Own)
   {
     hello.inputs[0] = holdingsOf(this->Own->data);
@@ -340,7 +337,7 @@ FilterRanks::Meeting::~Meeting()
   {
     if (channel->isOpen())
     {
-      channel->send(messageOf(ShortMessage{ End, this->Outcome ? 1 : 0 }));
+      channel->send(messageOf(EndMessage{ End, this->Outcome, this->Next && !this->Keeps }));
     }
   }
   for (const auto& channel : this->Of.Inside->Channels)
@@ -352,62 +349,86 @@ FilterRanks::Meeting::~Meeting()
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
+bool FilterRanks::Meeting::Serve(int threads, const Responder& respond, const StepReader& readNext)
 {
   while (this->HasMet)
   {
-    RankChannel& channel = *this->Of.Inside->Channels[0];
-    if (!channel.hasMessage())
+    if (this->Next)
     {
-      if (!this->Of.Inside->Worker.advance(channel, this->Of.Inside->Peers, threads))
-      {
-        waitABit();
-      }
-      continue;
+      return this->ServeAndRead(threads, respond, readNext);
     }
-    std::vector<char> message = channel.receive();
-    if (read<ShortMessage>(message).kind == Ask)
+    if (const std::optional<bool> outcome = this->ServeOnce(threads, respond))
     {
-      channel.send(messageOf(ShortMessage{ Ready, 0 }));
-      continue;
+      return *outcome;
     }
-    if (read<ShortMessage>(message).kind == Relay)
-    {
-      message = channel.ReceiveRelayed(read<RelayMessage>(message));
-    }
-    const auto head = read<ShortMessage>(message);
-    if (head.kind == End)
-    {
-      this->Of.Inside->Worker.endTrace();
-      channel.send(messageOf(ShortMessage{ Ended, 0 }));
-      return head.number != 0;
-    }
-    if (head.kind != GiveData)
-    {
-      std::vector<char> response = respond ? respond(message) : std::vector<char>();
-      if (!response.empty())
-      {
-        channel.send(std::move(response));
-        continue;
-      }
-      this->Of.Inside->Worker.answer(std::move(message), channel, threads);
-      continue;
-    }
-    std::vector<char> answer;
-    try
-    {
-      answer = messageOf(ShortMessage{ Data, 1 },
-        head.number == 0 ? packedData(this->Own->data, this->Own->arrays)
-                         : packedData(this->Own->bodies, {}));
-    }
-    catch (const std::exception& problem)
-    {
-      const std::string text = problem.what();
-      answer = messageOf(ShortMessage{ Data, 0 }, { text.begin(), text.end() });
-    }
-    channel.send(answer);
   }
   return false;
+}
+
+//------------------------------------------------------------------------------
+std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder& respond)
+{
+  RankChannel& channel = *this->Of.Inside->Channels[0];
+  if (!channel.hasMessage())
+  {
+    if (!this->Of.Inside->Worker.advance(channel, this->Of.Inside->Peers, threads))
+    {
+      waitABit();
+    }
+    return {};
+  }
+  std::vector<char> message = channel.receive();
+  if (read<ShortMessage>(message).kind == Relay)
+  {
+    message = channel.ReceiveRelayed(read<RelayMessage>(message));
+  }
+  const auto head = read<ShortMessage>(message);
+  switch (head.kind)
+  {
+    case Ask:
+      channel.send(messageOf(ShortMessage{ Ready, 0 }));
+      return {};
+    case ReadStep:
+      this->Next = read<ReadStepMessage>(message).time;
+      return {};
+    case GiveData:
+      channel.send(this->DataMessage(head.number));
+      return {};
+    case End:
+    {
+      const auto end = read<EndMessage>(message);
+      this->Drops = end.dropsNext != 0;
+      this->Of.Inside->Worker.endTrace();
+      channel.send(messageOf(ShortMessage{ Ended, 0 }));
+      return end.outcome != 0;
+    }
+    default:
+      break;
+  }
+  std::vector<char> response = respond ? respond(message) : std::vector<char>();
+  if (!response.empty())
+  {
+    channel.send(std::move(response));
+    return {};
+  }
+  this->Of.Inside->Worker.answer(std::move(message), channel, threads);
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::vector<char> FilterRanks::Meeting::DataMessage(int input) const
+{
+  try
+  {
+    return messageOf(ShortMessage{ Data, 1 },
+      input == 0 ? packedData(this->Own->data, this->Own->arrays)
+                 : packedData(this->Own->bodies, {}));
+  }
+  catch (const std::exception& problem)
+  {
+    const std::string text = problem.what();
+    return messageOf(ShortMessage{ Data, 0 }, { text.begin(), text.end() });
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -450,7 +471,8 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
   {
     of.Compared = of.Now;
     of.MostCells = maxCells;
-    ++of.Gatherings;
+    const auto needsOthers = [&of] { return of.InPieces || of.Gathered[0] || of.Gathered[1]; };
+    const bool neededOthers = needsOthers();
     of.Gathered[0] = of.Gathered[1] = nullptr;
     of.Problem = this->FindAbsent();
     of.InPieces = of.Problem.empty() && this->CanStayInPieces(maxCells);
@@ -471,6 +493,7 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
     {
       of.Problem = problem.what();
     }
+    of.Gatherings += neededOthers || needsOthers() ? 1 : 0;
   }
   if (!of.Problem.empty())
   {

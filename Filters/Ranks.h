@@ -7,6 +7,7 @@
 
 #include "Rays/Channel.h"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -63,6 +64,9 @@ public:
   /// Requests the same of data alone.
   void RequestData(vtkInformation* inInfo, Part part, double maxCells) const;
 
+  /// What is upstream has run for this filter, and may have modified itself: that is no change.
+  void CountNoChange() { this->CountedAt.Modified(); }
+
   /// On all ranks: until the inputs change, pieces with so few cells in all that rank 0 had better have all of them.
   void SetTooFew(double maxCells) { this->TooFew = maxCells; }
 
@@ -100,15 +104,42 @@ public:
     /// On rank 0: what Serve() returns on the others.
     void SetOutcome(bool outcome) { this->Outcome = outcome; }
 
+    /// On rank 0: whether all ranks can read a time step while rays travel. Both need MPI, which must allow several threads.
+    bool CanReadAhead() const;
+    /// On rank 0, in the thread that uses the connections to the others from then on: all of them read this step, too.
+    void BeginToRead(double time);
+    /// Likewise, afterwards: waits until they have.
+    void WaitForReaders();
+
+    /// A time step that has been read ahead, on a rank or on all.
+    struct StepAhead
+    {
+      bool isThere = false;
+      bool isKeepable = true; // false: what is upstream changes with each step
+    };
+    /// On rank 0, in its main thread: waits for the others until `isOver`. What all ranks have where this one has `own`, and
+    /// whether there is nothing that it has not itself. Where it is there, all keep it.
+    StepAhead MeetAhead(const StepAhead& step, const Inputs& own, const std::atomic<bool>& isOver,
+      bool& isAllOnRank0);
+    /// Then: whether they do. And after Serve() on other ranks: whether they forget it.
+    bool KeepsNext() const { return this->Keeps; }
+    bool DropsNext() const { return this->Drops; }
+
     /// Answers a message; empty: it is for somebody else.
     using Responder = std::function<std::vector<char>(const std::vector<char>& message)>;
+    /// Reads a time step, in the thread that has called Serve().
+    using StepReader = std::function<StepAhead(double time, Inputs& own)>;
     /// On other ranks: does what rank 0 requests, until its meeting is over. False where rank 0 does not come.
-    bool Serve(int threads, const Responder& respond = nullptr);
+    bool Serve(
+      int threads, const Responder& respond = nullptr, const StepReader& readNext = nullptr);
 
   private:
     using Time = std::chrono::steady_clock::time_point;
     void WaitForOthers(Time end);
     void WaitForRank0(Time end);
+    std::optional<bool> ServeOnce(int threads, const Responder& respond);
+    bool ServeAndRead(int threads, const Responder& respond, const StepReader& readNext);
+    std::vector<char> DataMessage(int input) const;
     std::string FindAbsent() const;
     bool CanStayInPieces(double maxCells) const;
     vtkSmartPointer<vtkDataObject> Collect(int input);
@@ -116,7 +147,10 @@ public:
     FilterRanks& Of;
     const std::optional<Inputs> Own;
     bool Outcome = false;
-    bool HasMet = false; // rank 0, on another rank
+    bool HasMet = false;        // rank 0, on another rank
+    std::optional<double> Next; // the step that all ranks read
+    bool Keeps = false;         // on rank 0
+    bool Drops = false;         // on another rank
   };
 
   /// On rank 0, after it has been gathered: all of an input of which this is what rank 0 has itself.

@@ -33,16 +33,18 @@ struct vtkSchlierenFilter::Internals
   class WithWorkers
   {
   public:
-    WithWorkers(Internals& internals, vtkRefractiveIndex* medium,
-      const filters::FilterRanks::Meeting& meeting)
+    WithWorkers(
+      Internals& internals, vtkRefractiveIndex* medium, filters::FilterRanks::Meeting& meeting)
       : Of(internals)
       , Medium(medium)
     {
+      this->Of.Meeting = &meeting;
       this->Of.Images.SetWorkers(meeting.GetWorkers());
       this->Medium->SetPieceChannels(meeting.GetChannels());
     }
     ~WithWorkers()
     {
+      this->Of.Meeting = nullptr;
       this->Of.Images.SetWorkers({});
       this->Medium->SetPieceChannels({});
     }
@@ -55,6 +57,7 @@ struct vtkSchlierenFilter::Internals
   };
 
   filters::FilterRanks Ranks;
+  filters::FilterRanks::Meeting* Meeting = nullptr; // on rank 0, while the others work for it
   filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output
   filters::RgbImageReader RgbImages;
@@ -103,8 +106,19 @@ struct vtkSchlierenFilter::Internals
   std::optional<double> Time; // of the last update; unset for data without time steps
 
   filters::NextStep Ahead;
+  /// Reads a time step on this rank, and what it then has of it.
+  filters::FilterRanks::Meeting::StepAhead readStep(vtkAlgorithm* filter,
+    vtkInformationVector** inputs, double time, filters::FilterRanks::Inputs& own)
+  {
+    const filters::TimeStep* step = this->Ahead.Read(filter, inputs, time);
+    this->Ranks.CountNoChange();
+    own = step ? filters::FilterRanks::Inputs{ step->data, step->bodies }
+               : filters::FilterRanks::Inputs{};
+    return { step != nullptr, this->Ahead.GetKeepable() };
+  }
   bool MayReadAhead = false;   // in the last request
   bool IsReadingAhead = false; // what is made now is of the next time step
+  bool HasWarnedOfMpi = false; // which does not let it
 
   filters::TimeExposure Exposure; // of the last request
   std::size_t Instant = 0;        // of these, the one that is being made

@@ -257,8 +257,11 @@ int vtkSchlierenFilter::RequestUpdateExtent(
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
   const auto time = timeOf(request, inputVector, outputVector);
-  inside.MayReadAhead =
-    this->ReadAheadMemory > 0 && time && inside.Exposure.IsNone() && !hasOtherRanks();
+  if (inside.Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
+  {
+    inside.FailedAt = inside.StoppedOf = 0; // of another time step, perhaps
+  }
+  inside.MayReadAhead = this->ReadAheadMemory > 0 && time && inside.Exposure.IsNone();
   if (inside.MayReadAhead)
   {
     inside.Ahead.Request(this, inputVector, *time);
@@ -266,10 +269,6 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   else
   {
     inside.Ahead.Release();
-  }
-  if (this->Inside->Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
-  {
-    this->Inside->FailedAt = this->Inside->StoppedOf = 0; // of another time step, perhaps
   }
   return 1;
 }
@@ -305,7 +304,32 @@ int vtkSchlierenFilter::RequestData(
   {
     return 1;
   }
-  steps.Meet(filters::arraysOf(this->Medium));
+  // What this rank has of the inputs.
+  FilterRanks::Inputs own{ vtkDataObject::GetData(inputVector[0]),
+    vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]),
+    filters::arraysOf(this->Medium) };
+  TimeStep* step = nullptr;
+  const auto arrive = [&]()
+  {
+    if (inside.MayReadAhead)
+    {
+      step = &inside.Ahead.Arrive(this, *timeOf(request, inputVector, outputVector), inputVector);
+      own.data = step->data;
+      own.bodies = step->bodies;
+    }
+  };
+  const auto meetWithAll = [&]()
+  {
+    if (inside.MayReadAhead) // upstream may have another step
+    {
+      inside.Ahead.Release();
+      requestTime(this, inputVector, *timeOf(request, inputVector, outputVector));
+    }
+    steps.MeetWithAll();
+    arrive();
+  };
+  arrive();
+  steps.Meet(own);
   if (!isRank0())
   {
     const auto serve = [&]()
@@ -317,15 +341,23 @@ int vtkSchlierenFilter::RequestData(
       }
       else
       {
-        this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
+        this->Medium->SetPieceData(
+          step ? step->data.Get() : vtkDataObject::GetData(inputVector[0]));
       }
-      return steps.GetMeeting().Serve(threadsFrom(*this),
-        [this](const std::vector<char>& message) { return this->Respond(message); });
+      return steps.GetMeeting().Serve(
+        threadsFrom(*this),
+        [this](const std::vector<char>& message) { return this->Respond(message); },
+        [&](double time, FilterRanks::Inputs& ofStep)
+        { return inside.readStep(this, inputVector, time, ofStep); });
     };
     if (serve())
     {
-      steps.MeetWithAll();
+      meetWithAll();
       serve();
+    }
+    if (steps.GetMeeting().DropsNext())
+    {
+      inside.Ahead.Drop();
     }
     while (steps.Resume())
     {
@@ -336,7 +368,7 @@ int vtkSchlierenFilter::RequestData(
   }
   if (steps.GetMeeting().AreTooFew(maxCells))
   {
-    steps.MeetWithAll();
+    meetWithAll();
   }
   const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
 
@@ -368,13 +400,6 @@ int vtkSchlierenFilter::RequestData(
     const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(maxCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
-    TimeStep* step = nullptr;
-    if (inside.MayReadAhead)
-    {
-      step = &inside.Ahead.Arrive(this, *inside.Time, input, bodies);
-      input = step->data;
-      bodies = step->bodies;
-    }
     if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
     {
       this->ForgetImage();

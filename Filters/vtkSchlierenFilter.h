@@ -60,6 +60,7 @@
 #include "vtkSmartPointer.h"           // for GradedFilter
 
 #include <algorithm>  // for std::max
+#include <atomic>     // for std::atomic
 #include <functional> // for std::function
 #include <memory>     // for std::unique_ptr, std::shared_ptr
 #include <optional>   // for std::optional
@@ -73,6 +74,7 @@ namespace filters
 {
 class ExposureSteps;
 struct ImageCircumstances;
+struct TimeStep;
 } // namespace filters
 
 namespace schlieren
@@ -1002,7 +1004,10 @@ private:
     const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
     const schlieren::Scene& scene, const std::optional<double>& ambient,
     const schlieren::Monitor& monitor);
-  void ReadAhead(double time, const schlieren::Scene& scene, const std::optional<double>& ambient);
+  void ReadAhead(double time, const schlieren::Scene& scene, const std::optional<double>& ambient,
+    const std::atomic<bool>& isTraced);
+  void MakeAhead(
+    filters::TimeStep& step, const schlieren::Scene& scene, const std::optional<double>& ambient);
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
   std::vector<char> Respond(const std::vector<char>& message);
   /// Everything of the inputs that the refractivity depends on.

@@ -9,12 +9,11 @@ PARTS.
 
 import os
 import re
-import shutil
-import subprocess
 import sys
 from time import monotonic as time_of_day
 
 import numpy as np
+from ranks_testing import BALL, WHOLE_EXTENT, is_rank0, moving_ball, on, on_several, run, skip_without_mpi
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BENCH = {"Density": ["POINTS", "RTData"], "GladstoneDaleConstant": 1e-6, "ImageSize": [32, 32]}
@@ -84,114 +83,6 @@ def read_files():
         for kind in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
             found[f"{name}: {kind}"] = image_array(seen, kind)
     return found
-
-
-# A Gaussian ball in a cube of 12 x 12 x 12 cells, of which each rank has a part, whatever is requested.
-WHOLE_EXTENT = """
-info = self.GetExecutive().GetOutputInformation(0)
-info.Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)
-if IS_GRID:
-    info.Set(self.GetExecutive().WHOLE_EXTENT(), [0, 12, 0, 12, 0, 12], 6)
-"""
-BALL = """
-import numpy as np
-from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkFiltersCore import vtkAppendFilter, vtkExtractCells, vtkPointDataToCellData
-from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
-from vtkmodules.util.numpy_support import numpy_to_vtk
-ranks = vtkMultiProcessController.GetGlobalController()
-rank, number = ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses()
-kind = KIND
-n = 12
-
-def axis(start, end):
-    return -1 + 2 * np.arange(start, end + 1) / n
-
-def put_values(data, x, y, z):
-    values = numpy_to_vtk((1.2 + 0.1 * np.exp(-(x * x + y * y + z * z) / 0.16)).ravel(), deep=1)
-    values.SetName("rho")
-    data.GetPointData().AddArray(values)
-
-def put_place(image, extent):
-    image.SetOrigin(-1, -1, -1)
-    image.SetSpacing(2 / n, 2 / n, 2 / n)
-    image.SetExtent(*extent)
-
-def put_block(blocks, level, at):
-    block = vtkImageData()
-    size = 0.125 / 2**level
-    block.SetDimensions(9, 9, 9)
-    block.SetSpacing(size, size, size)
-    block.SetOrigin(*(np.array(at) * 8 * size - 1 / 2**level))
-    x, y, z = (block.GetOrigin()[i] + size * (np.arange(8) + 0.5) for i in range(3))
-    x, y, z = x[None, None, :], y[None, :, None], z[:, None, None]
-    rho = 1.2 + 0.1 * np.exp(-(x * x + y * y + z * z) / 0.16)
-    rho[np.broadcast_to((abs(x + 0.5) < 0.2) & (abs(y - 0.1) < 0.2) & (abs(z - 0.2) < 0.4), rho.shape)] = np.nan
-    values = numpy_to_vtk(rho.ravel(), deep=1)
-    values.SetName("rho")
-    block.GetCellData().AddArray(values)
-    blocks.SetBlock(level * 8 + at[0] + 2 * at[1] + 4 * at[2], block)
-
-isGrid = kind in ("image", "rectilinear", "curvilinear")
-first, last = (n * rank // number, n * (rank + 1) // number) if isGrid else (0, n)
-z, y, x = np.meshgrid(axis(first, last), axis(0, n), axis(0, n), indexing="ij")
-extent = (0, n, 0, n, first, last)
-output = self.GetOutputDataObject(0)
-if kind == "image":
-    put_place(output, extent)
-    put_values(output, x, y, z)
-elif kind == "rectilinear":
-    output.SetExtent(*extent)
-    output.SetXCoordinates(numpy_to_vtk(axis(0, n), deep=1))
-    output.SetYCoordinates(numpy_to_vtk(axis(0, n), deep=1))
-    output.SetZCoordinates(numpy_to_vtk(axis(first, last), deep=1))
-    put_values(output, x, y, z)
-elif kind == "curvilinear":
-    x = x * (1 + 0.1 * z)
-    output.SetExtent(*extent)
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], 1), deep=1))
-    output.SetPoints(points)
-    put_values(output, x, y, z)
-elif kind == "amr":
-    # A cube of 8 blocks, in its middle 8 of half the size, and again, one by one to the ranks: those of three ranks have
-    # the same numbers of cells and the same bounds.
-    for n in range(24):
-        if n * 7 % number == rank:
-            put_block(output, n // 8, [n % 2, n // 2 % 2, n // 4 % 2])
-        else:
-            output.SetBlock(n, None)
-else:
-    image = vtkImageData()
-    put_place(image, extent)
-    put_values(image, x, y, z)
-    cells = vtkDataSetTriangleFilter() if kind == "tetrahedra" else vtkAppendFilter()
-    cells.AddInputDataObject(image)
-    cells.Update()
-    mesh = cells.GetOutput()
-    # Those between two oblique planes.
-    normal = np.array([0.3, -0.5, 0.8])
-    own = vtkIdList()
-    bounds = [0] * 6
-    for cell in range(mesh.GetNumberOfCells()):
-        mesh.GetCellBounds(cell, bounds)
-        place = np.dot(normal, [bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]]) / 2
-        if int(np.clip((place / np.abs(normal).sum() + 1) / 2 * number, 0, number - 1)) == rank:
-            own.InsertNextId(cell)
-    extract = vtkExtractCells()
-    extract.SetInputData(mesh)
-    extract.SetCellList(own)
-    means = vtkPointDataToCellData()
-    means.SetInputConnection(extract.GetOutputPort())
-    means.SetPassPointData(kind != "cell data")
-    means.Update()
-    output.ShallowCopy(means.GetOutput())
-    if kind != "cell data":
-        output.GetCellData().Initialize()
-"""
 
 
 def gathered():
@@ -312,25 +203,12 @@ def distributed():
 
 def exposed(limit=10000000):
     """Exposures over time steps of which each rank has a part, or rank 0 all."""
-    from paraview.simple import ProgrammableSource, Sphere
+    from paraview.simple import Sphere
     from plugin_testing import Schlieren, image_array
     found = {}
-    times = """
-key = self.GetExecutive().UPDATE_TIME_STEP()
-time = info.Get(key) if info.Has(key) else 0
-""".replace("info.", "self.GetExecutive().GetOutputInformation(0).")
-    steps = """
-info.Set(self.GetExecutive().TIME_STEPS(), [0, 0.5, 1], 3)
-info.Set(self.GetExecutive().TIME_RANGE(), [0, 1], 2)
-"""
     body = Sphere(Radius=0.2, Center=[0.5, 0.2, 0])
     for kind, output in (("image", "vtkImageData"), ("tetrahedra", "vtkUnstructuredGrid"), ("amr", "vtkMultiblockDataSet")):
-        moving = times + BALL.replace("KIND", repr(kind)).replace("-(x * x", "-((x - time)**2") + """
-output.GetInformation().Set(output.DATA_TIME_STEP(), time)
-"""
-        source = ProgrammableSource(OutputDataSetType=output, Script=moving,
-                                    ScriptRequestInformation=WHOLE_EXTENT.replace(
-                                        "IS_GRID", str(output == "vtkImageData")) + steps)
+        source = moving_ball(kind, output, [0, 0.5, 1])
         seen = Schlieren(Input=source, Density=["CELLS" if kind == "amr" else "POINTS", "rho"], ImageSize=[40, 40],
                          Bodies=body if kind == "image" else None, ExposureTime=0.8, ExposureSamples=4, GatherLimit=limit)
         seen.UpdatePipeline(0.5)
@@ -381,17 +259,6 @@ output = self.GetUnstructuredGridOutput()
 output.ShallowCopy(cells.GetOutput())
 output.GetInformation().Set(output.DATA_TIME_STEP(), time)
 """
-
-
-def is_rank0():
-    from vtkmodules.vtkParallelCore import vtkMultiProcessController
-    return vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 0  # not always with --sym
-
-
-def on_several():
-    from vtkmodules.vtkParallelCore import vtkMultiProcessController
-    controller = vtkMultiProcessController.GetGlobalController()
-    return controller is not None and controller.GetNumberOfProcesses() > 1
 
 
 def say(words):
@@ -570,17 +437,6 @@ if rank == 2:
     Schlieren(Input=source, **BENCH).UpdatePipeline()
 
 
-def run(command, *arguments, ends=True, script=__file__, folder="."):
-    # What makes MPI believe that a process belongs to others.
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
-    done = subprocess.run([*command, os.path.abspath(script), *arguments], env=environment, cwd=folder, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=150, check=False)
-    print(done.stdout)
-    assert (done.returncode == 0) == ends and "Traceback" not in done.stdout, command
-    return done.stdout
-
-
 def images_of_example(command, folder):
     """The arrays of all images that the example writes, and its PNG files' bytes."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -616,19 +472,11 @@ elif sys.argv[1:]:
     PARTS[sys.argv[1]]()
     say("Expected: the end")
 else:
-    mpiexec, pvbatch = shutil.which("mpiexec"), shutil.which("pvbatch")
-    if not mpiexec or not pvbatch:
-        print("Skipped: there is no mpiexec (Debian: openmpi-bin) or no pvbatch.")
-        sys.exit(77)
-    pvbatch = [pvbatch, "--force-offscreen-rendering"]
-
-    def on(ranks):
-        return [mpiexec, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), *pvbatch]
-
+    skip_without_mpi()
     # Sanitizers take their time: less of what they have seen in one process.
     isSanitized = "libasan" in os.environ.get("LD_PRELOAD", "")
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
-    one = run_results(pvbatch, parts, "one.npz")
+    one = run_results(on(1), parts, "one.npz")
     distributed_before = {}
     assert isSanitized or len(one) == 72 + 18 + 28 + 61 + 12 + 12 + 12, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "distributed"] if not isSanitized else [])),
@@ -657,7 +505,7 @@ else:
     if not isSanitized:
         assert np.ptp(one["same: mesh: Intensity, direct"]) > 0.5
         assert one["same: mesh with a ball: BlockedFraction, direct"].max() == 1
-        one, several = images_of_example(pvbatch, "one"), images_of_example(on(4), "several")
+        one, several = images_of_example(on(1), "one"), images_of_example(on(4), "several")
         assert len(one) > 8 and one.keys() == several.keys()
         for name in one:
             assert np.array_equal(one[name], several[name]), name
