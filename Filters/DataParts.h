@@ -119,13 +119,14 @@ public:
     this->At = this->Bytes.size();
   }
 
-private:
+  /// Of what has been read, and cannot be.
   [[noreturn]] static void Fail()
   {
     throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "
                              "ranks of the same version of this plugin?");
   }
 
+private:
   const std::vector<char>& Bytes;
   std::size_t At = 0;
 };

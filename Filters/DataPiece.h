@@ -8,12 +8,15 @@
 #include "Medium/MediumSource.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace filters
 {
+
+class Reader;
 
 /// Whether two boxes have a point in common.
 bool meet(const schlieren::Box& a, const schlieren::Box& b);
@@ -76,6 +79,10 @@ public:
     std::vector<unsigned char> found;
     std::vector<double> values;
     std::vector<double> fields{};
+
+    void Put(std::vector<char>& message) const;
+    /// What Put() has written, of so many points and fields. Throws std::runtime_error where that is something else.
+    static Samples Get(Reader& message, std::size_t points, std::size_t fields);
   };
   virtual Samples sample(const schlieren::Lattice& lattice) const = 0;
 };

@@ -38,16 +38,6 @@ std::shared_ptr<PieceMesh> meshOf(const std::vector<vtkSmartPointer<vtkDataSet>>
 
 } // namespace
 
-bool meet(const schlieren::Box& a, const schlieren::Box& b)
-{
-  bool meet = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
-  }
-  return meet;
-}
-
 MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
   : Leaves(leaves)

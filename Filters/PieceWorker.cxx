@@ -215,9 +215,7 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       forEach(lattices.size(), [&](std::size_t i) { samples[i] = piece.sample(lattices[i]); });
       for (const DataPiece::Samples& ofLattice : samples)
       {
-        putAll(ofLattice.found, answer);
-        putAll(ofLattice.values, answer);
-        putAll(ofLattice.fields, answer);
+        ofLattice.Put(answer);
       }
       break;
     }

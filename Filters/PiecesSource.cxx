@@ -379,10 +379,8 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
     {
       for (const schlieren::Lattice& lattice : ofRank)
       {
-        DataPiece::Samples more;
-        more.found = answer.GetAll<std::vector<unsigned char>>();
-        more.values = answer.GetAll<std::vector<double>>();
-        more.fields = answer.GetAll<std::vector<double>>();
+        DataPiece::Samples more = DataPiece::Samples::Get(
+          answer, static_cast<std::size_t>(lattice.size()), this->RangesOfFields.size());
         DataPiece::Samples& samples = this->Samples[keyOf(lattice)];
         if (samples.found.empty())
         {
@@ -394,10 +392,10 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
           if (more.found[i] && !samples.found[i]) // of several ranks the first counts
           {
             samples.found[i] = 1;
-            samples.values[i] = more.values.at(i);
+            samples.values[i] = more.values[i];
             for (std::size_t at = i; at < more.fields.size(); at += more.found.size())
             {
-              samples.fields.at(at) = more.fields[at];
+              samples.fields[at] = more.fields[at];
             }
           }
         }

@@ -30,11 +30,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -573,3 +575,61 @@ TEST(Pieces, APieceThatWasReplacedIsNotMistakenForAnother)
 }
 
 } // namespace
+
+// What ranks send of their samples is less than these: most points of lattices are not theirs.
+TEST(Pieces, SendTheSamplesThatTheyHave)
+{
+  constexpr std::size_t points = 1003, fields = 2;
+  filters::DataPiece::Samples samples;
+  samples.found.resize(points);
+  samples.values.resize(points);
+  samples.fields.assign(fields * points, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < points; i += i % 7 + 1)
+  {
+    samples.found[i] = 1;
+    samples.values[i] = std::sin(static_cast<double>(i));
+    samples.fields[i] = static_cast<double>(i) / 3;
+    samples.fields[points + i] = 1e300 * static_cast<double>(i);
+  }
+  std::vector<char> message;
+  filters::put(42, message);
+  samples.Put(message);
+  filters::put(43, message);
+  const auto found =
+    static_cast<std::size_t>(std::count(samples.found.begin(), samples.found.end(), 1));
+  EXPECT_LT(message.size(), points / 8 + 24 * found + 40);
+
+  filters::Reader reader(message);
+  EXPECT_EQ(reader.Get<int>(), 42);
+  const auto read = filters::DataPiece::Samples::Get(reader, points, fields);
+  EXPECT_EQ(reader.Get<int>(), 43);
+  EXPECT_EQ(read.found, samples.found);
+  EXPECT_EQ(read.values, samples.values);
+  ASSERT_EQ(read.fields.size(), samples.fields.size());
+  for (std::size_t i = 0; i < read.fields.size(); ++i)
+  {
+    EXPECT_TRUE(read.fields[i] == samples.fields[i] ||
+      (std::isnan(read.fields[i]) && std::isnan(samples.fields[i])));
+  }
+
+  const auto readAs = [&](std::size_t ofPoints, std::size_t ofFields, std::size_t bytes)
+  {
+    const std::vector<char> some(message.begin() + sizeof(int),
+      message.begin() + static_cast<std::ptrdiff_t>(sizeof(int) + bytes));
+    filters::Reader again(some);
+    return filters::DataPiece::Samples::Get(again, ofPoints, ofFields);
+  };
+  const std::size_t all = message.size() - 2 * sizeof(int);
+  EXPECT_NO_THROW(readAs(points, fields, all));
+  EXPECT_THROW(readAs(points + 1, fields, all), std::runtime_error);
+  EXPECT_THROW(readAs(points, fields - 1, all), std::runtime_error);
+  for (std::size_t bytes = 0; bytes < all; bytes += 97)
+  {
+    EXPECT_THROW(readAs(points, fields, bytes), std::runtime_error) << bytes;
+  }
+
+  std::vector<char> nothing;
+  filters::DataPiece::Samples().Put(nothing);
+  filters::Reader ofNothing(nothing);
+  EXPECT_TRUE(filters::DataPiece::Samples::Get(ofNothing, points, fields).found.empty());
+}

@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What several ranks take: processor seconds and memory of each, for a first image and for another view.
+
+    SCHLIEREN_PLUGIN=…/Schlieren.so mpiexec -np 4 pvbatch --sym --force-offscreen-rendering \
+        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples]]
+
+MODE: gathered, stay or distributed. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
+has a sector. One thread on each rank. Prints a row: ranks, mode, cells, pixels, and for the first image and for another view the
+seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
+what they have with the data, MB; then the voxels, MB, and million rays of the other view.
+"""
+
+import math
+import os
+import resource
+import sys
+import time
+
+import numpy as np
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+MODES = {"gathered": {}, "stay": {"GatherLimit": 1}, "distributed": {"GatherLimit": 1, "DistributedMedium": "On"}}
+
+EXTENT = """
+executive = self.GetExecutive()
+info = executive.GetOutputInformation(0)
+info.Set(executive.WHOLE_EXTENT(), [0, AROUND, 0, POLAR, 0, LAYERS], 6)
+info.Set(self.CAN_PRODUCE_SUB_EXTENT(), 1)
+"""
+SECTORS = """
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+ranks = vtkMultiProcessController.GetGlobalController()
+rank, number = ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses()
+first, last = AROUND * rank // number, AROUND * (rank + 1) // number
+growth = 1.03 ** np.arange(LAYERS + 1) - 1
+r, polar, around = np.meshgrid(1 + 49 * growth / growth[-1], np.linspace(0, np.pi, POLAR + 1),
+                               np.linspace(0, 2 * np.pi, AROUND + 1)[first:last + 1], indexing="ij")
+x, y, z = r * np.cos(polar), r * np.sin(polar) * np.sin(around), r * np.sin(polar) * np.cos(around)
+front = np.exp(-((r - 1.6) / 0.15) ** 2) * (1 - np.cos(polar)) / 2
+wake = 0.4 * np.exp(-(y ** 2 + z ** 2) / 0.18) * (0.5 + 0.5 * np.tanh(2 * (x - 0.5))) * np.exp(-(x / 6) ** 2)
+output = self.GetOutputDataObject(0)
+output.SetExtent(first, last, 0, POLAR, 0, LAYERS)
+points = vtkPoints()
+points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], 1).astype(np.float32), deep=1))
+output.SetPoints(points)
+density = numpy_to_vtk((1.2 * (1 + 0.6 * front - 0.4 * wake)).ravel().astype(np.float32), deep=1)
+density.SetName("rho")
+output.GetPointData().SetScalars(density)
+"""
+
+
+def megabytes():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def of_all_ranks(value):
+    """A number of each rank, on all of them."""
+    mine, all_of_them = vtkDoubleArray(), vtkDoubleArray()
+    mine.InsertNextValue(value)
+    all_of_them.SetNumberOfTuples(RANKS.GetNumberOfProcesses())
+    RANKS.AllGather(mine, all_of_them)
+    return [all_of_them.GetValue(i) for i in range(RANKS.GetNumberOfProcesses())]
+
+
+def in_words(values, digits):
+    text = f"{values[0]:.{digits}f}"
+    return text + (f" {min(values[1:]):.{digits}f}-{max(values[1:]):.{digits}f}" if values[1:] else "")
+
+
+RANKS = vtkMultiProcessController.GetGlobalController()
+simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
+
+
+def measure():
+    mode, cells = sys.argv[1], int(float(sys.argv[2]))
+    pixels = int(sys.argv[3]) if len(sys.argv) > 3 else 512
+    samples = int(sys.argv[4]) if len(sys.argv) > 4 else 1
+    size = {"POLAR": round((cells / 3)**(1 / 3)), "AROUND": 2 * round((cells / 3)**(1 / 3))}
+    size["LAYERS"] = round(cells / size["POLAR"] / size["AROUND"])
+    script, extent = SECTORS, EXTENT
+    for name, number in size.items():
+        script, extent = script.replace(name, str(number)), extent.replace(name, str(number))
+    source = simple.ProgrammableSource(OutputDataSetType="vtkStructuredGrid", ScriptRequestInformation=extent, Script=script)
+    source.UpdatePipeline()
+    before = megabytes()
+    bench = Schlieren(Input=source, Density=["POINTS", "rho"], ParallelScale=3, FocalPoint=[0, 0, 0],  # noqa: F821
+                      ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1, Device="CPU", **MODES[mode])
+    row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {math.prod(size.values()):.3g} | {pixels} |"
+    for direction in ([0, 0, -1], [0.3, 0.2, -1]):
+        bench.ViewDirection = direction
+        RANKS.Barrier()
+        start, processor = time.time(), time.process_time()
+        bench.UpdatePipeline()
+        took = of_all_ranks(time.process_time() - processor)
+        row += f" {time.time() - start:.2f} | {in_words(took, 2)} |"
+    row += f" {in_words(of_all_ranks(megabytes() - before), 0)}"
+    if RANKS.GetLocalProcessId() == 0:
+        facts = bench.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
+        voxels, rays = (facts.GetAbstractArray(name).GetValue(0) for name in ("MediumBytes", "RaysTraced"))
+        print(f"{row} | {voxels / 1e6:.1f} | {rays / 1e6:.2f}", flush=True)
+
+
+measure()
