@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 using namespace filters;
@@ -333,8 +334,13 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
     return trace(monitor);
   }
   std::atomic<bool> isTraced{ false }; // or has failed
+  const std::thread::id here = std::this_thread::get_id();
   const auto traceWithRanks = [&](const schlieren::Monitor& ofTrace)
   {
+    if (std::this_thread::get_id() == here) // there is no other thread: nothing is read
+    {
+      return trace(ofTrace);
+    }
     const struct AtEnd
     {
       std::atomic<bool>& isTraced;

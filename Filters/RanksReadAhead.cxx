@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <future>
 #include <system_error>
 
@@ -109,7 +110,14 @@ bool FilterRanks::Meeting::ServeAndRead(
   }
   // Even so: where the others' readers wait for each other, they wait for this one, too.
   Inputs own;
-  const StepAhead step = readNext(*this->Next, own);
+  StepAhead step;
+  try
+  {
+    step = readNext(*this->Next, own);
+  }
+  catch (const std::exception&) // the request for that step will say it
+  {
+  }
   result.isThere = step.isThere ? 1 : 0;
   result.isKeepable = step.isKeepable ? 1 : 0;
   result.inputs[0] = holdingsOf(own.data);
