@@ -26,8 +26,7 @@ namespace filters
 struct TimeStep
 {
   double time = 0;
-  vtkSmartPointer<vtkDataObject> data,
-    bodies; // copies that share the arrays, of this rank; bodies may be null
+  vtkSmartPointer<vtkDataObject> data, bodies; // of this rank, sharing arrays; bodies may be null
   std::shared_ptr<const MadeRefractivity> refractivity; // null: not made yet
   std::unique_ptr<schlieren::Bench> bench;              // that has the medium; likewise
 };

@@ -258,7 +258,7 @@ FilterRanks::Meeting::Meeting(FilterRanks& ranks, const std::optional<Inputs>& i
   const Clock::time_point end = now + std::chrono::duration_cast<Clock::duration>(Seconds(limit));
   if (areNew)
   {
-    this->Of.CountedAt.Modified(); // what is upstream may have modified itself while it ran
+    this->Of.CountNoChange();
   }
   if (isRank0())
   {
