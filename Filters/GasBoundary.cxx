@@ -51,17 +51,19 @@ GasBoundary::GasBoundary(
       }
     }
     this->TreeOfWindows = std::make_unique<TriangleTree>(this->Windows);
+    this->TreeOfWindows->findPlanes();
   }
   progress.reach(1);
 }
 
 bool GasBoundary::isBeyondAll(const Point& place) const
 {
-  const int nearest = this->TreeOfWindows ? this->TreeOfWindows->nearest(place) : -1;
-  if (nearest < 0)
+  // From within, all windows of a sphere around it are about as far away: the search for the nearest looks at each.
+  if (!this->TreeOfWindows || !this->TreeOfWindows->isBehindAny(place))
   {
     return false;
   }
+  const int nearest = this->TreeOfWindows->nearest(place);
   const auto t = static_cast<std::size_t>(nearest);
   return dot(this->Windows.normal(t), place - this->Windows.corner(t, 0)) < 0;
 }

@@ -3,6 +3,8 @@
 #include "LatticeSampling.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace filters
 {
@@ -17,6 +19,7 @@ constexpr float onSurface =
 constexpr float tie = 1e-3f; // of the distances to two faces
 constexpr float squaredDiagonal = 3.001f; // of a voxel
 constexpr float cosineOfPlane = 0.9f;
+constexpr double besideVoxel = 0.01; // walls that count as meeting it
 
 constexpr int steps[6][3] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 },
   { 0, 0, 1 } };
@@ -321,6 +324,48 @@ void LatticeSampling::findSides()
     });
 }
 
+/// Which walls and bodies meet each row of voxels along x: a coarse lattice may have very many of them.
+void LatticeSampling::findSolidsOfRows()
+{
+  const auto& points = this->Lattice.points;
+  std::vector<std::size_t>& starts = this->StartsOfRows;
+  starts.assign(static_cast<std::size_t>(points[1]) * static_cast<std::size_t>(points[2]) + 1, 0);
+  const auto forRowsOf = [&](std::int32_t number, const auto& visit)
+  {
+    const Near& near = this->Nearby[static_cast<std::size_t>(number)];
+    int first[3], last[3];
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      const auto [least, most] =
+        std::minmax({ near.corners[0][axis], near.corners[1][axis], near.corners[2][axis] });
+      const double end = points[axis] - 1;
+      first[axis] = static_cast<int>(std::clamp(std::ceil(least - 1 - besideVoxel), 0., end));
+      last[axis] = static_cast<int>(std::clamp(std::floor(most + besideVoxel), -1., end));
+    }
+    for (int k = first[2]; k <= last[2]; ++k)
+    {
+      for (int j = first[1]; j <= last[1]; ++j)
+      {
+        visit(this->rowOf({ 0, j, k }));
+      }
+    }
+  };
+  const auto forSolids = [&](const auto& visit)
+  {
+    for (const Kind kind : { Wall, Body })
+    {
+      std::for_each(this->Numbers[kind].begin(), this->Numbers[kind].end(), visit);
+    }
+  };
+  forSolids(
+    [&](std::int32_t number) { forRowsOf(number, [&](std::size_t row) { ++starts[row + 1]; }); });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  this->SolidsOfRows.resize(starts.back());
+  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+  forSolids([&](std::int32_t number)
+    { forRowsOf(number, [&](std::size_t row) { this->SolidsOfRows[next[row]++] = number; }); });
+}
+
 /// Of a voxel whose corners `low` and low + (1, 1, 1) are: marks points so that a wall no longer separates
 /// corners with gas.
 void LatticeSampling::separate(const Index& low)
@@ -362,27 +407,22 @@ void LatticeSampling::separate(const Index& low)
   {
     return;
   }
+  if (this->StartsOfRows.empty())
+  {
+    this->findSolidsOfRows();
+  }
 
   // The walls that meet the voxel.
-  constexpr double slack = 0.01;
   std::vector<const Near*> walls;
-  for (const Kind kind : { Wall, Body })
+  const std::size_t row = this->rowOf(low);
+  for (std::size_t n = this->StartsOfRows[row]; n < this->StartsOfRows[row + 1]; ++n)
   {
-    for (const std::int32_t number : this->Numbers[kind])
+    const Near& near = this->Nearby[static_cast<std::size_t>(this->SolidsOfRows[n])];
+    const auto [least, most] =
+      std::minmax({ near.corners[0][0], near.corners[1][0], near.corners[2][0] });
+    if (least <= low.i + 1 + besideVoxel && most >= low.i - besideVoxel)
     {
-      const Near& near = this->Nearby[static_cast<std::size_t>(number)];
-      const int lows[3] = { low.i, low.j, low.k };
-      bool isNear = true;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        const auto [least, most] =
-          std::minmax({ near.corners[0][axis], near.corners[1][axis], near.corners[2][axis] });
-        isNear = isNear && least <= lows[axis] + 1 + slack && most >= lows[axis] - slack;
-      }
-      if (isNear)
-      {
-        walls.push_back(&near);
-      }
+      walls.push_back(&near);
     }
   }
   if (walls.empty())

@@ -57,6 +57,7 @@ private:
   void spread(std::vector<Index>& known);
   void findSides();
   void thickenPlates();
+  void findSolidsOfRows();
   void separate(const Index& low);
   bool isThin(const Index& at) const;
 
@@ -68,11 +69,14 @@ private:
   {
     return { static_cast<double>(at.i), static_cast<double>(at.j), static_cast<double>(at.k) };
   }
+  std::size_t rowOf(const Index& at) const
+  {
+    return static_cast<std::size_t>(at.k) * static_cast<std::size_t>(this->Lattice.points[1]) +
+      static_cast<std::size_t>(at.j);
+  }
   std::size_t numberOf(const Index& at) const
   {
-    return (static_cast<std::size_t>(at.k) * static_cast<std::size_t>(this->Lattice.points[1]) +
-             static_cast<std::size_t>(at.j)) *
-      static_cast<std::size_t>(this->Lattice.points[0]) +
+    return this->rowOf(at) * static_cast<std::size_t>(this->Lattice.points[0]) +
       static_cast<std::size_t>(at.i);
   }
   bool holds(const Index& at) const
@@ -86,6 +90,9 @@ private:
   std::vector<Near> Nearby;
   std::array<std::unique_ptr<LatticeDistances>, 3> Fields; // of each kind; null: none within reach
   std::array<std::vector<std::int32_t>, 3> Numbers;        // of each kind
+  // Walls and bodies by rows of voxels: those of a row are SolidsOfRows[StartsOfRows[row]] to the next row's.
+  std::vector<std::size_t> StartsOfRows; // empty: not found yet
+  std::vector<std::int32_t> SolidsOfRows;
 
   // Of each point.
   enum State : unsigned char

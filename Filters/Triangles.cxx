@@ -222,6 +222,87 @@ bool TriangleTree::hasBeyond(const Point& normal, double offset) const
   return false;
 }
 
+void TriangleTree::findPlanes()
+{
+  if (this->Nodes.empty())
+  {
+    return;
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  this->Centre = 0.5 * (this->Nodes[0].low + this->Nodes[0].high);
+  this->PlanesOfNodes.assign(this->Nodes.size(),
+    { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity }, -infinity });
+  const auto widen = [](Planes& planes, const Planes& by)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      planes.low[axis] = std::min(planes.low[axis], by.low[axis]);
+      planes.high[axis] = std::max(planes.high[axis], by.high[axis]);
+    }
+    planes.offset = std::max(planes.offset, by.offset);
+  };
+  for (std::size_t number = this->Nodes.size(); number-- > 0;) // children first
+  {
+    const Node& node = this->Nodes[number];
+    Planes& planes = this->PlanesOfNodes[number];
+    if (node.count == 0)
+    {
+      widen(planes, this->PlanesOfNodes[number + 1]);
+      widen(planes, this->PlanesOfNodes[static_cast<std::size_t>(node.first)]);
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const auto t = static_cast<std::size_t>(this->Order[static_cast<std::size_t>(i)]);
+      const Point normal = unit(this->Surface.normal(t));
+      widen(planes, { normal, normal, dot(normal, this->Surface.corner(t, 0) - this->Centre) });
+    }
+  }
+}
+
+bool TriangleTree::isBehindAny(const Point& place) const
+{
+  constexpr double rounding = 1e-9;
+  std::int32_t stack[64];
+  int waiting = 0;
+  if (!this->Nodes.empty())
+  {
+    stack[waiting++] = 0;
+  }
+  const Point from = place - this->Centre;
+  const double slack = rounding * norm(from);
+  while (waiting > 0)
+  {
+    const std::int32_t number = stack[--waiting];
+    const Planes& planes = this->PlanesOfNodes[static_cast<std::size_t>(number)];
+    double least = -planes.offset;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      least += std::min(planes.low[axis] * from[axis], planes.high[axis] * from[axis]);
+    }
+    if (least > slack + rounding * std::abs(planes.offset))
+    {
+      continue;
+    }
+    const Node& node = this->Nodes[static_cast<std::size_t>(number)];
+    if (node.count == 0)
+    {
+      stack[waiting++] = node.first;
+      stack[waiting++] = number + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const auto t = static_cast<std::size_t>(this->Order[static_cast<std::size_t>(i)]);
+      if (dot(this->Surface.normal(t), place - this->Surface.corner(t, 0)) < 0)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 double squaredDistance(const Triangles& surface, std::size_t triangle, const Point& place)
 {
   const Point normal = surface.normal(triangle);

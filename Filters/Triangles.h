@@ -70,6 +70,11 @@ public:
   /// Whether a corner x of any triangle has dot(normal, x) > offset.
   bool hasBeyond(const Point& normal, double offset) const;
 
+  /// Prepares isBehindAny().
+  void findPlanes();
+  /// Whether a place is behind the plane of any triangle, where its normal does not point to.
+  bool isBehindAny(const Point& place) const;
+
 private:
   struct Node
   {
@@ -77,6 +82,12 @@ private:
     std::int32_t
       first; // of Order; inner nodes: the second child. The first child is the next node.
     std::int32_t count; // 0: an inner node
+  };
+  /// Of the triangles of a node.
+  struct Planes
+  {
+    Point low, high; // of the normals, of unit length
+    double offset;   // the largest dot(normal, corner - Centre)
   };
   static constexpr std::int32_t maxInLeaf = 4;
 
@@ -91,6 +102,8 @@ private:
   const Triangles& Surface;
   std::vector<Node> Nodes;
   std::vector<std::int32_t> Order;
+  std::vector<Planes> PlanesOfNodes; // empty: not prepared
+  Point Centre{};
 };
 
 /// The square of the distance of a place to a triangle.

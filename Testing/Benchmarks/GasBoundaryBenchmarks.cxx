@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Where the gas of a mesh ends: a sphere of radius 1 in a mesh of 1.2 million hexahedra with a far field of radius
-// 50. To find its boundary, and to sample bricks near the wall.
+// 50. To find its boundary, to sample bricks near the wall, and to find what places in the sphere are.
 #include "GasBoundary.h"
 
 #include "vtkDoubleArray.h"
@@ -109,9 +109,28 @@ void sampleBricks(benchmark::State& state)
   }
 }
 
+void findKindsInBody(benchmark::State& state)
+{
+  static const auto mesh = sphereMesh();
+  static const GasBoundary boundary({ mesh }, nullptr, filters::Outside::Auto, {});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-0.5, 0.5);
+  std::vector<Point> places(1000);
+  for (Point& place : places)
+  {
+    place = { any(random), any(random), any(random) };
+  }
+  std::size_t next = 0;
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(boundary.kindAt(places[next++ % places.size()], false));
+  }
+}
+
 } // namespace
 
 BENCHMARK(findBoundary)->Unit(benchmark::kMillisecond);
+BENCHMARK(findKindsInBody)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sampleBricks)
   ->Unit(benchmark::kMicrosecond)
   ->ArgNames({ "points", "spacing" })
