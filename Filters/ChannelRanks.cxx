@@ -47,8 +47,13 @@ std::vector<char> answerFrom(schlieren::Channel& channel, std::size_t rank)
 std::vector<char> ChannelRanks::Respond(const std::vector<char>& request)
 {
   std::vector<char> answer;
-  vtkSMPTools::LocalScope(this->Threads, [&] { answer = this->Own.Respond(request); });
+  this->RunHere([&] { answer = this->Own.Respond(request); });
   return answer;
+}
+
+void ChannelRanks::RunHere(const std::function<void()>& work) const
+{
+  vtkSMPTools::LocalScope(this->Threads, work);
 }
 
 std::vector<std::vector<char>> ChannelRanks::Request(std::vector<std::vector<char>> requests)

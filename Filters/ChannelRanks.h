@@ -33,6 +33,7 @@ public:
 
   std::size_t Count() const override { return this->Channels.size() + 1; }
   std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) override;
+  void RunHere(const std::function<void()>& work) const override;
 
 private:
   PieceWorker Own;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace filters
 {
@@ -19,6 +20,27 @@ bool meet(const schlieren::Box& a, const schlieren::Box& b)
     meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
   }
   return meet;
+}
+
+void DataPiece::Samples::add(Samples other)
+{
+  if (this->found.empty())
+  {
+    *this = std::move(other);
+    return;
+  }
+  for (std::size_t i = 0; i < other.found.size(); ++i)
+  {
+    if (other.found[i] && !this->found[i])
+    {
+      this->found[i] = 1;
+      this->values[i] = other.values[i];
+      for (std::size_t at = i; at < other.fields.size(); at += other.found.size())
+      {
+        this->fields[at] = other.fields[at];
+      }
+    }
+  }
 }
 
 // One bit for each point, and the values of those that are found alone: lattices reach far beyond the cells of a rank.

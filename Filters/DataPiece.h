@@ -80,6 +80,9 @@ public:
     std::vector<double> values;
     std::vector<double> fields{};
 
+    /// Of another piece: of points that both hold, these count.
+    void add(Samples other);
+
     void Put(std::vector<char>& message) const;
     /// What Put() has written, of so many points and fields. Throws std::runtime_error where that is something else.
     static Samples Get(Reader& message, std::size_t points, std::size_t fields);

@@ -17,6 +17,8 @@ class vtkDataSet;
 namespace filters
 {
 
+class Reader;
+
 /// What stops light where the gas ends.
 enum class Outside
 {
@@ -42,6 +44,9 @@ public:
   /// Of faces that were found otherwise.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());
+  /// What put() has written: of another one, what sample() and kindAt() need.
+  explicit GasBoundary(Reader& message);
+  void put(std::vector<char>& message) const;
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
@@ -92,6 +97,7 @@ public:
   bool isWall(std::size_t triangle) const { return this->Walls[triangle] != 0; }
 
 private:
+  void findWindows();
   bool isBeyondAll(const Point& place) const;
   bool areWallsFlatNear(const schlieren::Box& box) const;
 

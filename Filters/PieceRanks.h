@@ -5,6 +5,7 @@
 #include "DataParts.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace filters
@@ -23,6 +24,8 @@ public:
   /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. Throws
   /// std::runtime_error where a rank does not answer.
   virtual std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) = 0;
+  /// Runs what rank 0 does itself with as many threads as it may have.
+  virtual void RunHere(const std::function<void()>& work) const = 0;
 };
 
 /// Begins to read an answer. Throws what the rank says that is wrong: ArraysMissing or std::runtime_error.

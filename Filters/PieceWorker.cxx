@@ -8,6 +8,7 @@
 #include "FieldTints.h"
 #include "FieldsOfBlocks.h"
 #include "FlatData.h"
+#include "ForEach.h"
 #include "GasBoundary.h"
 #include "GatheredData.h"
 #include "InputDescription.h"
@@ -45,20 +46,6 @@ bool hasPoints(vtkDataObject* data)
     });
 }
 
-/// Calls work(i) for i < count from several threads.
-template <class Work>
-void forEach(std::size_t count, const Work& work)
-{
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      {
-        work(i);
-      }
-    });
-}
-
 } // namespace
 
 PieceWorker::PieceWorker(vtkRefractiveIndex* self)
@@ -84,6 +71,7 @@ void PieceWorker::Release()
 {
   this->ReleasePiece();
   this->Mesh.reset();
+  this->Bricks.release();
 }
 
 void PieceWorker::ReleasePiece()
@@ -215,8 +203,20 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       forEach(lattices.size(), [&](std::size_t i) { samples[i] = piece.sample(lattices[i]); });
       for (const DataPiece::Samples& ofLattice : samples)
       {
-        ofLattice.Put(answer);
+        std::vector<char> bytes;
+        ofLattice.Put(bytes);
+        putAll(bytes, answer);
       }
+      break;
+    }
+    case BeginBricks:
+      this->PieceOf(request);
+      this->Bricks.begin(request);
+      break;
+    case MakeBricks:
+    {
+      const DataPiece& piece = this->PieceOf(request);
+      this->Bricks.make(request, piece, answer);
       break;
     }
     case Forget:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BrickWorker.h"
 #include "DataPiece.h"
 #include "FieldTints.h"
 #include "ImagePiece.h"
@@ -46,6 +47,8 @@ public:
     Contents,      // of boxes
     Hold,          // whether its cells do, of places
     Sample,        // lattices
+    BeginBricks,   // rules and facts, see BrickWorker
+    MakeBricks,    // of its own samples and of others'
     Forget,        // the piece
     Answer
   };
@@ -120,7 +123,8 @@ private:
   std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
   std::unique_ptr<const DataPiece> Piece;
   std::shared_ptr<PieceMesh> Mesh; // of the last piece of meshes
-  std::uint64_t Number = 0;        // of the piece
+  BrickWorker Bricks;
+  std::uint64_t Number = 0; // of the piece
 };
 
 /// A message that requests something, as yet without what.

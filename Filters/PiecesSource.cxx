@@ -3,6 +3,7 @@
 #include "PiecesSource.h"
 
 #include "AmrFaces.h"
+#include "ForEach.h"
 #include "LatticeDistances.h"
 #include "MeshKey.h"
 #include "PieceRequests.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -24,6 +24,9 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Of a boundary that all ranks have, some 200 bytes each.
+constexpr std::size_t mostFaces = 2000000;
 
 void extend(schlieren::Box& box, const schlieren::Box& by)
 {
@@ -64,19 +67,6 @@ constexpr CellTree::Content nothing{ 1, 0, { infinity, infinity, infinity } };
 
 } // namespace
 
-PiecesSource::BoxKey PiecesSource::keyOf(const schlieren::Box& box)
-{
-  return { box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2] };
-}
-
-PiecesSource::LatticeKey PiecesSource::keyOf(const schlieren::Lattice& lattice)
-{
-  const auto& [first, spacing, points] = lattice;
-  return { first[0], first[1], first[2], spacing[0], spacing[1], spacing[2],
-    static_cast<double>(points[0]), static_cast<double>(points[1]),
-    static_cast<double>(points[2]) };
-}
-
 std::vector<char> PiecesSource::request(PieceWorker::Kind kind) const
 {
   std::vector<char> request = pieceRequest(kind);
@@ -104,7 +94,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   addBodies(ofBodies, bodies);
   std::vector<std::uint64_t> keys{ ofBodies.value() };
   this->All = nothing;
-  this->Bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  this->Facts.bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   std::string lacking;
   for (const std::vector<char>& answer : this->request(std::move(requests.make)))
   {
@@ -129,7 +119,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
           extend(range, reader.Get<FieldRange>());
         }
         this->BoundsOfRanks.back() = summary.bounds;
-        extend(this->Bounds, summary.bounds);
+        extend(this->Facts.bounds, summary.bounds);
         extend(this->All, summary.content);
         this->Cells += summary.cells;
         this->Reach = summary.reach;
@@ -146,14 +136,25 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   }
   if (requests.levels)
   {
-    this->Bounds = requests.levels->bounds(); // those of ranks have no end where the domain ends
-    this->VoxelShape = requests.levels->levels[0].spacing;
+    this->Facts.bounds =
+      requests.levels->bounds(); // those of ranks have no end where the domain ends
+    this->Facts.voxelShape = requests.levels->levels[0].spacing;
   }
   progress.reach(0.6);
   this->findBoundary(bodies, outside, std::move(kept), std::move(keys), progress.part(0.6, 1));
-  if (std::isnan(this->Ambient))
+  if (std::isnan(this->Facts.ambient))
   {
-    this->Ambient = 0.5 * (this->All.lowest + this->All.highest);
+    this->Facts.ambient = 0.5 * (this->All.lowest + this->All.highest);
+  }
+  PieceWorker::Content all{ this->All, {} };
+  all.holds.fill(1);
+  this->Facts.content = this->contentFrom(this->Facts.bounds, all);
+  this->Known =
+    std::make_unique<SamplesOfPieces>(this->Facts, this->RangesOfFields, this->Boundary);
+  if (this->Boundary->surface().size() <= mostFaces)
+  {
+    this->Bricks = std::make_unique<BricksOfPieces>(this->Ranks, this->Number, this->BoundsOfRanks,
+      this->Mesh.keys.empty() ? 0 : this->Mesh.number, *this->Known);
   }
 }
 
@@ -203,12 +204,7 @@ void PiecesSource::findBoundary(vtkDataObject* bodies, Outside outside, PiecesMe
   {
     this->Mesh = std::move(kept);
     this->Boundary = this->Mesh.boundary;
-    this->VoxelShape = this->Mesh.voxelShape;
-    if (!this->Mesh.lattices)
-    {
-      this->Mesh.lattices = std::make_shared<LatticesOfMesh>();
-    }
-    this->Mesh.lattices->beginStep();
+    this->Facts.voxelShape = this->Mesh.voxelShape;
   }
   else if (ofAmr.parts > 0)
   {
@@ -224,25 +220,26 @@ void PiecesSource::findBoundary(vtkDataObject* bodies, Outside outside, PiecesMe
   {
     this->makeBoundary(std::move(ofMeshes), bodies, outside, progress.part(0.3, 1));
     this->Mesh.keys = std::move(keys);
+    this->Mesh.number = this->Number;
   }
   std::vector<double> onSurface;
   for (const Contribution& fraction : this->Mesh.contributions)
   {
     onSurface.push_back(values[static_cast<std::size_t>(fraction.point)]);
   }
-  this->Ambient = this->Boundary->ambient(onSurface);
+  this->Facts.ambient = this->Boundary->ambient(onSurface);
 }
 
 void PiecesSource::makeBoundary(
   BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
 {
-  this->VoxelShape = CellTree::voxelShapeOf(of.joinedSizes());
+  this->Facts.voxelShape = CellTree::voxelShapeOf(of.joinedSizes());
   BoundaryFaces boundary = boundaryOf(
     std::move(of.faces), [this](const std::vector<Point>& places) { return this->hold(places); });
   this->Mesh.contributions = boundary.contributions;
   this->Boundary = std::make_shared<GasBoundary>(std::move(boundary), bodies, outside, progress);
   this->Mesh.boundary = this->Boundary;
-  this->Mesh.voxelShape = this->VoxelShape;
+  this->Mesh.voxelShape = this->Facts.voxelShape;
 }
 
 void PiecesSource::makeBoundary(
@@ -250,18 +247,18 @@ void PiecesSource::makeBoundary(
 {
   sortTriangles(of.faces);
   this->Boundary = std::make_shared<GasBoundary>(std::move(of.faces), bodies, outside, progress);
-  this->Ambient = weightedMedian(std::move(of.outer));
+  this->Facts.ambient = weightedMedian(std::move(of.outer));
 }
 
 void PiecesSource::makeBoundary(
   BoundaryOfImage of, vtkDataObject* bodies, const WorkProgress& progress)
 {
-  this->Direction = of.direction;
-  this->VoxelShape = of.spacing;
+  this->Facts.direction = of.direction;
+  this->Facts.voxelShape = of.spacing;
   sortTriangles(of.faces);
   this->Boundary = std::make_shared<GasBoundary>(
     std::move(of.faces), turnedBack(bodies, of.direction), Outside::Passes, progress);
-  this->Ambient = ImagePiece::ambientOf(std::move(of.outer));
+  this->Facts.ambient = ImagePiece::ambientOf(std::move(of.outer));
   // What is beyond the image, in the cubes around its outer points, belongs to these.
   for (schlieren::Box& ofRank : this->BoundsOfRanks)
   {
@@ -269,8 +266,8 @@ void PiecesSource::makeBoundary(
     {
       double& low = ofRank.low[axis];
       double& high = ofRank.high[axis];
-      low = low == this->Bounds.low[axis] ? -infinity : low;
-      high = high == this->Bounds.high[axis] ? infinity : high;
+      low = low == this->Facts.bounds.low[axis] ? -infinity : low;
+      high = high == this->Facts.bounds.high[axis] ? infinity : high;
     }
   }
 }
@@ -296,22 +293,29 @@ std::vector<unsigned char> PiecesSource::hold(const std::vector<Point>& places) 
   return are;
 }
 
-/// Queries each rank about those items whose boxes meet its cells, and calls take(answer, these items).
+/// Queries each rank about those items whose boxes meet its cells, and calls take(rank, answer, numbers of these items).
 template <class Item, class BoxOf, class Take>
 void PiecesSource::askAbout(PieceWorker::Kind kind, const std::vector<Item>& items,
   const BoxOf& boxOf, const Take& take) const
 {
   const std::size_t ranks = this->Ranks->Count();
-  std::vector<std::vector<Item>> ofRanks(ranks);
+  std::vector<std::vector<std::size_t>> ofRanks(ranks);
   std::vector<std::vector<char>> requests(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
-    std::copy_if(items.begin(), items.end(), std::back_inserter(ofRanks[rank]),
-      [&](const Item& item) { return meet(boxOf(item), this->BoundsOfRanks[rank]); });
-    if (!ofRanks[rank].empty())
+    std::vector<Item> asked;
+    for (std::size_t n = 0; n < items.size(); ++n)
+    {
+      if (meet(boxOf(items[n]), this->BoundsOfRanks[rank]))
+      {
+        ofRanks[rank].push_back(n);
+        asked.push_back(items[n]);
+      }
+    }
+    if (!asked.empty())
     {
       requests[rank] = this->request(kind);
-      putAll(ofRanks[rank], requests[rank]);
+      putAll(asked, requests[rank]);
     }
   }
   const auto answers = this->request(std::move(requests));
@@ -320,18 +324,21 @@ void PiecesSource::askAbout(PieceWorker::Kind kind, const std::vector<Item>& ite
     if (!ofRanks[rank].empty())
     {
       Reader reader = readerOf(answers[rank]);
-      take(reader, ofRanks[rank]);
+      take(rank, reader, ofRanks[rank]);
     }
   }
 }
 
 void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) const
 {
-  this->Contents.clear();
+  std::vector<PieceWorker::Content> found(boxes.size(), { nothing, {} });
+  std::vector<SamplesOfPieces::KnownBox*> known;
+  this->Known->forgetBoxes();
   for (const schlieren::Box& box : boxes)
   {
-    this->Contents[keyOf(box)] = { { nothing, {} },
-      std::vector<FieldRange>(this->RangesOfFields.size(), nowhere) };
+    known.push_back(&this->Known->box(box));
+    known.back()->fields.assign(this->RangesOfFields.size(), nowhere);
+    known.back()->shares.assign(this->Ranks->Count(), 0);
   }
   const auto withReach = [this](schlieren::Box box)
   {
@@ -343,71 +350,65 @@ void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) con
     return box;
   };
   this->askAbout(PieceWorker::Contents, boxes, withReach,
-    [this](Reader& answer, const std::vector<schlieren::Box>& ofRank)
+    [&](std::size_t rank, Reader& answer, const std::vector<std::size_t>& numbers)
     {
-      const auto found = answer.GetAll<std::vector<PieceWorker::Content>>();
-      for (std::size_t i = 0; i < ofRank.size(); ++i)
+      const auto contents = answer.GetAll<std::vector<PieceWorker::Content>>();
+      for (std::size_t i = 0; i < numbers.size(); ++i)
       {
-        PieceWorker::Content& content = this->Contents[keyOf(ofRank[i])].content;
-        extend(content.cells, found.at(i).cells);
-        for (std::size_t n = 0; n < content.holds.size(); ++n)
+        const PieceWorker::Content& ofRank = contents.at(i);
+        PieceWorker::Content& all = found[numbers[i]];
+        extend(all.cells, ofRank.cells);
+        unsigned char& share = known[numbers[i]]->shares[rank];
+        share = ofRank.cells.lowest <= ofRank.cells.highest ? 1 : 0;
+        for (std::size_t n = 0; n < all.holds.size(); ++n)
         {
-          content.holds[n] = content.holds[n] | found[i].holds[n];
+          all.holds[n] = all.holds[n] | ofRank.holds[n];
+          share = static_cast<unsigned char>(share + ofRank.holds[n]);
         }
       }
       for (std::size_t field = 0; field < this->RangesOfFields.size(); ++field)
       {
-        for (const schlieren::Box& box : ofRank)
+        for (const std::size_t number : numbers)
         {
-          extend(this->Contents[keyOf(box)].fields[field], answer.Get<FieldRange>());
+          extend(known[number]->fields[field], answer.Get<FieldRange>());
         }
       }
+    });
+  this->Ranks->RunHere(
+    [&]
+    {
+      forEach(boxes.size(),
+        [&](std::size_t n) { known[n]->content = this->contentFrom(boxes[n], found[n]); });
     });
 }
 
 void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const
 {
-  this->Samples.clear();
+  this->Known->forgetLattices();
   for (const schlieren::Lattice& lattice : lattices)
   {
-    this->Samples[keyOf(lattice)] = {};
+    this->Known->samples(lattice); // of which no rank may have anything
   }
   this->askAbout(
     PieceWorker::Sample, lattices,
     [](const schlieren::Lattice& lattice) { return boxAround(lattice, 0); },
-    [this](Reader& answer, const std::vector<schlieren::Lattice>& ofRank)
+    [&](std::size_t, Reader& answer, const std::vector<std::size_t>& numbers)
     {
-      for (const schlieren::Lattice& lattice : ofRank)
+      for (const std::size_t number : numbers)
       {
-        DataPiece::Samples more = DataPiece::Samples::Get(
-          answer, static_cast<std::size_t>(lattice.size()), this->RangesOfFields.size());
-        DataPiece::Samples& samples = this->Samples[keyOf(lattice)];
-        if (samples.found.empty())
-        {
-          samples = std::move(more);
-          continue;
-        }
-        for (std::size_t i = 0; i < more.found.size(); ++i)
-        {
-          if (more.found[i] && !samples.found[i]) // of several ranks the first counts
-          {
-            samples.found[i] = 1;
-            samples.values[i] = more.values[i];
-            for (std::size_t at = i; at < more.fields.size(); at += more.found.size())
-            {
-              samples.fields[at] = more.fields[at];
-            }
-          }
-        }
+        const schlieren::Lattice& lattice = lattices[number];
+        const auto bytes = answer.GetAll<std::vector<char>>();
+        Reader samples(bytes);
+        this->Known->samples(lattice).add(DataPiece::Samples::Get(
+          samples, static_cast<std::size_t>(lattice.size()), this->RangesOfFields.size()));
       }
     });
 }
 
-schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& box) const
+/// Which places there are, by the boundary; and the cells where there is gas.
+schlieren::MediumSource::Content PiecesSource::contentFrom(
+  const schlieren::Box& box, const PieceWorker::Content& found) const
 {
-  const bool isAll = box.low == this->Bounds.low && box.high == this->Bounds.high;
-  const PieceWorker::Content found =
-    isAll ? PieceWorker::Content{ this->All, {} } : this->Contents.at(keyOf(box)).content;
   Content content{ 1, 0, nothing.cellSize, false, false, false };
   const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
   this->Boundary->findPlaces(
@@ -415,8 +416,7 @@ schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& b
     [&](const Point& place)
     {
       const auto at = std::find(tested.begin(), tested.end(), place);
-      return at != tested.end() &&
-        (isAll || found.holds[static_cast<std::size_t>(at - tested.begin())] != 0);
+      return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
     },
     content);
   if (content.hasGas)
@@ -426,47 +426,6 @@ schlieren::MediumSource::Content PiecesSource::contentOf(const schlieren::Box& b
     content.cellSize = found.cells.cellSize;
   }
   return content;
-}
-
-void PiecesSource::sample(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances) const
-{
-  const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
-  const auto size = static_cast<std::size_t>(lattice.size());
-  std::fill_n(refractivity, size, 0.);
-  std::copy(samples.values.begin(), samples.values.end(), refractivity);
-  LatticesOfMesh* const lattices = this->Mesh.lattices.get();
-  if (const auto known = lattices ? lattices->find(lattice, distances) : nullptr)
-  {
-    known->copyTo(places, distances, size);
-    return;
-  }
-  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
-  this->Boundary->sample(
-    lattice, none.empty() ? samples.found.data() : none.data(), places, distances);
-  if (lattices && lattices->hasRoomFor(lattice))
-  {
-    lattices->keep(lattice, knownLattice({}, places, distances, size));
-  }
-}
-
-schlieren::MediumSource::FieldRange PiecesSource::rangeOfField(
-  int field, const schlieren::Box& box) const
-{
-  const auto number = static_cast<std::size_t>(field);
-  const auto found = this->Contents.find(keyOf(box));
-  return found == this->Contents.end() ? this->RangesOfFields[number]
-                                       : found->second.fields[number];
-}
-
-void PiecesSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances, double* values) const
-{
-  this->sample(lattice, refractivity, places, distances);
-  const std::vector<double>& fields = this->Samples.at(keyOf(lattice)).fields;
-  std::fill_n(values, static_cast<std::size_t>(lattice.size()) * this->RangesOfFields.size(),
-    std::numeric_limits<double>::quiet_NaN());
-  std::copy(fields.begin(), fields.end(), values);
 }
 
 } // namespace filters

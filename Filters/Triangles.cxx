@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangles.h"
 
+#include "DataParts.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -9,6 +11,20 @@
 
 namespace filters
 {
+
+void putTriangles(const Triangles& surface, std::vector<char>& message)
+{
+  putAll(surface.points, message);
+  putAll(surface.corners, message);
+}
+
+Triangles trianglesFrom(Reader& message)
+{
+  Triangles surface;
+  surface.points = message.GetAll<std::vector<Point>>();
+  surface.corners = message.GetAll<std::vector<Triangles::Corners>>();
+  return surface;
+}
 
 std::vector<EdgeOfTriangle> edgesOf(const Triangles& surface)
 {

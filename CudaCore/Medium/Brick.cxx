@@ -4,6 +4,7 @@
 
 #include "Medium/BrickCoefficients.h"
 #include "Medium/BrickErrors.h"
+#include "Medium/BrickMakers.h"
 #include "Medium/BrickSamples.h"
 
 #include <algorithm>
@@ -41,19 +42,19 @@ int apronOf(Interpolation interpolation)
 } // namespace
 
 template <class Real>
-BrickMaker<Real>::BrickMaker(const MediumSource& source, const Grid& grid, double ambient,
-  double largestNu, Interpolation interpolation)
+BrickMaker<Real>::BrickMaker(const MediumSource& source, const BrickRules& rules)
   : source_(source)
-  , grid_(grid)
+  , rules_(rules)
   , bounds_(source.bounds())
-  , ambient_(ambient)
-  , smallest_(1e-20 * largestNu)
-  , interpolation_(interpolation)
+  , smallest_(1e-20 * rules.largestNu)
   , shape_(source.isFlat() ? BrickShape::Layer : BrickShape::Cube)
-  , apron_(apronOf(interpolation))
+  , apron_(apronOf(rules.interpolation))
   , support_(
-      interpolation == Interpolation::Quadratic || interpolation == Interpolation::Cubic ? 1 : 0)
+      rules.interpolation == Interpolation::Quadratic || rules.interpolation == Interpolation::Cubic
+        ? 1
+        : 0)
 {
+  rules_.bytesOfReal = sizeof(Real);
   const MediumSource::Content content = source.contentOf(bounds_);
   overshoot_ = content.lowest <= content.highest
     ? overshootByRange * (nuOf(content.highest) - nuOf(content.lowest))
@@ -70,8 +71,8 @@ std::int64_t BrickMaker<Real>::samplesPerBrick() const
 template <class Real>
 std::array<double, 3> BrickMaker<Real>::voxelOf(int level) const
 {
-  return { std::ldexp(grid_.spacing[0], -level), std::ldexp(grid_.spacing[1], -level),
-    std::ldexp(grid_.spacing[2], shape_ == BrickShape::Layer ? 0 : -level) };
+  return { std::ldexp(rules_.grid.spacing[0], -level), std::ldexp(rules_.grid.spacing[1], -level),
+    std::ldexp(rules_.grid.spacing[2], shape_ == BrickShape::Layer ? 0 : -level) };
 }
 
 template <class Real>
@@ -81,8 +82,8 @@ Box BrickMaker<Real>::boxOf(const NodePlace& place) const
   Box box = bounds_;
   for (std::size_t axis = 0; axis < axes(); ++axis)
   {
-    box.low[axis] = grid_.origin[axis] + edge * voxel[axis] * place.at[axis];
-    box.high[axis] = grid_.origin[axis] + edge * voxel[axis] * (place.at[axis] + 1);
+    box.low[axis] = rules_.grid.origin[axis] + edge * voxel[axis] * place.at[axis];
+    box.high[axis] = rules_.grid.origin[axis] + edge * voxel[axis] * (place.at[axis] + 1);
   }
   return box;
 }
@@ -129,7 +130,7 @@ Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
   {
     const std::int64_t first = std::int64_t{ edge } * place.at[axis] - margin;
     lattice.first[axis] =
-      grid_.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
+      rules_.grid.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
   }
   return lattice;
 }
@@ -167,7 +168,7 @@ BrickSamples BrickMaker<Real>::valuesAt(
   for (std::size_t axis = 0; axis < axes(); ++axis)
   {
     const std::int64_t first = std::int64_t{ edge } * place.at[axis] - samples.margin;
-    const std::int64_t all = (grid_.dimensions[axis] - 1) << place.level;
+    const std::int64_t all = (rules_.grid.dimensions[axis] - 1) << place.level;
     samples.begin[axis] = static_cast<int>(std::max<std::int64_t>(0, -first));
     samples.end[axis] = static_cast<int>(std::min<std::int64_t>(samples.n, all - first));
   }
@@ -415,7 +416,7 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
       at[1] += at[0] + 1 == to[0] ? 1 : 0;
       at[0] = at[0] + 1 == to[0] ? 0 : at[0] + 1;
     }
-    facts.steepestAt[2] = 0.5 * static_cast<double>(grid_.dimensions[2] - 1);
+    facts.steepestAt[2] = 0.5 * static_cast<double>(rules_.grid.dimensions[2] - 1);
     for (std::size_t other = 0; other < axes(); ++other)
     {
       const double local =
@@ -513,29 +514,51 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
 }
 
 template <class Real>
-void BrickMaker<Real>::prepare(const std::vector<Request>& bricks) const
+std::vector<Brick<Real>> BrickMaker<Real>::prepare(const std::vector<BrickRequest>& bricks) const
 {
+  std::vector<Brick<Real>> made;
   if (!source_.isRemote())
   {
-    return;
+    return made;
   }
   std::vector<Box> boxes;
-  for (const Request& brick : bricks)
+  for (const BrickRequest& brick : bricks)
   {
     boxes.push_back(boxWithApron(brick.place));
   }
   source_.prepareContents(boxes);
-  std::vector<Lattice> lattices;
-  for (const Request& brick : bricks)
+  const BrickMakers* const makers = source_.makers();
+  std::vector<BrickTask> tasks;
+  std::vector<std::size_t> sampled;
+  for (std::size_t n = 0; n < bricks.size(); ++n)
   {
-    const Outline outline = outlineOf(brick.place, brick.negligible);
+    Outline outline = outlineOf(bricks[n].place, bricks[n].negligible);
     if (outline.isSampled)
     {
-      lattices.push_back(
-        latticeOf(brick.place, preparedMarginOf(outline.hasEdges, outline.hasFields)));
+      const int margin = preparedMarginOf(outline.hasEdges, outline.hasFields);
+      tasks.push_back(
+        { bricks[n], outline.box, latticeOf(bricks[n].place, margin), outline.hasEdges });
+      sampled.push_back(n);
     }
+    made.push_back(std::move(outline.brick));
   }
-  source_.prepareSamples(lattices);
+  if (!makers)
+  {
+    std::vector<Lattice> lattices;
+    for (const BrickTask& task : tasks)
+    {
+      lattices.push_back(task.lattice);
+    }
+    source_.prepareSamples(lattices);
+    return {};
+  }
+  const std::vector<std::vector<char>> bytes = makers->make(rules_, tasks);
+  for (std::size_t n = 0; n < tasks.size(); ++n)
+  {
+    made[sampled[n]] = Brick<Real>::fromBytes(bytes.at(n),
+      static_cast<std::size_t>(samplesPerBrick()), static_cast<std::size_t>(source_.fields()));
+  }
+  return made;
 }
 
 template <class Real>
@@ -566,7 +589,7 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   }
   if (hasFields)
   {
-    const auto& spacing = grid_.spacing;
+    const auto& spacing = rules_.grid.spacing;
     brick.fields =
       fieldBrickOf(source_, outline.box, samples.fields, samples.isGas, content.cellSize, apron_,
         *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
@@ -585,8 +608,8 @@ Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& neg
   if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
   {
     brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
-    const CoefficientRule rule{ interpolation_ == Interpolation::Cubic ? 1. / 6 : 1. / 8, apron_,
-      axes(), overshoot_ };
+    const CoefficientRule rule{ rules_.interpolation == Interpolation::Cubic ? 1. / 6 : 1. / 8,
+      apron_, axes(), overshoot_ };
     if (support_ > 0 && !makeCoefficients(samples, rule))
     {
       samples = sample(place, preparedMarginOf(hasEdges, hasFields), hasEdges, hasFields);

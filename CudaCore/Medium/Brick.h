@@ -76,6 +76,12 @@ struct Brick
   std::vector<std::int16_t> gasDistances; ///< of Leaf::Mixed, laid out like samples
   BrickFacts facts;
   FieldBrick fields;
+
+  /// For another process of the same program on the same kind of processor.
+  std::vector<char> toBytes() const;
+  /// Throws Error where they are not those of a brick with so many samples and fields.
+  static Brick fromBytes(
+    const std::vector<char>& bytes, std::size_t samplesPerBrick, std::size_t fieldCount);
 };
 
 struct BrickSamples;
@@ -87,6 +93,23 @@ struct Negligible
   double gathered = 0; ///< of the fields' gradients, by a ray
 };
 
+/// A brick that is to be made.
+struct BrickRequest
+{
+  NodePlace place;
+  Negligible negligible;
+};
+
+/// What bricks depend on besides their source.
+struct BrickRules
+{
+  Grid grid; ///< the tree's
+  double ambient;
+  double largestNu; ///< what is far below it is set to 0
+  Interpolation interpolation;
+  std::uint32_t bytesOfReal = 0; ///< where processes share the work
+};
+
 /// Makes bricks of a source, each without knowledge of any other.
 template <class Real>
 class BrickMaker
@@ -94,19 +117,13 @@ class BrickMaker
 public:
   static constexpr int edge = 16; ///< samples
 
-  /// `grid`: the tree's. `largestNu`: what is far below it is set to 0.
-  BrickMaker(const MediumSource& source, const Grid& grid, double ambient, double largestNu,
-    Interpolation interpolation);
+  BrickMaker(const MediumSource& source, const BrickRules& rules);
 
   Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
 
-  /// What is about to be made. Has to be called before, by one thread, where the source is remote.
-  struct Request
-  {
-    NodePlace place;
-    Negligible negligible;
-  };
-  void prepare(const std::vector<Request>& bricks) const;
+  /// What is about to be made. Has to be called before, by one thread, where the source is remote. Returns the bricks where others
+  /// have made them, otherwise none.
+  std::vector<Brick<Real>> prepare(const std::vector<BrickRequest>& bricks) const;
 
   int apron() const { return apron_; }
   BrickShape shape() const { return shape_; }
@@ -133,17 +150,18 @@ private:
   void storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
   void findSlopes(Brick<Real>& brick) const;
-  double nuOf(double refractivity) const { return (refractivity - ambient_) / (1 + ambient_); }
+  double nuOf(double refractivity) const
+  {
+    return (refractivity - rules_.ambient) / (1 + rules_.ambient);
+  }
   /// Of points along z, where there are so many along the other axes.
   int layersOf(int points) const { return shape_ == BrickShape::Layer ? 1 : points; }
 
   const MediumSource& source_;
-  Grid grid_;
+  BrickRules rules_;
   Box bounds_;
-  double ambient_;
   double smallest_;  ///< |nu| of a coefficient that is not 0
   double overshoot_; ///< of a coefficient beyond the samples beside it, that is none: nu
-  Interpolation interpolation_;
   BrickShape shape_;
   int apron_;
   int support_; ///< samples beyond a coefficient's place that it is made of

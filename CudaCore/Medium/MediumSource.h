@@ -35,6 +35,8 @@ struct Lattice
   std::int64_t size() const { return std::int64_t{ points[0] } * points[1] * points[2]; }
 };
 
+class BrickMakers;
+
 class MediumSource
 {
 public:
@@ -90,6 +92,8 @@ public:
   virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
   /// The same of sample() and lattices.
   virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
+  /// Of a remote source: those that make its bricks, for which no samples are prepared; null: there are none.
+  virtual const BrickMakers* makers() const { return nullptr; }
 
   /// Further fields, whose gradients rays may gather.
   virtual int fields() const { return 0; }

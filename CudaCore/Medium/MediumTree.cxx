@@ -102,8 +102,9 @@ MediumTree<Real>::MediumTree(
   , settings_(settings)
   , grid_(gridOf(*source_, brickEdge))
   , rootCells_(rootCellsOf(*source_))
-  , maker_(*source_, grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
-      settings.interpolation)
+  , maker_(*source_,
+      { grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
+        settings.interpolation })
   , samples_({ static_cast<std::size_t>(maker_.samplesPerBrick()), 1,
       PaddedVolume<Real>::readTogether, settings.memory })
   , maps_({ static_cast<std::size_t>(maker_.samplesPerBrick()) })

@@ -169,17 +169,18 @@ private:
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
     std::size_t tasksBegun = 0;
-    std::vector<typename BrickMaker<Real>::Request> requests; ///< of the tasks that are begun
-    std::vector<std::int32_t> boxes; ///< likewise; the nodes that are divided, or -1
+    std::vector<BrickRequest> requests; ///< of the tasks that are begun
+    std::vector<std::int32_t> boxes;    ///< likewise; the nodes that are divided, or -1
     std::map<std::int32_t, std::vector<Real>> fetched; ///< samples of these that others have
     std::vector<Brick<Real>> bricks;                   ///< likewise
+    bool areMade = false;                              ///< by others
     std::int64_t bricksDone = 0;
   };
   class View;
 
   /// Of a node that is divided.
   std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
-  Brick<Real> makeBrick(std::size_t request) const;
+  void makeBrick(std::size_t request);
   void fetchBoxes();
   void makeRoots();
   RayFindings measure(const View& view, const RayFindings& least);

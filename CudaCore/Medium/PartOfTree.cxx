@@ -3,6 +3,7 @@
 #include "Medium/PartOfTree.h"
 
 #include "Device/Parallel.h"
+#include "Medium/CountedBytes.h"
 #include "Medium/Prefilter.h"
 
 #include <atomic>
@@ -23,22 +24,10 @@ template <class Real>
 std::vector<char> DeliveredBricks<Real>::toBytes() const
 {
   std::vector<char> bytes;
-  const auto append = [&](const auto& values)
-  {
-    const std::uint64_t count = values.size();
-    const std::size_t size = count * sizeof(values[0]);
-    const std::size_t at = bytes.size();
-    bytes.resize(at + sizeof(count) + size);
-    std::memcpy(bytes.data() + at, &count, sizeof(count));
-    if (size > 0)
-    {
-      std::memcpy(bytes.data() + at + sizeof(count), values.data(), size);
-    }
-  };
-  append(samplesNumbers);
-  append(mapNumbers);
-  append(samples);
-  append(maps);
+  appendCounted(samplesNumbers, bytes);
+  appendCounted(mapNumbers, bytes);
+  appendCounted(samples, bytes);
+  appendCounted(maps, bytes);
   return bytes;
 }
 
@@ -55,23 +44,8 @@ template <class Real>
 bool PartOfTree<Real>::put(const char* bricks, std::size_t size)
 {
   // From the message into their places: there is no memory for all of them twice.
-  const auto take = [&](auto value, std::uint64_t& count) -> const char*
-  {
-    if (size < sizeof(count))
-    {
-      return nullptr;
-    }
-    std::memcpy(&count, bricks, sizeof(count));
-    const char* first = bricks + sizeof(count);
-    size -= sizeof(count);
-    if (count > size / sizeof(value))
-    {
-      return nullptr;
-    }
-    size -= count * sizeof(value);
-    bricks = first + count * sizeof(value);
-    return first;
-  };
+  const auto take = [&](auto value, std::uint64_t& count)
+  { return takeCounted<decltype(value)>(bricks, size, count); };
   std::uint64_t ofSamples = 0, ofMaps = 0, samples = 0, maps = 0;
   const char* const samplesNumbers = take(std::int32_t{}, ofSamples);
   const char* const mapNumbers = samplesNumbers ? take(std::int32_t{}, ofMaps) : nullptr;

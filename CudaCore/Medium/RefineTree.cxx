@@ -7,6 +7,7 @@
 #include "Device/Parallel.h"
 #include "Medium/BrickChanges.h"
 #include "Medium/BrickErrors.h"
+#include "Medium/BrickMakers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,7 @@ constexpr std::size_t partsOfReserve = 16;
 /// Bricks that are made before they are put into the tree; fewer where all of them have to be sampled before one is.
 constexpr std::size_t bricksAtOnce = 512;
 constexpr std::size_t remoteBricksAtOnce = 96;
+constexpr std::size_t bricksOfMaker = 32; // of those that make them together
 
 /// Leaves whose steepest places rays are sent through.
 constexpr std::size_t steepestLeaves = 192;
@@ -298,9 +300,12 @@ void MediumTree<Real>::findBricks(const View& view)
 {
   work_.bricksDone = 0;
   work_.tasksBegun = work_.tasksDone;
-  std::vector<typename BrickMaker<Real>::Request> requests;
+  std::vector<BrickRequest> requests;
   work_.boxes.clear();
-  const std::size_t atOnce = source_->isRemote() ? remoteBricksAtOnce : bricksAtOnce;
+  const BrickMakers* const makers = source_->makers();
+  const std::size_t ofAll = makers ? bricksOfMaker * static_cast<std::size_t>(makers->count()) : 0;
+  const std::size_t atOnce =
+    source_->isRemote() ? std::clamp(ofAll, remoteBricksAtOnce, bricksAtOnce) : bricksAtOnce;
   while (work_.tasksBegun < work_.tasks.size() && requests.size() < atOnce)
   {
     const Task& task = work_.tasks[work_.tasksBegun++];
@@ -317,8 +322,9 @@ void MediumTree<Real>::findBricks(const View& view)
       }
     }
   }
-  maker_.prepare(requests);
-  work_.bricks.assign(requests.size(), {});
+  work_.bricks = maker_.prepare(requests);
+  work_.areMade = !work_.bricks.empty();
+  work_.bricks.resize(requests.size());
   work_.requests = std::move(requests);
   fetchBoxes();
 }
@@ -358,13 +364,17 @@ void MediumTree<Real>::fetchBoxes()
 
 /// A brick with what is wrong with it, also what comparison with the box shows that it is a part of.
 template <class Real>
-Brick<Real> MediumTree<Real>::makeBrick(std::size_t request) const
+void MediumTree<Real>::makeBrick(std::size_t request)
 {
   const auto& [place, negligible] = work_.requests[request];
-  Brick<Real> brick = maker_.make(place, negligible);
+  Brick<Real>& brick = work_.bricks[request];
+  if (!work_.areMade)
+  {
+    brick = maker_.make(place, negligible);
+  }
   if (apron() != 1)
   {
-    return brick;
+    return;
   }
   std::array<double, 3> changes{};
   const bool isPart = work_.boxes[request] >= 0;
@@ -390,7 +400,6 @@ Brick<Real> MediumTree<Real>::makeBrick(std::size_t request) const
       error *= errorByCells;
     }
   }
-  return brick;
 }
 
 /// Puts bricks that are made into the tree.
@@ -455,7 +464,7 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
       {
         for (std::int64_t n = first; n < last; ++n)
         {
-          work_.bricks[static_cast<std::size_t>(n)] = makeBrick(static_cast<std::size_t>(n));
+          makeBrick(static_cast<std::size_t>(n));
         }
       },
       ofThese);

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Several processes that make the bricks of one tree. Each has a BrickMaker of its own, with the same rules.
+#pragma once
+
+#include "Medium/Brick.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// A brick that is to be made of samples.
+struct BrickTask
+{
+  BrickRequest request;
+  Box box; ///< whose content its maker asks for
+  Lattice lattice;
+  bool hasEdges; ///< so that the lattice's distances are needed, too
+};
+
+class BrickMakers
+{
+public:
+  BrickMakers() = default;
+  BrickMakers(const BrickMakers&) = delete;
+  BrickMakers& operator=(const BrickMakers&) = delete;
+  virtual ~BrickMakers() = default;
+
+  virtual std::int32_t count() const = 0;
+  /// Each as Brick::toBytes(), in the order of the tasks. What the source says of their boxes is prepared. Called by one thread.
+  /// Throws where a process does not answer.
+  virtual std::vector<std::vector<char>> make(
+    const BrickRules& rules, const std::vector<BrickTask>& tasks) const = 0;
+};
+
+} // namespace schlieren

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BrickWorker.h"
+
+#include "DataParts.h"
+#include "ForEach.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace filters
+{
+
+void BrickWorker::release() { *this = {}; }
+
+void BrickWorker::begin(Reader& request)
+{
+  const auto mesh = request.Get<std::uint64_t>();
+  const auto rules = request.Get<schlieren::BrickRules>();
+  const auto facts = request.Get<SamplesOfPieces::Facts>();
+  auto ranges = request.GetAll<std::vector<schlieren::MediumSource::FieldRange>>();
+  this->Makers = {};
+  this->Known.reset();
+  if (mesh != 0 && mesh == this->Mesh)
+  {
+    this->Lattices = this->Lattices ? this->Lattices : std::make_shared<LatticesOfMesh>();
+    this->Lattices->beginStep();
+  }
+  else
+  {
+    this->Lattices.reset();
+    this->Boundary = std::make_shared<const GasBoundary>(request);
+    this->Mesh = mesh;
+  }
+  this->Known =
+    std::make_unique<SamplesOfPieces>(facts, std::move(ranges), this->Boundary, this->Lattices);
+  if (rules.bytesOfReal == sizeof(float))
+  {
+    std::get<Maker<float>>(this->Makers) =
+      std::make_unique<schlieren::BrickMaker<float>>(*this->Known, rules);
+  }
+  else
+  {
+    std::get<Maker<double>>(this->Makers) =
+      std::make_unique<schlieren::BrickMaker<double>>(*this->Known, rules);
+  }
+}
+
+void BrickWorker::make(Reader& request, const DataPiece& own, std::vector<char>& answer)
+{
+  if (!this->Known)
+  {
+    throw std::runtime_error(
+      "A rank does not have what it needs to make the medium any more. Update the filter again.");
+  }
+  this->Known->forgetBoxes();
+  this->Known->forgetLattices();
+  std::vector<TaskOfPieces> tasks;
+  std::vector<std::vector<std::vector<char>>> ofOthers;
+  while (!request.IsAtEnd())
+  {
+    const TaskOfPieces& task = tasks.emplace_back(request.Get<TaskOfPieces>());
+    this->Known->box(task.task.box) = { task.content,
+      request.GetAll<std::vector<schlieren::MediumSource::FieldRange>>() };
+    ofOthers.emplace_back();
+    for (std::uint32_t other = 0; other < task.others; ++other)
+    {
+      ofOthers.back().push_back(request.GetAll<std::vector<char>>());
+    }
+    this->Known->samples(task.task.lattice); // so that threads need not make it
+  }
+  std::get<Maker<float>>(this->Makers) ? this->makeOf<float>(tasks, ofOthers, own, answer)
+                                       : this->makeOf<double>(tasks, ofOthers, own, answer);
+}
+
+template <class Real>
+void BrickWorker::makeOf(const std::vector<TaskOfPieces>& tasks,
+  const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece& own,
+  std::vector<char>& answer)
+{
+  const schlieren::BrickMaker<Real>& maker = *std::get<Maker<Real>>(this->Makers);
+  std::vector<std::vector<char>> bricks(tasks.size());
+  forEach(tasks.size(),
+    [&](std::size_t n)
+    {
+      const TaskOfPieces& task = tasks[n];
+      const schlieren::Lattice& lattice = task.task.lattice;
+      DataPiece::Samples& samples = this->Known->samples(lattice);
+      for (std::uint32_t other = 0; other <= task.others; ++other)
+      {
+        if (other == task.othersBefore && task.hasOwn != 0)
+        {
+          samples.add(own.sample(lattice));
+        }
+        if (other < task.others)
+        {
+          Reader reader(ofOthers[n][other]);
+          samples.add(DataPiece::Samples::Get(reader, static_cast<std::size_t>(lattice.size()),
+            this->Known->rangesOfFields().size()));
+        }
+      }
+      bricks[n] = maker.make(task.task.request.place, task.task.request.negligible).toBytes();
+      samples = {};
+    });
+  for (const std::vector<char>& brick : bricks)
+  {
+    putAll(brick, answer);
+  }
+}
+
+} // namespace filters

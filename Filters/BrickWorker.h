@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "SamplesOfPieces.h"
+
+#include "Medium/BrickMakers.h"
+
+#include <cstdint>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+namespace filters
+{
+
+class Reader;
+
+/// A brick that a BrickWorker makes, as it is sent. Behind it come the ranges of fields in its box, and what others than its
+/// maker have on its lattice, in the order of their ranks.
+struct TaskOfPieces
+{
+  schlieren::BrickTask task;
+  schlieren::MediumSource::Content content;
+  std::uint32_t others;       ///< how many have something
+  std::uint32_t othersBefore; ///< of lower rank than its maker
+  std::uint32_t hasOwn;       ///< its maker has something, too
+};
+
+/// Makes bricks on a rank, for BricksOfPieces on rank 0: of what it has of the data and of what others have.
+class BrickWorker
+{
+public:
+  /// The request: which mesh the data are on, rules, facts about all of the data, ranges of fields, and where the gas ends.
+  void begin(Reader& request);
+  /// The request: the tasks. The answer: the bricks.
+  void make(Reader& request, const DataPiece& own, std::vector<char>& answer);
+  void release();
+
+private:
+  template <class Real>
+  void makeOf(const std::vector<TaskOfPieces>& tasks,
+    const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece& own,
+    std::vector<char>& answer);
+  template <class Real>
+  using Maker = std::unique_ptr<const schlieren::BrickMaker<Real>>;
+
+  std::uint64_t Mesh = 0; // 0: one that is not kept
+  std::shared_ptr<const GasBoundary> Boundary;
+  std::shared_ptr<LatticesOfMesh> Lattices; // from the second step on the same mesh on
+  std::unique_ptr<SamplesOfPieces> Known;
+  std::tuple<Maker<float>, Maker<double>> Makers; // one of them
+};
+
+} // namespace filters
