@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticSources.h"
 #include "Fields.h"
+#include "SameTree.h"
 
 #include <gtest/gtest.h>
 
@@ -51,28 +52,6 @@ double worstError(const Tree& tree, const BallsSource& source, Interpolation int
     worst = std::max(worst, std::hypot(dot(bend, u) - truth[0], dot(bend, v) - truth[1]));
   }
   return worst / source.largestDeflection();
-}
-
-/// Leaves and all that belongs to them, byte by byte.
-template <class Real>
-void expectIdentical(const MediumTree<Real>& a, const MediumTree<Real>& b)
-{
-  EXPECT_EQ(a.roots(), b.roots());
-  EXPECT_EQ(a.children(), b.children());
-  EXPECT_EQ(a.samples(), b.samples());
-  EXPECT_EQ(a.gasDistances(), b.gasDistances());
-  ASSERT_EQ(a.leaves().size(), b.leaves().size());
-  for (std::size_t n = 0; n < a.leaves().size(); ++n)
-  {
-    const Leaf<Real>& p = a.leaves()[n];
-    const Leaf<Real>& q = b.leaves()[n];
-    ASSERT_EQ(p.kind, q.kind);
-    ASSERT_EQ(p.brick, q.brick);
-    ASSERT_EQ(p.map, q.map);
-    ASSERT_EQ(p.offset, q.offset);
-    ASSERT_EQ(p.perIndex, q.perIndex);
-    ASSERT_TRUE(std::equal(p.first, p.first + 3, q.first));
-  }
 }
 
 /// N everywhere the same.

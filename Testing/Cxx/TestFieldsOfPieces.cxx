@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fields that tint an image of data on several ranks, against those of the same data on one.
 #include "Pieces.h"
+#include "SameTree.h"
+
+#include "Medium/BrickMakers.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"
@@ -173,7 +176,146 @@ void expectSameFields(
   }
 }
 
+/// Data in pieces whose bricks rank 0 makes alone.
+class WithoutMakers : public schlieren::MediumSource
+{
+public:
+  explicit WithoutMakers(std::shared_ptr<const schlieren::MediumSource> pieces)
+    : Pieces(std::move(pieces))
+  {
+  }
+  schlieren::Box bounds() const override { return this->Pieces->bounds(); }
+  double ambient() const override { return this->Pieces->ambient(); }
+  std::array<double, 3> voxelShape() const override { return this->Pieces->voxelShape(); }
+  Content contentOf(const schlieren::Box& box) const override
+  {
+    return this->Pieces->contentOf(box);
+  }
+  void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
+    float* distances) const override
+  {
+    this->Pieces->sample(lattice, refractivity, places, distances);
+  }
+  bool isRemote() const override { return true; }
+  void prepareContents(const std::vector<schlieren::Box>& boxes) const override
+  {
+    this->Pieces->prepareContents(boxes);
+  }
+  void prepareSamples(const std::vector<schlieren::Lattice>& lattices) const override
+  {
+    this->Pieces->prepareSamples(lattices);
+  }
+  int fields() const override { return this->Pieces->fields(); }
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override
+  {
+    return this->Pieces->rangeOfField(field, box);
+  }
+  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+    schlieren::Place* places, float* distances, double* values) const override
+  {
+    this->Pieces->sampleWithFields(lattice, refractivity, places, distances, values);
+  }
+
+private:
+  std::shared_ptr<const schlieren::MediumSource> Pieces;
+};
+
+template <class Real>
+schlieren::MediumTree<Real> treeOf(std::shared_ptr<const schlieren::MediumSource> source)
+{
+  const double ambient = source->ambient();
+  schlieren::TreeSettings settings;
+  settings.tolerance = 3e-3;
+  settings.threads = 2;
+  schlieren::MediumTree<Real> tree(std::move(source), ambient, settings);
+  tree.refine({ { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0 }, { 2, 2 }, 0.02 });
+  return tree;
+}
+
 } // namespace
+
+// Each rank makes some, in three steps on the same mesh; with fields and without.
+TEST(BricksOfPieces, AreTheSameWhoeverMakesThem)
+{
+  for (const Case& data : cases())
+  {
+    SCOPED_TRACE(data.name);
+    for (const bool hasFields : { true, false })
+    {
+      Ranks ranks(data.parts, data.ofCells);
+      for (vtkRefractiveIndex* filter : ranks.Filters)
+      {
+        askForFields(filter, { data.ofCells ? "warmth of cells" : "warmth" });
+      }
+      const auto make = [&]
+      {
+        return ranks.make(data.bodies,
+          hasFields ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE);
+      };
+      const auto single = treeOf<float>(std::make_shared<WithoutMakers>(make()));
+      EXPECT_GT(single.leaves().size(), 30u);
+      for (int step = 0; step < 3; ++step)
+      {
+        std::vector<std::size_t> before;
+        for (const auto& channel : ranks.Channels)
+        {
+          before.push_back(channel->Bytes);
+        }
+        const auto source = make();
+        ASSERT_NE(source->makers(), nullptr);
+        expectIdentical(treeOf<float>(source), single);
+        for (std::size_t rank = 0; rank < before.size(); ++rank)
+        {
+          // The rank that has no data makes bricks, too.
+          EXPECT_GT(ranks.Channels[rank]->Bytes, before[rank] + 100000) << rank;
+        }
+      }
+      const auto source = make();
+      expectIdentical(
+        treeOf<double>(source), treeOf<double>(std::make_shared<WithoutMakers>(source)));
+    }
+  }
+}
+
+TEST(BricksOfPieces, ARankThatLeavesIsAMistake)
+{
+  const Case data = cases()[0];
+  int answers = 0;
+  for (bool isMade = false; !isMade && answers < 200; answers += 1 + answers / 4)
+  {
+    Ranks ranks(data.parts);
+    ranks.Channels[1]->AnswersLeft = answers;
+    try
+    {
+      treeOf<float>(ranks.make());
+      isMade = true;
+    }
+    catch (const std::runtime_error& problem)
+    {
+      EXPECT_NE(std::string(problem.what()).find("Rank 2 does not answer"), std::string::npos)
+        << problem.what();
+    }
+  }
+  EXPECT_GT(answers, 10);
+  EXPECT_LT(answers, 200);
+}
+
+TEST(BricksOfPieces, AreNotMadeOfWhatIsNotThere)
+{
+  const Case data = cases()[0];
+  Ranks ranks(data.parts);
+  EXPECT_THROW(
+    {
+      const auto forgotten = ranks.make();
+      ranks.Filters[0]->ReleasePieces();
+      treeOf<float>(forgotten);
+    },
+    std::runtime_error);
+  const auto replaced = ranks.make();
+  const auto last = ranks.make();
+  EXPECT_THROW(treeOf<float>(replaced), std::runtime_error);
+  expectIdentical(treeOf<float>(last), treeOf<float>(std::make_shared<WithoutMakers>(last)));
+}
 
 TEST(FieldsOfPieces, AreThoseOfOnePiece)
 {
