@@ -37,6 +37,28 @@ std::uint64_t besideValues(const PointMask& empty, std::int64_t n, std::int64_t 
 /// The one of two slopes that is less steep; 0 where they have different signs.
 double gentler(double a, double b) { return a * b > 0 ? (std::abs(a) < std::abs(b) ? a : b) : 0; }
 
+/// Whether point i of a row has a value; and bits 0 to 2: whether i - 1, i, and i + 1 have. There is none beyond the row.
+inline bool hasValue(const std::uint64_t* row, std::int64_t i)
+{
+  return ((row[i >> 6] >> (i & 63)) & 1) == 0;
+}
+inline unsigned valuesAround(const std::uint64_t* row, std::int64_t wordsPerRow, std::int64_t i)
+{
+  const std::int64_t n = i >> 6, bit = i & 63;
+  const std::uint64_t values = ~row[n];
+  const std::uint64_t before = bit > 0 ? values >> (bit - 1) : values << 1;
+  unsigned around = static_cast<unsigned>(before & 7);
+  if (bit == 0 && n > 0)
+  {
+    around |= static_cast<unsigned>(~row[n - 1] >> 63);
+  }
+  if (bit == 63 && n + 1 < wordsPerRow)
+  {
+    around |= static_cast<unsigned>((~row[n + 1] & 1) << 2);
+  }
+  return around;
+}
+
 /// Of the neighbours that have a value or, in a linear continuation, of what lines through three points that have one
 /// lead to, where there are any. The gentler of a line's two slopes counts: voxels may be larger than a layer at a wall,
 /// whose slope leads anywhere.
@@ -45,13 +67,8 @@ Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, s
   std::int64_t j, std::int64_t k, Continuation continuation)
 {
   const std::array<std::int64_t, 3>& n = volume.dimensions;
-  const auto hasValue = [&](std::int64_t ii, std::int64_t jj, std::int64_t kk)
-  {
-    return ii >= 0 && ii < n[0] && jj >= 0 && jj < n[1] && kk >= 0 && kk < n[2] &&
-      ((empty.row(jj, kk)[ii >> 6] >> (ii & 63)) & 1) == 0;
-  };
-  const auto valueAt = [&](std::int64_t ii, std::int64_t jj, std::int64_t kk)
-  { return static_cast<double>(volume.samples[volume.index(ii, jj, kk)]); };
+  const auto isWithin = [&](std::int64_t jj, std::int64_t kk)
+  { return jj >= 0 && jj < n[1] && kk >= 0 && kk < n[2]; };
   // Relative to one of them, so that the mean of equal values is exactly that value.
   struct Mean
   {
@@ -65,24 +82,36 @@ Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, s
     }
   };
   Mean ofNeighbours, ofLines;
+  const Real* const here = volume.samples.data() + volume.index(i, j, k);
   for (int dk = -1; dk <= 1; ++dk)
   {
     for (int dj = -1; dj <= 1; ++dj)
     {
+      const unsigned around = isWithin(j + dj, k + dk)
+        ? valuesAround(empty.row(j + dj, k + dk), empty.wordsPerRow, i)
+        : 0;
+      if (around == 0)
+      {
+        continue;
+      }
+      const bool hasLines =
+        continuation == Continuation::Linear && isWithin(j + 3 * dj, k + 3 * dk);
+      const std::uint64_t* const second = hasLines ? empty.row(j + 2 * dj, k + 2 * dk) : nullptr;
+      const std::uint64_t* const third = hasLines ? empty.row(j + 3 * dj, k + 3 * dk) : nullptr;
       for (int di = -1; di <= 1; ++di)
       {
-        if (hasValue(i + di, j + dj, k + dk))
+        if ((around >> (di + 1) & 1u) == 0)
         {
-          const double value = valueAt(i + di, j + dj, k + dk);
-          ofNeighbours.add(value);
-          if (continuation == Continuation::Linear &&
-            hasValue(i + 2 * di, j + 2 * dj, k + 2 * dk) &&
-            hasValue(i + 3 * di, j + 3 * dj, k + 3 * dk))
-          {
-            const double second = valueAt(i + 2 * di, j + 2 * dj, k + 2 * dk);
-            const double third = valueAt(i + 3 * di, j + 3 * dj, k + 3 * dk);
-            ofLines.add(value + gentler(value - second, second - third));
-          }
+          continue;
+        }
+        const std::int64_t step = volume.index(i + di, j + dj, k + dk) - volume.index(i, j, k);
+        const auto value = static_cast<double>(here[step]);
+        ofNeighbours.add(value);
+        if (hasLines && i + 3 * di >= 0 && i + 3 * di < n[0] && hasValue(second, i + 2 * di) &&
+          hasValue(third, i + 3 * di))
+        {
+          const auto next = static_cast<double>(here[2 * step]);
+          ofLines.add(value + gentler(value - next, next - static_cast<double>(here[3 * step])));
         }
       }
     }
