@@ -13,8 +13,9 @@ namespace filters
 
 void BrickWorker::release() { *this = {}; }
 
-void BrickWorker::begin(Reader& request)
+void BrickWorker::begin(std::uint64_t number, Reader& request)
 {
+  this->Number = number;
   const auto mesh = request.Get<std::uint64_t>();
   const auto rules = request.Get<schlieren::BrickRules>();
   const auto facts = request.Get<SamplesOfPieces::Facts>();
@@ -46,9 +47,10 @@ void BrickWorker::begin(Reader& request)
   }
 }
 
-void BrickWorker::make(Reader& request, const DataPiece& own, std::vector<char>& answer)
+void BrickWorker::make(
+  std::uint64_t number, Reader& request, const DataPiece* own, std::vector<char>& answer)
 {
-  if (!this->Known)
+  if (!this->Known || number != this->Number)
   {
     throw std::runtime_error(
       "A rank does not have what it needs to make the medium any more. Update the filter again.");
@@ -75,7 +77,7 @@ void BrickWorker::make(Reader& request, const DataPiece& own, std::vector<char>&
 
 template <class Real>
 void BrickWorker::makeOf(const std::vector<TaskOfPieces>& tasks,
-  const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece& own,
+  const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece* own,
   std::vector<char>& answer)
 {
   const schlieren::BrickMaker<Real>& maker = *std::get<Maker<Real>>(this->Makers);
@@ -88,9 +90,9 @@ void BrickWorker::makeOf(const std::vector<TaskOfPieces>& tasks,
       DataPiece::Samples& samples = this->Known->samples(lattice);
       for (std::uint32_t other = 0; other <= task.others; ++other)
       {
-        if (other == task.othersBefore && task.hasOwn != 0)
+        if (other == task.othersBefore && task.hasOwn != 0 && own)
         {
-          samples.add(own.sample(lattice));
+          samples.add(own->sample(lattice));
         }
         if (other < task.others)
         {
@@ -99,7 +101,14 @@ void BrickWorker::makeOf(const std::vector<TaskOfPieces>& tasks,
             this->Known->rangesOfFields().size()));
         }
       }
-      bricks[n] = maker.make(task.task.request.place, task.task.request.negligible).toBytes();
+      try
+      {
+        bricks[n] = maker.make(task.task.request.place, task.task.request.negligible).toBytes();
+      }
+      catch (const NotSampled&)
+      {
+        // Rank 0 has all of the data, and makes it.
+      }
       samples = {};
     });
   for (const std::vector<char>& brick : bricks)

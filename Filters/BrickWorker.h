@@ -27,24 +27,26 @@ struct TaskOfPieces
   std::uint32_t hasOwn;       ///< its maker has something, too
 };
 
-/// Makes bricks on a rank, for BricksOfPieces on rank 0: of what it has of the data and of what others have.
+/// Makes bricks on a rank, for BricksOfRanks on rank 0: of what it has of the data and of what others have.
 class BrickWorker
 {
 public:
-  /// The request: which mesh the data are on, rules, facts about all of the data, ranges of fields, and where the gas ends.
-  void begin(Reader& request);
-  /// The request: the tasks. The answer: the bricks.
-  void make(Reader& request, const DataPiece& own, std::vector<char>& answer);
+  /// `number`: of the data. The request: which mesh they are on, rules, facts about all of the data, ranges of fields, and where
+  /// the gas ends.
+  void begin(std::uint64_t number, Reader& request);
+  /// The request: the tasks. The answer: the bricks; empty where more samples are needed. `own`: null where the rank has no data.
+  void make(std::uint64_t number, Reader& request, const DataPiece* own, std::vector<char>& answer);
   void release();
 
 private:
   template <class Real>
   void makeOf(const std::vector<TaskOfPieces>& tasks,
-    const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece& own,
+    const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece* own,
     std::vector<char>& answer);
   template <class Real>
   using Maker = std::unique_ptr<const schlieren::BrickMaker<Real>>;
 
+  std::uint64_t Number = 0;
   std::uint64_t Mesh = 0; // 0: one that is not kept
   std::shared_ptr<const GasBoundary> Boundary;
   std::shared_ptr<LatticesOfMesh> Lattices; // from the second step on the same mesh on

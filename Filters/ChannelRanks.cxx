@@ -4,7 +4,9 @@
 
 #include "Rays/RayWorker.h"
 
+#include <algorithm>
 #include <chrono>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -44,6 +46,13 @@ std::vector<char> answerFrom(schlieren::Channel& channel, std::size_t rank)
 
 } // namespace
 
+bool ChannelRanks::MayHelp() const
+{
+  return this->Help && !this->Channels.empty() &&
+    std::all_of(this->Channels.begin(), this->Channels.end(),
+      [](const schlieren::Channel* channel) { return channel && channel->isOpen(); });
+}
+
 std::vector<char> ChannelRanks::Respond(const std::vector<char>& request)
 {
   std::vector<char> answer;
@@ -56,7 +65,8 @@ void ChannelRanks::RunHere(const std::function<void()>& work) const
   vtkSMPTools::LocalScope(this->Threads, work);
 }
 
-std::vector<std::vector<char>> ChannelRanks::Request(std::vector<std::vector<char>> requests)
+std::vector<std::vector<char>> ChannelRanks::Request(
+  std::vector<std::vector<char>> requests, const std::function<void()>& meanwhile)
 {
   for (std::size_t rank = 1; rank < requests.size(); ++rank)
   {
@@ -81,12 +91,35 @@ std::vector<std::vector<char>> ChannelRanks::Request(std::vector<std::vector<cha
   {
     answers[0] = this->Respond(requests[0]);
   }
+  std::exception_ptr problem;
+  try
+  {
+    if (meanwhile)
+    {
+      meanwhile();
+    }
+  }
+  catch (...)
+  {
+    problem = std::current_exception();
+  }
   for (std::size_t rank = 1; rank < requests.size(); ++rank)
   {
     if (isAsked[rank])
     {
-      answers[rank] = answerFrom(*this->Channels[rank - 1], rank);
+      try // what is left would be taken for answers to the next request
+      {
+        answers[rank] = answerFrom(*this->Channels[rank - 1], rank);
+      }
+      catch (...)
+      {
+        problem = problem ? problem : std::current_exception();
+      }
     }
+  }
+  if (problem)
+  {
+    std::rethrow_exception(problem);
   }
   return answers;
 }

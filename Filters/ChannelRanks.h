@@ -9,6 +9,7 @@
 
 #include "vtkSMPTools.h"
 
+#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -31,14 +32,20 @@ public:
   /// What this process answers.
   std::vector<char> Respond(const std::vector<char>& request);
 
+  /// Whether other ranks make bricks of data that this one has alone.
+  void SetHelp(bool help) { this->Help = help; }
+  bool MayHelp() const override;
+
   std::size_t Count() const override { return this->Channels.size() + 1; }
-  std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) override;
+  std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests,
+    const std::function<void()>& meanwhile = nullptr) override;
   void RunHere(const std::function<void()>& work) const override;
 
 private:
   PieceWorker Own;
   vtkSMPTools::Config Threads;
   std::vector<schlieren::Channel*> Channels;
+  std::atomic<bool> Help{ false };
 };
 
 } // namespace filters

@@ -153,6 +153,31 @@ void MeshSource::addField(
   this->Fields.add(leaves, this->Cells.mesh(), progress);
 }
 
+void MeshSource::setHelpers(std::shared_ptr<PieceRanks> ranks)
+{
+  if (this->FlatAxis < 0 && !this->Lattices && this->Boundary->surface().size() <= mostSharedFaces)
+  {
+    this->Helpers = std::make_unique<BricksOfOneRank>(std::move(ranks), *this, this->Boundary,
+      [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });
+  }
+}
+
+DataPiece::Samples MeshSource::samplesOn(const schlieren::Lattice& lattice) const
+{
+  const auto size = static_cast<std::size_t>(lattice.size());
+  const auto fields = static_cast<std::size_t>(this->fields());
+  DataPiece::Samples samples{ std::vector<unsigned char>(size), std::vector<double>(size),
+    std::vector<double>(fields * size) };
+  CellsOfLattice cells;
+  this->Values.sample(
+    lattice, samples.values.data(), samples.found.data(), fields > 0 ? &cells : nullptr);
+  if (fields > 0)
+  {
+    this->Fields.sample(lattice, cells, samples.fields.data());
+  }
+  return samples;
+}
+
 void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
   schlieren::Place* places, float* distances, double* values) const
 {

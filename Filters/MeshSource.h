@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BricksOfOneRank.h"
 #include "CellSampler.h"
 #include "CellTree.h"
 #include "FieldsOfMesh.h"
@@ -68,6 +69,14 @@ public:
   void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     const WorkProgress& progress = WorkProgress());
 
+  /// Ranks that help to make bricks of the first time step, while they may. From the second on what is known of lattices stays
+  /// here.
+  void setHelpers(std::shared_ptr<PieceRanks> ranks);
+  const schlieren::BrickMakers* makers() const override
+  {
+    return this->Helpers && this->Helpers->mayHelp() ? this->Helpers.get() : nullptr;
+  }
+
   bool hasGas() const { return this->Cells.size() > 0; }
   /// Whether the bodies reach into the box of the gas.
   bool meetsBodies() const;
@@ -104,6 +113,9 @@ private:
   std::string Warning; // of the mesh
 
   FieldsOfMesh Fields;
+  std::unique_ptr<const BricksOfOneRank> Helpers; // may be null
+
+  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const;
 };
 
 } // namespace filters

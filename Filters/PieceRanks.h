@@ -21,9 +21,12 @@ public:
   virtual ~PieceRanks() = default;
 
   virtual std::size_t Count() const = 0;
-  /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. Throws
-  /// std::runtime_error where a rank does not answer.
-  virtual std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests) = 0;
+  /// Whether the others may be asked to help with data that rank 0 has alone.
+  virtual bool MayHelp() const = 0;
+  /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. `meanwhile`: what rank 0
+  /// does while others work. Throws std::runtime_error where a rank does not answer.
+  virtual std::vector<std::vector<char>> Request(
+    std::vector<std::vector<char>> requests, const std::function<void()>& meanwhile = nullptr) = 0;
   /// Runs what rank 0 does itself with as many threads as it may have.
   virtual void RunHere(const std::function<void()>& work) const = 0;
 };

@@ -210,13 +210,26 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       break;
     }
     case BeginBricks:
-      this->PieceOf(request);
-      this->Bricks.begin(request);
+    {
+      const auto number = request.Get<std::uint64_t>();
+      const auto arePieces = request.Get<bool>();
+      if (arePieces)
+      {
+        this->RequirePiece(number);
+      }
+      else
+      {
+        this->ReleasePiece();
+        this->Number = number;
+      }
+      this->Bricks.begin(number, request);
       break;
+    }
     case MakeBricks:
     {
-      const DataPiece& piece = this->PieceOf(request);
-      this->Bricks.make(request, piece, answer);
+      const auto number = request.Get<std::uint64_t>();
+      const bool hasPiece = this->Piece && number == this->Number;
+      this->Bricks.make(number, request, hasPiece ? this->Piece.get() : nullptr, answer);
       break;
     }
     case Forget:
@@ -538,12 +551,17 @@ Source PieceWorker::SourceOf(vtkDataObject* data, const std::vector<FieldMean::R
 
 const DataPiece& PieceWorker::PieceOf(Reader& request) const
 {
-  if (request.Get<std::uint64_t>() != this->Number || !this->Piece)
+  this->RequirePiece(request.Get<std::uint64_t>());
+  return *this->Piece;
+}
+
+void PieceWorker::RequirePiece(std::uint64_t number) const
+{
+  if (number != this->Number || !this->Piece)
   {
     throw std::runtime_error(
       "A rank does not have its piece of the input any more. Update the filter again.");
   }
-  return *this->Piece;
 }
 
 } // namespace filters

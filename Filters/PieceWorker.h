@@ -111,6 +111,7 @@ private:
   std::vector<FieldValues> FieldsOf(
     vtkDataObject* data, const Source& source, const std::vector<FieldMean::Range>& ranges) const;
   const DataPiece& PieceOf(Reader& request) const;
+  void RequirePiece(std::uint64_t number) const;
 
   vtkRefractiveIndex* Self;
   vtkSmartPointer<vtkDataObject> Data; // Later, or what is between the two

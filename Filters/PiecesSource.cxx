@@ -12,7 +12,6 @@
 #include "vtkDataObject.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,9 +23,6 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Of a boundary that all ranks have, some 200 bytes each.
-constexpr std::size_t mostFaces = 2000000;
 
 void extend(schlieren::Box& box, const schlieren::Box& by)
 {
@@ -83,8 +79,7 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   Outside outside, bool hasFields, PiecesMesh kept, const WorkProgress& progress)
   : Ranks(std::move(ranks))
 {
-  static std::atomic<std::uint64_t> sources{ 0 };
-  this->Number = ++sources;
+  this->Number = newNumberOfPieces();
   PieceRequests requests = requestsForPieces(*this->Ranks, this->Number, bodies, hasFields);
   this->RangesOfFields.resize(requests.fields, nowhere);
   progress.reach(0.2);
@@ -151,10 +146,10 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
   this->Facts.content = this->contentFrom(this->Facts.bounds, all);
   this->Known =
     std::make_unique<SamplesOfPieces>(this->Facts, this->RangesOfFields, this->Boundary);
-  if (this->Boundary->surface().size() <= mostFaces)
+  if (this->Boundary->surface().size() <= mostSharedFaces)
   {
-    this->Bricks = std::make_unique<BricksOfPieces>(this->Ranks, this->Number, this->BoundsOfRanks,
-      this->Mesh.keys.empty() ? 0 : this->Mesh.number, *this->Known);
+    this->Bricks = std::make_unique<BricksOfPieces>(this->Ranks, this->Number,
+      this->Mesh.keys.empty() ? 0 : this->Mesh.number, this->BoundsOfRanks, *this->Known);
   }
 }
 

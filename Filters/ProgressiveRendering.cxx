@@ -333,6 +333,17 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
     }
     return trace(monitor);
   }
+  // The thread that traces uses the connections to other ranks; what is made ahead must not.
+  const struct WithoutHelp
+  {
+    vtkRefractiveIndex* medium;
+    explicit WithoutHelp(vtkRefractiveIndex* of)
+      : medium(of)
+    {
+      this->medium->SetHelp(false);
+    }
+    ~WithoutHelp() { this->medium->SetHelp(hasOtherRanks()); }
+  } withoutHelp(this->Medium);
   std::atomic<bool> isTraced{ false }; // or has failed
   const std::thread::id here = std::this_thread::get_id();
   const auto traceWithRanks = [&](const schlieren::Monitor& ofTrace)

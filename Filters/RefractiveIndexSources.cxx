@@ -223,6 +223,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
+    made->setHelpers(this->Pieces);
     take(made);
   };
   try
@@ -263,6 +264,9 @@ void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> chann
 {
   this->Pieces->SetChannels(std::move(channels));
 }
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::SetHelp(bool help) { this->Pieces->SetHelp(help); }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::ReleasePieces()

@@ -27,10 +27,20 @@ schlieren::MediumSource::Content SamplesOfPieces::contentOf(const schlieren::Box
   return isAll ? this->All.content : this->box(box).content;
 }
 
+const DataPiece::Samples& SamplesOfPieces::at(const schlieren::Lattice& lattice) const
+{
+  const auto found = this->Samples.find(keyOf(lattice));
+  if (found == this->Samples.end())
+  {
+    throw NotSampled();
+  }
+  return found->second;
+}
+
 void SamplesOfPieces::sample(const schlieren::Lattice& lattice, double* refractivity,
   schlieren::Place* places, float* distances) const
 {
-  const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
+  const DataPiece::Samples& samples = this->at(lattice);
   const auto size = static_cast<std::size_t>(lattice.size());
   std::fill_n(refractivity, size, 0.);
   std::copy(samples.values.begin(), samples.values.end(), refractivity);
@@ -60,7 +70,7 @@ void SamplesOfPieces::sampleWithFields(const schlieren::Lattice& lattice, double
   schlieren::Place* places, float* distances, double* values) const
 {
   this->sample(lattice, refractivity, places, distances);
-  const std::vector<double>& fields = this->Samples.at(keyOf(lattice)).fields;
+  const std::vector<double>& fields = this->at(lattice).fields;
   std::fill_n(values, static_cast<std::size_t>(lattice.size()) * this->RangesOfFields.size(),
     std::numeric_limits<double>::quiet_NaN());
   std::copy(fields.begin(), fields.end(), values);

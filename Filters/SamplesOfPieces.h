@@ -12,13 +12,23 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace filters
 {
 
-/// What ranks have said of data that each of them has a piece of: of boxes and of lattices. Of others it knows nothing:
-/// std::out_of_range. Its const functions may be called from several threads.
+/// A lattice was not sampled.
+struct NotSampled : std::runtime_error
+{
+  NotSampled()
+    : std::runtime_error("A rank has not the samples that it needs. Update the filter again.")
+  {
+  }
+};
+
+/// What ranks have said of data that they have: of boxes and of lattices. It knows nothing of others: std::out_of_range or
+/// NotSampled. Its const functions may be called from several threads.
 class SamplesOfPieces : public schlieren::MediumSource
 {
 public:
@@ -30,6 +40,7 @@ public:
     std::array<double, 3> voxelShape{ 1, 1, 1 };
     std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     Content content{};
+    bool isRemote = true; ///< no rank has all of them
   };
   /// `lattices`: what is known of them from earlier time steps; may be null.
   SamplesOfPieces(const Facts& facts, std::vector<FieldRange> rangesOfFields,
@@ -75,7 +86,7 @@ public:
   void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
     schlieren::Place* places, float* distances, double* values) const override;
 
-  bool isRemote() const override { return true; }
+  bool isRemote() const override { return this->All.isRemote; }
 
 private:
   using BoxKey = std::array<double, 6>;
@@ -89,6 +100,7 @@ private:
   std::shared_ptr<LatticesOfMesh> Lattices;
   std::map<BoxKey, KnownBox> Boxes;
   std::map<LatticeKey, DataPiece::Samples> Samples;
+  const DataPiece::Samples& at(const schlieren::Lattice& lattice) const;
 };
 
 } // namespace filters

@@ -41,11 +41,13 @@ struct vtkSchlierenFilter::Internals
       this->Of.Meeting = &meeting;
       this->Of.Images.SetWorkers(meeting.GetWorkers());
       this->Medium->SetPieceChannels(meeting.GetChannels());
+      this->Medium->SetHelp(true);
     }
     ~WithWorkers()
     {
       this->Of.Meeting = nullptr;
       this->Of.Images.SetWorkers({});
+      this->Medium->SetHelp(false);
       this->Medium->SetPieceChannels({});
     }
     WithWorkers(const WithWorkers&) = delete;

@@ -528,6 +528,9 @@ public:
    */
   VTK_WRAPEXCLUDE bool CanUsePieces();
   VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
+  /// Whether the other ranks, while their channels are set, help to make the medium of data that rank 0 has alone. No other thread
+  /// may use the channels then.
+  VTK_WRAPEXCLUDE void SetHelp(bool help);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
     SourceContents contents = REFRACTIVITY_ALONE);

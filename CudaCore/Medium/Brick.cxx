@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/Brick.h"
 
+#include "Device/Parallel.h"
 #include "Medium/BrickCoefficients.h"
 #include "Medium/BrickErrors.h"
 #include "Medium/BrickMakers.h"
@@ -514,10 +515,13 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
 }
 
 template <class Real>
-std::vector<Brick<Real>> BrickMaker<Real>::prepare(const std::vector<BrickRequest>& bricks) const
+std::vector<Brick<Real>> BrickMaker<Real>::prepare(
+  const std::vector<BrickRequest>& bricks, int threads) const
 {
+  const bool isRemote = source_.isRemote();
+  const BrickMakers* const makers = source_.makers();
   std::vector<Brick<Real>> made;
-  if (!source_.isRemote())
+  if (!isRemote && !makers)
   {
     return made;
   }
@@ -527,7 +531,7 @@ std::vector<Brick<Real>> BrickMaker<Real>::prepare(const std::vector<BrickReques
     boxes.push_back(boxWithApron(brick.place));
   }
   source_.prepareContents(boxes);
-  const BrickMakers* const makers = source_.makers();
+  const bool areLatticesFixed = isRemote || source_.dependsOnLattice();
   std::vector<BrickTask> tasks;
   std::vector<std::size_t> sampled;
   for (std::size_t n = 0; n < bricks.size(); ++n)
@@ -535,7 +539,8 @@ std::vector<Brick<Real>> BrickMaker<Real>::prepare(const std::vector<BrickReques
     Outline outline = outlineOf(bricks[n].place, bricks[n].negligible);
     if (outline.isSampled)
     {
-      const int margin = preparedMarginOf(outline.hasEdges, outline.hasFields);
+      const int margin = areLatticesFixed ? preparedMarginOf(outline.hasEdges, outline.hasFields)
+                                          : marginOf(outline.hasEdges, outline.hasFields);
       tasks.push_back(
         { bricks[n], outline.box, latticeOf(bricks[n].place, margin), outline.hasEdges });
       sampled.push_back(n);
@@ -552,12 +557,35 @@ std::vector<Brick<Real>> BrickMaker<Real>::prepare(const std::vector<BrickReques
     source_.prepareSamples(lattices);
     return {};
   }
-  const std::vector<std::vector<char>> bytes = makers->make(rules_, tasks);
+  std::vector<unsigned char> isMade(tasks.size(), 0);
+  const auto makeHere = [&](const std::vector<std::size_t>& numbers)
+  {
+    parallelFor(static_cast<std::int64_t>(numbers.size()), 1, threads,
+      [&](std::int64_t first, std::int64_t last)
+      {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const std::size_t n = numbers[static_cast<std::size_t>(i)];
+          made[sampled[n]] = make(tasks[n].request.place, tasks[n].request.negligible);
+          isMade[n] = 1;
+        }
+      });
+  };
+  const std::vector<std::vector<char>> bytes = makers->make(rules_, tasks, makeHere);
+  std::vector<std::size_t> left;
   for (std::size_t n = 0; n < tasks.size(); ++n)
   {
-    made[sampled[n]] = Brick<Real>::fromBytes(bytes.at(n),
-      static_cast<std::size_t>(samplesPerBrick()), static_cast<std::size_t>(source_.fields()));
+    if (!bytes.at(n).empty())
+    {
+      made[sampled[n]] = Brick<Real>::fromBytes(bytes[n],
+        static_cast<std::size_t>(samplesPerBrick()), static_cast<std::size_t>(source_.fields()));
+    }
+    else if (!isMade[n])
+    {
+      left.push_back(n);
+    }
   }
+  makeHere(left);
   return made;
 }
 

@@ -121,9 +121,9 @@ public:
 
   Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
 
-  /// What is about to be made. Has to be called before, by one thread, where the source is remote. Returns the bricks where others
-  /// have made them, otherwise none.
-  std::vector<Brick<Real>> prepare(const std::vector<BrickRequest>& bricks) const;
+  /// What is about to be made. Has to be called before, by one thread. Returns the bricks where others help to make them, otherwise
+  /// none.
+  std::vector<Brick<Real>> prepare(const std::vector<BrickRequest>& bricks, int threads) const;
 
   int apron() const { return apron_; }
   BrickShape shape() const { return shape_; }

@@ -6,7 +6,9 @@
 
 #include "Medium/Brick.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace schlieren
@@ -30,10 +32,12 @@ public:
   virtual ~BrickMakers() = default;
 
   virtual std::int32_t count() const = 0;
-  /// Each as Brick::toBytes(), in the order of the tasks. What the source says of their boxes is prepared. Called by one thread.
-  /// Throws where a process does not answer.
-  virtual std::vector<std::vector<char>> make(
-    const BrickRules& rules, const std::vector<BrickTask>& tasks) const = 0;
+  /// Makes bricks here, by the numbers of their tasks.
+  using MakeHere = std::function<void(const std::vector<std::size_t>& tasks)>;
+  /// Each as Brick::toBytes(), in the order of the tasks; empty: it has been made here, or is to be. Of a remote source what it
+  /// says of their boxes is prepared. Called by one thread. Throws where a process does not answer.
+  virtual std::vector<std::vector<char>> make(const BrickRules& rules,
+    const std::vector<BrickTask>& tasks, const MakeHere& makeHere) const = 0;
 };
 
 } // namespace schlieren

@@ -92,7 +92,7 @@ public:
   virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
   /// The same of sample() and lattices.
   virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
-  /// Of a remote source: those that make its bricks, for which no samples are prepared; null: there are none.
+  /// Processes that make its bricks, at this time; null: there are none. Of a remote source no samples are prepared for them.
   virtual const BrickMakers* makers() const { return nullptr; }
 
   /// Further fields, whose gradients rays may gather.

@@ -304,8 +304,9 @@ void MediumTree<Real>::findBricks(const View& view)
   work_.boxes.clear();
   const BrickMakers* const makers = source_->makers();
   const std::size_t ofAll = makers ? bricksOfMaker * static_cast<std::size_t>(makers->count()) : 0;
-  const std::size_t atOnce =
-    source_->isRemote() ? std::clamp(ofAll, remoteBricksAtOnce, bricksAtOnce) : bricksAtOnce;
+  const std::size_t atOnce = makers || source_->isRemote()
+    ? std::clamp(ofAll, remoteBricksAtOnce, bricksAtOnce)
+    : bricksAtOnce;
   while (work_.tasksBegun < work_.tasks.size() && requests.size() < atOnce)
   {
     const Task& task = work_.tasks[work_.tasksBegun++];
@@ -322,7 +323,7 @@ void MediumTree<Real>::findBricks(const View& view)
       }
     }
   }
-  work_.bricks = maker_.prepare(requests);
+  work_.bricks = maker_.prepare(requests, settings_.threads);
   work_.areMade = !work_.bricks.empty();
   work_.bricks.resize(requests.size());
   work_.requests = std::move(requests);

@@ -277,6 +277,57 @@ TEST(BricksOfPieces, AreTheSameWhoeverMakesThem)
   }
 }
 
+// Rank 0 has all of the data. With walls, a front, which needs more samples, and fields.
+TEST(BricksOfOneRank, AreTheSameWhoeverMakesThem)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.3);
+  sphere->SetCenter(0.5, 0.2, 0);
+  sphere->Update();
+  for (const bool hasFields : { false, true })
+  {
+    const Data mesh = meshOf({ 0, 40, 0, 40, 0, 40 });
+    addPointArray(vtkDataSet::SafeDownCast(mesh), "N",
+      [](const Vec& x) { return ball(x) + (x[0] + 0.8 * x[1] + 0.6 * x[2] > 1.5 ? 1e-4 : 0); });
+    Ranks ranks({ mesh, nullptr, nullptr });
+    vtkRefractiveIndex* const first = ranks.Filters[0];
+    askForFields(first, { "warmth" });
+    const auto make = [&]
+    {
+      std::string warning;
+      return first->MakeSource(mesh, sphere->GetOutput(), warning,
+        hasFields ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE);
+    };
+    const auto source = make();
+    ASSERT_EQ(source->makers(), nullptr);
+    const auto alone = treeOf<float>(source), alsoAlone = treeOf<float>(source);
+    expectIdentical(alone, alsoAlone);
+    first->SetHelp(true);
+    ASSERT_NE(source->makers(), nullptr);
+    expectIdentical(treeOf<float>(source), alone);
+    expectIdentical(treeOf<double>(source),
+      [&]
+      {
+        first->SetHelp(false);
+        auto tree = treeOf<double>(source);
+        first->SetHelp(true);
+        return tree;
+      }());
+    for (const auto& channel : ranks.Channels)
+    {
+      EXPECT_GT(channel->Bytes, 500000u);
+    }
+    // What is known of lattices stays on rank 0 from the second step on.
+    EXPECT_EQ(make()->makers(), nullptr);
+    // Where a rank is not there, rank 0 works alone.
+    ranks.Channels[1]->AnswersLeft = 1;
+    treeOf<float>(source);
+    EXPECT_FALSE(ranks.Channels[1]->isOpen());
+    EXPECT_EQ(source->makers(), nullptr);
+    expectIdentical(treeOf<float>(source), alone);
+  }
+}
+
 TEST(BricksOfPieces, ARankThatLeavesIsAMistake)
 {
   const Case data = cases()[0];
