@@ -21,7 +21,7 @@ public:
   virtual ~PieceRanks() = default;
 
   virtual std::size_t Count() const = 0;
-  /// Whether the others may be asked to help with data that rank 0 has alone.
+  /// Whether the others may help with data that rank 0 has alone.
   virtual bool MayHelp() const = 0;
   /// One request for each rank, and its answer; both are empty for ranks that nothing is requested of. `meanwhile`: what rank 0
   /// does while others work. Throws std::runtime_error where a rank does not answer.

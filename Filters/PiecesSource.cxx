@@ -298,19 +298,19 @@ void PiecesSource::askAbout(PieceWorker::Kind kind, const std::vector<Item>& ite
   std::vector<std::vector<char>> requests(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
-    std::vector<Item> asked;
+    std::vector<Item> requested;
     for (std::size_t n = 0; n < items.size(); ++n)
     {
       if (meet(boxOf(items[n]), this->BoundsOfRanks[rank]))
       {
         ofRanks[rank].push_back(n);
-        asked.push_back(items[n]);
+        requested.push_back(items[n]);
       }
     }
-    if (!asked.empty())
+    if (!requested.empty())
     {
       requests[rank] = this->request(kind);
-      putAll(asked, requests[rank]);
+      putAll(requested, requests[rank]);
     }
   }
   const auto answers = this->request(std::move(requests));

@@ -18,7 +18,7 @@ namespace schlieren
 struct BrickTask
 {
   BrickRequest request;
-  Box box; ///< whose content its maker asks for
+  Box box; ///< whose content its maker needs
   Lattice lattice;
   bool hasEdges; ///< so that the lattice's distances are needed, too
 };
