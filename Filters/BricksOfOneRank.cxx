@@ -37,10 +37,10 @@ std::vector<schlieren::MediumSource::FieldRange> rangesOfFields(
 
 } // namespace
 
-BricksOfOneRank::BricksOfOneRank(std::shared_ptr<PieceRanks> ranks,
+BricksOfOneRank::BricksOfOneRank(std::shared_ptr<PieceRanks> ranks, std::uint64_t mesh,
   const schlieren::MediumSource& source, std::shared_ptr<const GasBoundary> boundary,
   Sampler sampler)
-  : BricksOfRanks(std::move(ranks), newNumberOfPieces(), 0, false)
+  : BricksOfRanks(std::move(ranks), newNumberOfPieces(), mesh, false)
   , Source(source)
   , Known(factsOf(source), rangesOfFields(source, source.bounds()), std::move(boundary))
   , SamplesOn(std::move(sampler))

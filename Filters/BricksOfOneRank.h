@@ -17,9 +17,10 @@ class BricksOfOneRank : public BricksOfRanks
 public:
   /// What rank 0 has on a lattice; called from several threads.
   using Sampler = std::function<DataPiece::Samples(const schlieren::Lattice& lattice)>;
-  /// `source`: must outlive this.
-  BricksOfOneRank(std::shared_ptr<PieceRanks> ranks, const schlieren::MediumSource& source,
-    std::shared_ptr<const GasBoundary> boundary, Sampler sampler);
+  /// `mesh`: see BricksOfRanks. `source`: must outlive this.
+  BricksOfOneRank(std::shared_ptr<PieceRanks> ranks, std::uint64_t mesh,
+    const schlieren::MediumSource& source, std::shared_ptr<const GasBoundary> boundary,
+    Sampler sampler);
 
   /// False, too, once a rank could not.
   bool mayHelp() const { return !this->HasFailed && this->Ranks->MayHelp(); }

@@ -76,6 +76,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
   , Warning(warningOfInvertedCells(this->Cells))
+  , Number(newNumberOfPieces())
 {
 }
 
@@ -90,6 +91,7 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
   , Warning(mesh.warning)
+  , Number(mesh.number)
 {
   this->Lattices->beginStep();
 }
@@ -155,10 +157,11 @@ void MeshSource::addField(
 
 void MeshSource::setHelpers(std::shared_ptr<PieceRanks> ranks)
 {
-  if (this->FlatAxis < 0 && !this->Lattices && this->Boundary->surface().size() <= mostSharedFaces)
+  if (this->FlatAxis < 0 && this->Boundary->surface().size() <= mostSharedFaces)
   {
-    this->Helpers = std::make_unique<BricksOfOneRank>(std::move(ranks), *this, this->Boundary,
-      [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });
+    this->Helpers =
+      std::make_unique<BricksOfOneRank>(std::move(ranks), this->Number, *this, this->Boundary,
+        [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });
   }
 }
 

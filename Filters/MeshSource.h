@@ -33,6 +33,7 @@ struct SourceMesh
   std::shared_ptr<const GasBoundary> boundary;
   std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
   std::string warning;
+  std::uint64_t number = 0; // of this mesh; what other ranks keep of it has it, too
 };
 
 /// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
@@ -54,7 +55,7 @@ public:
     const WorkProgress& progress, int flatAxis = -1);
   SourceMesh mesh() const
   {
-    return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Warning };
+    return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Warning, this->Number };
   }
 
   /// Whether walls without thickness, which are known by values, are the same with the values of these leaves.
@@ -69,8 +70,7 @@ public:
   void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     const WorkProgress& progress = WorkProgress());
 
-  /// Ranks that help to make bricks of the first time step, while they may. From the second on what is known of lattices stays
-  /// here.
+  /// Ranks that help to make bricks, while they may.
   void setHelpers(std::shared_ptr<PieceRanks> ranks);
   const schlieren::BrickMakers* makers() const override
   {
@@ -110,7 +110,8 @@ private:
   int FlatAxis;
   double Ambient; // NaN: there is no boundary
   schlieren::Box Bounds;
-  std::string Warning; // of the mesh
+  std::string Warning;  // of the mesh
+  std::uint64_t Number; // likewise
 
   FieldsOfMesh Fields;
   std::unique_ptr<const BricksOfOneRank> Helpers; // may be null
