@@ -22,7 +22,7 @@ BoundaryFaces facesOf(const AmrField& field)
 AmrSource::AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies,
   Outside outside, Tally& tally, const WorkProgress& progress)
   : Refractivity(levels, source, tally, progress.part(0, 0.9))
-  , Boundary(facesOf(this->Refractivity), bodies, outside)
+  , Boundary(std::make_shared<const GasBoundary>(facesOf(this->Refractivity), bodies, outside))
 {
   progress.reach(1);
 }
@@ -31,7 +31,7 @@ schlieren::MediumSource::Content AmrSource::contentOf(const schlieren::Box& box)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Content content{ infinity, -infinity, { infinity, infinity, infinity }, false, true, false };
-  this->Boundary.findPlaces(
+  this->Boundary->findPlaces(
     box, [this](const Point& place) { return this->Refractivity.hasGasAt(place); }, content);
   if (content.hasGas)
   {
@@ -48,7 +48,17 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
 {
   this->Refractivity.sample(lattice, { { 0, 0, 0 }, lattice.points }, refractivity);
   const std::vector<unsigned char> hasGas = this->Refractivity.gasAt(lattice);
-  this->Boundary.sample(lattice, hasGas.data(), places, distances);
+  this->Boundary->sample(lattice, hasGas.data(), places, distances);
+}
+
+DataPiece::Samples AmrSource::samplesOn(const schlieren::Lattice& lattice) const
+{
+  const auto size = static_cast<std::size_t>(lattice.size());
+  DataPiece::Samples samples{ this->Refractivity.gasAt(lattice), std::vector<double>(size),
+    std::vector<double>(this->Fields.size() * size) };
+  this->Refractivity.sample(lattice, { { 0, 0, 0 }, lattice.points }, samples.values.data());
+  this->sampleFields(lattice, samples.fields.data());
+  return samples;
 }
 
 void AmrSource::addField(const AmrLevels& levels, const Source& source)
@@ -68,6 +78,11 @@ void AmrSource::sampleWithFields(const schlieren::Lattice& lattice, double* refr
   schlieren::Place* places, float* distances, double* values) const
 {
   this->sample(lattice, refractivity, places, distances);
+  this->sampleFields(lattice, values);
+}
+
+void AmrSource::sampleFields(const schlieren::Lattice& lattice, double* values) const
+{
   const auto size = static_cast<std::size_t>(lattice.size());
   for (const auto& field : this->Fields)
   {

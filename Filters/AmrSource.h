@@ -5,6 +5,7 @@
 #include "AmrField.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
+#include "HelpedSource.h"
 #include "Medium/MediumSource.h"
 #include "WorkProgress.h"
 
@@ -18,7 +19,7 @@ namespace filters
 
 /// The refractivity of adaptive meshes whose cells hold the values, for the tracer. Solid cells are walls, as they stand:
 /// with the edges of cells.
-class AmrSource : public schlieren::MediumSource
+class AmrSource : public HelpedSource
 {
 public:
   /// `levels`: turned, where they are flat (see turnedAcrossZ). `bodies`: may be null.
@@ -30,7 +31,7 @@ public:
 
   bool hasGas() const { return this->Refractivity.ownCells() > 0; }
   /// Whether the bodies reach into the box of the gas.
-  bool meetsBodies() const { return this->Boundary.hasBodiesIn(this->bounds()); }
+  bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
   schlieren::Box bounds() const override { return this->Refractivity.bounds(); }
   double ambient() const override { return weightedMedian(this->Refractivity.outerValues()); }
@@ -51,8 +52,12 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
+  std::shared_ptr<const GasBoundary> sharedBoundary() const override { return this->Boundary; }
+  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const override;
+  void sampleFields(const schlieren::Lattice& lattice, double* values) const;
+
   AmrField Refractivity;
-  GasBoundary Boundary;
+  std::shared_ptr<const GasBoundary> Boundary;
   std::vector<std::unique_ptr<const AmrField>> Fields;
 };
 

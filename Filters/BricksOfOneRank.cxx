@@ -20,7 +20,7 @@ SamplesOfPieces::Facts factsOf(const schlieren::MediumSource& source)
   facts.voxelShape = source.voxelShape();
   facts.direction = source.direction();
   facts.content = source.contentOf(facts.bounds);
-  facts.isRemote = false;
+  facts.dependsOnLattice = source.dependsOnLattice();
   return facts;
 }
 

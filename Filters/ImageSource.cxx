@@ -19,7 +19,7 @@ ImageSource::ImageSource(
 {
   progress.reach(0.8);
   this->Boundary =
-    std::make_unique<const GasBoundary>(this->Piece.faces(), this->Bodies, Outside::Passes);
+    std::make_shared<const GasBoundary>(this->Piece.faces(), this->Bodies, Outside::Passes);
   this->Bodies = nullptr;
 }
 

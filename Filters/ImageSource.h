@@ -3,6 +3,7 @@
 #pragma once
 
 #include "GasBoundary.h"
+#include "HelpedSource.h"
 #include "ImagePiece.h"
 #include "Medium/MediumSource.h"
 #include "WorkProgress.h"
@@ -21,7 +22,7 @@ namespace filters
 /// The refractivity of an image with Bodies in it, box by box, for the tracer. The silhouettes of bodies are where their
 /// surfaces are: as the grid that an image is without them, the medium would be blocked voxel by voxel. Between the image's
 /// points it is the same as in the grid: the quadratic spline (see ImagePiece).
-class ImageSource : public schlieren::MediumSource
+class ImageSource : public HelpedSource
 {
 public:
   /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: not null. Throws
@@ -50,10 +51,16 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
+  std::shared_ptr<const GasBoundary> sharedBoundary() const override { return this->Boundary; }
+  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const override
+  {
+    return this->Piece.sample(lattice);
+  }
+
   vtkSmartPointer<vtkDataObject> Bodies; // in the image's axes; null once the rest is made
   ImagePiece Piece;
   double Ambient;
-  std::unique_ptr<const GasBoundary> Boundary;
+  std::shared_ptr<const GasBoundary> Boundary;
 };
 
 } // namespace filters

@@ -155,16 +155,6 @@ void MeshSource::addField(
   this->Fields.add(leaves, this->Cells.mesh(), progress);
 }
 
-void MeshSource::setHelpers(std::shared_ptr<PieceRanks> ranks)
-{
-  if (this->FlatAxis < 0 && this->Boundary->surface().size() <= mostSharedFaces)
-  {
-    this->Helpers =
-      std::make_unique<BricksOfOneRank>(std::move(ranks), this->Number, *this, this->Boundary,
-        [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });
-  }
-}
-
 DataPiece::Samples MeshSource::samplesOn(const schlieren::Lattice& lattice) const
 {
   const auto size = static_cast<std::size_t>(lattice.size());

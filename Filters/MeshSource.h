@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BricksOfOneRank.h"
 #include "CellSampler.h"
 #include "CellTree.h"
 #include "FieldsOfMesh.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
+#include "HelpedSource.h"
 #include "LatticesOfMesh.h"
 
 #include "vtkSmartPointer.h"
@@ -41,7 +41,7 @@ schlieren::Box boundsOf(
   const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
 /// The refractivity of meshes, box by box, for the tracer.
-class MeshSource : public schlieren::MediumSource
+class MeshSource : public HelpedSource
 {
 public:
   /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null. `flatAxis`: -1, or that across which
@@ -70,13 +70,6 @@ public:
   void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     const WorkProgress& progress = WorkProgress());
 
-  /// Ranks that help to make bricks, while they may.
-  void setHelpers(std::shared_ptr<PieceRanks> ranks);
-  const schlieren::BrickMakers* makers() const override
-  {
-    return this->Helpers && this->Helpers->mayHelp() ? this->Helpers.get() : nullptr;
-  }
-
   bool hasGas() const { return this->Cells.size() > 0; }
   /// Whether the bodies reach into the box of the gas.
   bool meetsBodies() const;
@@ -102,6 +95,10 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
+  std::shared_ptr<const GasBoundary> sharedBoundary() const override { return this->Boundary; }
+  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const override;
+  std::uint64_t meshNumber() const override { return this->Number; }
+
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;
   CellSampler Values;
@@ -114,9 +111,6 @@ private:
   std::uint64_t Number; // likewise
 
   FieldsOfMesh Fields;
-  std::unique_ptr<const BricksOfOneRank> Helpers; // may be null
-
-  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const;
 };
 
 } // namespace filters

@@ -109,6 +109,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
       forFieldImages(this, input, refractivity, threads,
         [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
     }
+    made->setHelpers(this->Pieces);
     progress.reach(1);
   };
   try
@@ -177,6 +178,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
         bringToCells(field);
         made->addField(*levels, field.source);
       }
+      made->setHelpers(this->Pieces);
       take(made);
       return;
     }

@@ -40,7 +40,7 @@ public:
     std::array<double, 3> voxelShape{ 1, 1, 1 };
     std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     Content content{};
-    bool isRemote = true; ///< no rank has all of them
+    bool dependsOnLattice = true; ///< see MediumSource; likewise where no rank has all of the data
   };
   /// `lattices`: what is known of them from earlier time steps; may be null.
   SamplesOfPieces(const Facts& facts, std::vector<FieldRange> rangesOfFields,
@@ -86,7 +86,7 @@ public:
   void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
     schlieren::Place* places, float* distances, double* values) const override;
 
-  bool isRemote() const override { return this->All.isRemote; }
+  bool dependsOnLattice() const override { return this->All.dependsOnLattice; }
 
 private:
   using BoxKey = std::array<double, 6>;

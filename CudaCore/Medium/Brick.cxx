@@ -532,11 +532,20 @@ std::vector<Brick<Real>> BrickMaker<Real>::prepare(
   }
   source_.prepareContents(boxes);
   const bool areLatticesFixed = isRemote || source_.dependsOnLattice();
+  std::vector<Outline> outlines(bricks.size());
+  parallelFor(static_cast<std::int64_t>(bricks.size()), 1, threads,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      for (auto n = static_cast<std::size_t>(first); n < static_cast<std::size_t>(last); ++n)
+      {
+        outlines[n] = outlineOf(bricks[n].place, bricks[n].negligible);
+      }
+    });
   std::vector<BrickTask> tasks;
   std::vector<std::size_t> sampled;
   for (std::size_t n = 0; n < bricks.size(); ++n)
   {
-    Outline outline = outlineOf(bricks[n].place, bricks[n].negligible);
+    Outline& outline = outlines[n];
     if (outline.isSampled)
     {
       const int margin = areLatticesFixed ? preparedMarginOf(outline.hasEdges, outline.hasFields)
@@ -563,9 +572,9 @@ std::vector<Brick<Real>> BrickMaker<Real>::prepare(
     parallelFor(static_cast<std::int64_t>(numbers.size()), 1, threads,
       [&](std::int64_t first, std::int64_t last)
       {
-        for (std::int64_t i = first; i < last; ++i)
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
         {
-          const std::size_t n = numbers[static_cast<std::size_t>(i)];
+          const std::size_t n = numbers[i];
           made[sampled[n]] = make(tasks[n].request.place, tasks[n].request.negligible);
           isMade[n] = 1;
         }

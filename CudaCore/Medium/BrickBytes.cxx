@@ -6,7 +6,6 @@
 
 #include "Medium/CountedBytes.h"
 
-#include <algorithm>
 #include <cstring>
 #include <type_traits>
 

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BricksOfOneRank.h"
+
+#include "Medium/MediumSource.h"
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+namespace filters
+{
+
+/// A source that rank 0 has all of, of whose samples other ranks may make bricks.
+class HelpedSource : public schlieren::MediumSource
+{
+public:
+  /// From now on those that may help do.
+  void setHelpers(std::shared_ptr<PieceRanks> ranks)
+  {
+    const std::shared_ptr<const GasBoundary> boundary = this->sharedBoundary();
+    if (!this->isFlat() && boundary->surface().size() <= mostSharedFaces)
+    {
+      this->Helpers = std::make_unique<BricksOfOneRank>(std::move(ranks), this->meshNumber(), *this,
+        boundary, [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });
+    }
+  }
+  const schlieren::BrickMakers* makers() const override
+  {
+    return this->Helpers && this->Helpers->mayHelp() ? this->Helpers.get() : nullptr;
+  }
+
+private:
+  /// Where the gas ends.
+  virtual std::shared_ptr<const GasBoundary> sharedBoundary() const = 0;
+  /// What sample() has before it knows that, and the fields.
+  virtual DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const = 0;
+  /// See BricksOfRanks.
+  virtual std::uint64_t meshNumber() const { return 0; }
+
+  std::unique_ptr<const BricksOfOneRank> Helpers; // may be null
+};
+
+} // namespace filters
