@@ -92,12 +92,12 @@ void BrickWorker::makeOf(const std::vector<TaskOfPieces>& tasks,
       {
         if (other == task.othersBefore && task.hasOwn != 0 && own)
         {
-          samples.add(own->sample(lattice));
+          samples.Add(own->sample(lattice));
         }
         if (other < task.others)
         {
           Reader reader(ofOthers[n][other]);
-          samples.add(DataPiece::Samples::Get(reader, static_cast<std::size_t>(lattice.size()),
+          samples.Add(DataPiece::Samples::Get(reader, static_cast<std::size_t>(lattice.size()),
             this->Known->rangesOfFields().size()));
         }
       }

@@ -22,7 +22,7 @@ bool meet(const schlieren::Box& a, const schlieren::Box& b)
   return meet;
 }
 
-void DataPiece::Samples::add(Samples other)
+void DataPiece::Samples::Add(Samples other)
 {
   if (this->found.empty())
   {

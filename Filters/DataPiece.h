@@ -81,7 +81,7 @@ public:
     std::vector<double> fields{};
 
     /// Of another piece: of points that both hold, these count.
-    void add(Samples other);
+    void Add(Samples other);
 
     void Put(std::vector<char>& message) const;
     /// What Put() has written, of so many points and fields. Throws std::runtime_error where that is something else.

@@ -394,7 +394,7 @@ void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattice
         const schlieren::Lattice& lattice = lattices[number];
         const auto bytes = answer.GetAll<std::vector<char>>();
         Reader samples(bytes);
-        this->Known->samples(lattice).add(DataPiece::Samples::Get(
+        this->Known->samples(lattice).Add(DataPiece::Samples::Get(
           samples, static_cast<std::size_t>(lattice.size()), this->RangesOfFields.size()));
       }
     });

@@ -1,18 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // The fields that tint an image of data on several ranks, against those of the same data on one.
-#include "Pieces.h"
-#include "SameTree.h"
+#include "PieceCases.h"
 
-#include "Medium/BrickMakers.h"
-
-#include "vtkAppendFilter.h"
-#include "vtkCellData.h"
-#include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPointData.h"
-#include "vtkSphereSource.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <functional>
 #include <limits>
@@ -20,102 +11,6 @@
 
 namespace
 {
-
-using Extent = std::array<int, 6>;
-
-constexpr Extent all{ 0, 24, 0, 20, 0, 20 };
-
-/// Its range is not that of any part.
-double warmth(const Vec& x) { return std::sin(2 * x[0]) + 0.3 * x[1] * x[2]; }
-
-vtkSmartPointer<vtkImageData> imageOf(const Extent& extent)
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
-  image->SetSpacing(0.09, 0.1, 0.1);
-  image->SetOrigin(-1.2, -1, -1);
-  addPointArray(image, "N", ball);
-  addPointArray(image, "warmth", warmth);
-  addCellArray(image, "N of cells", ball);
-  addCellArray(image, "warmth of cells", warmth);
-  return image;
-}
-
-Data meshOf(const Extent& extent)
-{
-  vtkNew<vtkAppendFilter> append;
-  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  append->AddInputData(imageOf(extent));
-  append->Update();
-  return append->GetOutput();
-}
-
-/// Some of several blocks.
-Data blocksOf(const std::vector<Extent>& extents, std::size_t first, std::size_t count)
-{
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  blocks->SetNumberOfBlocks(static_cast<unsigned>(extents.size()));
-  for (std::size_t n = first; n < first + count; ++n)
-  {
-    blocks->SetBlock(static_cast<unsigned>(n), imageOf(extents[n]));
-  }
-  return blocks;
-}
-
-void askForFields(vtkRefractiveIndex* filter, const std::vector<const char*>& fields)
-{
-  filter->ClearFields();
-  for (const char* field : fields)
-  {
-    filter->AddField(field);
-  }
-}
-
-struct Case
-{
-  const char* name;
-  Data whole;
-  std::vector<Data> parts;
-  bool ofCells;
-  vtkSmartPointer<vtkDataObject> bodies;
-};
-
-std::vector<Case> cases()
-{
-  const std::vector<Extent> extents{ { 0, 9, 0, 20, 0, 20 }, { 9, 13, 0, 20, 0, 20 },
-    { 13, 24, 0, 20, 0, 20 } };
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetRadius(0.3);
-  sphere->SetCenter(0.5, 0.2, 0);
-  sphere->Update();
-  std::vector<Case> found{ { "mesh", meshOf(all), {}, false, nullptr },
-    { "mesh of cells", meshOf(all), {}, true, nullptr },
-    { "image", imageOf(all), {}, false, sphere->GetOutput() },
-    { "blocks", blocksOf(extents, 0, 3), {}, true, nullptr },
-    { "scattered blocks", {}, {}, true, nullptr } };
-  for (std::size_t n = 0; n < extents.size(); ++n)
-  {
-    found[0].parts.push_back(meshOf(extents[n]));
-    found[1].parts.push_back(meshOf(extents[n]));
-    found[2].parts.push_back(imageOf(extents[n]));
-    found[3].parts.push_back(blocksOf(extents, n, 1));
-  }
-  std::array<std::vector<Extent>, 3> scattered; // of two ranks, and of both
-  for (int n = 0; n < 64; ++n)
-  {
-    const int x = n % 4 * 6, y = n / 4 % 4 * 5, z = n / 16 * 5;
-    const Extent extent{ x, x + 6, y, y + 5, z, z + 5 };
-    scattered[static_cast<std::size_t>((n + n / 4 + n / 16) % 2)].push_back(extent);
-    scattered[2].push_back(extent);
-  }
-  found[4].whole = blocksOf(scattered[2], 0, 64);
-  found[4].parts = { blocksOf(scattered[0], 0, 32), blocksOf(scattered[1], 0, 32) };
-  for (Case& one : found)
-  {
-    one.parts.insert(one.parts.begin() + 1, nullptr); // this rank has nothing
-  }
-  return found;
-}
 
 /// The largest difference of a field anywhere; of its range, which is 0 to 1.
 void expectSameFields(
@@ -176,195 +71,11 @@ void expectSameFields(
   }
 }
 
-/// Data in pieces whose bricks rank 0 makes alone.
-class WithoutMakers : public schlieren::MediumSource
-{
-public:
-  explicit WithoutMakers(std::shared_ptr<const schlieren::MediumSource> pieces)
-    : Pieces(std::move(pieces))
-  {
-  }
-  schlieren::Box bounds() const override { return this->Pieces->bounds(); }
-  double ambient() const override { return this->Pieces->ambient(); }
-  std::array<double, 3> voxelShape() const override { return this->Pieces->voxelShape(); }
-  Content contentOf(const schlieren::Box& box) const override
-  {
-    return this->Pieces->contentOf(box);
-  }
-  void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
-    float* distances) const override
-  {
-    this->Pieces->sample(lattice, refractivity, places, distances);
-  }
-  bool isRemote() const override { return true; }
-  void prepareContents(const std::vector<schlieren::Box>& boxes) const override
-  {
-    this->Pieces->prepareContents(boxes);
-  }
-  void prepareSamples(const std::vector<schlieren::Lattice>& lattices) const override
-  {
-    this->Pieces->prepareSamples(lattices);
-  }
-  int fields() const override { return this->Pieces->fields(); }
-  FieldRange rangeOfField(int field, const schlieren::Box& box) const override
-  {
-    return this->Pieces->rangeOfField(field, box);
-  }
-  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-    schlieren::Place* places, float* distances, double* values) const override
-  {
-    this->Pieces->sampleWithFields(lattice, refractivity, places, distances, values);
-  }
-
-private:
-  std::shared_ptr<const schlieren::MediumSource> Pieces;
-};
-
-template <class Real>
-schlieren::MediumTree<Real> treeOf(std::shared_ptr<const schlieren::MediumSource> source)
-{
-  const double ambient = source->ambient();
-  schlieren::TreeSettings settings;
-  settings.tolerance = 3e-3;
-  settings.threads = 2;
-  schlieren::MediumTree<Real> tree(std::move(source), ambient, settings);
-  tree.refine({ { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0 }, { 2, 2 }, 0.02 });
-  return tree;
-}
-
 } // namespace
-
-// Each rank makes some, in three steps on the same mesh; every other with fields.
-TEST(BricksOfPieces, AreTheSameWhoeverMakesThem)
-{
-  bool hasFields = false;
-  for (const Case& data : cases())
-  {
-    SCOPED_TRACE(data.name);
-    hasFields = !hasFields;
-    Ranks ranks(data.parts, data.ofCells);
-    for (vtkRefractiveIndex* filter : ranks.Filters)
-    {
-      askForFields(filter, { data.ofCells ? "warmth of cells" : "warmth" });
-    }
-    const auto make = [&]
-    {
-      return ranks.make(data.bodies,
-        hasFields ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE);
-    };
-    const auto single = treeOf<float>(std::make_shared<WithoutMakers>(make()));
-    EXPECT_GT(single.leaves().size(), 30u);
-    for (int step = 0; step < 3; ++step)
-    {
-      std::vector<std::size_t> before;
-      for (const auto& channel : ranks.Channels)
-      {
-        before.push_back(channel->Bytes);
-      }
-      const auto source = make();
-      ASSERT_NE(source->makers(), nullptr);
-      expectIdentical(treeOf<float>(source), single);
-      for (std::size_t rank = 0; rank < before.size(); ++rank)
-      {
-        // The rank that has no data makes bricks, too.
-        EXPECT_GT(ranks.Channels[rank]->Bytes, before[rank] + 100000) << rank;
-      }
-    }
-    const auto source = make();
-    expectIdentical(
-      treeOf<double>(source), treeOf<double>(std::make_shared<WithoutMakers>(source)));
-  }
-}
-
-// Rank 0 has all of the data. With walls, a front, which needs more samples, and fields.
-TEST(BricksOfOneRank, AreTheSameWhoeverMakesThem)
-{
-  std::vector<Case> wholes = cases();
-  wholes.push_back({ "front", meshOf({ 0, 40, 0, 40, 0, 40 }), {}, false, wholes[2].bodies });
-  addPointArray(vtkDataSet::SafeDownCast(wholes.back().whole), "N",
-    [](const Vec& x) { return ball(x) + (x[0] + 0.8 * x[1] + 0.6 * x[2] > 1.5 ? 1e-4 : 0); });
-  bool hasFields = true;
-  for (const Case& data : wholes)
-  {
-    hasFields = !hasFields;
-    SCOPED_TRACE(data.name);
-    Ranks ranks({ data.whole, nullptr, nullptr }, data.ofCells);
-    vtkRefractiveIndex* const first = ranks.Filters[0];
-    askForFields(first, { data.ofCells ? "warmth of cells" : "warmth" });
-    const auto make = [&]
-    {
-      std::string warning;
-      return first->MakeSource(data.whole, data.bodies, warning,
-        hasFields ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE);
-    };
-    const auto source = make();
-    ASSERT_EQ(source->makers(), nullptr);
-    const auto alone = treeOf<float>(source);
-    const auto aloneInDouble = treeOf<double>(source);
-    first->SetHelp(true);
-    ASSERT_NE(source->makers(), nullptr);
-    expectIdentical(treeOf<float>(source), alone);
-    expectIdentical(treeOf<double>(source), aloneInDouble);
-    for (const auto& channel : ranks.Channels)
-    {
-      EXPECT_GT(channel->Bytes, 100000u);
-    }
-    for (int step = 0; step < 3; ++step) // each rank keeps what it knows of lattices
-    {
-      expectIdentical(treeOf<float>(make()), alone);
-    }
-    // Where a rank is not there, rank 0 works alone.
-    ranks.Channels[1]->AnswersLeft = 1;
-    expectIdentical(treeOf<float>(source), alone);
-    EXPECT_FALSE(ranks.Channels[1]->isOpen());
-    EXPECT_EQ(source->makers(), nullptr);
-    expectIdentical(treeOf<float>(source), alone);
-  }
-}
-
-TEST(BricksOfPieces, ARankThatLeavesIsAMistake)
-{
-  const Case data = cases()[0];
-  int answers = 0;
-  for (bool isMade = false; !isMade && answers < 200; answers += 1 + answers / 4)
-  {
-    Ranks ranks(data.parts);
-    ranks.Channels[1]->AnswersLeft = answers;
-    try
-    {
-      treeOf<float>(ranks.make());
-      isMade = true;
-    }
-    catch (const std::runtime_error& problem)
-    {
-      EXPECT_NE(std::string(problem.what()).find("Rank 2 does not answer"), std::string::npos)
-        << problem.what();
-    }
-  }
-  EXPECT_GT(answers, 10);
-  EXPECT_LT(answers, 200);
-}
-
-TEST(BricksOfPieces, AreNotMadeOfWhatIsNotThere)
-{
-  const Case data = cases()[0];
-  Ranks ranks(data.parts);
-  EXPECT_THROW(
-    {
-      const auto forgotten = ranks.make();
-      ranks.Filters[0]->ReleasePieces();
-      treeOf<float>(forgotten);
-    },
-    std::runtime_error);
-  const auto replaced = ranks.make();
-  const auto last = ranks.make();
-  EXPECT_THROW(treeOf<float>(replaced), std::runtime_error);
-  expectIdentical(treeOf<float>(last), treeOf<float>(std::make_shared<WithoutMakers>(last)));
-}
 
 TEST(FieldsOfPieces, AreThoseOfOnePiece)
 {
-  for (const Case& data : cases())
+  for (const PieceCase& data : cases())
   {
     SCOPED_TRACE(data.name);
     const std::vector<const char*> names = data.ofCells
@@ -390,7 +101,7 @@ TEST(FieldsOfPieces, AreThoseOfOnePiece)
 // Blocks whose fields belong to points, while N belongs to cells.
 TEST(FieldsOfPieces, OfBlocksMayBelongToPoints)
 {
-  const Case data = cases()[3];
+  const PieceCase data = cases()[3];
   const auto one = reader(true);
   askForFields(one, { "warmth" });
   std::string warning;
@@ -407,7 +118,7 @@ TEST(FieldsOfPieces, RanksMayLackOne)
 {
   for (const std::size_t kind : { 0, 3 })
   {
-    Case data = cases()[kind];
+    PieceCase data = cases()[kind];
     const char* name = data.ofCells ? "warmth of cells" : "warmth";
     SCOPED_TRACE(data.name);
     const auto forget = [&](vtkDataObject* part)
@@ -441,7 +152,7 @@ TEST(FieldsOfPieces, RanksMayLackOne)
 
 TEST(FieldsOfPieces, ThatNoRankHasAreAMistake)
 {
-  for (const Case& data : cases())
+  for (const PieceCase& data : cases())
   {
     Ranks ranks(data.parts, data.ofCells);
     for (vtkRefractiveIndex* filter : ranks.Filters)
