@@ -23,7 +23,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace filters
 {
@@ -190,6 +192,34 @@ vtkSmartPointer<vtkIdTypeArray> numbersOf(vtkIdType count, const char* name)
   return numbers;
 }
 
+/// Faces by their cells and points. VTK finds them with several threads, in another order each time.
+std::vector<vtkIdType> orderOf(
+  vtkPolyData* polygons, vtkIdTypeArray* owners, vtkIdTypeArray* origins)
+{
+  using Key = std::array<vtkIdType, 4>; // cell, and the three lowest of the face's points
+  std::vector<std::pair<Key, vtkIdType>> keys;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
+  {
+    constexpr vtkIdType none = std::numeric_limits<vtkIdType>::max();
+    polygons->GetCellPoints(face, ids);
+    std::vector<vtkIdType> points(3, none);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      points.push_back(origins->GetValue(ids->GetId(i)));
+    }
+    std::partial_sort(points.begin(), points.begin() + 3, points.end());
+    keys.push_back({ { owners->GetValue(face), points[0], points[1], points[2] }, face });
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<vtkIdType> order;
+  for (const auto& key : keys)
+  {
+    order.push_back(key.second);
+  }
+  return order;
+}
+
 /// The surface of these cells, which are not curved.
 void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
   State state, const LeftOut& isLeftOut, Faces& faces)
@@ -223,7 +253,7 @@ void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkId
     vtkIdTypeArray::SafeDownCast(polygons->GetPointData()->GetAbstractArray(originsName));
   std::vector<std::int32_t> numbers(static_cast<std::size_t>(polygons->GetNumberOfPoints()), -1);
   vtkNew<vtkIdList> ids;
-  for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
+  for (const vtkIdType face : orderOf(polygons, owners, origins))
   {
     if (isLeftOut(owners->GetValue(face)))
     {

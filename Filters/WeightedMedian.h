@@ -17,9 +17,10 @@ struct WeightedValue
   double value, weight;
 };
 
-/// NaN where there are no values.
+/// NaN where there are no values. Where half of the weight is below a value, up to rounding, the value below that.
 inline double weightedMedian(std::vector<WeightedValue> parts)
 {
+  constexpr double rounding = 1e-9; // of sums in any order
   double all = 0;
   for (const WeightedValue& part : parts)
   {
@@ -31,7 +32,7 @@ inline double weightedMedian(std::vector<WeightedValue> parts)
   for (const auto& [value, weight] : parts)
   {
     below += weight;
-    if (below >= 0.5 * all)
+    if (below >= (0.5 - rounding) * all)
     {
       return value;
     }
