@@ -51,12 +51,14 @@ plane = widget("propertiesPanel", "SchlierenBench", "SchlierenCutoff", "Plane")
 until(lambda: plane.isEnabled() and plane.property("range") > 0)
 side = plane.property("side")
 middle = QPointF(20 + side / 2, 2 + side / 2 - 30)
-for event, shift, button, buttons in ((QEvent.MouseButtonPress, 0, Qt.LeftButton, Qt.LeftButton),
-                                      (QEvent.MouseMove, 20, Qt.NoButton, Qt.LeftButton),
-                                      (QEvent.MouseMove, 30, Qt.NoButton, Qt.LeftButton),
-                                      (QEvent.MouseButtonRelease, 30, Qt.LeftButton, Qt.NoButton)):
+left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+for event, shift, button, buttons in ((QEvent.Type.MouseButtonPress, 0, left, left),
+                                      (QEvent.Type.MouseMove, 20, none, left),
+                                      (QEvent.Type.MouseMove, 30, none, left),
+                                      (QEvent.Type.MouseButtonRelease, 30, left, none)):
     place = middle + QPointF(shift, 0)
-    QApplication.sendEvent(plane, QMouseEvent(event, place, button, buttons, Qt.NoModifier))
+    QApplication.sendEvent(plane, QMouseEvent(
+        event, place, QPointF(plane.mapToGlobal(place.toPoint())), button, buttons, Qt.KeyboardModifier.NoModifier))
     pause(0.1)
 """ + SAVE.format("dragged", SETTINGS))
 
