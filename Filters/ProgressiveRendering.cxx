@@ -53,7 +53,7 @@ void vtkSchlierenFilter::Refine()
   bool hasMore = false;
   if (isRank0())
   {
-    const Internals::WithWorkers withWorkers(inside, this->Medium, meeting);
+    const Internals::WithWorkers withWorkers(inside, this->Medium, meeting, threadsFrom(*this));
     hasMore = this->RefineOnRank0();
     meeting.SetOutcome(hasMore);
   }
@@ -337,13 +337,15 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
   const struct WithoutHelp
   {
     vtkRefractiveIndex* medium;
-    explicit WithoutHelp(vtkRefractiveIndex* of)
+    int threads;
+    WithoutHelp(vtkRefractiveIndex* of, int ofRank)
       : medium(of)
+      , threads(ofRank)
     {
       this->medium->SetHelp(false);
     }
-    ~WithoutHelp() { this->medium->SetHelp(hasOtherRanks()); }
-  } withoutHelp(this->Medium);
+    ~WithoutHelp() { this->medium->SetHelp(Internals::WithWorkers::mayOthersHelp(this->threads)); }
+  } withoutHelp(this->Medium, threadsFrom(*this));
   std::atomic<bool> isTraced{ false }; // or has failed
   const std::thread::id here = std::this_thread::get_id();
   const auto traceWithRanks = [&](const schlieren::Monitor& ofTrace)

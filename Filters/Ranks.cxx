@@ -28,9 +28,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <utility>
 
 namespace filters
@@ -136,6 +139,22 @@ bool isRank0()
 
 //------------------------------------------------------------------------------
 bool hasOtherRanks() { return controllerOfRanks() != nullptr; }
+
+//------------------------------------------------------------------------------
+bool haveOthersCores(int threads)
+{
+  if (!hasOtherRanks())
+  {
+    return false;
+  }
+  bool isAloneOnMachine = false;
+  for (const char* name : { "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS" }) // Open MPI, MPICH
+  {
+    const char* const ranks = std::getenv(name);
+    isAloneOnMachine = isAloneOnMachine || (ranks && std::string(ranks) == "1");
+  }
+  return isAloneOnMachine || threads < static_cast<int>(std::thread::hardware_concurrency());
+}
 
 //------------------------------------------------------------------------------
 void setComplete(vtkInformationVector* outputs)

@@ -31,6 +31,10 @@ bool isRank0();
 /// Whether there are other ranks.
 bool hasOtherRanks();
 
+/// On rank 0: whether there are other ranks, and cores that so many threads of rank 0 do not use: where all ranks are on one
+/// machine, they would only take them from each other.
+bool haveOthersCores(int threads);
+
 /// In RequestData, where there are several ranks: says that the outputs are all that will be made of their whole
 /// extents. Otherwise, a rank that made nothing would run again, alone, at each update, and with it what is
 /// upstream: filters that wait for the other ranks would wait forever.

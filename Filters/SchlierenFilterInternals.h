@@ -33,15 +33,15 @@ struct vtkSchlierenFilter::Internals
   class WithWorkers
   {
   public:
-    WithWorkers(
-      Internals& internals, vtkRefractiveIndex* medium, filters::FilterRanks::Meeting& meeting)
+    WithWorkers(Internals& internals, vtkRefractiveIndex* medium,
+      filters::FilterRanks::Meeting& meeting, int threads)
       : Of(internals)
       , Medium(medium)
     {
       this->Of.Meeting = &meeting;
       this->Of.Images.SetWorkers(meeting.GetWorkers());
       this->Medium->SetPieceChannels(meeting.GetChannels());
-      this->Medium->SetHelp(true);
+      this->Medium->SetHelp(mayOthersHelp(threads));
     }
     ~WithWorkers()
     {
@@ -49,6 +49,11 @@ struct vtkSchlierenFilter::Internals
       this->Of.Images.SetWorkers({});
       this->Medium->SetHelp(false);
       this->Medium->SetPieceChannels({});
+    }
+    /// `threads`: of this rank; 0: as many as cores.
+    static bool mayOthersHelp(int threads)
+    {
+      return filters::haveOthersCores(threads > 0 ? threads : schlieren::coresOfProcess());
     }
     WithWorkers(const WithWorkers&) = delete;
     WithWorkers& operator=(const WithWorkers&) = delete;

@@ -370,7 +370,8 @@ int vtkSchlierenFilter::RequestData(
   {
     meetWithAll();
   }
-  const Internals::WithWorkers withWorkers(inside, this->Medium, steps.GetMeeting());
+  const Internals::WithWorkers withWorkers(
+    inside, this->Medium, steps.GetMeeting(), threadsFrom(*this));
 
   const auto showLast = [&]()
   {
