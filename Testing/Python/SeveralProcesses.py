@@ -79,7 +79,8 @@ def read_files():
             ("fractal", HierarchicalFractal(Dimensions=8), ["CELLS", "Fractal Volume Fraction"]),
             ("jet", foam, ["CELLS", "T"]), ("disk", disk, ["POINTS", "Temp"]),
             ("fin", fin, ["POINTS", "Density"])):  # a part on each rank, whatever is requested
-        seen = Schlieren(Input=reader, Density=array, ImageSize=[32, 32], MediumTolerance=0.1)
+        seen = Schlieren(Input=reader, Density=array, ImageSize=[32, 32], MediumTolerance=0.1,
+                         NumberOfThreads=1)  # so that other ranks help to make the medium
         for kind in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
             found[f"{name}: {kind}"] = image_array(seen, kind)
     return found
