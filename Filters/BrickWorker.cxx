@@ -62,7 +62,7 @@ void BrickWorker::make(
   while (!request.IsAtEnd())
   {
     const TaskOfPieces& task = tasks.emplace_back(request.Get<TaskOfPieces>());
-    this->Known->box(task.task.box) = { task.content,
+    this->Known->box(task.task.box) = { task.task.content,
       request.GetAll<std::vector<schlieren::MediumSource::FieldRange>>() };
     ofOthers.emplace_back();
     for (std::uint32_t other = 0; other < task.others; ++other)

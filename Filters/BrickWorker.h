@@ -21,7 +21,6 @@ class Reader;
 struct TaskOfPieces
 {
   schlieren::BrickTask task;
-  schlieren::MediumSource::Content content;
   std::uint32_t others;       ///< how many have something
   std::uint32_t othersBefore; ///< of lower rank than its maker
   std::uint32_t hasOwn;       ///< its maker has something, too

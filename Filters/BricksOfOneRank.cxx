@@ -88,8 +88,7 @@ std::vector<BricksOfRanks::Contribution> BricksOfOneRank::contributions(
         {
           if (makers[n] > 0)
           {
-            found[n] = { this->Source.contentOf(tasks[n].box),
-              rangesOfFields(this->Source, tasks[n].box), { {} }, 1 };
+            found[n] = { rangesOfFields(this->Source, tasks[n].box), { {} }, 1 };
             this->SamplesOn(tasks[n].lattice).Put(found[n].ofOthers[0]);
           }
         });

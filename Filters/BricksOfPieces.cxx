@@ -43,8 +43,7 @@ std::vector<BricksOfRanks::Contribution> BricksOfPieces::contributions(
   std::vector<Contribution> found;
   for (std::size_t n = 0; n < tasks.size(); ++n)
   {
-    const SamplesOfPieces::KnownBox& box = this->Known.box(tasks[n].box);
-    found.push_back({ box.content, box.fields });
+    found.push_back({ this->Known.box(tasks[n].box).fields });
     for (std::size_t rank = 0; rank < ranks; ++rank)
     {
       if (this->mayHave(rank, tasks[n]))
@@ -70,11 +69,7 @@ std::vector<BricksOfRanks::Contribution> BricksOfPieces::contributions(
     }
   }
   const Messages answers = this->Ranks->Request(std::move(requests));
-  std::deque<Reader> readers;
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-  {
-    readers.push_back(wanted[rank].empty() ? Reader(answers[rank]) : readerOf(answers[rank]));
-  }
+  std::deque<Reader> readers = readersOf(answers);
   for (std::size_t n = 0; n < tasks.size(); ++n)
   {
     for (const std::size_t rank : others[n])

@@ -72,13 +72,7 @@ void BricksOfRanks::begin(const schlieren::BrickRules& rules) const
   {
     requests[0].clear(); // it makes its bricks itself
   }
-  for (const std::vector<char>& answer : this->Ranks->Request(std::move(requests)))
-  {
-    if (!answer.empty())
-    {
-      readerOf(answer); // throws what has gone wrong
-    }
-  }
+  readersOf(this->Ranks->Request(std::move(requests))); // throws what has gone wrong
   this->Begun = bytes;
 }
 
@@ -86,10 +80,9 @@ std::vector<std::vector<char>> BricksOfRanks::make(
   const schlieren::BrickRules& rules, const Tasks& tasks, const MakeHere& makeHere) const
 {
   this->begin(rules);
-  const std::size_t ranks = this->Ranks->Count();
   const std::vector<std::size_t> makers = this->deal(tasks);
   const std::vector<Contribution> contributions = this->contributions(tasks, makers);
-  Messages requests(ranks);
+  Messages requests(this->Ranks->Count());
   std::vector<std::size_t> here;
   for (std::size_t n = 0; n < tasks.size(); ++n)
   {
@@ -105,7 +98,7 @@ std::vector<std::vector<char>> BricksOfRanks::make(
       put(this->Number, request);
     }
     const Contribution& of = contributions[n];
-    put(TaskOfPieces{ tasks[n], of.content, static_cast<std::uint32_t>(of.ofOthers.size()),
+    put(TaskOfPieces{ tasks[n], static_cast<std::uint32_t>(of.ofOthers.size()),
           static_cast<std::uint32_t>(of.before), of.hasOwn ? 1u : 0u },
       request);
     putAll(of.fields, request);
@@ -114,21 +107,12 @@ std::vector<std::vector<char>> BricksOfRanks::make(
       putAll(samples, request);
     }
   }
-  std::vector<bool> isMaker;
-  for (const std::vector<char>& request : requests)
-  {
-    isMaker.push_back(!request.empty());
-  }
   const Messages answers = this->Ranks->Request(std::move(requests), [&] { makeHere(here); });
-  std::deque<Reader> readers;
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-  {
-    readers.push_back(isMaker[rank] ? readerOf(answers[rank]) : Reader(answers[rank]));
-  }
+  std::deque<Reader> readers = readersOf(answers);
   Messages bricks(tasks.size());
   for (std::size_t n = 0; n < tasks.size(); ++n)
   {
-    if (isMaker[makers[n]])
+    if (!answers[makers[n]].empty())
     {
       bricks[n] = readers[makers[n]].GetAll<std::vector<char>>();
     }

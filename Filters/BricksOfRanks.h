@@ -52,7 +52,6 @@ protected:
   /// Of a brick: the ranges of fields in its box, what others than its maker have, and whether it has something itself.
   struct Contribution
   {
-    schlieren::MediumSource::Content content;
     std::vector<schlieren::MediumSource::FieldRange> fields;
     Messages ofOthers{};    // DataPiece::Samples::Put(), in the order of the ranks
     std::size_t before = 0; // of lower rank than the maker

@@ -21,7 +21,7 @@ public:
   void setHelpers(std::shared_ptr<PieceRanks> ranks)
   {
     const std::shared_ptr<const GasBoundary> boundary = this->sharedBoundary();
-    if (!this->isFlat() && boundary->surface().size() <= mostSharedFaces)
+    if (ranks->Count() > 1 && !this->isFlat() && boundary->surface().size() <= mostSharedFaces)
     {
       this->Helpers = std::make_unique<BricksOfOneRank>(std::move(ranks), this->meshNumber(), *this,
         boundary, [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });

@@ -26,4 +26,14 @@ Reader readerOf(const std::vector<char>& answer)
   return reader;
 }
 
+std::deque<Reader> readersOf(const std::vector<std::vector<char>>& answers)
+{
+  std::deque<Reader> readers;
+  for (const std::vector<char>& answer : answers)
+  {
+    readers.push_back(answer.empty() ? Reader(answer) : readerOf(answer));
+  }
+  return readers;
+}
+
 } // namespace filters

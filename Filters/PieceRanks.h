@@ -5,6 +5,7 @@
 #include "DataParts.h"
 
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <vector>
 
@@ -33,5 +34,7 @@ public:
 
 /// Begins to read an answer. Throws what the rank says that is wrong: ArraysMissing or std::runtime_error.
 Reader readerOf(const std::vector<char>& answer);
+/// The same of all ranks; at the end of those that nothing was requested of. The answers must outlive them.
+std::deque<Reader> readersOf(const std::vector<std::vector<char>>& answers);
 
 } // namespace filters

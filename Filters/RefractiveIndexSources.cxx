@@ -301,13 +301,7 @@ void vtkRefractiveIndex::SetInstantOfPieces(double ratio)
   put(ratio, request);
   std::vector<std::vector<char>> requests(this->Pieces->Count(), request);
   requests[0].clear();
-  for (const std::vector<char>& answer : this->Pieces->Request(std::move(requests)))
-  {
-    if (!answer.empty())
-    {
-      readerOf(answer); // throws what has gone wrong
-    }
-  }
+  readersOf(this->Pieces->Request(std::move(requests))); // throws what has gone wrong
 }
 
 //------------------------------------------------------------------------------

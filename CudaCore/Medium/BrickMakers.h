@@ -18,7 +18,8 @@ namespace schlieren
 struct BrickTask
 {
   BrickRequest request;
-  Box box; ///< whose content its maker needs
+  Box box;                       ///< that its maker looks at
+  MediumSource::Content content; ///< of it
   Lattice lattice;
   bool hasEdges; ///< so that the lattice's distances are needed, too
 };

@@ -88,8 +88,8 @@ std::vector<Brick<Real>> BrickMaker<Real>::prepare(
     {
       const int margin = areLatticesFixed ? preparedMarginOf(outline.hasEdges, outline.hasFields)
                                           : marginOf(outline.hasEdges, outline.hasFields);
-      tasks.push_back(
-        { bricks[n], outline.box, latticeOf(bricks[n].place, margin), outline.hasEdges });
+      tasks.push_back({ bricks[n], outline.box, outline.content, latticeOf(bricks[n].place, margin),
+        outline.hasEdges });
       sampled.push_back(n);
     }
     made.push_back(std::move(outline.brick));
