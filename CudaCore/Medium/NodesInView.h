@@ -163,11 +163,14 @@ public:
     return { perLength * allowed().deflection, perLength * allowed().gathered };
   }
 
-  /// What is negligible to a leaf; nothing is where too much has been neglected along rays.
-  Negligible negligibleTo(const Node& node, const NodeFields& fields) const
+  /// What is negligible to a leaf that is made, or made again, or to the parts of one that is divided: nothing where too much
+  /// has been neglected along rays; and what a leaf has, it keeps when it lacks something else.
+  Negligible negligibleTo(const Node& node, const NodeFields& fields, bool divides) const
   {
     const Negligible usual = negligible(node.place.level);
-    return { node.isCoarse ? 0 : usual.deflection, fields.isCoarse ? 0 : usual.gathered };
+    const bool isNeeded = node.isCoarse || (!divides && node.brick > 0);
+    const bool areFieldsNeeded = fields.isCoarse || (!divides && fields.brick > 0);
+    return { isNeeded ? 0 : usual.deflection, areFieldsNeeded ? 0 : usual.gathered };
   }
 
   /// Whether a leaf lacks something that is not negligible.

@@ -312,7 +312,7 @@ void MediumTree<Real>::findBricks(const View& view)
     const Task& task = work_.tasks[work_.tasksBegun++];
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
     const NodePlace& place = node.place;
-    const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node));
+    const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node), task.divides);
     for (std::int32_t child = 0; child < (task.divides ? parts() : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;

@@ -10,6 +10,7 @@
 #include "vtkPiecewiseFunction.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkXMLStructuredGridReader.h"
 
 namespace
 {
@@ -403,6 +404,26 @@ TEST(ColorByField, ChoosesColoursFarApart)
   filter->AddTransferFunction(flat);
   filter->AddTransferFunction(line);
   EXPECT_LT(largestDifference(filter, { 0, 4 - 6 * hue, 1 }), rounding);
+}
+
+// Of what is negligible to each leaf there may be too much along a ray, in the refractivity or in a field, at different times.
+TEST(ColorByField, TheMediumIsFinished)
+{
+  vtkNew<vtkXMLStructuredGridReader> reader;
+  reader->SetFileName(SCHLIEREN_TEST_DATA "/deltawing.vts");
+  auto filter = vtkSmartPointer<vtkSchlierenFilter>::New();
+  filter->SetInputConnection(reader->GetOutputPort());
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  filter->SetViewDirection(0, 0, -1);
+  filter->SetImageSize(32, 32);
+  filter->AddField("Density");
+  filter->ColorByFieldOn();
+  filter->SetMediumTolerance(0.02);
+  filter->Update();
+  ASSERT_FALSE(isEmpty(filter));
+  const std::vector<double> colors = valuesOf(filter, "Color");
+  EXPECT_GT(*std::max_element(colors.begin(), colors.end()), 100);
 }
 
 TEST(ColorByField, ColoursTraceNothing)
