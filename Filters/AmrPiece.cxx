@@ -16,7 +16,7 @@ DataPiece::Summary AmrPiece::summary() const
     this->Fields[0].contentOf(this->Fields[0].bounds()), this->Fields[0].reachOfContent() };
 }
 
-void AmrPiece::putBoundary(std::vector<char>& message) const
+void AmrPiece::putBoundary(std::int64_t, std::vector<char>& message) const
 {
   const BoundaryFaces faces = this->Fields[0].faces();
   put(BoundaryKind::OfAmr, message);

@@ -23,7 +23,7 @@ public:
 
   Summary summary() const override;
   /// The triangles of AmrField::faces(), which of them hide something, and AmrField::outerValues().
-  void putBoundary(std::vector<char>& message) const override;
+  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override
   {
     return this->Fields[0].contentOf(box);

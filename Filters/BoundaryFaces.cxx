@@ -257,11 +257,12 @@ CutFaces cutsOf(
       for (int side = 0; side < 2; ++side)
       {
         const auto point = static_cast<std::size_t>(points[side]);
-        if (faces.firstContributions[point + 1] != faces.firstContributions[point] + 1)
+        of[side] = &faces.contributions[faces.firstContributions[point]];
+        if (faces.firstContributions[point + 1] != faces.firstContributions[point] + 1 ||
+          of[side]->leaf == Contribution::ofSeveral)
         {
           return false; // on a curved cell
         }
-        of[side] = &faces.contributions[faces.firstContributions[point]];
         cut.contributions.push_back(*of[side]);
       }
       if (of[0]->leaf != of[1]->leaf)
@@ -414,12 +415,8 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
 
 } // namespace
 
-namespace
-{
-
-/// `leaves`: null where their values are elsewhere.
-BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>* leaves,
-  const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
+BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesOfCuts& valuesOf,
+  const WorkProgress& progress, Extent extent)
 {
   if (extent == Extent::Layer)
   {
@@ -438,10 +435,10 @@ BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>* leaves,
   progress.reach(0.9);
   CutFaces cuts;
   std::vector<unsigned char> areSheets;
-  if (leaves)
+  if (valuesOf)
   {
     cuts = cutsOf(faces, before, pairs);
-    areSheets = findSheets(cuts, *leaves);
+    areSheets = findSheets(cuts, valuesOf(cuts));
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
       for (std::size_t side = 0; side < 2 && areSheets[i]; ++side)
@@ -457,20 +454,18 @@ BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>* leaves,
   return result;
 }
 
-} // namespace
-
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
   const WorkProgress& progress, Extent extent, Sheets sheets)
 {
+  ValuesOfCuts valuesOf;
+  if (sheets == Sheets::Found)
+  {
+    valuesOf = [&](const CutFaces& cuts)
+    { return valuesAt(cuts.firstContributions, cuts.contributions, leaves); };
+  }
   return boundaryOf(facesOf(leaves, progress.part(0, 0.7)),
-    sheets == Sheets::Found ? &leaves : nullptr,
-    isInCell ? testInParallel(isInCell, progress.part(0.8, 0.9)) : nullptr, progress, extent);
-}
-
-BoundaryFaces boundaryOf(
-  Faces faces, const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
-{
-  return boundaryOf(std::move(faces), nullptr, areInCells, progress, extent);
+    isInCell ? testInParallel(isInCell, progress.part(0.8, 0.9)) : nullptr, valuesOf, progress,
+    extent);
 }
 
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)

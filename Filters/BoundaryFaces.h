@@ -69,8 +69,11 @@ BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest&
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume,
   Sheets sheets = Sheets::Found);
 
-/// The same of the faces of leaves that were found elsewhere. Without sheets.
-BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells,
+/// The values of what CutFaces::contributions says.
+using ValuesOfCuts = std::function<std::vector<double>(const CutFaces& cuts)>;
+
+/// The same of the faces of leaves that were found elsewhere. `valuesOf`: may be empty; then there are no sheets.
+BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesOfCuts& valuesOf,
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
 
 /// The scalars at the points of the surface, of these leaves or of others on the same mesh.

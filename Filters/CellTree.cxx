@@ -25,9 +25,6 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Groups so much smaller than a box, and at its edge, count as in it.
-constexpr std::int32_t smallPart = 16;
-
 /// Tetrahedra can be much flatter than what they resolve: their heights count down to this part of
 /// their shortest edge.
 constexpr double flattestTetrahedron = 0.5;
@@ -110,7 +107,8 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   }
   this->sortCells(*mesh, progress.part(0.4, 0.6));
   this->makeGroups(*mesh, progress.part(0.6, 0.7));
-  mesh->voxelShape = voxelShapeOf(this->measuredSizes());
+  mesh->voxelShape =
+    voxelShapeOf(this->measuredCells(static_cast<std::int64_t>(mesh->numbers.size())));
   this->setValues(progress.part(0.7, 1));
 }
 
@@ -204,7 +202,7 @@ void CellTree::setValues(const WorkProgress& progress)
   forParts(static_cast<vtkIdType>(this->Ranges[0].size()), progress.part(0.7, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkNew<vtkGenericCell> curved;
+      vtkSmartPointer<vtkGenericCell> curved;
       for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
            ++group)
       {
@@ -213,11 +211,9 @@ void CellTree::setValues(const WorkProgress& progress)
         for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
         {
           this->fetchAhead(i, count, [](std::size_t place) { return place; });
-          const Cell one = this->cell(mesh.numbers[i]);
-          const auto [low, high] = this->rangeOf(one);
-          const double more = overshootOf(orderOf(one, curved)) * (high - low);
-          made.lowest = std::min(made.lowest, low - more);
-          made.highest = std::max(made.highest, high + more);
+          const Range range = this->rangeWithin(this->cell(mesh.numbers[i]), curved);
+          made.lowest = std::min(made.lowest, range.lowest);
+          made.highest = std::max(made.highest, range.highest);
         }
       }
     });
@@ -235,7 +231,15 @@ void CellTree::setValues(const WorkProgress& progress)
   }
 }
 
-/// Of what is interpolated in a cell whose values and points are finite.
+CellTree::Range CellTree::rangeWithin(
+  const Cell& one, vtkSmartPointer<vtkGenericCell>& curved) const
+{
+  const auto [low, high] = this->rangeOf(one);
+  const double more = overshootOf(orderOf(one, curved)) * (high - low);
+  return { low - more, high + more };
+}
+
+/// Of what is interpolated in a cell whose values and points are finite, curved sides apart.
 std::array<double, 2> CellTree::rangeOf(const Cell& one) const
 {
   double low = infinity, high = -infinity;
@@ -340,67 +344,114 @@ Vector CellTree::sizeOf(const Cell& one) const
 CellTree::Content CellTree::content(const Bounds& box) const
 {
   Content content{ infinity, -infinity, { infinity, infinity, infinity } };
-  const std::vector<std::vector<Group>>& levels = this->Sorted->levels;
-  if (levels.empty())
+  const Mesh& mesh = *this->Sorted;
+  if (mesh.levels.empty())
   {
     return content;
   }
   const Steps steps = this->stepsOf(box);
-  const auto isSmallOrWithin = [&](const Steps& other)
+  // Rounding apart: see stepsOf().
+  constexpr std::int32_t rounding = 3;
+  const auto areWithin = [&](const Steps& other)
   {
-    bool isSmall = true, isWithin = true;
+    bool are = true;
     for (int axis = 0; axis < 3; ++axis)
     {
-      isSmall = isSmall &&
-        other.high[axis] - other.low[axis] <= (steps.high[axis] - steps.low[axis]) / smallPart;
-      isWithin =
-        isWithin && other.low[axis] >= steps.low[axis] && other.high[axis] <= steps.high[axis];
+      are = are && other.low[axis] >= steps.low[axis] + rounding &&
+        other.high[axis] <= steps.high[axis] - rounding;
     }
-    return isSmall || isWithin;
+    return are;
   };
-  const auto add = [&](const Group& group, const Range& range)
+  const auto mayAdd = [&](const Range& range, const float* cellSize)
+  {
+    return range.lowest < content.lowest || range.highest > content.highest ||
+      cellSize[0] < content.cellSize[0] || cellSize[1] < content.cellSize[1] ||
+      cellSize[2] < content.cellSize[2];
+  };
+  const auto add = [&](const Range& range, const float* cellSize)
   {
     content.lowest = std::min(content.lowest, range.lowest);
     content.highest = std::max(content.highest, range.highest);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      content.cellSize[axis] = std::min<double>(content.cellSize[axis], group.cellSize[axis]);
+      content.cellSize[axis] = std::min<double>(content.cellSize[axis], cellSize[axis]);
     }
   };
+  // First the groups within the box, so that nearly all others have nothing to add.
+  std::vector<std::size_t> atEdges; // others, of the lowest level
   const auto look = [&](const auto& self, std::size_t level, std::size_t index) -> void
   {
-    const Group& group = levels[level][index];
-    if (!meet(group.box, steps))
+    const Group& group = mesh.levels[level][index];
+    const Range& range = this->Ranges[level][index];
+    if (!meet(group.box, steps) || !mayAdd(range, group.cellSize))
     {
       return;
     }
-    if (isSmallOrWithin(group.box))
+    if (areWithin(group.box))
     {
-      add(group, this->Ranges[level][index]);
+      add(range, group.cellSize);
+      return;
+    }
+    if (level == 0)
+    {
+      atEdges.push_back(index);
       return;
     }
     const std::size_t first = width * index;
-    if (level > 0)
-    {
-      const std::size_t end = std::min(first + width, levels[level - 1].size());
-      for (std::size_t i = first; i < end; ++i)
-      {
-        self(self, level - 1, i);
-      }
-      return;
-    }
-    const std::size_t end = std::min(first + width, this->Sorted->numbers.size());
+    const std::size_t end = std::min(first + width, mesh.levels[level - 1].size());
     for (std::size_t i = first; i < end; ++i)
     {
-      if (meet(this->Sorted->boxes[i], steps))
-      {
-        add(group, this->Ranges[level][index]);
-        return;
-      }
+      self(self, level - 1, i);
     }
   };
-  look(look, levels.size() - 1, 0);
+  look(look, mesh.levels.size() - 1, 0);
+  vtkSmartPointer<vtkGenericCell> curved;
+  for (const std::size_t index : atEdges)
+  {
+    if (!mayAdd(this->Ranges[0][index], mesh.levels[0][index].cellSize))
+    {
+      continue;
+    }
+    const std::size_t first = width * index;
+    for (std::size_t i = first; i < std::min(first + width, mesh.numbers.size()); ++i)
+    {
+      if (this->meets(i, box, steps))
+      {
+        const Cell one = this->cell(mesh.numbers[i]);
+        const std::array<float, 3> size = this->voxelFor(one, curved);
+        add(this->rangeWithin(one, curved), size.data());
+      }
+    }
+  }
   return content;
+}
+
+/// The cell at a place in the tree's order. What it depends on is the cell and the box alone, not the tree.
+bool CellTree::meets(std::size_t place, const Bounds& box, const Steps& steps) const
+{
+  const Steps& own = this->Sorted->boxes[place];
+  if (!meet(own, steps))
+  {
+    return false;
+  }
+  constexpr std::int32_t rounding = 5;
+  bool isSure = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isSure = isSure && own.low[axis] <= steps.high[axis] - rounding &&
+      own.high[axis] >= steps.low[axis] + rounding;
+  }
+  if (isSure)
+  {
+    return true;
+  }
+  const Bounds bounds = this->boundsOf(this->cell(this->Sorted->numbers[place]));
+  bool doMeet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    doMeet = doMeet && bounds.low[axis] <= box.high[axis] && bounds.high[axis] >= box.low[axis];
+  }
+  return doMeet;
 }
 
 } // namespace filters

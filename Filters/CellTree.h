@@ -7,6 +7,8 @@
 #include "PointTrends.h"
 #include "WorkProgress.h"
 
+#include "vtkSmartPointer.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -101,16 +103,22 @@ public:
     Vector cellSize; // the smallest, along each axis; infinite: no cells
   };
 
-  /// Of the cells in a box. Cells near it may count, too: those of a group that is much smaller.
+  /// Of the cells whose bounds meet a box: the same whichever other cells the tree has.
   Content content(const Bounds& box) const;
 
   /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
   const Vector& voxelShape() const { return this->Sorted->voxelShape; }
 
-  /// Of some cells, evenly spread, and what follows from them.
-  using Sizes = std::array<std::vector<double>, 3>;
-  Sizes measuredSizes() const;
-  static Vector voxelShapeOf(Sizes sizes);
+  /// Of some cells, and what follows from them. They are those with the lowest `order`, a number that depends on a cell alone:
+  /// so those of a mesh are the same, whichever parts it is divided into. This has those that are needed of a mesh of so
+  /// many cells.
+  struct MeasuredCell
+  {
+    std::uint64_t order;
+    Vector size;
+  };
+  std::vector<MeasuredCell> measuredCells(std::int64_t cellsOfAll) const;
+  static Vector voxelShapeOf(std::vector<MeasuredCell> cells);
 
   /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
   /// coordinates by more than 1. Infinite where it has no volume.
@@ -210,7 +218,9 @@ private:
 
   static bool isLinear(int type);
   /// Into how many parts a curved cell's points divide its edges.
-  static int orderOf(const Cell& cell, vtkGenericCell* curved);
+  static int orderOf(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved);
+  /// sizeOf() its parts.
+  std::array<float, 3> voxelFor(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
   void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
@@ -220,6 +230,8 @@ private:
   void makeGroups(Mesh& mesh, const WorkProgress& progress);
   void setValues(const WorkProgress& progress);
   std::array<double, 2> rangeOf(const Cell& cell) const;
+  Range rangeWithin(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
+  bool meets(std::size_t place, const Bounds& box, const Steps& steps) const;
 
   std::vector<MeshArrays> Blocks;
   std::shared_ptr<const Mesh> Sorted;

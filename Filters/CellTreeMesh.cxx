@@ -4,16 +4,18 @@
 #include "CellTree.h"
 
 #include "CellTypes.h"
+#include "MeshKey.h"
 
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
-#include "vtkNew.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace filters
@@ -87,6 +89,24 @@ std::uint64_t placeOnCurve(const std::int32_t middle[3])
   return place;
 }
 
+/// Cells of such orders, which are evenly spread, are a tenth more than are needed.
+std::uint64_t highestOrder(std::int64_t cells)
+{
+  const double part = 1.1 * static_cast<double>(maxCellsMeasured) / static_cast<double>(cells);
+  return part < 1 ? static_cast<std::uint64_t>(std::ldexp(part, 64))
+                  : std::numeric_limits<std::uint64_t>::max();
+}
+
+/// Of measured cells as many as are needed.
+void keepLowest(std::vector<CellTree::MeasuredCell>& cells)
+{
+  const std::size_t count = std::min(cells.size(), maxCellsMeasured);
+  std::partial_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count), cells.end(),
+    [](const CellTree::MeasuredCell& a, const CellTree::MeasuredCell& b)
+    { return std::tie(a.order, a.size) < std::tie(b.order, b.size); });
+  cells.resize(count);
+}
+
 } // namespace
 
 bool CellTree::isLinear(int type)
@@ -94,16 +114,29 @@ bool CellTree::isLinear(int type)
   return vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type));
 }
 
-int CellTree::orderOf(const Cell& cell, vtkGenericCell* curved)
+int CellTree::orderOf(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved)
 {
   if (isLinear(cell.block->type(cell.id)))
   {
     return 1;
   }
+  if (!curved)
+  {
+    curved = vtkSmartPointer<vtkGenericCell>::New();
+  }
   cell.block->data()->GetCell(cell.id, curved);
   return curved->GetNumberOfEdges() > 0
     ? std::max(1, static_cast<int>(curved->GetEdge(0)->GetNumberOfPoints()) - 1)
     : 1;
+}
+
+std::array<float, 3> CellTree::voxelFor(
+  const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const
+{
+  const int order = orderOf(cell, curved);
+  const Vector size = this->sizeOf(cell);
+  return { static_cast<float>(size[0] / order), static_cast<float>(size[1] / order),
+    static_cast<float>(size[2] / order) };
 }
 
 /// Not finite where a point or a value is not.
@@ -298,24 +331,22 @@ void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
   forParts(static_cast<vtkIdType>(mesh.levels[0].size()), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkNew<vtkGenericCell> curved;
+      vtkSmartPointer<vtkGenericCell> curved;
       for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
            ++group)
       {
-        Vector sizes = { infinity, infinity, infinity };
+        float* const sizes = mesh.levels[0][group].cellSize;
+        std::fill_n(sizes, 3, std::numeric_limits<float>::infinity());
         for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
         {
           const Cell one = this->cell(mesh.numbers[i]);
           mesh.boxes[i] = this->stepsOf(this->boundsOf(one));
-          const int order = orderOf(one, curved);
-          const Vector size = this->sizeOf(one);
+          const std::array<float, 3> size = this->voxelFor(one, curved);
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
-            sizes[axis] = std::min(sizes[axis], size[axis] / order);
+            sizes[axis] = std::min(sizes[axis], size[axis]);
           }
         }
-        std::transform(sizes.begin(), sizes.end(), mesh.levels[0][group].cellSize,
-          [](double size) { return static_cast<float>(size); });
       }
     });
 
@@ -350,37 +381,57 @@ void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
   }
 }
 
-/// See voxelShape().
-CellTree::Sizes CellTree::measuredSizes() const
+std::vector<CellTree::MeasuredCell> CellTree::measuredCells(std::int64_t cellsOfAll) const
 {
-  Sizes sizes;
+  std::vector<MeasuredCell> cells;
+  std::mutex lock; // of these
+  const std::uint64_t highest = highestOrder(cellsOfAll);
   const std::size_t count = this->Sorted->numbers.size();
-  for (std::size_t i = 0; i < count; i += 1 + count / maxCellsMeasured)
-  {
-    const Vector size = this->sizeOf(this->cell(this->Sorted->numbers[i]));
-    for (std::size_t axis = 0; axis < 3; ++axis)
+  forParts(static_cast<vtkIdType>(count), WorkProgress(),
+    [&](vtkIdType begin, vtkIdType end)
     {
-      if (size[axis] < infinity)
+      std::vector<MeasuredCell> measured;
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       {
-        sizes[axis].push_back(size[axis]);
+        this->fetchAhead(i, count, [](std::size_t place) { return place; });
+        const Cell one = this->cell(this->number(i));
+        const Bounds bounds = this->boundsOf(one);
+        Hash hash;
+        hash.add(bounds.low.data(), 3);
+        hash.add(bounds.high.data(), 3);
+        if (hash.value() <= highest)
+        {
+          measured.push_back({ hash.value(), this->sizeOf(one) });
+        }
       }
-    }
-  }
-  return sizes;
+      const std::lock_guard<std::mutex> guard(lock);
+      cells.insert(cells.end(), measured.begin(), measured.end());
+    });
+  return cells;
 }
 
-Vector CellTree::voxelShapeOf(Sizes sizes)
+/// See voxelShape().
+Vector CellTree::voxelShapeOf(std::vector<MeasuredCell> cells)
 {
+  keepLowest(cells);
   Vector shape = { 1, 1, 1 };
-  if (sizes[0].empty())
-  {
-    return shape;
-  }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto place = sizes[axis].begin() +
-      static_cast<std::ptrdiff_t>(fractionOfSmallerCells * static_cast<double>(sizes[axis].size()));
-    std::nth_element(sizes[axis].begin(), place, sizes[axis].end());
+    std::vector<double> sizes;
+    for (const MeasuredCell& cell : cells)
+    {
+      if (cell.size[axis] < infinity)
+      {
+        sizes.push_back(cell.size[axis]);
+      }
+    }
+    if (sizes.empty())
+    {
+      return { 1, 1, 1 };
+    }
+    const auto place = sizes.begin() +
+      static_cast<std::ptrdiff_t>(fractionOfSmallerCells * static_cast<double>(sizes.size()));
+    std::nth_element(sizes.begin(), place, sizes.end());
     shape[axis] = *place;
   }
   const double largest = *std::max_element(shape.begin(), shape.end());

@@ -115,12 +115,12 @@ double GasBoundary::ambient(const std::vector<double>& values) const
     {
       if (ofAll || (this->IsOuter[t] && !this->Faces.hidesBehind[t]))
       {
-        double mean = 0;
-        for (const std::int32_t corner : surface.corners[t])
-        {
-          mean += values[static_cast<std::size_t>(corner)] / 3;
-        }
-        parts.push_back({ mean, norm(surface.normal(t)) });
+        std::array<double, 3> ofCorners;
+        std::transform(surface.corners[t].begin(), surface.corners[t].end(), ofCorners.begin(),
+          [&](std::int32_t corner) { return values[static_cast<std::size_t>(corner)]; });
+        std::sort(ofCorners.begin(), ofCorners.end()); // the same sum, whatever their order
+        parts.push_back(
+          { (ofCorners[0] + ofCorners[1] + ofCorners[2]) / 3, norm(surface.normal(t)) });
       }
     }
     if (!parts.empty())

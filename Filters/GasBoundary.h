@@ -50,10 +50,10 @@ public:
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
-  /// Whether walls without thickness are where they are with the values of these leaves, on the same mesh.
-  bool hasSheetsOf(const std::vector<vtkDataSet*>& leaves) const
+  /// Whether walls without thickness are where they are with other values on the same mesh.
+  bool hasSheetsOf(const ValuesOfCuts& valuesOf) const
   {
-    return findSheets(this->Faces.cuts, leaves) == this->Faces.areSheets;
+    return findSheets(this->Faces.cuts, valuesOf(this->Faces.cuts)) == this->Faces.areSheets;
   }
 
   /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where

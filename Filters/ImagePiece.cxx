@@ -377,7 +377,7 @@ DataPiece::Summary ImagePiece::summary() const
   return { this->KnownPoints, box, this->contentOf(box) };
 }
 
-void ImagePiece::putBoundary(std::vector<char>& message) const
+void ImagePiece::putBoundary(std::int64_t, std::vector<char>& message) const
 {
   const BoundaryFaces faces = this->faces();
   put(BoundaryKind::OfImage, message);

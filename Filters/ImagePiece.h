@@ -87,7 +87,7 @@ public:
   Summary summary() const override;
   /// Its axes, the triangles of faces(), which of them hide something, and N on the faces of the whole image: at each
   /// point, or of more than a million at each nth.
-  void putBoundary(std::vector<char>& message) const override;
+  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
   schlieren::MediumSource::FieldRange rangeOfField(

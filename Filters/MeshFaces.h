@@ -21,6 +21,7 @@ namespace filters
 /// not the leaf's own, on the faces of curved cells.
 struct Contribution
 {
+  static constexpr std::uint32_t ofSeveral = 0xffffffff; // see BoundaryOfMeshes
   std::uint32_t leaf;
   vtkIdType point;
   double weight;

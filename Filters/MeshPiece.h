@@ -32,15 +32,37 @@ struct PieceMesh
   std::vector<Contribution> contributions;
 };
 
+/// A point of a dataset that several ranks may have parts of.
+struct PointOfDataset
+{
+  std::uint32_t dataset =
+    Contribution::ofSeveral; // the same on all ranks; this: the value is one of several points'
+  std::uint64_t point = nobodyElse;
+
+  static constexpr std::uint64_t nobodyElse = ~std::uint64_t{ 0 }; // no other rank has it
+  struct Hash
+  {
+    std::size_t operator()(const PointOfDataset& of) const
+    {
+      return (of.point ^ of.dataset) * 0x9e3779b97f4a7c15u >> 7;
+    }
+  };
+};
+inline bool operator==(const PointOfDataset& a, const PointOfDataset& b)
+{
+  return a.dataset == b.dataset && a.point == b.point;
+}
+
 /// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them give
 /// the points between them the values and trends that they would have in one mesh.
 class MeshPiece : public DataPiece
 {
 public:
   /// `leaves`: with N at their points, see preparedLeaves(). May be none. `kept`: of another piece, which may be of the same
-  /// mesh; may be null.
+  /// mesh; may be null. `datasets`: of each leaf a number that its parts on other ranks have, too; none: these have no parts.
   MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-    CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr);
+    CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr,
+    std::vector<std::uint32_t> datasets = {});
   std::shared_ptr<PieceMesh> mesh() const { return this->Mesh; }
 
   /// One more field of its cells; see FieldsOfMesh.
@@ -53,7 +75,7 @@ public:
   std::string warning() const override { return this->Mesh->warning; }
   std::uint64_t meshKey() const override { return this->Mesh->key; }
   /// Some cells' sizes, the faces of its own cells, and N at their points.
-  void putBoundary(std::vector<char>& message) const override;
+  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
   void putBoundaryValues(std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
@@ -67,9 +89,11 @@ public:
 
 private:
   Faces findFaces() const;
+  std::vector<PointOfDataset> pointsOfDatasets(const Faces& faces) const;
   bool meets(const schlieren::Box& box) const;
 
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
+  std::vector<std::uint32_t> Datasets;
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;

@@ -99,7 +99,8 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
 bool MeshSource::hasSameSheets(
   const SourceMesh& mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
 {
-  return mesh.boundary->hasSheetsOf(pointersTo(leaves));
+  return mesh.boundary->hasSheetsOf([&](const CutFaces& cuts)
+    { return valuesAt(cuts.firstContributions, cuts.contributions, pointersTo(leaves)); });
 }
 
 std::uint64_t MeshSource::keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,

@@ -86,6 +86,7 @@ public:
     this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
   }
 
+  bool dependsOnLattice() const override { return true; } // by rounding
   int fields() const override { return this->Fields.count(); }
   FieldRange rangeOfField(int field, const schlieren::Box& box) const override
   {

@@ -30,15 +30,13 @@ void addTriangles(Reader& reader, BoundaryFaces& faces)
 
 } // namespace
 
-void BoundaryOfMeshes::add(Reader& reader, std::int64_t ofRank)
+void BoundaryOfMeshes::add(Reader& reader)
 {
-  this->cells.push_back(static_cast<double>(ofRank));
-  for (std::vector<double>& along : this->sizes.emplace_back())
-  {
-    along = reader.GetAll<std::vector<double>>();
-  }
+  const auto measured = reader.GetAll<std::vector<CellTree::MeasuredCell>>();
+  this->cells.insert(this->cells.end(), measured.begin(), measured.end());
   Faces more;
   more.points = reader.GetAll<std::vector<Point>>();
+  const auto ofDatasets = reader.GetAll<std::vector<PointOfDataset>>();
   more.corners = reader.GetAll<std::vector<std::int32_t>>();
   more.starts = reader.GetAll<std::vector<std::size_t>>();
   more.owners = reader.GetAll<std::vector<Point>>();
@@ -47,11 +45,16 @@ void BoundaryOfMeshes::add(Reader& reader, std::int64_t ofRank)
   more.areParts = reader.GetAll<std::vector<unsigned char>>();
   const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
   const std::size_t firstCorner = faces.corners.size();
-  for (const Point& point : more.points)
+  for (std::size_t n = 0; n < more.points.size(); ++n)
   {
-    // The value of each point is sent with it.
-    faces.contributions.push_back({ 0, static_cast<vtkIdType>(faces.points.size()), 1 });
-    faces.addPoint(point);
+    const PointOfDataset& of = ofDatasets.at(n);
+    auto value = static_cast<vtkIdType>(faces.points.size());
+    if (of.point != PointOfDataset::nobodyElse)
+    {
+      value = this->known.emplace(of, value).first->second;
+    }
+    faces.contributions.push_back({ of.dataset, value, 1 });
+    faces.addPoint(more.points[n]);
   }
   for (const std::int32_t corner : more.corners)
   {
@@ -66,32 +69,6 @@ void BoundaryOfMeshes::add(Reader& reader, std::int64_t ofRank)
   faces.hidesBehind.insert(
     faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
   faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
-}
-
-CellTree::Sizes BoundaryOfMeshes::joinedSizes() const
-{
-  double cellsOfSize = 1;
-  for (std::size_t rank = 0; rank < this->sizes.size(); ++rank)
-  {
-    const auto measured = static_cast<double>(this->sizes[rank][0].size());
-    cellsOfSize = measured > 0 ? std::max(cellsOfSize, this->cells[rank] / measured) : cellsOfSize;
-  }
-  CellTree::Sizes joined;
-  for (std::size_t rank = 0; rank < this->sizes.size(); ++rank)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const std::vector<double>& all = this->sizes[rank][axis];
-      const double kept =
-        std::min(static_cast<double>(all.size()), this->cells[rank] / cellsOfSize);
-      for (double i = 0; i < std::floor(kept); ++i)
-      {
-        joined[axis].push_back(
-          all[static_cast<std::size_t>(i * static_cast<double>(all.size()) / kept)]);
-      }
-    }
-  }
-  return joined;
 }
 
 void BoundaryOfImage::add(Reader& reader)

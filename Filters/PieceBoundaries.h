@@ -8,12 +8,13 @@
 #include "CellTree.h"
 #include "DataParts.h"
 #include "ImagePiece.h"
-#include "MeshFaces.h"
+#include "MeshPiece.h"
 #include "WeightedMedian.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace filters
@@ -21,14 +22,15 @@ namespace filters
 
 struct BoundaryOfMeshes
 {
-  std::vector<CellTree::Sizes> sizes; // of some cells of each rank
-  std::vector<double> cells;          // of each rank
+  std::vector<CellTree::MeasuredCell> cells;
+  /// Each contribution is the value that is sent with the point; equal ones are of one point of a dataset. `leaf`: see
+  /// PointOfDataset.
   Faces faces;
+  std::unordered_map<PointOfDataset, vtkIdType, PointOfDataset::Hash>
+    known; // points that several ranks may have
 
-  /// Another rank's, which has so many cells.
-  void add(Reader& reader, std::int64_t ofRank);
-  /// Of cells of all ranks the same part.
-  CellTree::Sizes joinedSizes() const;
+  /// Another rank's.
+  void add(Reader& reader);
 };
 
 struct BoundaryOfImage

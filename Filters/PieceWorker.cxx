@@ -12,6 +12,7 @@
 #include "GasBoundary.h"
 #include "GatheredData.h"
 #include "InputDescription.h"
+#include "MeshKey.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfImage.h"
 
@@ -160,7 +161,9 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
     case Boundary:
     {
       const DataPiece& piece = this->PieceOf(request);
-      request.Get<bool>() ? piece.putBoundaryValues(answer) : piece.putBoundary(answer);
+      const auto isKept = request.Get<bool>();
+      const auto cellsOfAll = request.Get<std::int64_t>();
+      isKept ? piece.putBoundaryValues(answer) : piece.putBoundary(cellsOfAll, answer);
       break;
     }
     case Contents:
@@ -447,24 +450,32 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfParts(
   }
   const Outline::Extent own = this->Outlines.empty() ? whole : this->Outlines[0].extent;
   std::vector<vtkSmartPointer<vtkDataSet>> parts;
+  std::vector<std::uint32_t> datasets;
   for (const Part& part : this->Parts)
   {
     parts.push_back(withCopies(part.data, copies[part.slot]));
+    Hash ofSlot;
+    std::for_each(part.slot.begin(), part.slot.end(),
+      [&](int child) { ofSlot.add(static_cast<std::uint64_t>(child)); });
+    datasets.push_back(
+      static_cast<std::uint32_t>(ofSlot.value() >> 33)); // never Contribution::ofSeveral
   }
   this->Parts.clear();
   this->Outlines.clear();
   copies.clear();
   const std::shared_ptr<PieceMesh> before = std::exchange(this->Mesh, nullptr);
-  return kind == Image && !parts.empty() ? this->PieceOfImage(vtkImageData::SafeDownCast(parts[0]),
-                                             { whole, own }, bodies, ranges, tally, label)
-                                         : this->PieceOfMeshes(parts, ranges, before, tally, label);
+  return kind == Image && !parts.empty()
+    ? this->PieceOfImage(
+        vtkImageData::SafeDownCast(parts[0]), { whole, own }, bodies, ranges, tally, label)
+    : this->PieceOfMeshes(parts, datasets, ranges, before, tally, label);
 }
 
 std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
-  const std::vector<vtkSmartPointer<vtkDataSet>>& parts, const Ranges& ranges,
-  const std::shared_ptr<PieceMesh>& before, Tally& tally, std::string& label)
+  const std::vector<vtkSmartPointer<vtkDataSet>>& parts, const std::vector<std::uint32_t>& datasets,
+  const Ranges& ranges, const std::shared_ptr<PieceMesh>& before, Tally& tally, std::string& label)
 {
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+  std::vector<std::uint32_t> datasetsOfLeaves;
   std::vector<std::vector<vtkSmartPointer<vtkDataSet>>> leavesOfFields(ranges.ofFields.size());
   const bool isSmooth = this->Self->GetReconstruction() != vtkRefractiveIndex::LINEAR_IN_CELLS;
   if (!parts.empty())
@@ -482,7 +493,17 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
     if (!source.leaves.empty())
     {
       const CellValues cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
-      leaves = preparedLeaves(source, cellValues, tally);
+      for (const Leaf& leaf : source.leaves)
+      {
+        Source one = source;
+        one.leaves = { leaf };
+        const auto part = std::find(parts.begin(), parts.end(), leaf.input);
+        for (const auto& prepared : preparedLeaves(one, cellValues, tally))
+        {
+          leaves.push_back(prepared);
+          datasetsOfLeaves.push_back(datasets.at(static_cast<std::size_t>(part - parts.begin())));
+        }
+      }
       const std::vector<FieldValues> fields = this->FieldsOf(data, source, ranges.ofFields);
       for (std::size_t number = 0; number < fields.size(); ++number)
       {
@@ -491,8 +512,9 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
       }
     }
   }
-  auto piece = std::make_unique<MeshPiece>(
-    leaves, isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear, before);
+  auto piece = std::make_unique<MeshPiece>(leaves,
+    isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear, before,
+    std::move(datasetsOfLeaves));
   this->Mesh = piece->mesh();
   for (const auto& ofField : leavesOfFields)
   {

@@ -103,7 +103,8 @@ private:
   std::unique_ptr<const DataPiece> PieceOfParts(
     DataKind kind, Reader& request, Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfMeshes(
-    const std::vector<vtkSmartPointer<vtkDataSet>>& parts, const Ranges& ranges,
+    const std::vector<vtkSmartPointer<vtkDataSet>>& parts,
+    const std::vector<std::uint32_t>& datasets, const Ranges& ranges,
     const std::shared_ptr<PieceMesh>& before, Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfImage(vtkImageData* image, ImagePiece::Extents extents,
     vtkDataObject* bodies, const Ranges& ranges, Tally& tally, std::string& label) const;

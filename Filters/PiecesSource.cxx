@@ -58,6 +58,18 @@ void extend(
   }
 }
 
+/// Of all ranks' values at the boundary of meshes those of some points.
+std::vector<double> valuesOf(
+  const std::vector<Contribution>& points, const std::vector<double>& values)
+{
+  std::vector<double> found;
+  for (const Contribution& point : points)
+  {
+    found.push_back(values[static_cast<std::size_t>(point.point)]);
+  }
+  return found;
+}
+
 constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
 constexpr CellTree::Content nothing{ 1, 0, { infinity, infinity, infinity } };
 
@@ -160,6 +172,7 @@ void PiecesSource::findBoundary(vtkDataObject* bodies, Outside outside, PiecesMe
   const bool isKept = kept.boundary && kept.keys == keys;
   std::vector<char> request = this->request(PieceWorker::Boundary);
   put(isKept, request);
+  put(this->Cells, request);
   std::vector<std::vector<char>> requests;
   for (const std::int64_t cells : this->CellsOfRanks)
   {
@@ -188,13 +201,20 @@ void PiecesSource::findBoundary(vtkDataObject* bodies, Outside outside, PiecesMe
           ofAmr.add(reader);
           continue;
         case DataPiece::BoundaryKind::OfMesh:
-          ofMeshes.add(reader, this->CellsOfRanks[rank]);
+          ofMeshes.add(reader);
       }
     }
     const auto ofRank = reader.GetAll<std::vector<double>>();
     values.insert(values.end(), ofRank.begin(), ofRank.end());
   }
   progress.reach(0.3);
+  if (isKept &&
+    !kept.boundary->hasSheetsOf(
+      [&](const CutFaces& cuts) { return valuesOf(cuts.contributions, values); }))
+  {
+    this->findBoundary(bodies, outside, {}, std::move(keys), progress);
+    return;
+  }
   if (isKept)
   {
     this->Mesh = std::move(kept);
@@ -213,24 +233,20 @@ void PiecesSource::findBoundary(vtkDataObject* bodies, Outside outside, PiecesMe
   }
   else
   {
-    this->makeBoundary(std::move(ofMeshes), bodies, outside, progress.part(0.3, 1));
+    this->makeBoundary(std::move(ofMeshes), values, bodies, outside, progress.part(0.3, 1));
     this->Mesh.keys = std::move(keys);
     this->Mesh.number = this->Number;
   }
-  std::vector<double> onSurface;
-  for (const Contribution& fraction : this->Mesh.contributions)
-  {
-    onSurface.push_back(values[static_cast<std::size_t>(fraction.point)]);
-  }
-  this->Facts.ambient = this->Boundary->ambient(onSurface);
+  this->Facts.ambient = this->Boundary->ambient(valuesOf(this->Mesh.contributions, values));
 }
 
-void PiecesSource::makeBoundary(
-  BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
+void PiecesSource::makeBoundary(BoundaryOfMeshes of, const std::vector<double>& values,
+  vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
 {
-  this->Facts.voxelShape = CellTree::voxelShapeOf(of.joinedSizes());
+  this->Facts.voxelShape = CellTree::voxelShapeOf(std::move(of.cells));
   BoundaryFaces boundary = boundaryOf(
-    std::move(of.faces), [this](const std::vector<Point>& places) { return this->hold(places); });
+    std::move(of.faces), [this](const std::vector<Point>& places) { return this->hold(places); },
+    [&](const CutFaces& cuts) { return valuesOf(cuts.contributions, values); });
   this->Mesh.contributions = boundary.contributions;
   this->Boundary = std::make_shared<GasBoundary>(std::move(boundary), bodies, outside, progress);
   this->Mesh.boundary = this->Boundary;

@@ -89,8 +89,8 @@ public:
 private:
   void findBoundary(vtkDataObject* bodies, Outside outside, PiecesMesh kept,
     std::vector<std::uint64_t> keys, const WorkProgress& progress);
-  void makeBoundary(
-    BoundaryOfMeshes of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress);
+  void makeBoundary(BoundaryOfMeshes of, const std::vector<double>& values, vtkDataObject* bodies,
+    Outside outside, const WorkProgress& progress);
   void makeBoundary(
     BoundaryOfAmr of, vtkDataObject* bodies, Outside outside, const WorkProgress& progress);
   void makeBoundary(BoundaryOfImage of, vtkDataObject* bodies, const WorkProgress& progress);

@@ -87,8 +87,9 @@ std::string absenceOf(std::size_t rank, std::size_t ranks)
     "See what that rank has reported, or use one process.";
 }
 
-/// One rank can have so many times as many cells of an image as of a mesh: it takes some 10 bytes a point, a mesh some 200.
-constexpr double cellsOfImageForOne = 16;
+/// One rank can have so many times as many cells of an image as of a mesh: it takes some 10 bytes a point, a mesh some 200,
+/// and less time; and the medium of an image that one rank has is its own grid, which is exact.
+constexpr double cellsOfImageForOne = 160;
 
 /// Whether ranks may have pieces of such data that stay, as far as is known before there are any.
 bool isDivisible(vtkInformation* inInfo, double maxCells)

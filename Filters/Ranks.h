@@ -93,7 +93,7 @@ public:
     Meeting& operator=(const Meeting&) = delete;
 
     /// On rank 0: all of the inputs, some of which other ranks may have sent. Throws std::runtime_error where rank 0
-    /// cannot get them. Data of more cells than `maxCells` (of images 16 times as many) that several ranks have stay where
+    /// cannot get them. Data of more cells than `maxCells` (of images 160 times as many) that several ranks have stay where
     /// they are: `data` is what rank 0 has of them, see AreInPieces().
     Inputs Gather(double maxCells = std::numeric_limits<double>::infinity());
 

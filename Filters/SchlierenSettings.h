@@ -186,7 +186,7 @@ struct ResourceSettings
   int DistributedMedium = 0;
   int Device = 0;
   int NumberOfThreads = 0;
-  int GatherLimit = 10000000;
+  int GatherLimit = 1000000;
   int ReadAheadMemory = 0;
   double TimeLimit = 0;
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SheetFaces.h"
 
-#include "BoundaryFaces.h"
 #include "WeightedMedian.h"
 
 #include <algorithm>
@@ -67,10 +66,9 @@ std::vector<double> jumpsOf(const CutFaces& cuts, const std::vector<double>& val
 
 } // namespace
 
-std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<vtkDataSet*>& leaves)
+std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<double>& values)
 {
-  const std::vector<double> jumps =
-    jumpsOf(cuts, valuesAt(cuts.firstContributions, cuts.contributions, leaves));
+  const std::vector<double> jumps = jumpsOf(cuts, values);
   // Parts, by one of their faces.
   std::vector<std::size_t> roots(cuts.size());
   std::iota(roots.begin(), roots.end(), std::size_t{ 0 });

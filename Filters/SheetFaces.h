@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-class vtkDataSet;
-
 namespace filters
 {
 
@@ -33,8 +31,8 @@ struct CutFaces
  * Which of these faces are walls (1), by the values of both sides: parts that hang together at their corners, with values
  * that differ by more than a thousandth of the values' range at all points that both sides have of their own, and by more than a
  * fiftieth on half of the area. So a wing ends where the cut does, or where its sides' values are the same, and values that
- * rounding or interpolation have made differ a little are no wall.
+ * rounding or interpolation have made differ a little are no wall. `values`: of all contributions, see valuesOf().
  */
-std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<vtkDataSet*>& leaves);
+std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<double>& values);
 
 } // namespace filters

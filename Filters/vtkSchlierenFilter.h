@@ -848,9 +848,9 @@ public:
    * to make the medium; then the image is the same to the last bit, however many processes there are. Each rank requests a
    * piece of meshes; where these have no more cells in all, rank 0 requests all, and where they are spread over the ranks
    * even so, they are sent to it. Larger ones stay where they are: each rank has its cells, with copies of others'
-   * around them, and makes the medium of them; so do images, which become a tree of bricks, and adaptive meshes of more
-   * than 16 times as many cells. 0: so do all of these. Two-dimensional data, and all where SamplingDimensions
-   * or SamplingBounds are in use are always sent. The default is 10^7.
+   * around them, and makes the medium of them. The image is the same but for rounding. So do adaptive meshes, and images,
+   * which become a tree of bricks, of more than 160 times as many cells. 0: so do all of these. Two-dimensional data, and
+   * all where SamplingDimensions or SamplingBounds are in use are always sent. The default is 10^6.
    */
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);

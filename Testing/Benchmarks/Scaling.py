@@ -22,7 +22,7 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-MODES = {"gathered": {}, "stay": {"GatherLimit": 1}, "distributed": {"GatherLimit": 1, "DistributedMedium": "On"}}
+MODES = {"gathered": {"GatherLimit": 2**31 - 1}, "stay": {"GatherLimit": 1}, "distributed": {"GatherLimit": 1, "DistributedMedium": "On"}}
 
 EXTENT = """
 executive = self.GetExecutive()

@@ -178,7 +178,7 @@ inline void expectSame(const schlieren::MediumSource& whole, const schlieren::Me
         worst = std::max(worst, difference);
         squares += difference * difference;
         ++count;
-        // Of groups of cells that are near more may count; a spline may be beyond its points' values.
+        // A spline may be beyond its points' values.
         EXPECT_LE(b.lowest, std::max(values[1][i], a.lowest) + 1e-12);
         EXPECT_GE(b.highest, std::min(values[1][i], a.highest) - 1e-12);
       }

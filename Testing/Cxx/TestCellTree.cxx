@@ -6,6 +6,7 @@
 
 #include "CellTree.h"
 
+#include "vtkRectilinearGrid.h"
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 
@@ -72,13 +73,13 @@ bool meet(const CellTree::Bounds& box, vtkDataSet* data, vtkIdType cell, double 
 }
 
 /// Lowest and highest value at the points of cells that meet a box.
-std::array<double, 2> rangeIn(vtkDataSet* data, const CellTree::Bounds& box, double more)
+std::array<double, 2> rangeIn(vtkDataSet* data, const CellTree::Bounds& box)
 {
   std::array<double, 2> range = { HUGE_VAL, -HUGE_VAL };
   vtkDataArray* values = data->GetPointData()->GetScalars();
   for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
   {
-    if (meet(box, data, cell, more))
+    if (meet(box, data, cell, 0))
     {
       vtkNew<vtkIdList> points;
       data->GetCellPoints(cell, points);
@@ -199,23 +200,54 @@ TEST(CellTree, HasOnlyCellsThatHoldGas)
   }
 }
 
-// Never less than the cells that meet a box; never more than those near it.
+// That of the cells whose bounds meet it, and of no others.
 TEST(CellTree, KnowsTheRangeInABox)
 {
   const Mesh mesh = hexahedra(9, 0.1);
   const CellTree tree({ mesh });
-  const double cell = 0.15;
   for (const CellTree::Bounds& box : someBoxes(100, -0.2, 1.2))
   {
     const CellTree::Content content = tree.content(box);
-    const std::array<double, 2> least = rangeIn(mesh, box, 0), most = rangeIn(mesh, box, 3 * cell);
-    EXPECT_LE(content.lowest, least[0]);
-    EXPECT_GE(content.highest, least[1]);
-    EXPECT_GE(content.lowest, most[0]);
-    EXPECT_LE(content.highest, most[1]);
+    EXPECT_EQ((std::array<double, 2>{ content.lowest, content.highest }), rangeIn(mesh, box));
   }
   const CellTree::Content nothing = tree.content({ { 1.01, 0, 0 }, { 2, 1, 1 } });
   EXPECT_GT(nothing.lowest, nothing.highest);
+}
+
+// Of a mesh of more cells than are measured, in one tree and in two.
+TEST(CellTree, MeasuresTheSameCellsInParts)
+{
+  const auto gridOf = [](int first, int last)
+  {
+    auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+    grid->SetExtent(first, last, 0, 50, 0, 40);
+    const auto coordinates = [](int begin, int end, double power)
+    {
+      vtkNew<vtkDoubleArray> values;
+      for (int i = begin; i <= end; ++i)
+      {
+        values->InsertNextValue(std::pow(i / 60., power));
+      }
+      return vtkSmartPointer<vtkDoubleArray>(values);
+    };
+    grid->SetXCoordinates(coordinates(first, last, 2));
+    grid->SetYCoordinates(coordinates(0, 50, 1.4));
+    grid->SetZCoordinates(coordinates(0, 40, 1));
+    setN(grid, rough);
+    return grid;
+  };
+  const auto whole = gridOf(0, 60);
+  const CellTree tree({ whole });
+  std::vector<CellTree::MeasuredCell> cells;
+  for (const auto& part : { gridOf(0, 23), gridOf(23, 60) })
+  {
+    const auto some = CellTree({ part }).measuredCells(whole->GetNumberOfCells());
+    cells.insert(cells.end(), some.begin(), some.end());
+  }
+  EXPECT_LT(cells.size(), static_cast<std::size_t>(whole->GetNumberOfCells()));
+  EXPECT_EQ(CellTree::voxelShapeOf(cells), tree.voxelShape());
+  // A tenth of the cells are smaller: their sizes are (i + 1)^2 - i^2, ..., in units of the grid.
+  EXPECT_NEAR(tree.voxelShape()[0], (2 * 6 + 1) / 60., 2.1 / 60);
 }
 
 TEST(CellTree, VisitsTheCellsInABox)

@@ -143,7 +143,12 @@ TEST(Pieces, AreSampledAsOneMesh)
       SCOPED_TRACE(std::to_string(parts.size()) + (ofCells ? ", cells" : ", points"));
       Ranks ranks(parts, ofCells);
       // Pieces of a few layers of cells do not reach all that values of cells depend on.
-      expectSame(*whole, *ranks.make(), ofCells ? 2e-6 : 2e-7);
+      const auto pieces = ranks.make();
+      expectSame(*whole, *pieces, ofCells ? 2e-6 : 2e-7);
+      if (!ofCells)
+      {
+        expectSameContents(*whole, *pieces);
+      }
     }
   }
 }
@@ -286,7 +291,7 @@ TEST(Pieces, GiveTheValuesOnTheirBoundaryAlone)
   { return filters::MeshPiece({ mesh }, filters::CellTree::Reconstruction::Smooth, kept); };
   const filters::MeshPiece piece = pieceOf(nullptr);
   std::vector<char> all, values, ofNext;
-  piece.putBoundary(all);
+  piece.putBoundary(1, all);
   pieceOf(nullptr).putBoundaryValues(values);
   ASSERT_GT(values.size(), 1000u);
   ASSERT_LT(values.size(), all.size());
@@ -385,6 +390,62 @@ TEST(Pieces, PartsOfARectilinearGridAreOneGrid)
   Ranks ranks({ partOf({ 0, edge, 0, 7, 0, edge }), partOf({ 0, 11, 7, edge, 0, edge }),
     partOf({ 11, edge, 7, edge, 0, edge }) });
   expectSame(*whole, *ranks.make());
+}
+
+/// A part of a grid around the plate -1 < x < 1 in y = 0, along its sides and away from it. Values are those of the two sides
+/// of the plate, which differ by `jump`, and no others at the seam behind it.
+vtkSmartPointer<vtkStructuredGrid> aroundAPlate(int first, int last, double jump)
+{
+  constexpr int around = 24, away = 8, layers = 6;
+  constexpr double pi = 3.14159265358979323846;
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetExtent(first, last, 0, away, 0, layers);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("N");
+  for (int k = 0; k <= layers; ++k)
+  {
+    for (int j = 0; j <= away; ++j)
+    {
+      for (int i = first; i <= last; ++i)
+      {
+        const double u = 0.15 * j, v = 2 * pi * (i % around) / around;
+        const double x[3] = { std::cosh(u) * std::cos(v), std::sinh(u) * std::sin(v),
+          2. * k / layers - 1 };
+        points->InsertNextPoint(x);
+        values->InsertNextValue(
+          ball({ x[0], x[1], x[2] }) + 1e-4 * jump * std::sin(v) * std::exp(-u));
+      }
+    }
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->AddArray(values);
+  return grid;
+}
+
+// Most faces on one side of the plate are another rank's than those on the other side.
+TEST(Pieces, HaveSheets)
+{
+  const std::vector<std::array<int, 2>> ends{ { 0, 7 }, { 7, 14 }, { 14, 24 } };
+  std::vector<Data> parts;
+  for (const auto& [first, last] : ends)
+  {
+    parts.push_back(aroundAPlate(first, last, 0.3));
+  }
+  Ranks ranks(parts);
+  const Box middle{ { -0.2, -0.01, -0.2 }, { 0.2, 0.01, 0.2 } };
+  for (const double jump : { 0.3, 0., 0.2 }) // on the same mesh
+  {
+    for (std::size_t rank = 0; rank < ends.size(); ++rank)
+    {
+      parts[rank]->ShallowCopy(aroundAPlate(ends[rank][0], ends[rank][1], jump));
+    }
+    const auto pieces = ranks.make();
+    expectSame(*inOnePiece(aroundAPlate(0, 24, jump)), *pieces);
+    pieces->prepareContents({ middle });
+    EXPECT_EQ(pieces->contentOf(middle).hasWall, jump > 0);
+  }
 }
 
 TEST(Pieces, FacesBetweenThemNeedNotBeTheSame)
