@@ -302,7 +302,6 @@ DistributedMedium Bench::Stages::distributionFor(const Unfinished& request) cons
   const Field& field = request.field;
   const Scene& scene = request.scene;
   const bool canDistribute = !workers.empty() && request.device == Device::Cpu && field.source &&
-    field.source->fields() == 0 &&
     canSuspend({ scene.pathModel, scene.integrator, scene.interpolation });
   return canDistribute ? scene.distributedMedium : DistributedMedium::Off;
 }

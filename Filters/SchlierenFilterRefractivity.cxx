@@ -62,7 +62,7 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
 bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
 {
   const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
-  if (this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF || !hasOtherRanks() || this->ColorByField ||
+  if (this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF || !hasOtherRanks() ||
     this->PathModel == DIFFERENCE || isBentOtherwise || this->Device == CUDA)
   {
     return false;

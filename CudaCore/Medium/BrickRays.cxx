@@ -274,6 +274,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
           leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
         sums);
       bend.opticalPath += ofLeaf.opticalPath;
+      bend.gathered += ofLeaf.gathered;
       for (int axis = 0; axis < 3; ++axis)
       {
         gradient[axis] += ofLeaf.gradient[axis];
@@ -290,7 +291,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
     gradient[2] / grid.spacing[2] };
   bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
-  bend.gathered = std::accumulate(sums.begin(), sums.end(), 0.);
+  bend.gathered += std::accumulate(sums.begin(), sums.end(), 0.);
   return bend;
 }
 
@@ -344,16 +345,39 @@ double fullColorOf(std::vector<double> gathered)
 
 } // namespace
 
+FieldGradientsView gradientsIn(
+  const BrickLayout& layout, const float* gradients, const std::int32_t* bricks)
+{
+  const std::int64_t row = std::int64_t{ brickEdge } + 2 * layout.apron;
+  const bool isLayer = layout.shape == BrickShape::Layer;
+  const std::int64_t plane = isLayer ? 0 : row * row;
+  constexpr std::int64_t last = brickEdge - 1;
+  const std::int64_t first = layout.fields * layout.apron * (plane + row + 1);
+  return { layout.fields > 0 ? gradients + first : nullptr, layout.fields, row, plane,
+    { last, last, isLayer ? depthOfLayers : last }, bricks, layout.samplesPerBrick };
+}
+
 template <class Real>
 LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
-  const LeafSegment& segment)
+  const float* gradients, const LeafSegment& segment)
 {
-  return visitScheme(layout.interpolation,
+  const FieldGradientsView fields = gradientsIn(layout, gradients, &segment.gradients);
+  std::vector<float> gathered(static_cast<std::size_t>(layout.fields), 0.f);
+  LeafSums sums = visitScheme(layout.interpolation,
     [&](auto scheme)
     {
-      return sumUpWith<decltype(scheme)>(
-        layout, samples, gasDistances, segment, [](const Vec3<Real>&, double) {});
+      return sumUpWith<decltype(scheme)>(layout, samples, gasDistances, segment,
+        [&](const Vec3<Real>& here, double step)
+        {
+          if (!gathered.empty())
+          {
+            gatherGradients(
+              fields, 0, here, static_cast<Real>(step / layout.unit), gathered.data());
+          }
+        });
     });
+  sums.gathered = std::accumulate(gathered.begin(), gathered.end(), 0.);
+  return sums;
 }
 
 template <class Real>
@@ -440,7 +464,6 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   }
   else
   {
-    const double unit = *std::min_element(grid.spacing.begin(), grid.spacing.end());
     visitScheme(medium.layout.interpolation,
       [&](auto scheme)
       {
@@ -457,7 +480,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
                     if (!gathered.empty())
                     {
                       gatherGradients(medium.gradients, segment.leaf, here,
-                        static_cast<Real>(step / unit), gathered.data());
+                        static_cast<Real>(step / medium.layout.unit), gathered.data());
                     }
                   });
               });
@@ -506,8 +529,10 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   return findings;
 }
 
-template LeafSums sumUp(const BrickLayout&, const float*, const std::int16_t*, const LeafSegment&);
-template LeafSums sumUp(const BrickLayout&, const double*, const std::int16_t*, const LeafSegment&);
+template LeafSums sumUp(
+  const BrickLayout&, const float*, const std::int16_t*, const float*, const LeafSegment&);
+template LeafSums sumUp(
+  const BrickLayout&, const double*, const std::int16_t*, const float*, const LeafSegment&);
 template RayFindings lookAlongRays(const LeavesView<float>&, const Column&,
   const std::vector<Vec3<double>>&, double, const RayFindings&, int, const SumsElsewhere&);
 template RayFindings lookAlongRays(const LeavesView<double>&, const Column&,

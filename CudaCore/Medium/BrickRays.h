@@ -42,7 +42,8 @@ struct LeafSegment
   double perIndex;           ///< of the leaf
   std::int32_t steps;
   std::int32_t leaf;
-  std::int32_t brick, map; ///< map -1: it has none
+  std::int32_t brick, map;    ///< map -1: it has none
+  std::int32_t gradients = 0; ///< brick of fields' gradients; 0: they are 0
 };
 
 /// What the samples along it add up to.
@@ -50,6 +51,7 @@ struct LeafSums
 {
   double gradient[3] = { 0, 0, 0 }; ///< nu by index times data units
   double opticalPath = 0;           ///< nu times data units
+  double gathered = 0;              ///< of all fields
   bool isBlocked = false;
 };
 
@@ -60,14 +62,21 @@ struct BrickLayout
   std::int32_t apron;
   BrickShape shape;
   Interpolation interpolation;
+  std::int32_t fields = 0; ///< whose gradients are in bricks of their own
+  double unit = 1;         ///< of length, of these; data units
 
   /// The axes along which there is more than one sample.
   int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
 };
 
+/// `gradients`: bricks of such a layout; `bricks`: of each leaf.
+FieldGradientsView gradientsIn(
+  const BrickLayout& layout, const float* gradients, const std::int32_t* bricks);
+
+/// `gradients`: null where there are no fields.
 template <class Real>
 LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
-  const LeafSegment& segment);
+  const float* gradients, const LeafSegment& segment);
 
 /// All that rays see of a tree.
 template <class Real>

@@ -183,14 +183,7 @@ LeafFinder MediumTree<Real>::finder() const
 template <class Real>
 FieldGradientsView MediumTree<Real>::gradients() const
 {
-  const std::int64_t row = brickEdge + 2 * apron();
-  const bool isLayer = shape() == BrickShape::Layer;
-  const std::int64_t plane = isLayer ? 0 : row * row;
-  const int fields = source_->fields();
-  const std::int64_t first = fields * apron() * (plane + row + 1);
-  return { fields > 0 ? gradients_.values().data() + first : nullptr, fields, row, plane,
-    { brickEdge - 1, brickEdge - 1, isLayer ? depthOfLayers : brickEdge - 1 },
-    gradientBricks_.data(), samplesPerBrick() };
+  return gradientsIn(layout(), gradients_.values().data(), gradientBricks_.data());
 }
 
 template <class Real>
@@ -200,7 +193,8 @@ std::size_t MediumTree<Real>::bytesUsed() const
   for (const Owned& owned : owned_)
   {
     ofOthers += static_cast<std::size_t>(owned.samples.used() - 1) * samples_.bytesOfBrick() +
-      static_cast<std::size_t>(owned.maps.used()) * maps_.bytesOfBrick();
+      static_cast<std::size_t>(owned.maps.used()) * maps_.bytesOfBrick() +
+      static_cast<std::size_t>(owned.gradients.used() - 1) * gradients_.bytesOfBrick();
   }
   return ofOthers + samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
     nodes_.size() * sizeof(Node) + nodeFields_.size() * sizeof(NodeFields) +
@@ -210,7 +204,8 @@ std::size_t MediumTree<Real>::bytesUsed() const
 template <class Real>
 BrickLayout MediumTree<Real>::layout() const
 {
-  return { samplesPerBrick(), apron(), shape(), settings_.interpolation };
+  return { samplesPerBrick(), apron(), shape(), settings_.interpolation, source_->fields(),
+    *std::min_element(grid_.spacing.begin(), grid_.spacing.end()) };
 }
 
 template <class Real>
@@ -226,18 +221,33 @@ std::vector<Leaf<Real>> MediumTree<Real>::leavesOf(std::int32_t owner) const
   leaves.reserve(leafNodes_.size());
   for (const std::int32_t at : leafNodes_)
   {
-    leaves.push_back(leafOf(nodes_[static_cast<std::size_t>(at)], owner));
+    leaves.push_back(leafOf(at, owner));
   }
   return leaves;
 }
 
 template <class Real>
-Leaf<Real> MediumTree<Real>::leafOf(const Node& node, std::int32_t owner) const
+std::vector<std::int32_t> MediumTree<Real>::gradientBricksOf(std::int32_t owner) const
 {
-  const bool hasSamples = node.brick > 0 || node.map >= 0;
-  const bool isElsewhere = hasSamples && node.owner != owner;
+  std::vector<std::int32_t> bricks;
+  for (std::size_t leaf = 0; leaf < leafNodes_.size() && !nodeFields_.empty(); ++leaf)
+  {
+    bricks.push_back(
+      ownerOf(static_cast<std::int32_t>(leaf)) == owner ? fieldsOf(leafNodes_[leaf]).brick : 0);
+  }
+  return bricks;
+}
+
+template <class Real>
+Leaf<Real> MediumTree<Real>::leafOf(std::int32_t at, std::int32_t owner) const
+{
+  const Node& node = nodes_[static_cast<std::size_t>(at)];
+  const bool hasGradients = fieldsOf(at).brick > 0;
+  const bool isElsewhere = (node.brick > 0 || node.map >= 0 || hasGradients) && node.owner != owner;
   Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset,
     isElsewhere ? ~node.owner : node.brick, isElsewhere ? -1 : node.map, node.kind };
+  // In one step no gradients would be gathered.
+  leaf.kind = leaf.kind == Leaf<Real>::Constant && hasGradients ? Leaf<Real>::Samples : leaf.kind;
   for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
   {
     leaf.first[axis] =
@@ -269,16 +279,11 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
   if (node.children < 0)
   {
     code = ~static_cast<std::int32_t>(leaves_.size());
-    Leaf<Real> leaf = leafOf(node, 0);
     if (!nodeFields_.empty())
     {
-      const std::int32_t gradients = fieldsOf(at).brick;
-      gradientBricks_.push_back(gradients);
-      // In one step nothing would be gathered.
-      leaf.kind =
-        leaf.kind == Leaf<Real>::Constant && gradients > 0 ? Leaf<Real>::Samples : leaf.kind;
+      gradientBricks_.push_back(node.owner == 0 ? fieldsOf(at).brick : 0);
     }
-    leaves_.push_back(leaf);
+    leaves_.push_back(leafOf(at, 0));
     leafNodes_.push_back(at);
     return;
   }

@@ -30,7 +30,7 @@ struct TreeSettings
   std::size_t memory = std::size_t{ 1 } << 30; ///< bytes that leaves may take, on each process
   Interpolation interpolation = Interpolation::Quadratic;
   int threads = 0;
-  std::shared_ptr<BrickOwners> owners{}; ///< null: all bricks are here. For sources without fields
+  std::shared_ptr<BrickOwners> owners{}; ///< null: all bricks are here
 };
 
 /// Of leaves that a view does not need, where memory is short.
@@ -97,6 +97,8 @@ public:
   std::int32_t ownerOf(std::int32_t leaf) const;
   /// The leaves as their owner sees them, with its numbers of bricks. leaves() are those of owner 0.
   std::vector<Leaf<Real>> leavesOf(std::int32_t owner) const;
+  /// The same of gradientBricks(); 0 where another process has the leaf.
+  std::vector<std::int32_t> gradientBricksOf(std::int32_t owner) const;
 
   // What is known of it.
   double largestNu() const { return largestNu_; }
@@ -115,11 +117,11 @@ private:
     std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has needed
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
-    std::int16_t owner = 0;     ///< of its brick and map; 0 where there are none
+    std::int16_t owner = 0;     ///< of its bricks and map; 0 where there are none
     bool isWrong = false;       ///< its error is too large beside those of others along a ray
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
-    std::int32_t brick = 0; ///< its number at its owner, as that of the map
+    std::int32_t brick = 0; ///< its number at its owner, as that of the map and of NodeFields
     std::int32_t map = -1;
     BrickFacts facts{};
   };
@@ -134,7 +136,7 @@ private:
   };
   struct Owned
   {
-    Numbers samples{ 1 }, maps{ 0 };
+    Numbers samples{ 1 }, maps{ 0 }, gradients{ 1 };
     DeliveredBricks<Real> unsent{};
   };
   /// The same of its fields.
@@ -199,8 +201,10 @@ private:
   std::vector<LeafSums> sumUp(const std::vector<LeafSegment>& segments) const;
   BrickLayout layout() const;
   std::size_t memory() const;
-  void removeSamples(Node& node);
-  void removeMap(Node& node);
+  void removeSamples(std::int32_t node);
+  void removeMap(std::int32_t node);
+  void removeGradients(std::int32_t node);
+  void findOwner(std::int32_t node);
   void forget(std::int32_t node);
   void forgetNegligible(const View& view);
   void forgetBelow(std::int32_t node);
@@ -213,7 +217,7 @@ private:
   NodeFields fieldsOf(std::int32_t node) const;
   void numberLeaves();
   void number(std::int32_t node, std::int32_t& code);
-  Leaf<Real> leafOf(const Node& node, std::int32_t owner) const;
+  Leaf<Real> leafOf(std::int32_t node, std::int32_t owner) const;
   void arrange();
   void summarize(const View& view);
 

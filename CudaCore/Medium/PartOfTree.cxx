@@ -6,6 +6,7 @@
 #include "Medium/CountedBytes.h"
 #include "Medium/Prefilter.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 
@@ -26,8 +27,10 @@ std::vector<char> DeliveredBricks<Real>::toBytes() const
   std::vector<char> bytes;
   appendCounted(samplesNumbers, bytes);
   appendCounted(mapNumbers, bytes);
+  appendCounted(gradientNumbers, bytes);
   appendCounted(samples, bytes);
   appendCounted(maps, bytes);
+  appendCounted(gradients, bytes);
   return bytes;
 }
 
@@ -37,6 +40,8 @@ PartOfTree<Real>::PartOfTree(const BrickLayout& layout)
   , samples_({ static_cast<std::size_t>(layout.samplesPerBrick), 1,
       PaddedVolume<Real>::readTogether, usualBytes })
   , maps_({ static_cast<std::size_t>(layout.samplesPerBrick), 0, 0, usualBytes })
+  , gradients_({ static_cast<std::size_t>(layout.samplesPerBrick * std::max(1, layout.fields)),
+      layout.fields > 0 ? std::size_t{ 1 } : 0, 0, layout.fields > 0 ? usualBytes : 0 })
 {
 }
 
@@ -46,13 +51,16 @@ bool PartOfTree<Real>::put(const char* bricks, std::size_t size)
   // From the message into their places: there is no memory for all of them twice.
   const auto take = [&](auto value, std::uint64_t& count)
   { return takeCounted<decltype(value)>(bricks, size, count); };
-  std::uint64_t ofSamples = 0, ofMaps = 0, samples = 0, maps = 0;
+  std::uint64_t ofSamples = 0, ofMaps = 0, ofGradients = 0, samples = 0, maps = 0, gradients = 0;
   const char* const samplesNumbers = take(std::int32_t{}, ofSamples);
   const char* const mapNumbers = samplesNumbers ? take(std::int32_t{}, ofMaps) : nullptr;
-  const char* const firstSample = mapNumbers ? take(Real{}, samples) : nullptr;
+  const char* const gradientNumbers = mapNumbers ? take(std::int32_t{}, ofGradients) : nullptr;
+  const char* const firstSample = gradientNumbers ? take(Real{}, samples) : nullptr;
   const char* const firstMap = firstSample ? take(std::int16_t{}, maps) : nullptr;
+  const char* const firstGradient = firstMap ? take(float{}, gradients) : nullptr;
   const auto perBrick = static_cast<std::uint64_t>(layout_.samplesPerBrick);
-  if (!firstMap || samples != ofSamples * perBrick || maps != ofMaps * perBrick)
+  if (!firstGradient || samples != ofSamples * perBrick || maps != ofMaps * perBrick ||
+    gradients != ofGradients * perBrick * static_cast<std::uint64_t>(layout_.fields))
   {
     return false;
   }
@@ -67,6 +75,7 @@ bool PartOfTree<Real>::put(const char* bricks, std::size_t size)
   };
   putAll(samplesNumbers, ofSamples, firstSample, samples_);
   putAll(mapNumbers, ofMaps, firstMap, maps_);
+  putAll(gradientNumbers, ofGradients, firstGradient, gradients_);
   return true;
 }
 
@@ -76,11 +85,11 @@ bool PartOfTree<Real>::sumUp(
 {
   sums.assign(segments.size(), {});
   std::atomic<bool> areAllHere{ true };
-  const auto ofBrick = [this](const auto& values, std::int32_t brick)
+  const auto ofBrick = [](const auto& store, std::int32_t brick)
   {
     return brick >= 0 &&
-      (static_cast<std::size_t>(brick) + 1) * static_cast<std::size_t>(layout_.samplesPerBrick) <=
-      values.size();
+      (static_cast<std::size_t>(brick) + 1) * store.bytesOfBrick() <=
+      store.values().size() * sizeof(store.values()[0]);
   };
   parallelFor(static_cast<std::int64_t>(segments.size()), 256, threads,
     [&](std::int64_t begin, std::int64_t end)
@@ -88,13 +97,15 @@ bool PartOfTree<Real>::sumUp(
       for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
       {
         const LeafSegment& segment = segments[n];
-        if (!ofBrick(samples(), segment.brick) ||
-          (segment.map >= 0 && !ofBrick(gasDistances(), segment.map)))
+        if (!ofBrick(samples_, segment.brick) ||
+          (segment.map >= 0 && !ofBrick(maps_, segment.map)) ||
+          (segment.gradients != 0 && !ofBrick(gradients_, segment.gradients)))
         {
           areAllHere = false;
           return;
         }
-        sums[n] = schlieren::sumUp(layout_, samples().data(), gasDistances().data(), segment);
+        sums[n] = schlieren::sumUp(
+          layout_, samples().data(), gasDistances().data(), gradientValues().data(), segment);
       }
     });
   return areAllHere;

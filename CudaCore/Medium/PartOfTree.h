@@ -40,10 +40,15 @@ public:
 template <class Real>
 struct DeliveredBricks
 {
-  std::vector<std::int32_t> samplesNumbers, mapNumbers;
+  std::vector<std::int32_t> samplesNumbers, mapNumbers, gradientNumbers;
   std::vector<Real> samples;
   std::vector<std::int16_t> maps;
+  std::vector<float> gradients;
 
+  std::size_t count() const
+  {
+    return samplesNumbers.size() + mapNumbers.size() + gradientNumbers.size();
+  }
   std::vector<char> toBytes() const;
 };
 
@@ -65,11 +70,13 @@ public:
 
   const std::vector<Real>& samples() const { return samples_.values(); }
   const std::vector<std::int16_t>& gasDistances() const { return maps_.values(); }
+  const std::vector<float>& gradientValues() const { return gradients_.values(); }
 
 private:
   BrickLayout layout_;
   BrickStore<Real> samples_;
   BrickStore<std::int16_t> maps_;
+  BrickStore<float> gradients_;
 };
 
 } // namespace schlieren

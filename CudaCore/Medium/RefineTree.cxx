@@ -516,7 +516,7 @@ void MediumTree<Real>::sendBricks()
   for (std::size_t owner = 1; owner < owned_.size(); ++owner)
   {
     DeliveredBricks<Real>& unsent = owned_[owner].unsent;
-    if (!unsent.samplesNumbers.empty() || !unsent.mapNumbers.empty())
+    if (unsent.count() > 0)
     {
       sendBricks(static_cast<std::int32_t>(owner));
     }
@@ -545,6 +545,7 @@ std::vector<LeafSums> MediumTree<Real>::sumUp(const std::vector<LeafSegment>& se
       nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(segment.leaf)])];
     segment.brick = node.brick;
     segment.map = node.map;
+    segment.gradients = fieldsOf(leafNodes_[static_cast<std::size_t>(segment.leaf)]).brick;
     ofOwners[static_cast<std::size_t>(node.owner)].push_back(segment);
     if (node.owner == 0)
     {
@@ -557,8 +558,8 @@ std::vector<LeafSums> MediumTree<Real>::sumUp(const std::vector<LeafSegment>& se
     {
       for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
       {
-        sums[own[n]] =
-          schlieren::sumUp(layout(), samples().data(), gasDistances().data(), ofOwners[0][n]);
+        sums[own[n]] = schlieren::sumUp(layout(), samples().data(), gasDistances().data(),
+          gradientValues().data(), ofOwners[0][n]);
       }
     });
   std::vector<std::size_t> next(owned_.size(), 0);
@@ -581,12 +582,15 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int3
   node.kind = brick.kind;
   node.offset = brick.offset;
   node.facts = brick.facts;
-  node.owner =
-    static_cast<std::int16_t>(brick.samples.empty() && brick.gasDistances.empty() ? 0 : owner);
+  const std::vector<float>& gradients = brick.fields.gradients;
+  const bool hasAny = !brick.samples.empty() || !brick.gasDistances.empty() || !gradients.empty();
+  node.owner = static_cast<std::int16_t>(hasAny ? owner : 0);
+  std::int32_t ofGradients = 0;
   if (node.owner == 0)
   {
     node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
     node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
+    ofGradients = gradients.empty() ? 0 : gradients_.add(gradients);
   }
   else
   {
@@ -604,23 +608,25 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int3
     node.map = brick.gasDistances.empty()
       ? -1
       : give(brick.gasDistances, owned.maps, unsent.mapNumbers, unsent.maps);
+    ofGradients = gradients.empty()
+      ? 0
+      : give(gradients, owned.gradients, unsent.gradientNumbers, unsent.gradients);
     constexpr std::size_t most = 64; // its owner has memory for those that have come, too
-    if (unsent.samplesNumbers.size() + unsent.mapNumbers.size() >= most)
+    if (unsent.count() >= most)
     {
       sendBricks(owner);
     }
   }
   if (!nodeFields_.empty())
   {
-    const std::vector<float>& gradients = brick.fields.gradients;
-    nodeFields_[static_cast<std::size_t>(at)] = { gradients.empty() ? 0 : gradients_.add(gradients),
-      false, brick.fields.facts };
+    nodeFields_[static_cast<std::size_t>(at)] = { ofGradients, false, brick.fields.facts };
   }
 }
 
 template <class Real>
-void MediumTree<Real>::removeSamples(Node& node)
+void MediumTree<Real>::removeSamples(std::int32_t at)
 {
+  Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.brick > 0 && node.owner == 0)
   {
     samples_.remove(node.brick);
@@ -630,12 +636,13 @@ void MediumTree<Real>::removeSamples(Node& node)
     owned_[static_cast<std::size_t>(node.owner)].samples.free.push_back(node.brick);
   }
   node.brick = 0;
-  node.owner = node.map < 0 ? std::int16_t{ 0 } : node.owner;
+  findOwner(at);
 }
 
 template <class Real>
-void MediumTree<Real>::removeMap(Node& node)
+void MediumTree<Real>::removeMap(std::int32_t at)
 {
+  Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.map >= 0 && node.owner == 0)
   {
     maps_.remove(node.map);
@@ -645,7 +652,37 @@ void MediumTree<Real>::removeMap(Node& node)
     owned_[static_cast<std::size_t>(node.owner)].maps.free.push_back(node.map);
   }
   node.map = -1;
-  node.owner = node.brick == 0 ? std::int16_t{ 0 } : node.owner;
+  findOwner(at);
+}
+
+template <class Real>
+void MediumTree<Real>::removeGradients(std::int32_t at)
+{
+  const std::int32_t brick = fieldsOf(at).brick;
+  const auto owner = static_cast<std::size_t>(nodes_[static_cast<std::size_t>(at)].owner);
+  if (brick == 0)
+  {
+    return;
+  }
+  if (owner == 0)
+  {
+    gradients_.remove(brick);
+  }
+  else
+  {
+    owned_[owner].gradients.free.push_back(brick);
+  }
+  nodeFields_[static_cast<std::size_t>(at)].brick = 0;
+  findOwner(at);
+}
+
+/// Of a node that has lost something.
+template <class Real>
+void MediumTree<Real>::findOwner(std::int32_t at)
+{
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  const bool hasAny = node.brick > 0 || node.map >= 0 || fieldsOf(at).brick > 0;
+  node.owner = hasAny ? node.owner : std::int16_t{ 0 };
 }
 
 /// Takes a node's samples from it.
@@ -653,12 +690,9 @@ template <class Real>
 void MediumTree<Real>::forget(std::int32_t at)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
-  removeSamples(node);
-  removeMap(node);
-  if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
-  {
-    gradients_.remove(brick);
-  }
+  removeSamples(at);
+  removeMap(at);
+  removeGradients(at);
   if (!nodeFields_.empty())
   {
     nodeFields_[static_cast<std::size_t>(at)] = {};
@@ -677,25 +711,24 @@ void MediumTree<Real>::forgetNegligible(const View& view)
     Node& node = nodes_[static_cast<std::size_t>(at)];
     BrickFacts& facts = node.facts;
     const Negligible negligible = view.negligible(node.place.level);
-    if (NodeFields fields = fieldsOf(at);
+    if (const NodeFields fields = fieldsOf(at);
         fields.brick > 0 && fields.facts.range <= negligible.gathered)
     {
-      fields.facts.neglected = std::max(fields.facts.neglected, fields.facts.range);
-      gradients_.remove(fields.brick);
-      fields.brick = 0;
-      nodeFields_[static_cast<std::size_t>(at)] = fields;
+      nodeFields_[static_cast<std::size_t>(at)].facts.neglected =
+        std::max(fields.facts.neglected, fields.facts.range);
+      removeGradients(at);
     }
     if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= negligible.deflection &&
       fieldsOf(at).brick == 0)
     {
       facts.neglected = std::max(facts.neglected, facts.besideWindow);
-      removeMap(node);
+      removeMap(at);
       node.kind = Leaf<Real>::Samples;
     }
     if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= negligible.deflection)
     {
       facts.neglected = std::max(facts.neglected, facts.range);
-      removeSamples(node);
+      removeSamples(at);
       node.kind = Leaf<Real>::Constant;
     }
   }

@@ -124,7 +124,7 @@ __global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>) 
       }
       else if (hasAdvanced)
       {
-        MarchInResidentLeaves<Kernel, Real> march(task, batch, &state);
+        MarchInResidentLeaves<Kernel, Real, false> march(task, batch, &state);
         march.takeAllSteps();
         if (state.next == nowhere)
         {

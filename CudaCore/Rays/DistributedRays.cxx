@@ -24,21 +24,30 @@ struct TwoPacks
   SuspendedRay<Number> states[2][Lanes]{};
   Entry entries[2][Lanes];
   int count = 0;
+  std::size_t fields;
+  std::vector<float> gathered; ///< ray by ray
 
-  TwoPacks()
+  explicit TwoPacks(std::size_t ofFields)
+    : fields(ofFields)
+    , gathered(2 * Lanes * ofFields, 0.f)
   {
-    for (auto& pack : batches)
+    for (int n = 0; n < 2; ++n)
     {
-      std::fill(pack.fate, pack.fate + Lanes, RayFate::Missed);
+      std::fill(batches[n].fate, batches[n].fate + Lanes, RayFate::Missed);
+      for (int i = 0; i < Lanes; ++i)
+      {
+        batches[n].gathered[i] = ofRay(n * Lanes + i);
+      }
     }
   }
+  float* ofRay(int number) { return gathered.data() + fields * static_cast<std::size_t>(number); }
 };
 
 /// Puts a ray where it enters the grid, or where it is, and says whether that is in a leaf that is here: then it is one
 /// more of the packs. `ended`: in a wall.
 template <class Number, int Lanes>
 bool begin(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& ray,
-  TwoPacks<Number, Lanes>& packs, bool& ended, RayExit& exit)
+  const float* gathered, TwoPacks<Number, Lanes>& packs, bool& ended, RayExit& exit)
 {
   const int n = packs.count / Lanes, i = packs.count % Lanes;
   RayBatch<Number, Lanes>& batch = packs.batches[n];
@@ -64,33 +73,37 @@ bool begin(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& 
   }
   packs.entries[n][i] = entry;
   packs.states[n][i] = ray;
+  std::copy_n(gathered, packs.fields, packs.ofRay(packs.count));
   ++packs.count;
   return true;
 }
 
 template <class Number, int Lanes>
 void advanceWith(const RayTask<Number>& task, AdvanceFunction<Number, Lanes> advance,
-  const Pass& pass, SuspendedRay<Number>* rays, std::int64_t count, AdvancedRays<Number>& to)
+  const Pass& pass, TravellingRays<Number>& rays, std::int64_t first, std::int64_t end,
+  AdvancedRays<Number>& to)
 {
-  for (std::int64_t next = 0; next < count;)
+  for (std::int64_t next = first; next < end;)
   {
-    TwoPacks<Number, Lanes> packs;
-    for (; next < count && packs.count < 2 * Lanes; ++next)
+    TwoPacks<Number, Lanes> packs(rays.fields);
+    for (; next < end && packs.count < 2 * Lanes; ++next)
     {
       bool ended = false;
       RayExit exit{};
-      SuspendedRay<Number>& ray = rays[next];
-      if (begin(task, pass, ray, packs, ended, exit))
+      SuspendedRay<Number>& ray = rays.rays[static_cast<std::size_t>(next)];
+      const float* const gathered =
+        rays.gathered.data() + rays.fields * static_cast<std::size_t>(next);
+      if (begin(task, pass, ray, gathered, packs, ended, exit))
       {
         continue;
       }
       if (ended)
       {
-        to.ended.push_back({ ray.ray, exit });
+        to.end({ ray.ray, exit }, gathered);
       }
       else
       {
-        to.suspended.rays.push_back(ray);
+        to.suspended.add(ray, gathered);
       }
     }
     advance(task, packs.batches, packs.states);
@@ -100,11 +113,11 @@ void advanceWith(const RayTask<Number>& task, AdvanceFunction<Number, Lanes> adv
       const SuspendedRay<Number>& ray = packs.states[n][i];
       if (ray.next != SuspendedRay<Number>::nowhere)
       {
-        to.suspended.rays.push_back(ray);
+        to.suspended.add(ray, packs.ofRay(number));
         continue;
       }
       const RayBatch<Number, Lanes>& batch = packs.batches[n];
-      to.ended.push_back({ ray.ray, leaveGrid(task, batch, i, packs.entries[n][i]) });
+      to.end({ ray.ray, leaveGrid(task, batch, i, packs.entries[n][i]) }, packs.ofRay(number));
       to.worstDrift = std::max(to.worstDrift, static_cast<double>(batch.drift[i]));
     }
   }
@@ -189,21 +202,23 @@ template <class Real>
 void TravellingRays<Real>::write(std::vector<char>& message) const
 {
   std::vector<BegunRay> begun;
-  std::vector<SuspendedRay<Real>> others;
-  for (const SuspendedRay<Real>& ray : rays)
+  TravellingRays others{ fields, {}, {} };
+  for (std::size_t number = 0; number < rays.size(); ++number)
   {
+    const SuspendedRay<Real>& ray = rays[number];
     if (ray.leaf == SuspendedRay<Real>::nowhere)
     {
       begun.push_back({ ray.ray, ray.next });
     }
     else
     {
-      others.push_back(ray);
+      others.add(*this, number);
     }
   }
   append(std::vector<RayCounts>{ { begun.size(), others.size() } }, message);
   append(begun, message);
-  append(others, message);
+  append(others.rays, message);
+  append(others.gathered, message);
 }
 
 template <class Real>
@@ -218,8 +233,9 @@ std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::si
   at += sizeof(counts);
   const std::size_t bytesOfBegun = counts.begun * sizeof(BegunRay);
   const std::size_t bytesOfOthers = counts.others * sizeof(SuspendedRay<Real>);
+  const std::size_t bytesOfGathered = counts.others * fields * sizeof(float);
   if (counts.begun > message.size() || counts.others > message.size() ||
-    message.size() - at < bytesOfBegun + bytesOfOthers)
+    message.size() - at < bytesOfBegun + bytesOfOthers + bytesOfGathered)
   {
     return 0;
   }
@@ -237,8 +253,11 @@ std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::si
     rays.resize(rays.size() + counts.others);
     std::memcpy(rays.data() + (rays.size() - counts.others), message.data() + at + bytesOfBegun,
       bytesOfOthers);
+    gathered.resize(fields * rays.size());
+    std::memcpy(gathered.data() + (gathered.size() - fields * counts.others),
+      message.data() + at + bytesOfBegun + bytesOfOthers, bytesOfGathered);
   }
-  return at + bytesOfBegun + bytesOfOthers;
+  return at + bytesOfBegun + bytesOfOthers + bytesOfGathered;
 }
 
 template <class Real>
@@ -248,6 +267,7 @@ std::vector<char> AdvancedRays<Real>::toMessage(AdvancedMessage head) const
   head.worstDrift = worstDrift;
   std::vector<char> message = messageOf(head);
   append(ended, message);
+  append(gathered, message);
   suspended.write(message);
   return message;
 }
@@ -256,26 +276,33 @@ template <class Real>
 bool AdvancedRays<Real>::fromMessage(const std::vector<char>& message)
 {
   AdvancedMessage head;
+  const std::size_t fields = suspended.fields;
   if (!read(message, head) || head.kind != RayWorker::Advanced || head.ended > message.size() ||
-    message.size() - sizeof(head) < head.ended * sizeof(EndedRay))
+    message.size() - sizeof(head) < head.ended * (sizeof(EndedRay) + fields * sizeof(float)))
   {
     return false;
   }
   const std::size_t bytes = head.ended * sizeof(EndedRay);
+  const std::size_t bytesOfGathered = head.ended * fields * sizeof(float);
   ended.resize(head.ended);
+  gathered.resize(head.ended * fields);
   if (bytes > 0)
   {
     std::memcpy(ended.data(), message.data() + sizeof(head), bytes);
   }
+  if (bytesOfGathered > 0)
+  {
+    std::memcpy(gathered.data(), message.data() + sizeof(head) + bytes, bytesOfGathered);
+  }
   worstDrift = head.worstDrift;
-  return suspended.read(message, sizeof(head) + bytes) == message.size();
+  return suspended.read(message, sizeof(head) + bytes + bytesOfGathered) == message.size();
 }
 
 template <class Real>
 AdvancedRays<Real> advanceRays(
   const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads, Simd simd)
 {
-  AdvancedRays<Real> all;
+  AdvancedRays<Real> all(rays.fields);
   std::mutex lock; // of these
   constexpr std::int64_t grain = 64;
   const auto advanceAll = [&](auto advance)
@@ -283,13 +310,10 @@ AdvancedRays<Real> advanceRays(
     parallelFor(static_cast<std::int64_t>(rays.size()), grain, threads,
       [&](std::int64_t begin, std::int64_t end)
       {
-        AdvancedRays<Real> here;
-        advanceWith(task, advance, pass, rays.rays.data() + begin, end - begin, here);
+        AdvancedRays<Real> here(rays.fields);
+        advanceWith(task, advance, pass, rays, begin, end, here);
         const std::lock_guard<std::mutex> guard(lock);
-        all.ended.insert(all.ended.end(), here.ended.begin(), here.ended.end());
-        all.suspended.rays.insert(
-          all.suspended.rays.end(), here.suspended.rays.begin(), here.suspended.rays.end());
-        all.worstDrift = std::max(all.worstDrift, here.worstDrift);
+        all.add(here);
       });
   };
   visitAdvance<Real>(task.kernel, simd, advanceAll);

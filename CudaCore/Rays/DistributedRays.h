@@ -19,11 +19,13 @@
 namespace schlieren
 {
 
-/// Rays that have come to a process.
+/// Rays that have come to a process, with what they have gathered of each of so many fields.
 template <class Real>
 struct TravellingRays
 {
+  std::size_t fields = 0;
   std::vector<SuspendedRay<Real>> rays;
+  std::vector<float> gathered; ///< ray by ray
 
   std::size_t size() const { return rays.size(); }
 
@@ -35,14 +37,27 @@ struct TravellingRays
     state.leaf = SuspendedRay<Real>::nowhere;
     state.next = leaf;
     rays.push_back(state);
+    gathered.resize(fields * rays.size(), 0.f);
+  }
+  void add(const SuspendedRay<Real>& ray, const float* ofRay)
+  {
+    rays.push_back(ray);
+    gathered.insert(gathered.end(), ofRay, ofRay + fields);
+  }
+  void add(const TravellingRays& from, std::size_t number)
+  {
+    add(from.rays[number], from.gathered.data() + fields * number);
   }
 
   /// The last ones, so many at most.
   TravellingRays takeBack(std::size_t most)
   {
-    const auto left = static_cast<std::ptrdiff_t>(rays.size() - std::min(most, rays.size()));
-    TravellingRays taken{ { rays.begin() + left, rays.end() } };
-    rays.resize(static_cast<std::size_t>(left));
+    const std::size_t left = rays.size() - std::min(most, rays.size());
+    const auto ray = rays.begin() + static_cast<std::ptrdiff_t>(left);
+    const auto ofRay = gathered.begin() + static_cast<std::ptrdiff_t>(fields * left);
+    TravellingRays taken{ fields, { ray, rays.end() }, { ofRay, gathered.end() } };
+    rays.resize(left);
+    gathered.resize(fields * left);
     return taken;
   }
 
@@ -56,7 +71,11 @@ struct TravellingRays
 /// A channel sends messages of up to 64 kB without waiting for the other process, which may be sending, too. So many rays
 /// fit into one, with what has become of them.
 template <class Real>
-constexpr std::size_t raysAtOnce = (60000 - 512) / sizeof(SuspendedRay<Real>);
+constexpr std::size_t raysAtOnce(std::size_t fields)
+{
+  const std::size_t bytes = sizeof(SuspendedRay<Real>) + fields * sizeof(float);
+  return std::max<std::size_t>(1, (60000 - 512) / bytes);
+}
 
 /// The beginning of a message with bricks of a tree for a worker, as DeliveredBricks has them, with segments to be
 /// summed up in these, or with numbers of bricks.
@@ -80,7 +99,8 @@ struct BeginMessage
 {
   RequestHead head{ RayWorker::BeginRays, sizeof(Real), 0 };
   std::uint64_t tree = 0;
-  std::int64_t firstSample = 0; ///< from the first of all to where the task's pointers point
+  std::int64_t firstSample = 0;   ///< from the first of all to where the task's pointers point
+  std::int64_t firstGradient = 0; ///< likewise, of fields
   Simd simd = Simd::None;
   Pass pass{};
   RayTask<Real> task{}; ///< its pointers mean nothing
@@ -131,9 +151,31 @@ struct AdvancedMessage
 template <class Real>
 struct AdvancedRays
 {
+  explicit AdvancedRays(std::size_t fields)
+    : suspended{ fields, {}, {} }
+  {
+  }
+
   std::vector<EndedRay> ended;
+  std::vector<float> gathered;    ///< of these, ray by ray
   TravellingRays<Real> suspended; ///< that have come to other processes' leaves
   double worstDrift = 0;
+
+  void end(const EndedRay& ray, const float* ofRay)
+  {
+    ended.push_back(ray);
+    gathered.insert(gathered.end(), ofRay, ofRay + suspended.fields);
+  }
+  void add(const AdvancedRays& more)
+  {
+    const auto append = [](auto& values, const auto& others)
+    { values.insert(values.end(), others.begin(), others.end()); };
+    append(ended, more.ended);
+    append(gathered, more.gathered);
+    append(suspended.rays, more.suspended.rays);
+    append(suspended.gathered, more.suspended.gathered);
+    worstDrift = std::max(worstDrift, more.worstDrift);
+  }
 
   std::vector<char> toMessage(AdvancedMessage head) const;
   bool fromMessage(const std::vector<char>& message);

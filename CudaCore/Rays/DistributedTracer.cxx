@@ -60,6 +60,10 @@ struct DistributedTracer<Real>::State
     sendArray(channel, 2, tree.leavesOf(owner));
     sendArray(channel, 3, tree.roots());
     sendArray(channel, 4, tree.children());
+    if (tree.gradients().count > 0)
+    {
+      sendArray(channel, 8, tree.gradientBricksOf(owner));
+    }
   }
 
   /// Sends all workers what the rays of a trace need.
@@ -119,11 +123,14 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   start.head.number = newNumber();
   start.tree = state.owners.tree();
   start.firstSample = task.medium.samples - state.tree.samples().data();
+  const auto fields = static_cast<std::size_t>(task.gradients.count);
+  start.firstGradient = fields > 0 ? task.gradients.values - state.tree.gradientValues().data() : 0;
   start.simd = simd;
   start.pass = pass;
   start.task = task;
   const std::array<const void*, arraysOfTask> arrays{ nullptr, nullptr, task.medium.leaves,
-    task.medium.finder.roots, task.medium.finder.children };
+    task.medium.finder.roots, task.medium.finder.children, nullptr, nullptr, nullptr,
+    fields > 0 ? task.gradients.bricks : nullptr };
   forArrays(start.task,
     [&](std::size_t n, auto*& pointer)
     {
@@ -134,33 +141,37 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   state.begin(start);
   const AdvanceMessage head{ RayWorker::Advance, sizeof(Real), start.head.number };
 
-  std::vector<TravellingRays<Real>> waiting(count); // for a part
+  std::vector<TravellingRays<Real>> waiting(count, { fields, {}, {} }); // for a part
   std::int64_t underWay = 0;
 
   // -1: all have it.
   const auto ownerOf = [&](std::int32_t leaf) -> std::int32_t
   {
     const Leaf<Real>& here = task.medium.leaves[leaf];
-    const bool hasSamples = here.brick != 0 || here.map >= 0;
+    const bool hasSamples =
+      here.brick != 0 || here.map >= 0 || (fields > 0 && task.gradients.bricks[leaf] != 0);
     return !here.isResident() ? ~here.brick : (hasSamples ? 0 : -1);
   };
   const auto take = [&](std::size_t from, const AdvancedRays<Real>& advanced)
   {
-    for (const EndedRay& one : advanced.ended)
+    for (std::size_t number = 0; number < advanced.ended.size(); ++number)
     {
+      const EndedRay& one = advanced.ended[number];
       traced.exits[static_cast<std::size_t>(one.ray)] = one.exit;
+      std::copy_n(advanced.gathered.data() + fields * number, fields,
+        traced.gathered.data() + fields * static_cast<std::size_t>(one.ray));
     }
     underWay -= static_cast<std::int64_t>(advanced.ended.size());
     traced.worstDrift = std::max(traced.worstDrift, advanced.worstDrift);
-    for (const SuspendedRay<Real>& ray : advanced.suspended.rays)
+    for (std::size_t number = 0; number < advanced.suspended.size(); ++number)
     {
-      const std::int32_t owner = ownerOf(ray.next);
+      const std::int32_t owner = ownerOf(advanced.suspended.rays[number].next);
       if (owner < 0 || (owner == 0) == (from == 0)) // workers send this process its own only
       {
         throw Error(
           "A ray has been handed on to nobody: ranks disagree about the medium. Update again.");
       }
-      waiting[static_cast<std::size_t>(owner)].rays.push_back(ray);
+      waiting[static_cast<std::size_t>(owner)].add(advanced.suspended, number);
     }
   };
   const auto begin = [&](std::int64_t tile)
@@ -206,7 +217,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       {
         continue; // of a trace that has failed
       }
-      AdvancedRays<Real> advanced;
+      AdvancedRays<Real> advanced(fields);
       if (!advanced.fromMessage(answer))
       {
         throwAbsentOwner(static_cast<std::int32_t>(n + 1));
@@ -229,9 +240,9 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     typename State::Worker& worker = state.workers[n];
     while (waiting[n + 1].size() > 0 &&
       (worker.given == 0 ||
-        (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce<Real>)))
+        (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce<Real>(fields))))
     {
-      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce<Real>);
+      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce<Real>(fields));
       std::vector<char> request = messageOf(head);
       rays.write(request);
       state.traffic.own.add(
@@ -258,7 +269,8 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     }
     if (waiting[0].size() > 0)
     {
-      take(0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce<Real>), threads, simd));
+      take(
+        0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce<Real>(fields)), threads, simd));
       isIdle = false;
     }
     if (underWay == 0 && (isStopped || tiles.left().count() == 0))

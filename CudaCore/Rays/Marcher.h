@@ -835,7 +835,7 @@ SCHLIEREN_HD void march(
 /// were suspended, or, where `leaf` is nowhere, where they enter the grid, which must be in a resident leaf. It ends before
 /// they would enter a leaf that is not resident, which `states` then say. What becomes of a ray does not depend on those
 /// beside it.
-template <class Kernel, class Real>
-using MarchInResidentLeaves = March<Kernel, Real, MayMeet<false, true, false, true>>;
+template <class Kernel, class Real, bool fields = true>
+using MarchInResidentLeaves = March<Kernel, Real, MayMeet<false, true, fields, true>>;
 
 } // namespace schlieren

@@ -128,7 +128,13 @@ bool PartWorker::begin(const std::vector<char>& message)
   }
   request.task.medium.samples = part<Real>().tree->samples().data() + request.firstSample;
   request.task.medium.gasDistances = part<Real>().tree->gasDistances().data() + request.firstSample;
+  if (request.task.gradients.count > 0)
+  {
+    request.task.gradients.values =
+      part<Real>().tree->gradientValues().data() + request.firstGradient;
+  }
   part<Real>().request = request;
+  part<Real>().waiting.fields = static_cast<std::size_t>(request.task.gradients.count);
   bytesOfReal_ = sizeof(Real);
   addresses_ = valuesFrom<std::int32_t>(sizeof(request), message);
   taken_ = 0;
@@ -194,19 +200,20 @@ bool PartWorker::advancePart(Channel& channel, Peers& peers, int threads)
     return false;
   }
   const BeginMessage<Real>& request = here.request;
-  AdvancedRays<Real> advanced = advanceRays(
-    request.task, request.pass, here.waiting.takeBack(raysAtOnce<Real>), threads, request.simd);
+  const std::size_t fields = here.waiting.fields;
+  AdvancedRays<Real> advanced = advanceRays(request.task, request.pass,
+    here.waiting.takeBack(raysAtOnce<Real>(fields)), threads, request.simd);
 
-  std::vector<TravellingRays<Real>> toOwners(addresses_.size());
-  for (const SuspendedRay<Real>& ray : advanced.suspended.rays)
+  std::vector<TravellingRays<Real>> toOwners(addresses_.size(), { fields, {}, {} });
+  for (std::size_t number = 0; number < advanced.suspended.size(); ++number)
   {
-    const Leaf<Real>& next = request.task.medium.leaves[ray.next];
+    const Leaf<Real>& next = request.task.medium.leaves[advanced.suspended.rays[number].next];
     const auto owner = static_cast<std::size_t>(~next.brick);
     if (next.isResident() || owner >= toOwners.size())
     {
       throw Error("A ray has come to a leaf that nobody has.");
     }
-    toOwners[owner].rays.push_back(ray);
+    toOwners[owner].add(advanced.suspended, number);
   }
   AdvancedMessage head;
   head.number = trace_;

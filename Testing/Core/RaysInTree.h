@@ -80,7 +80,7 @@ struct Traced
     refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, setting.finest }, {});
     RaySettings rays;
     rays.kernel = { setting.path, Integrator::Leapfrog, setting.interpolation };
-    task = makeTask<Real>(medium, nullptr, FieldGradientsView{}, light, rays);
+    task = makeTask<Real>(medium, nullptr, medium.tree->gradients(), light, rays);
   }
 
   static TreeSettings settingsOf(const Setting& setting, const std::shared_ptr<BrickOwners>& owners)
@@ -101,7 +101,7 @@ struct Traced
 
   void traceAlone(TracedPass& traced, Simd simd = bestSimd()) const
   {
-    traced.resize(pass, 0);
+    traced.resize(pass, task.gradients.count);
     EXPECT_TRUE(traceOnCpu(task, pass, traced, 2, {}, simd));
   }
 

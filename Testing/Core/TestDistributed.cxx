@@ -37,8 +37,21 @@ void expectSameRays(const TracedPass& a, const TracedPass& b)
     EXPECT_EQ(std::memcmp(&a.exits[n], &b.exits[n], sizeof(RayExit)), 0)
       << n << ": " << a.exits[n].deflection[0] << " " << b.exits[n].deflection[0];
   }
+  EXPECT_EQ(a.gathered, b.gathered);
   EXPECT_EQ(a.crossed, b.crossed);
   EXPECT_EQ(a.worstDrift, b.worstDrift);
+}
+
+/// What rays have gathered, to `tolerance` of the most.
+void expectCloseSums(const TracedPass& a, const TracedPass& b, double tolerance)
+{
+  ASSERT_EQ(a.gathered.size(), b.gathered.size());
+  const float most =
+    b.gathered.empty() ? 0 : *std::max_element(b.gathered.begin(), b.gathered.end());
+  for (std::size_t n = 0; n < a.gathered.size(); ++n)
+  {
+    EXPECT_NEAR(a.gathered[n], b.gathered[n], tolerance * static_cast<double>(most)) << n;
+  }
 }
 
 /// Workers, and a tree that they have parts of.
@@ -84,7 +97,7 @@ double expectSame(const Setting& setting, const Traced<Real>& alone, double tole
     EXPECT_EQ(ofTeam.estimatedError, ofOne.estimatedError);
     DistributedTracer<Real> tracer(team.traced->medium, *team.owners);
     TracedPass rays;
-    rays.resize(team.traced->pass, 0);
+    rays.resize(team.traced->pass, team.traced->task.gradients.count);
     EXPECT_TRUE(tracer.trace(team.traced->task, team.traced->pass, rays, 2, {}, simd));
     if (count > 0)
     {
@@ -93,6 +106,7 @@ double expectSame(const Setting& setting, const Traced<Real>& alone, double tole
     else
     {
       expectCloseRays(rays, expected, tolerance);
+      expectCloseSums(rays, expected, tolerance);
       expected = std::move(rays);
     }
     const auto& traffic = tracer.traffic();
@@ -208,6 +222,41 @@ TEST(Distributed, IsTheSameWhereNothingDependsOnDepth)
   EXPECT_GT(expectSame<float>(setting), 0.5);
   setting.direction = { 0, 0, -1 };
   expectSame<float>(setting);
+}
+
+// Of fields with gradients where nothing bends light, too.
+TEST(Distributed, GathersFieldsInAllParts)
+{
+  for (const bool hasWalls : { false, true })
+  {
+    std::shared_ptr<const MediumSource> medium = std::make_shared<BallsSource>(threeBalls(3e-2));
+    Setting setting;
+    if (hasWalls)
+    {
+      medium = std::make_shared<SphereSource>(2);
+      setting.tolerance = 0.5;
+      setting.finest = 0.04;
+    }
+    setting.source = std::make_shared<SourceWithFields>(medium,
+      std::vector<FieldFormula>{
+        ballField({ 0.5, 0.4, -0.3 }, 0.3), linearField({ 0.2, 0, -0.1 }) });
+    const Traced<float> alone(setting);
+    EXPECT_GT(expectSame(setting, alone), 1.5);
+    const Team<float> team(setting, 2);
+    TracedPass rays;
+    rays.resize(team.traced->pass, 2);
+    DistributedTracer<float>(team.traced->medium, *team.owners)
+      .trace(team.traced->task, team.traced->pass, rays, 1, {});
+    for (const std::size_t field : { 0u, 1u })
+    {
+      float most = 0;
+      for (std::size_t n = field; n < rays.gathered.size(); n += 2)
+      {
+        most = std::max(most, rays.gathered[n]);
+      }
+      EXPECT_GT(most, 0.1);
+    }
+  }
 }
 
 TEST(Distributed, FollowsRaysThatComeBack)
@@ -519,15 +568,34 @@ TEST(DistributedImage, IsThatOfAllProcessesWhereMediaCannotBeDistributed)
   adaptive.pathModel = PathModel::Refracted;
   const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
   expectSameImage(team.bench.render(field, adaptive), Bench().render(field, adaptive));
-  const auto withFields = std::make_shared<SourceWithFields>(
-    field.source, std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3) });
-  Field tinted = fieldOf(withFields);
-  tinted.gradients.count = 1;
-  Scene colored = scene;
-  colored.fieldColors = { { 1, 0, 0 } };
-  expectSameImage(team.bench.render(tinted, colored), Bench().render(tinted, colored));
   const BlobWithHole flow;
   expectSameImage(team.bench.render(flow.field, scene), Bench().render(flow.field, scene));
+}
+
+TEST(DistributedImage, HasTheColoursOfFields)
+{
+  Field field =
+    fieldOf(std::make_shared<SourceWithFields>(std::make_shared<BallsSource>(threeBalls(3e-4)),
+      std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3), linearField({ 0, 0.1, 0 }) }));
+  field.gradients.count = 2;
+  Scene scene = sceneOf(DistributedMedium::On);
+  scene.fieldColors = { { 1, 0, 0 }, { 0, 0, 1 } };
+  BenchOfTeam team(2);
+  const Image image = team.bench.render(field, scene), alone = Bench().render(field, scene);
+  EXPECT_EQ(image.medium.processes, 3);
+  EXPECT_EQ(image.medium.bricks, alone.medium.bricks);
+  EXPECT_LT(differenceOf(alone, image).second, 1e-6);
+  ASSERT_FALSE(image.color.empty());
+  ASSERT_EQ(image.color.size(), alone.color.size());
+  float largest = 0;
+  for (std::size_t n = 0; n < image.color.size(); ++n)
+  {
+    largest = std::max(largest, std::abs(image.color[n] - alone.color[n]));
+  }
+  EXPECT_LT(largest, 1e-5);
+  scene.fieldColors.clear(); // of the same medium
+  EXPECT_LT(
+    differenceOf(Bench().render(field, scene), team.bench.render(field, scene)).second, 1e-6);
 }
 
 TEST(DistributedImage, MayHaveFewerBricksThanProcesses)

@@ -189,6 +189,12 @@ def distributed():
         assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
         seen.ViewDirection = [0.6, 0.1, -1]
         found[f"{kind}: from another side"] = image_array(seen, "Deflection")
+        seen.Fields = ["rho"]
+        seen.ColorByField = 1
+        found[f"{kind}: tinted"] = image_array(seen, "Color").astype(np.float64)
+        seen.UpdatePropertyInformation()
+        assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
+        seen.ColorByField = 0
     seen.TimeLimit = 0.05
     seen.ViewDirection = [1, 0, 0.3]
     seen.UpdatePipeline()
@@ -487,7 +493,7 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(on(1), parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 28 + 73 + 12 + 12 + 12, len(one)
+    assert isSanitized or len(one) == 72 + 18 + 28 + 73 + 15 + 12 + 12, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
