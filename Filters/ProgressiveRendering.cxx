@@ -106,6 +106,9 @@ bool vtkSchlierenFilter::GetStopped()
 }
 
 //------------------------------------------------------------------------------
+bool vtkSchlierenFilter::GetHasImage() { return this->Inside->HasImage; }
+
+//------------------------------------------------------------------------------
 int vtkSchlierenFilter::GetPercentDone()
 {
   const int percent = static_cast<int>(100 * this->Inside->Done);

@@ -73,6 +73,7 @@ struct EndMessage
   std::uint32_t kind = End;
   std::int32_t outcome = 0;
   std::int32_t dropsNext = 0; // of what has been read ahead
+  std::int32_t hasImage = 0;
 };
 /// Where pieces come from, and where they are sent on to.
 struct RelayMessage

@@ -357,7 +357,8 @@ FilterRanks::Meeting::~Meeting()
   {
     if (channel->isOpen())
     {
-      channel->send(messageOf(EndMessage{ End, this->Outcome, this->Next && !this->Keeps }));
+      channel->send(messageOf(EndMessage{
+        End, this->Outcome, this->Next && !this->Keeps, this->HasImage.value_or(false) }));
     }
   }
   for (const auto& channel : this->Of.Inside->Channels)
@@ -418,6 +419,7 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
     {
       const auto end = read<EndMessage>(message);
       this->Drops = end.dropsNext != 0;
+      this->HasImage = end.hasImage != 0;
       this->Of.Inside->Worker.endTrace();
       channel.send(messageOf(ShortMessage{ Ended, 0 }));
       return end.outcome != 0;

@@ -107,6 +107,9 @@ public:
 
     /// On rank 0: what Serve() returns on the others.
     void SetOutcome(bool outcome) { this->Outcome = outcome; }
+    /// Whether there is an image; on other ranks, after Serve(), unset where rank 0 has not come.
+    void SetHasImage(bool hasImage) { this->HasImage = hasImage; }
+    std::optional<bool> GetHasImage() const { return this->HasImage; }
 
     /// On rank 0: whether all ranks can read a time step while rays travel. Both need MPI, which must allow several threads.
     bool CanReadAhead() const;
@@ -151,6 +154,7 @@ public:
     FilterRanks& Of;
     const std::optional<Inputs> Own;
     bool Outcome = false;
+    std::optional<bool> HasImage;
     bool HasMet = false;        // rank 0, on another rank
     std::optional<double> Next; // the step that all ranks read
     bool Keeps = false;         // on rank 0

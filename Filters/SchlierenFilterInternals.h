@@ -103,6 +103,7 @@ struct vtkSchlierenFilter::Internals
   // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the image
   // at the outputs was begun, and the one that is not finished (0: there is none).
   vtkMTimeType FailedAt = 0;
+  bool HasImage = false; // on rank 0, as the last update has left it
   vtkMTimeType ShownOf = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;

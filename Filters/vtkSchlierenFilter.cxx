@@ -19,9 +19,11 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 using namespace filters;
 
@@ -37,6 +39,22 @@ FilterRanks::Part partFor(vtkRefractiveIndex* medium)
 {
   return medium->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
 }
+
+/// Does something at the end of a scope.
+class AtTheEnd
+{
+public:
+  explicit AtTheEnd(std::function<void()> work)
+    : Work(std::move(work))
+  {
+  }
+  ~AtTheEnd() { this->Work(); }
+  AtTheEnd(const AtTheEnd&) = delete;
+  AtTheEnd& operator=(const AtTheEnd&) = delete;
+
+private:
+  const std::function<void()> Work;
+};
 
 /// Whether there are no data because a filter before this one was aborted.
 bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
@@ -363,6 +381,7 @@ int vtkSchlierenFilter::RequestData(
     {
       serve();
     }
+    inside.HasImage = steps.GetMeeting().GetHasImage().value_or(inside.HasImage);
     this->Medium->SetPieceData(nullptr);
     return 1;
   }
@@ -370,6 +389,12 @@ int vtkSchlierenFilter::RequestData(
   {
     meetWithAll();
   }
+  const AtTheEnd noteImage(
+    [&]
+    {
+      inside.HasImage = output->GetNumberOfPoints() > 0;
+      steps.GetMeeting().SetHasImage(inside.HasImage);
+    });
   const Internals::WithWorkers withWorkers(
     inside, this->Medium, steps.GetMeeting(), threadsFrom(*this));
 

@@ -923,6 +923,11 @@ public:
   ///@}
 
   /**
+   * Whether the last update has left an image, which rank 0 has: the same on all ranks.
+   */
+  bool GetHasImage();
+
+  /**
    * How much of the rays and the light of the image there is, in per cent; 100 only for a finished one.
    */
   int GetPercentDone();

@@ -305,7 +305,7 @@ void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
 void vtkSchlierenActor::NoteTimes()
 {
   this->KnownTime = this->Bench->GetMTime();
-  this->FailedTime = this->Bench->GetOutput()->GetNumberOfPoints() > 0 ? 0 : this->KnownTime;
+  this->FailedTime = this->Bench->GetHasImage() ? 0 : this->KnownTime;
 }
 
 //------------------------------------------------------------------------------
@@ -436,7 +436,7 @@ vtkImageData* vtkSchlierenActor::Image(const View& view, int occasion)
   const Silent silent(this->Silence);
   this->Trace(occasion, this->LookThrough(view));
   this->NoteTimes();
-  if (this->HasFailed())
+  if (this->Bench->GetOutput()->GetNumberOfPoints() == 0) // it has failed, or rank 0 has it
   {
     return nullptr;
   }
