@@ -253,6 +253,9 @@ std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::si
     rays.resize(rays.size() + counts.others);
     std::memcpy(rays.data() + (rays.size() - counts.others), message.data() + at + bytesOfBegun,
       bytesOfOthers);
+  }
+  if (bytesOfGathered > 0)
+  {
     gathered.resize(fields * rays.size());
     std::memcpy(gathered.data() + (gathered.size() - fields * counts.others),
       message.data() + at + bytesOfBegun + bytesOfOthers, bytesOfGathered);
