@@ -260,9 +260,7 @@ Leaf<Real> MediumTree<Real>::leafOf(std::int32_t at, std::int32_t owner) const
 template <class Real>
 void MediumTree<Real>::numberLeaves()
 {
-  leaves_.clear();
   leafNodes_.clear();
-  gradientBricks_.clear();
   children_.clear();
   roots_.resize(static_cast<std::size_t>(rootCells_[0]) *
     static_cast<std::size_t>(rootCells_[1] * rootCells_[2]));
@@ -270,6 +268,8 @@ void MediumTree<Real>::numberLeaves()
   {
     number(static_cast<std::int32_t>(root), roots_[root]);
   }
+  leaves_ = leavesOf(0);
+  gradientBricks_ = gradientBricksOf(0);
 }
 
 template <class Real>
@@ -278,12 +278,7 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
   const Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.children < 0)
   {
-    code = ~static_cast<std::int32_t>(leaves_.size());
-    if (!nodeFields_.empty())
-    {
-      gradientBricks_.push_back(node.owner == 0 ? fieldsOf(at).brick : 0);
-    }
-    leaves_.push_back(leafOf(at, 0));
+    code = ~static_cast<std::int32_t>(leafNodes_.size());
     leafNodes_.push_back(at);
     return;
   }

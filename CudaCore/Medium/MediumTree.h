@@ -201,6 +201,8 @@ private:
   std::vector<LeafSums> sumUp(const std::vector<LeafSegment>& segments) const;
   BrickLayout layout() const;
   std::size_t memory() const;
+  template <class Store>
+  void release(std::int32_t brick, std::int16_t owner, Store& own, Numbers Owned::*ofOther);
   void removeSamples(std::int32_t node);
   void removeMap(std::int32_t node);
   void removeGradients(std::int32_t node);

@@ -623,57 +623,55 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int3
   }
 }
 
+/// Gives a brick's place back, where it is.
+template <class Real>
+template <class Store>
+void MediumTree<Real>::release(
+  std::int32_t brick, std::int16_t owner, Store& own, Numbers Owned::*ofOther)
+{
+  if (owner == 0)
+  {
+    own.remove(brick);
+  }
+  else
+  {
+    (owned_[static_cast<std::size_t>(owner)].*ofOther).free.push_back(brick);
+  }
+}
+
 template <class Real>
 void MediumTree<Real>::removeSamples(std::int32_t at)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
-  if (node.brick > 0 && node.owner == 0)
+  if (node.brick > 0)
   {
-    samples_.remove(node.brick);
+    release(node.brick, node.owner, samples_, &Owned::samples);
+    node.brick = 0;
+    findOwner(at);
   }
-  else if (node.brick > 0)
-  {
-    owned_[static_cast<std::size_t>(node.owner)].samples.free.push_back(node.brick);
-  }
-  node.brick = 0;
-  findOwner(at);
 }
 
 template <class Real>
 void MediumTree<Real>::removeMap(std::int32_t at)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
-  if (node.map >= 0 && node.owner == 0)
+  if (node.map >= 0)
   {
-    maps_.remove(node.map);
+    release(node.map, node.owner, maps_, &Owned::maps);
+    node.map = -1;
+    findOwner(at);
   }
-  else if (node.map >= 0)
-  {
-    owned_[static_cast<std::size_t>(node.owner)].maps.free.push_back(node.map);
-  }
-  node.map = -1;
-  findOwner(at);
 }
 
 template <class Real>
 void MediumTree<Real>::removeGradients(std::int32_t at)
 {
-  const std::int32_t brick = fieldsOf(at).brick;
-  const auto owner = static_cast<std::size_t>(nodes_[static_cast<std::size_t>(at)].owner);
-  if (brick == 0)
+  if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
   {
-    return;
+    release(brick, nodes_[static_cast<std::size_t>(at)].owner, gradients_, &Owned::gradients);
+    nodeFields_[static_cast<std::size_t>(at)].brick = 0;
+    findOwner(at);
   }
-  if (owner == 0)
-  {
-    gradients_.remove(brick);
-  }
-  else
-  {
-    owned_[owner].gradients.free.push_back(brick);
-  }
-  nodeFields_[static_cast<std::size_t>(at)].brick = 0;
-  findOwner(at);
 }
 
 /// Of a node that has lost something.

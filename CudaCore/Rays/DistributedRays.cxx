@@ -184,6 +184,20 @@ struct BegunRay
   std::int32_t leaf = 0;
 };
 
+/// Adds so many values from a message, from some byte on, which becomes that behind them. They must be there.
+template <class Value>
+void takeValues(
+  const std::vector<char>& message, std::size_t count, std::size_t& at, std::vector<Value>& values)
+{
+  if (count > 0)
+  {
+    values.resize(values.size() + count);
+    std::memcpy(
+      values.data() + (values.size() - count), message.data() + at, count * sizeof(Value));
+    at += count * sizeof(Value);
+  }
+}
+
 /// Before rays in a message.
 struct RayCounts
 {
@@ -239,28 +253,15 @@ std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::si
   {
     return 0;
   }
-  std::vector<BegunRay> begun(counts.begun);
-  if (!begun.empty())
-  {
-    std::memcpy(begun.data(), message.data() + at, bytesOfBegun);
-  }
+  std::vector<BegunRay> begun;
+  takeValues(message, counts.begun, at, begun);
   for (const BegunRay& ray : begun)
   {
     begin(ray.ray, ray.leaf);
   }
-  if (counts.others > 0)
-  {
-    rays.resize(rays.size() + counts.others);
-    std::memcpy(rays.data() + (rays.size() - counts.others), message.data() + at + bytesOfBegun,
-      bytesOfOthers);
-  }
-  if (bytesOfGathered > 0)
-  {
-    gathered.resize(fields * rays.size());
-    std::memcpy(gathered.data() + (gathered.size() - fields * counts.others),
-      message.data() + at + bytesOfBegun + bytesOfOthers, bytesOfGathered);
-  }
-  return at + bytesOfBegun + bytesOfOthers + bytesOfGathered;
+  takeValues(message, counts.others, at, rays);
+  takeValues(message, counts.others * fields, at, gathered);
+  return at;
 }
 
 template <class Real>
@@ -285,20 +286,11 @@ bool AdvancedRays<Real>::fromMessage(const std::vector<char>& message)
   {
     return false;
   }
-  const std::size_t bytes = head.ended * sizeof(EndedRay);
-  const std::size_t bytesOfGathered = head.ended * fields * sizeof(float);
-  ended.resize(head.ended);
-  gathered.resize(head.ended * fields);
-  if (bytes > 0)
-  {
-    std::memcpy(ended.data(), message.data() + sizeof(head), bytes);
-  }
-  if (bytesOfGathered > 0)
-  {
-    std::memcpy(gathered.data(), message.data() + sizeof(head) + bytes, bytesOfGathered);
-  }
+  std::size_t at = sizeof(head);
+  takeValues(message, head.ended, at, ended);
+  takeValues(message, head.ended * fields, at, gathered);
   worstDrift = head.worstDrift;
-  return suspended.read(message, sizeof(head) + bytes + bytesOfGathered) == message.size();
+  return suspended.read(message, at) == message.size();
 }
 
 template <class Real>
