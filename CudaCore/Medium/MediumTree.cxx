@@ -268,8 +268,11 @@ void MediumTree<Real>::numberLeaves()
   {
     number(static_cast<std::int32_t>(root), roots_[root]);
   }
-  leaves_ = leavesOf(0);
-  gradientBricks_ = gradientBricksOf(0);
+  // Of a tree that has not changed they stay where they are: rays have their addresses.
+  const std::vector<Leaf<Real>> leaves = leavesOf(0);
+  leaves_.assign(leaves.begin(), leaves.end());
+  const std::vector<std::int32_t> gradientBricks = gradientBricksOf(0);
+  gradientBricks_.assign(gradientBricks.begin(), gradientBricks.end());
 }
 
 template <class Real>
