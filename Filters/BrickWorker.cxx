@@ -11,7 +11,12 @@
 namespace filters
 {
 
-void BrickWorker::release() { *this = {}; }
+void BrickWorker::release()
+{
+  this->Number = 0;
+  this->Makers = {};
+  this->Known.reset();
+}
 
 void BrickWorker::begin(std::uint64_t number, Reader& request)
 {
@@ -22,19 +27,19 @@ void BrickWorker::begin(std::uint64_t number, Reader& request)
   auto ranges = request.GetAll<std::vector<schlieren::MediumSource::FieldRange>>();
   this->Makers = {};
   this->Known.reset();
-  if (mesh != 0 && mesh == this->Mesh)
+  KeptOfMesh::OfBricks kept = this->Kept->bricks();
+  if (mesh != 0 && mesh == kept.number)
   {
-    this->Lattices = this->Lattices ? this->Lattices : std::make_shared<LatticesOfMesh>();
-    this->Lattices->beginStep();
+    kept.lattices = kept.lattices ? kept.lattices : std::make_shared<LatticesOfMesh>();
+    kept.lattices->beginStep();
   }
   else
   {
-    this->Lattices.reset();
-    this->Boundary = std::make_shared<const GasBoundary>(request);
-    this->Mesh = mesh;
+    kept = { mesh, std::make_shared<const GasBoundary>(request), nullptr };
   }
+  this->Kept->keep(kept);
   this->Known =
-    std::make_unique<SamplesOfPieces>(facts, std::move(ranges), this->Boundary, this->Lattices);
+    std::make_unique<SamplesOfPieces>(facts, std::move(ranges), kept.boundary, kept.lattices);
   if (rules.bytesOfReal == sizeof(float))
   {
     std::get<Maker<float>>(this->Makers) =

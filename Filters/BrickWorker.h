@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "KeptOfMesh.h"
 #include "SamplesOfPieces.h"
 
 #include "Medium/BrickMakers.h"
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace filters
@@ -30,6 +32,11 @@ struct TaskOfPieces
 class BrickWorker
 {
 public:
+  explicit BrickWorker(std::shared_ptr<KeptOfMesh> kept)
+    : Kept(std::move(kept))
+  {
+  }
+
   /// `number`: of the data. The request: which mesh they are on, rules, facts about all of the data, ranges of fields, and where
   /// the gas ends.
   void begin(std::uint64_t number, Reader& request);
@@ -45,10 +52,8 @@ private:
   template <class Real>
   using Maker = std::unique_ptr<const schlieren::BrickMaker<Real>>;
 
+  std::shared_ptr<KeptOfMesh> Kept;
   std::uint64_t Number = 0;
-  std::uint64_t Mesh = 0; // 0: one that is not kept
-  std::shared_ptr<const GasBoundary> Boundary;
-  std::shared_ptr<LatticesOfMesh> Lattices; // from the second step on the same mesh on
   std::unique_ptr<SamplesOfPieces> Known;
   std::tuple<Maker<float>, Maker<double>> Makers; // one of them
 };

@@ -11,6 +11,8 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace filters
@@ -20,13 +22,18 @@ namespace filters
 class ChannelRanks : public PieceRanks
 {
 public:
-  explicit ChannelRanks(vtkRefractiveIndex* self)
-    : Own(self)
+  /// See PieceWorker.
+  ChannelRanks(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept)
+    : Own(self, std::move(kept))
   {
   }
 
   /// To the others; null: one that is not there.
-  void SetChannels(std::vector<schlieren::Channel*> channels) { this->Channels = channels; }
+  void SetChannels(std::vector<schlieren::Channel*> channels)
+  {
+    this->Channels = std::move(channels);
+  }
+  const std::vector<schlieren::Channel*>& GetChannels() const { return this->Channels; }
   PieceWorker& GetOwn() { return this->Own; }
   void SetThreads(const vtkSMPTools::Config& threads) { this->Threads = threads; }
   /// What this process answers.
@@ -34,6 +41,7 @@ public:
 
   /// Whether other ranks make bricks of data that this one has alone.
   void SetHelp(bool help) { this->Help = help; }
+  bool GetHelp() const { return this->Help; }
   bool MayHelp() const override;
 
   std::size_t Count() const override { return this->Channels.size() + 1; }

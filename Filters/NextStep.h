@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "SharedRefractivity.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -17,7 +19,6 @@ class vtkAlgorithm;
 class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
-struct MadeRefractivity;
 
 namespace filters
 {
@@ -27,7 +28,8 @@ struct TimeStep
 {
   double time = 0;
   vtkSmartPointer<vtkDataObject> data, bodies; // of this rank, sharing arrays; bodies may be null
-  std::shared_ptr<const MadeRefractivity> refractivity; // null: not made yet
+  std::shared_ptr<const MadeRefractivity> refractivity; // ahead; null: not made yet, or used
+  RefractivityKey key;                                  // of it
   std::unique_ptr<schlieren::Bench> bench;              // that has the medium; likewise
 };
 
@@ -54,6 +56,10 @@ public:
   /// Updates the inputs for a time, and afterwards requests the current one again. Null where there are no data.
   const TimeStep* Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
 
+  /// What was made ahead of the step of the last image, once, where it is from the same; else null.
+  std::shared_ptr<const MadeRefractivity> TakeRefractivity(
+    vtkAlgorithm* filter, const RefractivityKey& key);
+
   /// The step that has been read; null where there is none.
   TimeStep* GetNext() { return this->Next ? &*this->Next : nullptr; }
   /// Forgets it.
@@ -77,7 +83,7 @@ private:
 };
 
 /// What `trace` returns, which runs in a thread of its own while `read` runs in this one. The monitor is called in this one,
-/// as soon as `read` has returned. Where there is no thread for it, nothing is read.
+/// as soon as `read` has returned. Where there is no thread for it, one follows the other.
 schlieren::Image traceWhile(const std::function<void()>& read,
   const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
   const schlieren::Monitor& monitor);

@@ -49,8 +49,10 @@ bool hasPoints(vtkDataObject* data)
 
 } // namespace
 
-PieceWorker::PieceWorker(vtkRefractiveIndex* self)
+PieceWorker::PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept)
   : Self(self)
+  , Kept(std::move(kept))
+  , Bricks(this->Kept)
 {
 }
 PieceWorker::~PieceWorker() = default;
@@ -71,8 +73,7 @@ void PieceWorker::SetData(vtkDataObject* data, vtkDataObject* earlier)
 void PieceWorker::Release()
 {
   this->ReleasePiece();
-  this->Mesh.reset();
-  this->Bricks.release();
+  this->Kept->release();
 }
 
 void PieceWorker::ReleasePiece()
@@ -82,6 +83,7 @@ void PieceWorker::ReleasePiece()
   this->Outlines.clear();
   this->Fields.reset();
   this->Piece.reset();
+  this->Bricks.release();
 }
 
 std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
@@ -235,6 +237,8 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       this->Bricks.make(number, request, hasPiece ? this->Piece.get() : nullptr, answer);
       break;
     }
+    case Advance: // whoever has both has done it
+      break;
     case Forget:
       this->Release();
       break;
@@ -463,7 +467,7 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfParts(
   this->Parts.clear();
   this->Outlines.clear();
   copies.clear();
-  const std::shared_ptr<PieceMesh> before = std::exchange(this->Mesh, nullptr);
+  const std::shared_ptr<PieceMesh> before = this->Kept->takePiece();
   return kind == Image && !parts.empty()
     ? this->PieceOfImage(
         vtkImageData::SafeDownCast(parts[0]), { whole, own }, bodies, ranges, tally, label)
@@ -515,7 +519,7 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
   auto piece = std::make_unique<MeshPiece>(leaves,
     isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear, before,
     std::move(datasetsOfLeaves));
-  this->Mesh = piece->mesh();
+  this->Kept->keep(piece->mesh());
   for (const auto& ofField : leavesOfFields)
   {
     piece->addField(ofField);

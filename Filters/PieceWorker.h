@@ -6,6 +6,7 @@
 #include "DataPiece.h"
 #include "FieldTints.h"
 #include "ImagePiece.h"
+#include "KeptOfMesh.h"
 #include "MeshHalo.h"
 #include "MeshPiece.h"
 #include "RefractivityModels.h"
@@ -49,6 +50,7 @@ public:
     Sample,        // lattices
     BeginBricks,   // rules and facts, see BrickWorker
     MakeBricks,    // of its own samples and of others'
+    Advance,       // to what has been made of the next time step
     Forget,        // the piece
     Answer
   };
@@ -66,15 +68,21 @@ public:
     Lacking // the same, where the rank has not the arrays
   };
 
-  /// With the properties of `self`, which must outlive this.
-  explicit PieceWorker(vtkRefractiveIndex* self);
+  /// With the properties of `self`, which must outlive this. `kept`: for all pieces of the rank.
+  PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept);
   ~PieceWorker();
 
   /// What the rank has of the input until the piece is made, and of the time step before; may be null.
   void SetData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
+  void ReleasePiece();
   void Release(); // the piece, and what is kept for the next one
 
   static bool IsFor(std::uint32_t kind) { return kind >= Instant && kind < Answer; }
+  /// After such a request nobody needs the piece of another time step.
+  static bool IsLastOfOthers(std::uint32_t kind)
+  {
+    return kind == Outline || kind == Advance || kind == Forget;
+  }
 
   /// The answer to a request. Throws nothing: errors are answers.
   std::vector<char> Respond(const std::vector<char>& request);
@@ -99,7 +107,6 @@ private:
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
   void MakeFields(Reader& request);
   void MakePiece(Reader& request, std::vector<char>& answer);
-  void ReleasePiece();
   std::unique_ptr<const DataPiece> PieceOfParts(
     DataKind kind, Reader& request, Tally& tally, std::string& label);
   std::unique_ptr<const DataPiece> PieceOfMeshes(
@@ -124,7 +131,7 @@ private:
   FieldsOfBlocks& OwnFields();
   std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
   std::unique_ptr<const DataPiece> Piece;
-  std::shared_ptr<PieceMesh> Mesh; // of the last piece of meshes
+  std::shared_ptr<KeptOfMesh> Kept;
   BrickWorker Bricks;
   std::uint64_t Number = 0; // of the piece
 };

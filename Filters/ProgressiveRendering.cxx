@@ -3,6 +3,7 @@
 // How vtkSchlierenFilter makes an image: at once, time-sliced, between updates (Refine), or of several instants.
 #include "SchlierenFilterInternals.h"
 
+#include "AtTheEnd.h"
 #include "ExposureSteps.h"
 #include "FieldTints.h"
 #include "ImageOutput.h"
@@ -10,16 +11,17 @@
 #include "MeanImage.h"
 #include "Preview.h"
 #include "RealOptics.h"
+#include "RefractiveIndexInternals.h"
 #include "SceneFromSettings.h"
 
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 using namespace filters;
@@ -59,8 +61,7 @@ void vtkSchlierenFilter::Refine()
   }
   else
   {
-    hasMore = meeting.Serve(threadsFrom(*this),
-      [this](const std::vector<char>& message) { return this->Respond(message); });
+    hasMore = meeting.Serve(threadsFrom(*this), this->Responder(vtkRefractiveIndex::THIS_STEP));
   }
   if (hasMore)
   {
@@ -336,88 +337,84 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
     }
     return trace(monitor);
   }
-  // The thread that traces uses the connections to other ranks; what is made ahead must not.
-  const struct WithoutHelp
+  if (hasOtherRanks())
   {
-    vtkRefractiveIndex* medium;
-    int threads;
-    WithoutHelp(vtkRefractiveIndex* of, int ofRank)
-      : medium(of)
-      , threads(ofRank)
-    {
-      this->medium->SetHelp(false);
-    }
-    ~WithoutHelp() { this->medium->SetHelp(Internals::WithWorkers::mayOthersHelp(this->threads)); }
-  } withoutHelp(this->Medium, threadsFrom(*this));
-  std::atomic<bool> isTraced{ false }; // or has failed
-  const std::thread::id here = std::this_thread::get_id();
-  const auto traceWithRanks = [&](const schlieren::Monitor& ofTrace)
-  {
-    if (std::this_thread::get_id() == here) // there is no other thread: nothing is read
-    {
-      return trace(ofTrace);
-    }
-    const struct AtEnd
-    {
-      std::atomic<bool>& isTraced;
-      ~AtEnd() { this->isTraced = true; }
-    } atEnd{ isTraced };
     inside.Meeting->BeginToRead(*next);
-    schlieren::Image image = trace(ofTrace);
-    inside.Meeting->WaitForReaders();
-    return image;
+  }
+  std::atomic<bool> isTraced{ false }; // or has failed
+  const auto traceAndSay = [&](const schlieren::Monitor& ofTrace)
+  {
+    const AtTheEnd say([&] { isTraced = true; });
+    return trace(ofTrace);
   };
   const auto read = [&]
   {
     inside.IsReadingAhead = true;
-    try
-    {
-      this->ReadAhead(*next, scene, ambient, isTraced);
-    }
-    catch (const std::exception&) // the request for that step will say it
-    {
-    }
-    if (hasOtherRanks() && !inside.Meeting->KeepsNext())
-    {
-      inside.Ahead.Drop();
-    }
+    this->ReadAhead(*next, scene, ambient, isTraced);
     inside.IsReadingAhead = false;
   };
-  return traceWhile(read, hasOtherRanks() ? traceWithRanks : trace, monitor);
+  schlieren::Image image;
+  // Two threads at once must not set back what loops are to do.
+  vtkSMPTools::LocalScope(
+    threadsOfLoops(this->Medium), [&] { image = traceWhile(read, traceAndSay, monitor); });
+  return image;
 }
 
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
   const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
 {
+  using Place = FilterRanks::Meeting::Place;
   Internals& inside = *this->Inside;
   FilterRanks::Inputs own;
-  auto read = inside.readStep(this, this->GetExecutive()->GetInputInformation(), time, own);
-  bool isAllHere = true;
+  FilterRanks::Meeting::StepAhead read;
+  const auto attempt = [](const std::function<void()>& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::exception&) // the request for that step will say it
+    {
+    }
+  };
+  attempt(
+    [&] { read = inside.readStep(this, this->GetExecutive()->GetInputInformation(), time, own); });
+  Place place = Place::OnRank0;
   if (hasOtherRanks())
   {
-    read = inside.Meeting->MeetAhead(read, own, isTraced, isAllHere);
+    read = inside.Meeting->MeetReaders(read, own, this->MostGathered(), place);
     inside.Ahead.SetKeepable(read.isKeepable);
-    // What needs the other ranks is made when they meet for it.
-    isAllHere =
-      isAllHere && !inside.Ranks.AreInPieces() && this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF;
   }
-  if (read.isThere && isAllHere)
+  if (!read.isThere)
   {
-    this->MakeAhead(*inside.Ahead.GetNext(), scene, ambient);
+    inside.Ahead.Drop();
+  }
+  else if (place == (inside.Ranks.AreInPieces() ? Place::InPieces : Place::OnRank0))
+  {
+    const Internals::WithReaders withReaders(inside, this->Medium, threadsFrom(*this));
+    attempt([&] { this->MakeAhead(*inside.Ahead.GetNext(), scene, ambient, isTraced); });
+  }
+  if (hasOtherRanks())
+  {
+    inside.Meeting->EndOfStep(read.isThere);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::MakeAhead(
-  TimeStep& step, const schlieren::Scene& scene, const std::optional<double>& ambient)
+void vtkSchlierenFilter::MakeAhead(TimeStep& step, const schlieren::Scene& scene,
+  const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
 {
-  step.refractivity = this->FindOrMakeRefractivity(
-    step.data, step.bodies, this->DescribeInputs(step.data, step.bodies));
+  step.key = this->KeyOfAhead(step.data, step.bodies);
+  step.refractivity = this->FindOrMakeRefractivity(step.data, step.bodies,
+    this->DescribeInputs(step.data, step.bodies), vtkRefractiveIndex::NEXT_STEP);
   // Its medium is another one where it needs the ambient refractivity that is being found now.
   const bool isAmbientKnown = !this->LockAmbient || !this->Inside->FindsAmbient;
   const bool hasTints = this->ColorByField && step.refractivity && !step.refractivity->Source;
-  if (!step.refractivity || !isAmbientKnown || hasTints || this->PathModel == DIFFERENCE)
+  // Voxels that ranks may share out are not made before these meet for that.
+  const bool isWholeHere = !hasOtherRanks() || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF;
+  if (!step.refractivity || !isAmbientKnown || hasTints || !isWholeHere ||
+    this->PathModel == DIFFERENCE)
   {
     return;
   }
@@ -427,7 +424,9 @@ void vtkSchlierenFilter::MakeAhead(
   field.gradients = { static_cast<int>(scene.fieldColors.size()), nullptr, field.version };
   step.bench = std::make_unique<schlieren::Bench>();
   step.bench->setMedia(mediaOfProcess());
-  step.bench->prepare(field, scene, { nullptr, [this]() { return this->GetAbortExecute() != 0; } });
+  // What is left when this image is there is made while the step after the next one is read.
+  step.bench->prepare(
+    field, scene, { nullptr, [&]() { return isTraced || this->GetAbortExecute() != 0; } });
 }
 
 //------------------------------------------------------------------------------

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
@@ -32,18 +31,19 @@ namespace ranks
 /// The first bytes of messages. Those of rays have other numbers.
 enum Kind : std::uint32_t
 {
-  Hello = 1, // to rank 0
-  Begin,     // to others: an answer to Hello
-  Leave,     // to rank 0, which does not come
-  GiveData,  // to others
-  Data,      // to rank 0
-  End,       // to others
-  Ended,     // to rank 0, an answer to End
-  Ask,       // to others, before they get pieces
-  Ready,     // to rank 0, an answer to Ask
-  Relay,     // to others: a message comes in pieces
-  ReadStep,  // to others: a time step that they read while they trace rays
-  StepIsRead // to rank 0, an answer to ReadStep
+  Hello = 1,  // to rank 0
+  Begin,      // to others: an answer to Hello
+  Leave,      // to rank 0, which does not come
+  GiveData,   // to others
+  Data,       // to rank 0
+  End,        // to others
+  Ended,      // to rank 0, an answer to End
+  Ask,        // to others, before they get pieces
+  Ready,      // to rank 0, an answer to Ask
+  Relay,      // to others: a message comes in pieces
+  ReadStep,   // to others: a time step that they read while they trace rays
+  StepIsRead, // to rank 0, an answer to ReadStep, on the connection of readers
+  StepEnds    // to others, likewise: 1 where they keep it
 };
 
 struct HelloMessage
@@ -67,12 +67,12 @@ struct StepIsReadMessage
   std::int32_t isThere = 0;
   std::int32_t isKeepable = 1;
   Holdings inputs[2] = {};
+  std::int32_t pieceKinds = 0;
 };
 struct EndMessage
 {
   std::uint32_t kind = End;
   std::int32_t outcome = 0;
-  std::int32_t dropsNext = 0; // of what has been read ahead
   std::int32_t hasImage = 0;
 };
 /// Where pieces come from, and where they are sent on to.
@@ -86,7 +86,7 @@ struct RelayMessage
 struct ShortMessage
 {
   std::uint32_t kind = 0;
-  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text
+  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; StepEnds: 1 or 0
   std::int32_t number = 0;
 };
 
@@ -249,9 +249,9 @@ public:
 
   // On rank 0: of a rank that waits for it, and of one that is at the meeting.
   std::optional<HelloMessage> Greeting, Guest;
-  StepIsReadMessage NextStep;         // likewise, of a rank that has read it
-  std::atomic<bool> HasRead{ false }; // likewise, for any thread: NextStep is there
 
+  /// Between readers, where nobody is greeted.
+  void Open() { this->Guest.emplace(); }
   /// Leaves the meeting, or a rank 0 that has not come.
   void Close()
   {
@@ -277,10 +277,6 @@ public:
         case Leave:
           this->Greeting.reset();
           this->Close();
-          break;
-        case StepIsRead:
-          this->NextStep = read<StepIsReadMessage>(message);
-          this->HasRead = true;
           break;
         default:
           this->Messages.push_back(std::move(message));

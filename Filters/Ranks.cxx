@@ -158,6 +158,19 @@ bool haveOthersCores(int threads)
 }
 
 //------------------------------------------------------------------------------
+bool ranks::canStay(std::int32_t kinds, const std::vector<Holdings>& holdings, double maxCells)
+{
+  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
+  double cells = 0;
+  for (const std::size_t rank : ranks)
+  {
+    cells += holdings[rank][1];
+  }
+  cells /= (kinds & (PieceOfImage | PiecesOfBlocks)) != 0 ? cellsOfImageForOne : 1;
+  return kinds != NoPieces && ranks.size() > 1 && cells > maxCells;
+}
+
+//------------------------------------------------------------------------------
 void setComplete(vtkInformationVector* outputs)
 {
   for (int port = 0; hasOtherRanks() && port < outputs->GetNumberOfInformationObjects(); ++port)
@@ -228,8 +241,9 @@ bool FilterRanks::Request(
   {
     // All ranks run their filters in the same order.
     static int filters = 0;
-    constexpr int most = 3500; // all tags are below 32768, which MPI grants
-    this->Inside = std::make_unique<Others>(controller, firstTag + 3 * (filters++ % most));
+    constexpr int most = 2250; // all tags are below 32768, which MPI grants
+    this->Inside =
+      std::make_unique<Others>(controller, firstTag + Others::Tags * (filters++ % most));
   }
   this->RequestedAt = Clock::now();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -305,7 +319,6 @@ void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
     }
     channel->Close(); // to what is left of meetings before
     channel->Guest = std::exchange(channel->Greeting, std::nullopt);
-    channel->HasRead = false;
     if (channel->isOpen())
     {
       channel->send(messageOf(ShortMessage{ Begin, channel->Guest->meeting }));
@@ -353,12 +366,12 @@ FilterRanks::Meeting::~Meeting()
   {
     return;
   }
+  this->EndOfStep(false); // where that was forgotten, they would wait for ever
   for (const auto& channel : this->Of.Inside->Channels)
   {
     if (channel->isOpen())
     {
-      channel->send(messageOf(EndMessage{
-        End, this->Outcome, this->Next && !this->Keeps, this->HasImage.value_or(false) }));
+      channel->send(messageOf(EndMessage{ End, this->Outcome, this->HasImage.value_or(false) }));
     }
   }
   for (const auto& channel : this->Of.Inside->Channels)
@@ -370,13 +383,13 @@ FilterRanks::Meeting::~Meeting()
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::Serve(int threads, const Responder& respond, const StepReader& readNext)
+bool FilterRanks::Meeting::Serve(int threads, const Responder& respond, const Reader& reader)
 {
   while (this->HasMet)
   {
     if (this->Next)
     {
-      return this->ServeAndRead(threads, respond, readNext);
+      return this->ServeAndRead(threads, respond, reader);
     }
     if (const std::optional<bool> outcome = this->ServeOnce(threads, respond))
     {
@@ -418,7 +431,6 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
     case End:
     {
       const auto end = read<EndMessage>(message);
-      this->Drops = end.dropsNext != 0;
       this->HasImage = end.hasImage != 0;
       this->Of.Inside->Worker.endTrace();
       channel.send(messageOf(ShortMessage{ Ended, 0 }));
@@ -561,15 +573,7 @@ bool FilterRanks::Meeting::CanStayInPieces(double maxCells) const
   {
     kinds &= channel->Guest->pieceKinds;
   }
-  const std::vector<Holdings> holdings = this->Of.Inside->HoldingsOf(0, this->Own->data);
-  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
-  double cells = 0;
-  for (const std::size_t rank : ranks)
-  {
-    cells += holdings[rank][1];
-  }
-  cells /= (kinds & (PieceOfImage | PiecesOfBlocks)) != 0 ? cellsOfImageForOne : 1;
-  return kinds != NoPieces && ranks.size() > 1 && cells > maxCells;
+  return canStay(kinds, this->Of.Inside->HoldingsOf(0, this->Own->data), maxCells);
 }
 
 //------------------------------------------------------------------------------

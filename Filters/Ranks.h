@@ -7,7 +7,6 @@
 
 #include "Rays/Channel.h"
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -113,10 +112,8 @@ public:
 
     /// On rank 0: whether all ranks can read a time step while rays travel. Both need MPI, which must allow several threads.
     bool CanReadAhead() const;
-    /// On rank 0, in the thread that uses the connections to the others from then on: all of them read this step, too.
+    /// On rank 0, before rays travel: all others read this step, too, and then wait for EndOfStep().
     void BeginToRead(double time);
-    /// Likewise, afterwards: waits until they have.
-    void WaitForReaders();
 
     /// A time step that has been read ahead, on a rank or on all.
     struct StepAhead
@@ -124,28 +121,40 @@ public:
       bool isThere = false;
       bool isKeepable = true; // false: what is upstream changes with each step
     };
-    /// On rank 0, in its main thread: waits for the others until `isOver`. What all ranks have where this one has `own`, and
-    /// whether there is nothing that it has not itself. Where it is there, all keep it.
-    StepAhead MeetAhead(const StepAhead& step, const Inputs& own, const std::atomic<bool>& isOver,
-      bool& isAllOnRank0);
-    /// Then: whether they do. And after Serve() on other ranks: whether they forget it.
-    bool KeepsNext() const { return this->Keeps; }
+    /// Of the data: rank 0 has all, each rank keeps its own, or rank 0 gathers them.
+    enum class Place
+    {
+      OnRank0,
+      InPieces,
+      Gathered
+    };
+    /// On rank 0, in the thread that reads: waits for the others. What all ranks have where this one has `own`, and where the data
+    /// will be at the meeting for that step, see Gather(). Bodies have to be on rank 0, too.
+    StepAhead MeetReaders(const StepAhead& step, const Inputs& own, double maxCells, Place& place);
+    /// Likewise: the connections to the others until EndOfStep(), which rank 0 has to call. They keep the step, or forget it.
+    std::vector<schlieren::Channel*> GetReaders() const;
+    void EndOfStep(bool isKept);
+    /// After Serve() on other ranks: whether they forget it.
     bool DropsNext() const { return this->Drops; }
 
     /// Answers a message; empty: it is for somebody else.
     using Responder = std::function<std::vector<char>(const std::vector<char>& message)>;
-    /// Reads a time step, in the thread that has called Serve().
-    using StepReader = std::function<StepAhead(double time, Inputs& own)>;
+    /// Reads a time step, and answers messages about it, in the thread that has called Serve().
+    struct Reader
+    {
+      std::function<StepAhead(double time, Inputs& own)> read;
+      Responder respond;
+    };
     /// On other ranks: does what rank 0 requests, until its meeting is over. False where rank 0 does not come.
-    bool Serve(
-      int threads, const Responder& respond = nullptr, const StepReader& readNext = nullptr);
+    bool Serve(int threads, const Responder& respond = nullptr, const Reader& reader = {});
 
   private:
     using Time = std::chrono::steady_clock::time_point;
     void WaitForOthers(Time end);
     void WaitForRank0(Time end);
     std::optional<bool> ServeOnce(int threads, const Responder& respond);
-    bool ServeAndRead(int threads, const Responder& respond, const StepReader& readNext);
+    bool ServeAndRead(int threads, const Responder& respond, const Reader& reader);
+    void ServeReader(const StepAhead& step, const Inputs& own, const Responder& respond);
     std::vector<char> DataMessage(int input) const;
     std::string FindAbsent() const;
     bool CanStayInPieces(double maxCells) const;
@@ -157,7 +166,7 @@ public:
     std::optional<bool> HasImage;
     bool HasMet = false;        // rank 0, on another rank
     std::optional<double> Next; // the step that all ranks read
-    bool Keeps = false;         // on rank 0
+    bool HasReaders = false;    // on rank 0: which wait for EndOfStep()
     bool Drops = false;         // on another rank
   };
 

@@ -16,12 +16,23 @@
 #include <memory>
 #include <vector>
 
+namespace filters
+{
+namespace ranks
+{
+/// Whether data stay on the ranks that have them, of the kinds of pieces that all of these are, see pieceKindsOf().
+bool canStay(std::int32_t kinds, const std::vector<Holdings>& holdings, double maxCells);
+} // namespace ranks
+} // namespace filters
+
 /// The connections of a filter to the other ranks.
 struct filters::FilterRanks::Others
 {
-  /// With three tags from this one on.
+  static constexpr int Tags = 5;
+  /// With so many tags from this one on.
   Others(vtkMultiProcessController* controller, int tag)
     : Own(communicatorOf(controller))
+    , OfReaders(communicatorOf(controller))
     , Peers(this->Own, tag + 2)
   {
     const bool isFirst = controller->GetLocalProcessId() == 0;
@@ -29,15 +40,18 @@ struct filters::FilterRanks::Others
     for (int rank = isFirst ? 1 : 0; rank < (isFirst ? ranks : 1); ++rank)
     {
       this->Channels.push_back(std::make_unique<ranks::RankChannel>(this->Own, rank, tag));
+      this->Readers.push_back(std::make_unique<ranks::RankChannel>(this->OfReaders, rank, tag + 3));
     }
   }
 
   std::vector<ranks::Holdings> HoldingsOf(int input, vtkDataObject* own) const;
 
-  // Of all ranks. An object of its own, as readers use the controller's while another thread uses this one.
-  vtkSmartPointer<ranks::Communicator> Own;
+  // Of all ranks. Objects of their own: while one thread traces rays, another reads, and what is upstream uses the
+  // controller's.
+  vtkSmartPointer<ranks::Communicator> Own, OfReaders;
   std::vector<std::unique_ptr<ranks::RankChannel>>
-    Channels;                  // on rank 0: to all others; there: to it
+    Channels,                  // on rank 0: to all others; there: to it
+    Readers;                   // likewise, between the threads that read the next time step
   ranks::RankPeers Peers;      // not on rank 0
   schlieren::RayWorker Worker; // likewise
   int Meetings = 0;            // likewise

@@ -3,11 +3,14 @@
 // A meeting of ranks that read the next time step, each in its main thread, while others trace rays.
 #include "RanksInternals.h"
 
+#include "MeshHalo.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <future>
 #include <system_error>
+#include <utility>
 
 namespace filters
 {
@@ -25,75 +28,109 @@ bool FilterRanks::Meeting::CanReadAhead() const
 //------------------------------------------------------------------------------
 void FilterRanks::Meeting::BeginToRead(double time)
 {
-  this->Next = time;
+  this->HasReaders = true;
   for (const auto& channel : this->Of.Inside->Channels)
   {
     channel->send(messageOf(ReadStepMessage{ ReadStep, time }));
   }
-}
-
-//------------------------------------------------------------------------------
-void FilterRanks::Meeting::WaitForReaders()
-{
-  for (const auto& channel : this->Of.Inside->Channels)
+  for (const auto& reader : this->Of.Inside->Readers)
   {
-    while (channel->isOpen() && !channel->HasRead)
-    {
-      channel->Poll();
-      waitABit();
-    }
+    reader->Open();
   }
 }
 
 //------------------------------------------------------------------------------
-FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetAhead(
-  const StepAhead& step, const Inputs& own, const std::atomic<bool>& isOver, bool& isAllOnRank0)
+FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetReaders(
+  const StepAhead& step, const Inputs& own, double maxCells, Place& place)
 {
   StepAhead all = step;
-  for (const auto& channel : this->Of.Inside->Channels)
+  std::vector<Holdings> ofData{ holdingsOf(own.data) }, ofBodies{ holdingsOf(own.bodies) };
+  std::int32_t kinds = pieceKindsOf(own.data);
+  for (const auto& reader : this->Of.Inside->Readers)
   {
-    while (!channel->HasRead && !isOver)
-    {
-      waitABit();
-    }
-    if (!channel->HasRead) // the image has failed, or that rank has left
-    {
-      return {};
-    }
-    all.isThere = all.isThere && channel->NextStep.isThere != 0;
-    all.isKeepable = all.isKeepable && channel->NextStep.isKeepable != 0;
+    const auto other = read<StepIsReadMessage>(reader->ReceiveOne(StepIsRead));
+    all.isThere = all.isThere && other.isThere != 0;
+    all.isKeepable = all.isKeepable && other.isKeepable != 0;
+    ofData.push_back(other.inputs[0]);
+    ofBodies.push_back(other.inputs[1]);
+    kinds &= other.pieceKinds;
   }
-  isAllOnRank0 = true;
-  vtkDataObject* const inputs[2] = { own.data, own.bodies };
-  for (int input = 0; input < 2 && all.isThere; ++input)
+  const auto hasRank0All = [](const std::vector<Holdings>& holdings)
   {
-    std::vector<Holdings> holdings{ holdingsOf(inputs[input]) };
-    for (const auto& channel : this->Of.Inside->Channels)
-    {
-      holdings.push_back(channel->NextStep.inputs[input]);
-    }
     const std::vector<std::size_t> ranks = ranksWithMore(holdings);
-    isAllOnRank0 = isAllOnRank0 && (ranks.empty() || ranks.back() == 0);
-  }
-  this->Keeps = all.isThere;
+    return ranks.empty() || ranks.back() == 0;
+  };
+  place = !hasRank0All(ofBodies)       ? Place::Gathered
+    : canStay(kinds, ofData, maxCells) ? Place::InPieces
+    : hasRank0All(ofData)              ? Place::OnRank0
+                                       : Place::Gathered;
   return all;
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::ServeAndRead(
-  int threads, const Responder& respond, const StepReader& readNext)
+std::vector<schlieren::Channel*> FilterRanks::Meeting::GetReaders() const
 {
+  std::vector<schlieren::Channel*> readers;
+  if (this->HasReaders)
+  {
+    for (const auto& reader : this->Of.Inside->Readers)
+    {
+      readers.push_back(reader.get());
+    }
+  }
+  return readers;
+}
+
+//------------------------------------------------------------------------------
+void FilterRanks::Meeting::EndOfStep(bool isKept)
+{
+  if (!std::exchange(this->HasReaders, false))
+  {
+    return;
+  }
+  for (const auto& reader : this->Of.Inside->Readers)
+  {
+    reader->send(messageOf(ShortMessage{ StepEnds, isKept ? 1 : 0 }));
+    reader->Close();
+  }
+}
+
+//------------------------------------------------------------------------------
+void FilterRanks::Meeting::ServeReader(
+  const StepAhead& step, const Inputs& own, const Responder& respond)
+{
+  RankChannel& reader = *this->Of.Inside->Readers[0];
   StepIsReadMessage result;
-  std::atomic<bool> isRead{ false };
+  result.isThere = step.isThere ? 1 : 0;
+  result.isKeepable = step.isKeepable ? 1 : 0;
+  result.inputs[0] = holdingsOf(own.data);
+  result.inputs[1] = holdingsOf(own.bodies);
+  result.pieceKinds = pieceKindsOf(own.data);
+  reader.send(messageOf(result));
+  for (;;)
+  {
+    std::vector<char> message = reader.receive();
+    if (read<ShortMessage>(message).kind == Relay)
+    {
+      message = reader.ReceiveRelayed(read<RelayMessage>(message));
+    }
+    const auto head = read<ShortMessage>(message);
+    if (head.kind == StepEnds)
+    {
+      this->Drops = head.number == 0;
+      return;
+    }
+    reader.send(head.kind == Ask ? messageOf(ShortMessage{ Ready, 0 }) : respond(message));
+  }
+}
+
+//------------------------------------------------------------------------------
+bool FilterRanks::Meeting::ServeAndRead(int threads, const Responder& respond, const Reader& reader)
+{
   const auto serve = [&]
   {
-    for (bool hasSaid = false;;)
+    for (;;)
     {
-      if (isRead && !hasSaid)
-      {
-        this->Of.Inside->Channels[0]->send(messageOf(result));
-        hasSaid = true;
-      }
       if (const std::optional<bool> outcome = this->ServeOnce(threads, respond))
       {
         return *outcome;
@@ -113,16 +150,12 @@ bool FilterRanks::Meeting::ServeAndRead(
   StepAhead step;
   try
   {
-    step = readNext(*this->Next, own);
+    step = reader.read(*this->Next, own);
   }
   catch (const std::exception&) // the request for that step will say it
   {
   }
-  result.isThere = step.isThere ? 1 : 0;
-  result.isKeepable = step.isKeepable ? 1 : 0;
-  result.inputs[0] = holdingsOf(own.data);
-  result.inputs[1] = holdingsOf(own.bodies);
-  isRead = true;
+  this->ServeReader(step, own, reader.respond);
   return service.valid() ? service.get() : serve();
 }
 

@@ -88,7 +88,8 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodi
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfImage(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents,
+  StepOfPieces step)
 {
   vtkNew<vtkImageData> refractivity;
   warning = this->Convert(input, refractivity);
@@ -109,7 +110,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
       forFieldImages(this, input, refractivity, threads,
         [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
     }
-    made->setHelpers(this->Pieces);
+    made->setHelpers(this->Pieces[step]);
     progress.reach(1);
   };
   try
@@ -132,13 +133,13 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vtkDataObject* input,
+  vtkDataObject* bodies, std::string& warning, SourceContents contents, StepOfPieces step)
 {
   Source source = chooseSource(this, input);
   if (source.image)
   {
-    return this->MakeSourceOfImage(input, bodies, warning, contents);
+    return this->MakeSourceOfImage(input, bodies, warning, contents, step);
   }
   const int flat = flatAxisOf(source);
   this->Grid.clear();
@@ -178,7 +179,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
         bringToCells(field);
         made->addField(*levels, field.source);
       }
-      made->setHelpers(this->Pieces);
+      made->setHelpers(this->Pieces[step]);
       take(made);
       return;
     }
@@ -225,7 +226,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
       made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
-    made->setHelpers(this->Pieces);
+    made->setHelpers(this->Pieces[step]);
     take(made);
   };
   try
@@ -262,13 +263,41 @@ bool vtkRefractiveIndex::CanUsePieces()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> channels)
+void vtkRefractiveIndex::SetPieceChannels(
+  std::vector<schlieren::Channel*> channels, StepOfPieces step)
 {
-  this->Pieces->SetChannels(std::move(channels));
+  this->Pieces[step]->SetChannels(std::move(channels));
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetHelp(bool help) { this->Pieces->SetHelp(help); }
+void vtkRefractiveIndex::SetHelp(bool help, StepOfPieces step)
+{
+  this->Pieces[step]->SetHelp(help);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::AdvancePieces()
+{
+  ChannelRanks& before = *this->Pieces[THIS_STEP];
+  ChannelRanks& now = *this->Pieces[NEXT_STEP];
+  now.SetChannels(before.GetChannels());
+  now.SetHelp(before.GetHelp());
+  before.SetHelp(false);
+  before.SetChannels({});
+  before.GetOwn().ReleasePiece();
+  std::swap(this->Pieces[THIS_STEP], this->Pieces[NEXT_STEP]);
+  try
+  {
+    std::vector<std::vector<char>> requests(now.Count(), pieceRequest(PieceWorker::Advance));
+    requests[0].clear();
+    readersOf(now.Request(std::move(requests)));
+    return true;
+  }
+  catch (const std::runtime_error&)
+  {
+    return false;
+  }
+}
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::ReleasePieces()
@@ -276,10 +305,12 @@ void vtkRefractiveIndex::ReleasePieces()
   if (std::exchange(this->HasPieces, false))
   {
     *this->MeshOfPieces = {};
+    this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
+    ChannelRanks& pieces = *this->Pieces[THIS_STEP];
     try
     {
-      this->Pieces->Request(
-        std::vector<std::vector<char>>(this->Pieces->Count(), pieceRequest(PieceWorker::Forget)));
+      pieces.Request(
+        std::vector<std::vector<char>>(pieces.Count(), pieceRequest(PieceWorker::Forget)));
     }
     catch (const std::runtime_error&)
     {
@@ -289,9 +320,10 @@ void vtkRefractiveIndex::ReleasePieces()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceData(vtkDataObject* data, vtkDataObject* earlier)
+void vtkRefractiveIndex::SetPieceData(
+  vtkDataObject* data, vtkDataObject* earlier, StepOfPieces step)
 {
-  this->Pieces->GetOwn().SetData(data, earlier);
+  this->Pieces[step]->GetOwn().SetData(data, earlier);
 }
 
 //------------------------------------------------------------------------------
@@ -299,39 +331,55 @@ void vtkRefractiveIndex::SetInstantOfPieces(double ratio)
 {
   std::vector<char> request = pieceRequest(PieceWorker::Instant);
   put(ratio, request);
-  std::vector<std::vector<char>> requests(this->Pieces->Count(), request);
+  ChannelRanks& pieces = *this->Pieces[THIS_STEP];
+  std::vector<std::vector<char>> requests(pieces.Count(), request);
   requests[0].clear();
-  readersOf(this->Pieces->Request(std::move(requests))); // throws what has gone wrong
+  readersOf(pieces.Request(std::move(requests))); // throws what has gone wrong
 }
 
 //------------------------------------------------------------------------------
-std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)
+std::vector<char> vtkRefractiveIndex::RespondForPiece(
+  const std::vector<char>& message, StepOfPieces step)
 {
-  if (!PieceWorker::IsFor(schlieren::RayWorker::kindOf(message)))
+  const std::uint32_t kind = schlieren::RayWorker::kindOf(message);
+  if (!PieceWorker::IsFor(kind))
   {
     return {};
   }
-  this->Pieces->SetThreads(threadsOfLoops(this));
-  return this->Pieces->Respond(message);
+  if (step == THIS_STEP && kind == PieceWorker::Advance)
+  {
+    std::swap(this->Pieces[THIS_STEP], this->Pieces[NEXT_STEP]);
+  }
+  if (step == THIS_STEP && PieceWorker::IsLastOfOthers(kind))
+  {
+    this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
+  }
+  this->Pieces[step]->SetThreads(threadsOfLoops(this));
+  return this->Pieces[step]->Respond(message);
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfPieces(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents,
+  StepOfPieces step)
 {
   this->Grid.clear();
   this->Search->release();
   this->LeaveMesh();
-  this->Pieces->SetThreads(threadsOfLoops(this));
-  this->SetPieceData(input);
+  this->Pieces[step]->SetThreads(threadsOfLoops(this));
+  this->SetPieceData(input, nullptr, step);
   this->HasPieces = true;
+  if (step == THIS_STEP) // what has been made of another step is of no use
+  {
+    this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
+  }
   std::shared_ptr<PiecesSource> made;
   try
   {
     vtkSMPTools::LocalScope(threadsOfLoops(this),
       [&]
       {
-        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
+        made = std::make_shared<PiecesSource>(this->Pieces[step], bodies,
           static_cast<filters::Outside>(this->Outside), contents == WITH_FIELDS,
           *this->MeshOfPieces, progressOf(this));
         *this->MeshOfPieces = made->mesh();
@@ -339,10 +387,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   }
   catch (const Stopped&)
   {
-    this->SetPieceData(nullptr);
+    this->SetPieceData(nullptr, nullptr, step);
     return nullptr;
   }
-  this->SetPieceData(nullptr);
+  this->SetPieceData(nullptr, nullptr, step);
   Source source;
   source.model = modelFrom(this);
   source.noteOnGases = noteOnGases(this);

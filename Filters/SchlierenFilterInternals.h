@@ -63,6 +63,32 @@ struct vtkSchlierenFilter::Internals
     vtkRefractiveIndex* Medium;
   };
 
+  /// They answer for their pieces of the next time step while this is there, and help with its medium.
+  class WithReaders
+  {
+  public:
+    WithReaders(Internals& internals, vtkRefractiveIndex* medium, int threads)
+      : Medium(medium)
+    {
+      if (internals.Meeting)
+      {
+        this->Medium->SetPieceChannels(
+          internals.Meeting->GetReaders(), vtkRefractiveIndex::NEXT_STEP);
+        this->Medium->SetHelp(WithWorkers::mayOthersHelp(threads), vtkRefractiveIndex::NEXT_STEP);
+      }
+    }
+    ~WithReaders()
+    {
+      this->Medium->SetHelp(false, vtkRefractiveIndex::NEXT_STEP);
+      this->Medium->SetPieceChannels({}, vtkRefractiveIndex::NEXT_STEP);
+    }
+    WithReaders(const WithReaders&) = delete;
+    WithReaders& operator=(const WithReaders&) = delete;
+
+  private:
+    vtkRefractiveIndex* Medium;
+  };
+
   filters::FilterRanks Ranks;
   filters::FilterRanks::Meeting* Meeting = nullptr; // on rank 0, while the others work for it
   filters::TimeSlicedImage Images;

@@ -113,7 +113,8 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
-  const auto made = this->FindOrMakeRefractivity(input, bodies, description);
+  const auto made =
+    this->FindOrMakeRefractivity(input, bodies, description, vtkRefractiveIndex::THIS_STEP);
   if (!made)
   {
     return false;
@@ -129,21 +130,43 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
-  vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
+RefractivityKey vtkSchlierenFilter::KeyOfAhead(vtkDataObject* input, vtkDataObject* bodies)
 {
+  return keyOf(this->Medium, input, bodies,
+    { static_cast<double>(this->Inside->Ranks.AreInPieces()),
+      static_cast<double>(this->ImagesBecomeTrees(input)) },
+    this->ColorByField);
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
+  vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description,
+  vtkRefractiveIndex::StepOfPieces step)
+{
+  if (step == vtkRefractiveIndex::THIS_STEP)
+  {
+    const auto ahead = this->Inside->Ahead.TakeRefractivity(this, this->KeyOfAhead(input, bodies));
+    if (ahead && (!hasOtherRanks() || this->Medium->AdvancePieces()))
+    {
+      this->Medium->SetMesh(ahead->Mesh);
+      return ahead;
+    }
+  }
   if (this->Inside->Ranks.AreInPieces()) // they belong to the ranks of this filter
   {
-    return this->MakeRefractivity(input, bodies);
+    return this->MakeRefractivity(input, bodies, step);
   }
   RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
   if (std::shared_ptr<const MadeRefractivity> found = findRefractivity(key))
   {
-    this->Medium->ReleasePieces();
+    if (step == vtkRefractiveIndex::THIS_STEP)
+    {
+      this->Medium->ReleasePieces();
+    }
     this->Medium->SetMesh(found->Mesh);
     return found;
   }
-  std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
+  std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies, step);
   if (made)
   {
     shareRefractivity(std::move(key), made);
@@ -153,7 +176,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
-  vtkDataObject* input, vtkDataObject* bodies)
+  vtkDataObject* input, vtkDataObject* bodies, vtkRefractiveIndex::StepOfPieces step)
 {
   const Internals& inside = *this->Inside;
   auto made = std::make_shared<MadeRefractivity>();
@@ -161,14 +184,17 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
   if (inside.Ranks.AreInPieces())
   {
-    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents);
+    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents, step);
   }
   else
   {
-    this->Medium->ReleasePieces();
+    if (step == vtkRefractiveIndex::THIS_STEP)
+    {
+      this->Medium->ReleasePieces();
+    }
     if (this->Medium->CanMakeSource(input, bodies, this->ImagesBecomeTrees(input)))
     {
-      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
+      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents, step);
     }
   }
   if (!made->Source && !this->Medium->GetAbortExecute())

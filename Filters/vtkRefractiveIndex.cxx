@@ -54,9 +54,13 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Mesh(std::make_shared<KeptMesh>())
   , Search(std::make_shared<MeshSearch>())
   , Ranks(std::make_shared<FilterRanks>())
-  , Pieces(std::make_shared<ChannelRanks>(this))
   , MeshOfPieces(std::make_shared<PiecesMesh>())
 {
+  const auto kept = std::make_shared<KeptOfMesh>();
+  for (std::shared_ptr<ChannelRanks>& ofStep : this->Pieces)
+  {
+    ofStep = std::make_shared<ChannelRanks>(this, kept);
+  }
   this->SetNumberOfInputPorts(2);
 }
 

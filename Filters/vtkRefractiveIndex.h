@@ -500,10 +500,17 @@ public:
     REFRACTIVITY_ALONE,
     WITH_FIELDS // the source has Fields, too: see FieldTints.h
   };
+  /// Which of two sources at a time; see MakeSourceOfPieces().
+  enum StepOfPieces
+  {
+    THIS_STEP,
+    NEXT_STEP
+  };
   VTK_WRAPEXCLUDE bool CanMakeSource(
     vtkDataObject* input, vtkDataObject* bodies = nullptr, bool imagesToo = false);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
-    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
+    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE,
+    StepOfPieces step = THIS_STEP);
   vtkTypeInt64 GetMeshBuilds();
 
   /**
@@ -525,20 +532,28 @@ public:
    * CanUsePieces(): whether the properties are for that. On the other ranks SetPieceData() says what they have, of a time
    * step and of the one before, and RespondForPiece() answers messages; empty: a message is for somebody else.
    * SetInstantOfPieces() makes what these have that between the two steps, `ratio` of the way; 1 or more: of the later.
+   *
+   * While one thread requests something of the source of this time step, another may do all that with the next one, through
+   * channels of its own. Before its source is used through the channels of this step, AdvancePieces() makes it that. False
+   * where a rank has not come: then it has to be made anew.
    */
   VTK_WRAPEXCLUDE bool CanUsePieces();
-  VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
+  VTK_WRAPEXCLUDE void SetPieceChannels(
+    std::vector<schlieren::Channel*> channels, StepOfPieces step = THIS_STEP);
   /// Whether the other ranks, while their channels are set, help to make the medium of data that rank 0 has alone. No other thread
   /// may use the channels then.
-  VTK_WRAPEXCLUDE void SetHelp(bool help);
+  VTK_WRAPEXCLUDE void SetHelp(bool help, StepOfPieces step = THIS_STEP);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
-    SourceContents contents = REFRACTIVITY_ALONE);
+    SourceContents contents = REFRACTIVITY_ALONE, StepOfPieces step = THIS_STEP);
+  VTK_WRAPEXCLUDE bool AdvancePieces();
   /// Frees them on all ranks, where there are any.
   VTK_WRAPEXCLUDE void ReleasePieces();
-  VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
+  VTK_WRAPEXCLUDE void SetPieceData(
+    vtkDataObject* data, vtkDataObject* earlier = nullptr, StepOfPieces step = THIS_STEP);
   VTK_WRAPEXCLUDE void SetInstantOfPieces(double ratio);
-  VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
+  VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(
+    const std::vector<char>& message, StepOfPieces step = THIS_STEP);
   ///@}
 
   ///@{
@@ -591,8 +606,8 @@ private:
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
 
   /// Of a three-dimensional image with bodies.
-  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents);
+  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
+    vtkDataObject* bodies, std::string& warning, SourceContents contents, StepOfPieces step);
 
   std::shared_ptr<filters::GridPlan> Plan;
   std::shared_ptr<filters::KeptMesh> Mesh;
@@ -606,7 +621,7 @@ private:
   std::string NewNoteOnGases(const filters::Source& source);
 
   std::shared_ptr<filters::FilterRanks> Ranks;
-  std::shared_ptr<filters::ChannelRanks> Pieces;
+  std::shared_ptr<filters::ChannelRanks> Pieces[2]; // by StepOfPieces
   bool HasPieces = false;
   std::shared_ptr<filters::PiecesMesh> MeshOfPieces; // of the last source of pieces
 

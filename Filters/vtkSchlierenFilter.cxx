@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
+#include "AtTheEnd.h"
 #include "ExposureSteps.h"
 #include "InputDescription.h"
 #include "Preview.h"
 #include "QualityPresets.h"
+#include "RefractiveIndexInternals.h"
 #include "RefractivitySource.h"
 #include "SceneFromSettings.h"
 #include "SchlierenFilterInternals.h"
@@ -16,10 +18,10 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -39,22 +41,6 @@ FilterRanks::Part partFor(vtkRefractiveIndex* medium)
 {
   return medium->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
 }
-
-/// Does something at the end of a scope.
-class AtTheEnd
-{
-public:
-  explicit AtTheEnd(std::function<void()> work)
-    : Work(std::move(work))
-  {
-  }
-  ~AtTheEnd() { this->Work(); }
-  AtTheEnd(const AtTheEnd&) = delete;
-  AtTheEnd& operator=(const AtTheEnd&) = delete;
-
-private:
-  const std::function<void()> Work;
-};
 
 /// Whether there are no data because a filter before this one was aborted.
 bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
@@ -120,10 +106,18 @@ vtkSchlierenFilter::vtkSchlierenFilter()
 vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 
 //------------------------------------------------------------------------------
-std::vector<char> vtkSchlierenFilter::Respond(const std::vector<char>& message)
+std::function<std::vector<char>(const std::vector<char>& message)> vtkSchlierenFilter::Responder(
+  vtkRefractiveIndex::StepOfPieces step)
 {
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  return this->Medium->RespondForPiece(message);
+  return [this, step](const std::vector<char>& message)
+  { return this->Medium->RespondForPiece(message, step); };
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::MostGathered()
+{
+  return this->Medium->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
 }
 
 //------------------------------------------------------------------------------
@@ -309,8 +303,7 @@ int vtkSchlierenFilter::RequestData(
   setComplete(outputVector);
 
   this->PassToMedium();
-  const double maxCells =
-    this->Medium->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
+  const double maxCells = this->MostGathered();
   ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure,
     partFor(this->Medium), maxCells);
   const bool isExposure = !inside.Exposure.IsNone();
@@ -362,11 +355,22 @@ int vtkSchlierenFilter::RequestData(
         this->Medium->SetPieceData(
           step ? step->data.Get() : vtkDataObject::GetData(inputVector[0]));
       }
-      return steps.GetMeeting().Serve(
-        threadsFrom(*this),
-        [this](const std::vector<char>& message) { return this->Respond(message); },
-        [&](double time, FilterRanks::Inputs& ofStep)
-        { return inside.readStep(this, inputVector, time, ofStep); });
+      const auto readNext = [&](double time, FilterRanks::Inputs& ofStep)
+      {
+        const auto read = inside.readStep(this, inputVector, time, ofStep);
+        this->Medium->SetPieceData(ofStep.data, nullptr, vtkRefractiveIndex::NEXT_STEP);
+        return read;
+      };
+      bool outcome = false;
+      // Two threads at once must not set back what loops are to do.
+      vtkSMPTools::LocalScope(threadsOfLoops(this->Medium),
+        [&]
+        {
+          outcome = steps.GetMeeting().Serve(threadsFrom(*this),
+            this->Responder(vtkRefractiveIndex::THIS_STEP),
+            { readNext, this->Responder(vtkRefractiveIndex::NEXT_STEP) });
+        });
+      return outcome;
     };
     if (serve())
     {
@@ -383,6 +387,7 @@ int vtkSchlierenFilter::RequestData(
     }
     inside.HasImage = steps.GetMeeting().GetHasImage().value_or(inside.HasImage);
     this->Medium->SetPieceData(nullptr);
+    this->Medium->SetPieceData(nullptr, nullptr, vtkRefractiveIndex::NEXT_STEP);
     return 1;
   }
   if (steps.GetMeeting().AreTooFew(maxCells))

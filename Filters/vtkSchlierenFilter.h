@@ -69,6 +69,7 @@
 
 class vtkPiecewiseFunction;
 struct MadeRefractivity;
+struct RefractivityKey;
 
 namespace filters
 {
@@ -989,12 +990,15 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
-  /// That of another filter, or a new one. Null if aborted.
-  std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(
-    vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description);
+  /// What was made ahead, that of another filter, or a new one. Null if aborted.
+  std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(vtkDataObject* input,
+    vtkDataObject* bodies, const std::vector<double>& description,
+    vtkRefractiveIndex::StepOfPieces step);
   /// Null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
-    vtkDataObject* input, vtkDataObject* bodies);
+    vtkDataObject* input, vtkDataObject* bodies, vtkRefractiveIndex::StepOfPieces step);
+  /// What that of a kept time step is made from.
+  RefractivityKey KeyOfAhead(vtkDataObject* input, vtkDataObject* bodies);
   /// Finds the gradients of the fields that tint, if they do.
   void UpdateFieldGradients(vtkDataObject* input);
   /// The newest time of all properties, Refine() apart, and of those and everything upstream.
@@ -1009,12 +1013,16 @@ private:
     const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
     const schlieren::Scene& scene, const std::optional<double>& ambient,
     const schlieren::Monitor& monitor);
+  /// `isTraced`: whether that has ended.
   void ReadAhead(double time, const schlieren::Scene& scene, const std::optional<double>& ambient,
     const std::atomic<bool>& isTraced);
-  void MakeAhead(
-    filters::TimeStep& step, const schlieren::Scene& scene, const std::optional<double>& ambient);
+  void MakeAhead(filters::TimeStep& step, const schlieren::Scene& scene,
+    const std::optional<double>& ambient, const std::atomic<bool>& isTraced);
+  /// Up to how many cells rank 0 gathers.
+  double MostGathered();
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
-  std::vector<char> Respond(const std::vector<char>& message);
+  std::function<std::vector<char>(const std::vector<char>& message)> Responder(
+    vtkRefractiveIndex::StepOfPieces step);
   /// Everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
   /// Whether images without Bodies are not their own grids, of which ranks cannot have parts.

@@ -3,12 +3,15 @@
 """What several ranks take: processor seconds and memory of each, for a first image and for another view.
 
     SCHLIEREN_PLUGIN=…/Schlieren.so mpiexec -np 4 pvbatch --sym --force-offscreen-rendering \
-        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples]]
+        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples [steps]]]
 
 MODE: gathered, stay or distributed. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
 has a sector. One thread on each rank. Prints a row: ranks, mode, cells, pixels, and for the first image and for another view the
 seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
 what they have with the data, MB; then the voxels, MB, and million rays of the other view.
+
+With `steps` the density pulsates, and rows have the seconds on the clock of each time step's image from the second on, without and
+with reading ahead (MPI has to allow threads: OMPI_MPI_THREAD_LEVEL=3), and of making the data alone.
 """
 
 import math
@@ -29,6 +32,9 @@ executive = self.GetExecutive()
 info = executive.GetOutputInformation(0)
 info.Set(executive.WHOLE_EXTENT(), [0, AROUND, 0, POLAR, 0, LAYERS], 6)
 info.Set(self.CAN_PRODUCE_SUB_EXTENT(), 1)
+if NUMBER > 0:
+    info.Set(executive.TIME_STEPS(), list(range(NUMBER)), NUMBER)
+    info.Set(executive.TIME_RANGE(), [0, NUMBER - 1], 2)
 """
 SECTORS = """
 import numpy as np
@@ -49,8 +55,13 @@ output.SetExtent(first, last, 0, POLAR, 0, LAYERS)
 points = vtkPoints()
 points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], 1).astype(np.float32), deep=1))
 output.SetPoints(points)
-density = numpy_to_vtk((1.2 * (1 + 0.6 * front - 0.4 * wake)).ravel().astype(np.float32), deep=1)
+executive = self.GetExecutive()
+info = executive.GetOutputInformation(0)
+instant = info.Get(executive.UPDATE_TIME_STEP()) if info.Has(executive.UPDATE_TIME_STEP()) else 0
+pulse = 1 + 0.2 * np.sin(instant)
+density = numpy_to_vtk((1.2 * (1 + 0.6 * pulse * front - 0.4 * wake)).ravel().astype(np.float32), deep=1)
 density.SetName("rho")
+output.GetInformation().Set(output.DATA_TIME_STEP(), instant)
 output.GetPointData().SetScalars(density)
 """
 
@@ -73,6 +84,17 @@ def in_words(values, digits):
     return text + (f" {min(values[1:]):.{digits}f}-{max(values[1:]):.{digits}f}" if values[1:] else "")
 
 
+def seconds_per_step(row, update, steps):
+    """Prints them, from the second image on."""
+    for step in range(steps):
+        RANKS.Barrier()
+        start = time.time()
+        update(step)
+        row += f" {time.time() - start:.2f}" if step > 0 else ""
+    if RANKS.GetLocalProcessId() == 0:
+        print(row, flush=True)
+
+
 RANKS = vtkMultiProcessController.GetGlobalController()
 simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
 
@@ -83,6 +105,8 @@ def measure():
     samples = int(sys.argv[4]) if len(sys.argv) > 4 else 1
     size = {"POLAR": round((cells / 3)**(1 / 3)), "AROUND": 2 * round((cells / 3)**(1 / 3))}
     size["LAYERS"] = round(cells / size["POLAR"] / size["AROUND"])
+    cells = math.prod(size.values())
+    steps = size["NUMBER"] = int(sys.argv[5]) if len(sys.argv) > 5 else 0
     script, extent = SECTORS, EXTENT
     for name, number in size.items():
         script, extent = script.replace(name, str(number)), extent.replace(name, str(number))
@@ -91,7 +115,13 @@ def measure():
     before = megabytes()
     bench = Schlieren(Input=source, Density=["POINTS", "rho"], ParallelScale=3, FocalPoint=[0, 0, 0],  # noqa: F821
                       ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1, Device="CPU", **MODES[mode])
-    row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {math.prod(size.values()):.3g} | {pixels} |"
+    row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {cells:.3g} | {pixels} |"
+    if steps > 0:
+        for memory in (0, 1 << 20, 0, 1 << 20):
+            bench.ReadAheadMemory = memory
+            seconds_per_step(f"{row} {'ahead' if memory else 'plain'} |", bench.UpdatePipeline, steps)
+        seconds_per_step(f"{row} data alone |", source.UpdatePipeline, steps)
+        return
     for direction in ([0, 0, -1], [0.3, 0.2, -1]):
         bench.ViewDirection = direction
         RANKS.Barrier()
