@@ -111,6 +111,12 @@ vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data)
 }
 
 //------------------------------------------------------------------------------
+double kibibytesOf(vtkDataObject* data)
+{
+  return data ? static_cast<double>(data->GetActualMemorySize()) : 0;
+}
+
+//------------------------------------------------------------------------------
 ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
   FilterRanks::Part part, double maxCells)
@@ -149,10 +155,12 @@ void ExposureSteps::Meet(const FilterRanks::Inputs& own)
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::MeetAgain()
+void ExposureSteps::MeetAgain() { this->Meet({ this->GetOwn(0), this->GetOwn(1), this->Arrays }); }
+
+//------------------------------------------------------------------------------
+vtkDataObject* ExposureSteps::GetOwn(int port) const
 {
-  this->Meet({ vtkDataObject::GetData(this->Inputs[0]), vtkDataObject::GetData(this->Inputs[1]),
-    this->Arrays });
+  return this->This ? this->This->data[port].Get() : vtkDataObject::GetData(this->Inputs[port]);
 }
 
 //------------------------------------------------------------------------------
@@ -177,9 +185,37 @@ bool ExposureSteps::Resume()
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  this->IsThere = updateInputs(this->Filter);
+  this->This = std::exchange(this->Next, std::nullopt);
+  this->IsThere = this->This ? this->This->isThere : updateInputs(this->Filter);
   this->MeetAgain();
   return true;
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> ExposureSteps::GetUnread() const
+{
+  const bool isUnread = this->Step + 1 < this->Exposure.Steps.size() && !this->Next;
+  return isUnread ? std::make_optional(this->Exposure.Steps[this->Step + 1]) : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+bool ExposureSteps::ReadNext()
+{
+  this->Next.emplace();
+  requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step + 1]);
+  this->Next->isThere = updateInputs(this->Filter);
+  for (int port = 0; port < Ports; ++port)
+  {
+    this->Next->data[port] = sharedCopy(vtkDataObject::GetData(this->Inputs[port]));
+  }
+  this->Ranks.CountNoChange();
+  return this->Next->isThere;
+}
+
+//------------------------------------------------------------------------------
+double ExposureSteps::GetKibibytes() const
+{
+  return kibibytesOf(this->Later[0]) + kibibytesOf(this->Later[1]);
 }
 
 //------------------------------------------------------------------------------
@@ -198,7 +234,7 @@ void ExposureSteps::Keep()
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::KeepPiece() { this->Keep(0, vtkDataObject::GetData(this->Inputs[0])); }
+void ExposureSteps::KeepPiece() { this->Keep(0, this->GetOwn(0)); }
 
 //------------------------------------------------------------------------------
 void ExposureSteps::Keep(int port, vtkDataObject* data)

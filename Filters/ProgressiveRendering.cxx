@@ -29,17 +29,6 @@ using namespace filters;
 namespace
 {
 
-/// What the data of a step take.
-double kibibytesOf(const TimeStep& step)
-{
-  double sum = 0;
-  for (vtkDataObject* data : { step.data.Get(), step.bodies.Get() })
-  {
-    sum += data ? static_cast<double>(data->GetActualMemorySize()) : 0;
-  }
-  return sum;
-}
-
 bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
 {
   return frame.origin == place.origin && frame.pixelSize == place.pixelSize;
@@ -319,10 +308,19 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
   const schlieren::Monitor& monitor)
 {
   Internals& inside = *this->Inside;
-  const TimeStep* step = inside.Ahead.Current(this);
-  const auto next = step ? inside.Ahead.Predict(this->GetExecutive()->GetInputInformation(0, 0))
-                         : std::optional<double>();
-  if (!next || kibibytesOf(*step) > this->ReadAheadMemory * 1024.0)
+  std::optional<double> next;
+  double kibibytes = 0;
+  if (inside.Steps)
+  {
+    next = inside.Steps->GetUnread();
+    kibibytes = inside.Steps->GetKibibytes();
+  }
+  else if (const TimeStep* step = inside.Ahead.Current(this))
+  {
+    next = inside.Ahead.Predict(this->GetExecutive()->GetInputInformation(0, 0));
+    kibibytes = kibibytesOf(step->data) + kibibytesOf(step->bodies);
+  }
+  if (!next || this->ReadAheadMemory == 0 || kibibytes > this->ReadAheadMemory * 1024.0)
   {
     return trace(monitor);
   }
@@ -390,7 +388,8 @@ void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
   {
     inside.Ahead.Drop();
   }
-  else if (place == (inside.Ranks.AreInPieces() ? Place::InPieces : Place::OnRank0))
+  else if (inside.Ahead.GetNext() &&
+    place == (inside.Ranks.AreInPieces() ? Place::InPieces : Place::OnRank0))
   {
     const Internals::WithReaders withReaders(inside, this->Medium, threadsFrom(*this));
     attempt([&] { this->MakeAhead(*inside.Ahead.GetNext(), scene, ambient, isTraced); });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "ExposureSteps.h"
 #include "LastImage.h"
 #include "NextStep.h"
 #include "Ranks.h"
@@ -140,10 +141,15 @@ struct vtkSchlierenFilter::Internals
   std::optional<double> Time; // of the last update; unset for data without time steps
 
   filters::NextStep Ahead;
-  /// Reads a time step on this rank, and what it then has of it.
+  filters::ExposureSteps* Steps = nullptr; // of an exposure, while it is being made
+  /// Reads a time step on this rank, and what it then has of it; of an exposure its next step, which Steps has.
   filters::FilterRanks::Meeting::StepAhead readStep(vtkAlgorithm* filter,
     vtkInformationVector** inputs, double time, filters::FilterRanks::Inputs& own)
   {
+    if (this->Steps)
+    {
+      return { this->Steps->ReadNext(), true };
+    }
     const filters::TimeStep* step = this->Ahead.Read(filter, inputs, time);
     this->Ranks.CountNoChange();
     own = step ? filters::FilterRanks::Inputs{ step->data, step->bodies }

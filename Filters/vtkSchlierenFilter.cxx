@@ -307,6 +307,8 @@ int vtkSchlierenFilter::RequestData(
   ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure,
     partFor(this->Medium), maxCells);
   const bool isExposure = !inside.Exposure.IsNone();
+  inside.Steps = isExposure ? &steps : nullptr;
+  const AtTheEnd forgetSteps([&] { inside.Steps = nullptr; });
   inside.Instant = 0;
   inside.FirstInstant.reset();
   // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.

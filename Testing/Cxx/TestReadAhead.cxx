@@ -307,7 +307,52 @@ TEST_F(ReadAhead, CanBeSwitchedOffAtAnyTime)
   }
 }
 
-TEST_F(ReadAhead, NothingIsReadForExposuresSlicesOfTimeAndSteadyData)
+TEST_F(ReadAhead, StepsOfAnExposureAreReadWhileItsInstantsAreTraced)
+{
+  const auto expose = [](Filter* one)
+  {
+    one->SetExposureTime(2);
+    one->SetExposureSamples(2); // between the first two steps, and the last two
+  };
+  for (const auto& make : { imageAt, meshAt, amrAt })
+  {
+    this->filter = this->connected(1024);
+    this->expectSameImages(make, { 1, 2, 5 }, expose);
+  }
+  for (const bool isAhead : { false, true })
+  {
+    this->filter = this->connected(isAhead ? 1024 : 0);
+    expose(this->filter);
+    double whenRead = -1;
+    this->source->make = [&](double time)
+    {
+      whenRead = time == 2 ? this->filter->GetProgress() : whenRead;
+      return imageAt(time);
+    };
+    this->source->Modified();
+    this->read();
+    EXPECT_EQ(this->readFor(1), Times({ 0, 1, 2 }));
+    // The first of two instants is half of the work, and to find its medium the first fifth of that.
+    EXPECT_EQ(whenRead <= 0.1, isAhead) << whenRead;
+  }
+}
+
+TEST_F(ReadAhead, AStepOfAnExposureThatCannotBeReadIsAMistake)
+{
+  this->source->broken = { 2 };
+  this->filter->SetExposureTime(2);
+  this->filter->SetExposureSamples(2);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(this->filter));
+  this->filter->UpdateTimeStep(1);
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("no data of the time step 2"), std::string::npos);
+  EXPECT_TRUE(isEmpty(this->filter));
+  EXPECT_EQ(this->read(), Times({ 0, 1, 2 }));
+  this->filter->UpdateTimeStep(5);
+  EXPECT_FALSE(isEmpty(this->filter));
+}
+
+TEST_F(ReadAhead, NothingIsReadForTheNextExposureSlicesOfTimeAndSteadyData)
 {
   this->filter->SetTimeLimit(1e-9);
   EXPECT_EQ(this->readFor(0), Times{ 0 });

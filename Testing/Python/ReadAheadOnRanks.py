@@ -97,11 +97,21 @@ def images(isAhead):
             assert not isMadeAhead or builds[:4] == [1, 2, 2, 2], (name, builds)
         seen.UpdatePropertyInformation()
         assert not on_several() or ("on their ranks" in seen.GetProperty("Grid").GetData()) == ("GatherLimit" in settings), name
+    for name, kind, settings in (("exposed", "requested", {}), ("exposed image that stays", "image", {"Bodies": body, "GatherLimit": 0}),
+                                 ("exposed tetrahedra that stay", "tetrahedra", {"GatherLimit": 0})):
+        seen = Schlieren(Input=source_of(kind), Density=["POINTS", "rho"], ReadAheadMemory=100 if isAhead else 0,
+                         ExposureTime=2.4, ExposureSamples=4, **BENCH, **settings)
+        read()
+        for time in (0.5, 0.75):
+            seen.UpdatePipeline(time)
+            found[f"{name}: {time}, Deflection"] = image_array(seen, "Deflection")
+        steps = [step for step, _ in itertools.groupby(read())]
+        assert steps[-10:] == TIMES * 2, (name, steps)
     return found
 
 
 def expect_same(one, several):
-    assert one.keys() == several.keys() and len(one) == 6 * 2 * len(IN_ANY_ORDER)
+    assert one.keys() == several.keys() and len(one) == 6 * 2 * len(IN_ANY_ORDER) + 6
     for name, values in several.items():
         assert values.size > 0 and np.ptp(values) > 0, name
         difference = np.abs(one[name] - values) / np.abs(one[name]).max()
