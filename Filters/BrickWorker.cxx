@@ -52,8 +52,8 @@ void BrickWorker::begin(std::uint64_t number, Reader& request)
   }
 }
 
-void BrickWorker::make(
-  std::uint64_t number, Reader& request, const DataPiece* own, std::vector<char>& answer)
+void BrickWorker::make(std::uint64_t number, Reader& request, const DataPiece* own, int threads,
+  std::vector<char>& answer)
 {
   if (!this->Known || number != this->Number)
   {
@@ -76,18 +76,19 @@ void BrickWorker::make(
     }
     this->Known->samples(task.task.lattice); // so that threads need not make it
   }
-  std::get<Maker<float>>(this->Makers) ? this->makeOf<float>(tasks, ofOthers, own, answer)
-                                       : this->makeOf<double>(tasks, ofOthers, own, answer);
+  std::get<Maker<float>>(this->Makers)
+    ? this->makeOf<float>(tasks, ofOthers, own, threads, answer)
+    : this->makeOf<double>(tasks, ofOthers, own, threads, answer);
 }
 
 template <class Real>
 void BrickWorker::makeOf(const std::vector<TaskOfPieces>& tasks,
-  const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece* own,
+  const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece* own, int threads,
   std::vector<char>& answer)
 {
   const schlieren::BrickMaker<Real>& maker = *std::get<Maker<Real>>(this->Makers);
   std::vector<std::vector<char>> bricks(tasks.size());
-  forEach(tasks.size(),
+  forEach(tasks.size(), threads,
     [&](std::size_t n)
     {
       const TaskOfPieces& task = tasks[n];

@@ -41,13 +41,14 @@ public:
   /// the gas ends.
   void begin(std::uint64_t number, Reader& request);
   /// The request: the tasks. The answer: the bricks; empty where more samples are needed. `own`: null where the rank has no data.
-  void make(std::uint64_t number, Reader& request, const DataPiece* own, std::vector<char>& answer);
+  void make(std::uint64_t number, Reader& request, const DataPiece* own, int threads,
+    std::vector<char>& answer);
   void release();
 
 private:
   template <class Real>
   void makeOf(const std::vector<TaskOfPieces>& tasks,
-    const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece* own,
+    const std::vector<std::vector<std::vector<char>>>& ofOthers, const DataPiece* own, int threads,
     std::vector<char>& answer);
   template <class Real>
   using Maker = std::unique_ptr<const schlieren::BrickMaker<Real>>;

@@ -80,18 +80,14 @@ std::vector<BricksOfRanks::Contribution> BricksOfOneRank::contributions(
   const Tasks& tasks, const std::vector<std::size_t>& makers) const
 {
   std::vector<Contribution> found(tasks.size());
-  this->Ranks->RunHere(
-    [&]
+  forEach(tasks.size(), this->Ranks->GetThreads(),
+    [&](std::size_t n)
     {
-      forEach(tasks.size(),
-        [&](std::size_t n)
-        {
-          if (makers[n] > 0)
-          {
-            found[n] = { rangesOfFields(this->Source, tasks[n].box), { {} }, 1 };
-            this->SamplesOn(tasks[n].lattice).Put(found[n].ofOthers[0]);
-          }
-        });
+      if (makers[n] > 0)
+      {
+        found[n] = { rangesOfFields(this->Source, tasks[n].box), { {} }, 1 };
+        this->SamplesOn(tasks[n].lattice).Put(found[n].ofOthers[0]);
+      }
     });
   return found;
 }

@@ -55,14 +55,7 @@ bool ChannelRanks::MayHelp() const
 
 std::vector<char> ChannelRanks::Respond(const std::vector<char>& request)
 {
-  std::vector<char> answer;
-  this->RunHere([&] { answer = this->Own.Respond(request); });
-  return answer;
-}
-
-void ChannelRanks::RunHere(const std::function<void()>& work) const
-{
-  vtkSMPTools::LocalScope(this->Threads, work);
+  return this->Own.Respond(request);
 }
 
 std::vector<std::vector<char>> ChannelRanks::Request(

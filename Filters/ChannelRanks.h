@@ -7,8 +7,6 @@
 
 #include "Rays/Channel.h"
 
-#include "vtkSMPTools.h"
-
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -35,7 +33,7 @@ public:
   }
   const std::vector<schlieren::Channel*>& GetChannels() const { return this->Channels; }
   PieceWorker& GetOwn() { return this->Own; }
-  void SetThreads(const vtkSMPTools::Config& threads) { this->Threads = threads; }
+  void SetThreads(int threads) { this->Own.SetThreads(threads); }
   /// What this process answers.
   std::vector<char> Respond(const std::vector<char>& request);
 
@@ -47,11 +45,10 @@ public:
   std::size_t Count() const override { return this->Channels.size() + 1; }
   std::vector<std::vector<char>> Request(std::vector<std::vector<char>> requests,
     const std::function<void()>& meanwhile = nullptr) override;
-  void RunHere(const std::function<void()>& work) const override;
+  int GetThreads() const override { return this->Own.GetThreads(); }
 
 private:
   PieceWorker Own;
-  vtkSMPTools::Config Threads;
   std::vector<schlieren::Channel*> Channels;
   std::atomic<bool> Help{ false };
 };

@@ -2,23 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vtkSMPTools.h"
+#include "Device/Parallel.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace filters
 {
 
-/// Calls work(i) for i < count from several threads.
+/// Calls work(i) for i < count from so many threads; 0: as many as cores. Unlike VTK's loops it may be called while another
+/// thread runs filters: vtkSMPTools keeps a list of threads that several callers at once break.
 template <class Work>
-void forEach(std::size_t count, const Work& work)
+void forEach(std::size_t count, int threads, const Work& work)
 {
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
-    [&](vtkIdType begin, vtkIdType end)
+  schlieren::parallelFor(static_cast<std::int64_t>(count), 1, threads,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      for (std::int64_t i = begin; i < end; ++i)
       {
-        work(i);
+        work(static_cast<std::size_t>(i));
       }
     });
 }

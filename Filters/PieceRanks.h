@@ -28,8 +28,8 @@ public:
   /// does while others work. Throws std::runtime_error where a rank does not answer.
   virtual std::vector<std::vector<char>> Request(
     std::vector<std::vector<char>> requests, const std::function<void()>& meanwhile = nullptr) = 0;
-  /// Runs what rank 0 does itself with as many threads as it may have.
-  virtual void RunHere(const std::function<void()>& work) const = 0;
+  /// How many threads each may have.
+  virtual int GetThreads() const = 0;
 };
 
 /// Begins to read an answer. Throws what the rank says that is wrong: ArraysMissing or std::runtime_error.

@@ -13,6 +13,7 @@
 #include "GatheredData.h"
 #include "InputDescription.h"
 #include "MeshKey.h"
+#include "RefractiveIndexInternals.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityOfImage.h"
 
@@ -99,7 +100,16 @@ std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
   {
     put(Done, answer);
     Reader reader(request);
-    this->Respond(reader, answer);
+    const auto kind = reader.Get<std::uint32_t>();
+    const auto respond = [&] { this->Respond(kind, reader, answer); };
+    if (kind < Contents)
+    {
+      vtkSMPTools::LocalScope(loopsWith(this->Threads), respond);
+    }
+    else
+    {
+      respond(); // perhaps while another thread runs filters, with loops of VTK
+    }
   }
   catch (const ArraysMissing& problem)
   {
@@ -119,9 +129,9 @@ std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
   return answer;
 }
 
-void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
+void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>& answer)
 {
-  switch (request.Get<std::uint32_t>())
+  switch (kind)
   {
     case Instant:
     {
@@ -173,7 +183,7 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       const DataPiece& piece = this->PieceOf(request);
       const auto boxes = request.GetAll<std::vector<schlieren::Box>>();
       std::vector<Content> contents(boxes.size());
-      forEach(boxes.size(),
+      forEach(boxes.size(), this->Threads,
         [&](std::size_t i)
         {
           contents[i].cells = piece.contentOf(boxes[i]);
@@ -196,7 +206,8 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       const DataPiece& piece = this->PieceOf(request);
       const auto places = request.GetAll<std::vector<Point>>();
       std::vector<unsigned char> are(places.size());
-      forEach(places.size(), [&](std::size_t i) { are[i] = piece.holds(places[i]) ? 1 : 0; });
+      forEach(places.size(), this->Threads,
+        [&](std::size_t i) { are[i] = piece.holds(places[i]) ? 1 : 0; });
       putAll(are, answer);
       break;
     }
@@ -205,7 +216,8 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
       const DataPiece& piece = this->PieceOf(request);
       const auto lattices = request.GetAll<std::vector<schlieren::Lattice>>();
       std::vector<DataPiece::Samples> samples(lattices.size());
-      forEach(lattices.size(), [&](std::size_t i) { samples[i] = piece.sample(lattices[i]); });
+      forEach(lattices.size(), this->Threads,
+        [&](std::size_t i) { samples[i] = piece.sample(lattices[i]); });
       for (const DataPiece::Samples& ofLattice : samples)
       {
         std::vector<char> bytes;
@@ -234,7 +246,8 @@ void PieceWorker::Respond(Reader& request, std::vector<char>& answer)
     {
       const auto number = request.Get<std::uint64_t>();
       const bool hasPiece = this->Piece && number == this->Number;
-      this->Bricks.make(number, request, hasPiece ? this->Piece.get() : nullptr, answer);
+      this->Bricks.make(
+        number, request, hasPiece ? this->Piece.get() : nullptr, this->Threads, answer);
       break;
     }
     case Advance: // whoever has both has done it
@@ -544,14 +557,14 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,
       --extents.own[high];
     }
   }
-  const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
   auto piece = std::make_unique<ImagePiece>(
-    refractivity, extents, turnedBack(bodies, gridFrom(refractivity).direction), threads);
+    refractivity, extents, turnedBack(bodies, gridFrom(refractivity).direction), this->Threads);
   if (!ranges.ofFields.empty())
   {
     forFieldImages(
-      this->Self, image, refractivity, threads,
-      [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, ranges.ofFields);
+      this->Self, image, refractivity, this->Threads,
+      [&](std::size_t, vtkImageData* field) { piece->addField(field, this->Threads); },
+      ranges.ofFields);
   }
   return piece;
 }

@@ -72,6 +72,10 @@ public:
   PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept);
   ~PieceWorker();
 
+  /// How many threads it may have.
+  void SetThreads(int threads) { this->Threads = threads; }
+  int GetThreads() const { return this->Threads; }
+
   /// What the rank has of the input until the piece is made, and of the time step before; may be null.
   void SetData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
   void ReleasePiece();
@@ -84,7 +88,8 @@ public:
     return kind == Outline || kind == Advance || kind == Forget;
   }
 
-  /// The answer to a request. Throws nothing: errors are answers.
+  /// The answer to a request. Throws nothing: errors are answers. What is requested of a piece that has been made may be answered
+  /// while another thread runs filters of VTK.
   std::vector<char> Respond(const std::vector<char>& request);
 
   /// What is sent with Contents.
@@ -102,7 +107,7 @@ private:
     std::vector<FieldMean::Range> ofFields; // that tint
   };
 
-  void Respond(Reader& request, std::vector<char>& answer);
+  void Respond(std::uint32_t kind, Reader& request, std::vector<char>& answer);
   void GiveOutline(Reader& request, std::vector<char>& answer);
   void GiveCopies(Reader& request, std::vector<char>& answer) const;
   void MakeFields(Reader& request);
@@ -131,6 +136,7 @@ private:
   FieldsOfBlocks& OwnFields();
   std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
   std::unique_ptr<const DataPiece> Piece;
+  int Threads = 1;
   std::shared_ptr<KeptOfMesh> Kept;
   BrickWorker Bricks;
   std::uint64_t Number = 0; // of the piece

@@ -385,12 +385,8 @@ void PiecesSource::prepareContents(const std::vector<schlieren::Box>& boxes) con
         }
       }
     });
-  this->Ranks->RunHere(
-    [&]
-    {
-      forEach(boxes.size(),
-        [&](std::size_t n) { known[n]->content = this->contentFrom(boxes[n], found[n]); });
-    });
+  forEach(boxes.size(), this->Ranks->GetThreads(),
+    [&](std::size_t n) { known[n]->content = this->contentFrom(boxes[n], found[n]); });
 }
 
 void PiecesSource::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const

@@ -11,13 +11,11 @@
 #include "MeanImage.h"
 #include "Preview.h"
 #include "RealOptics.h"
-#include "RefractiveIndexInternals.h"
 #include "SceneFromSettings.h"
 
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <atomic>
@@ -351,11 +349,7 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
     this->ReadAhead(*next, scene, ambient, isTraced);
     inside.IsReadingAhead = false;
   };
-  schlieren::Image image;
-  // Two threads at once must not set back what loops are to do.
-  vtkSMPTools::LocalScope(
-    threadsOfLoops(this->Medium), [&] { image = traceWhile(read, traceAndSay, monitor); });
-  return image;
+  return traceWhile(read, traceAndSay, monitor);
 }
 
 //------------------------------------------------------------------------------

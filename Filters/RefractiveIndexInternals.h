@@ -42,7 +42,8 @@ struct KeptMesh
 };
 
 /// Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
-vtkSMPTools::Config threadsOfLoops(vtkRefractiveIndex* self);
+int threadsOf(vtkRefractiveIndex* self);
+vtkSMPTools::Config loopsWith(int threads);
 
 std::string noGas(const Source& source);
 

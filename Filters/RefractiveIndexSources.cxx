@@ -50,12 +50,18 @@ WorkProgress progressOf(vtkAlgorithm* self)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSMPTools::Config filters::threadsOfLoops(vtkRefractiveIndex* self)
+int filters::threadsOf(vtkRefractiveIndex* self)
 {
   const int given = self->GetNumberOfThreads();
-  const int limit =
-    given > 0 || std::getenv("VTK_SMP_MAX_THREADS") ? given : schlieren::coresOfProcess();
-  return vtkSMPTools::Config(limit, "STDThread", false);
+  const char* const most = std::getenv("VTK_SMP_MAX_THREADS");
+  const int limit = most ? std::atoi(most) : 0;
+  return given > 0 ? given : limit > 0 ? limit : schlieren::coresOfProcess();
+}
+
+//------------------------------------------------------------------------------
+vtkSMPTools::Config filters::loopsWith(int threads)
+{
+  return vtkSMPTools::Config(threads, "STDThread", false);
 }
 
 //------------------------------------------------------------------------------
@@ -110,12 +116,13 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
       forFieldImages(this, input, refractivity, threads,
         [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
     }
+    this->Pieces[step]->SetThreads(threadsOf(this));
     made->setHelpers(this->Pieces[step]);
     progress.reach(1);
   };
   try
   {
-    vtkSMPTools::LocalScope(threadsOfLoops(this), make);
+    vtkSMPTools::LocalScope(loopsWith(threadsOf(this)), make);
   }
   catch (const Stopped&)
   {
@@ -179,6 +186,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
         bringToCells(field);
         made->addField(*levels, field.source);
       }
+      this->Pieces[step]->SetThreads(threadsOf(this));
       made->setHelpers(this->Pieces[step]);
       take(made);
       return;
@@ -226,12 +234,13 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
       made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
+    this->Pieces[step]->SetThreads(threadsOf(this));
     made->setHelpers(this->Pieces[step]);
     take(made);
   };
   try
   {
-    vtkSMPTools::LocalScope(threadsOfLoops(this), make);
+    vtkSMPTools::LocalScope(loopsWith(threadsOf(this)), make);
   }
   catch (const Stopped&)
   {
@@ -354,7 +363,7 @@ std::vector<char> vtkRefractiveIndex::RespondForPiece(
   {
     this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
   }
-  this->Pieces[step]->SetThreads(threadsOfLoops(this));
+  this->Pieces[step]->SetThreads(threadsOf(this));
   return this->Pieces[step]->Respond(message);
 }
 
@@ -366,7 +375,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   this->Grid.clear();
   this->Search->release();
   this->LeaveMesh();
-  this->Pieces[step]->SetThreads(threadsOfLoops(this));
+  this->Pieces[step]->SetThreads(threadsOf(this));
   this->SetPieceData(input, nullptr, step);
   this->HasPieces = true;
   if (step == THIS_STEP) // what has been made of another step is of no use
@@ -376,7 +385,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   std::shared_ptr<PiecesSource> made;
   try
   {
-    vtkSMPTools::LocalScope(threadsOfLoops(this),
+    vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
       [&]
       {
         made = std::make_shared<PiecesSource>(this->Pieces[step], bodies,

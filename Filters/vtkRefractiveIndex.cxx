@@ -217,7 +217,7 @@ std::string vtkRefractiveIndex::Convert(
     return "";
   }
 
-  const vtkSMPTools::Config threads = threadsOfLoops(this);
+  const vtkSMPTools::Config threads = loopsWith(threadsOf(this));
   Tally tally;
   std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,

@@ -7,7 +7,6 @@
 #include "InputDescription.h"
 #include "Preview.h"
 #include "QualityPresets.h"
-#include "RefractiveIndexInternals.h"
 #include "RefractivitySource.h"
 #include "SceneFromSettings.h"
 #include "SchlierenFilterInternals.h"
@@ -18,7 +17,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -363,16 +361,9 @@ int vtkSchlierenFilter::RequestData(
         this->Medium->SetPieceData(ofStep.data, nullptr, vtkRefractiveIndex::NEXT_STEP);
         return read;
       };
-      bool outcome = false;
-      // Two threads at once must not set back what loops are to do.
-      vtkSMPTools::LocalScope(threadsOfLoops(this->Medium),
-        [&]
-        {
-          outcome = steps.GetMeeting().Serve(threadsFrom(*this),
-            this->Responder(vtkRefractiveIndex::THIS_STEP),
-            { readNext, this->Responder(vtkRefractiveIndex::NEXT_STEP) });
-        });
-      return outcome;
+      return steps.GetMeeting().Serve(threadsFrom(*this),
+        this->Responder(vtkRefractiveIndex::THIS_STEP),
+        { readNext, this->Responder(vtkRefractiveIndex::NEXT_STEP) });
     };
     if (serve())
     {
