@@ -11,13 +11,6 @@
 namespace filters
 {
 
-void BrickWorker::release()
-{
-  this->Number = 0;
-  this->Makers = {};
-  this->Known.reset();
-}
-
 void BrickWorker::begin(std::uint64_t number, Reader& request)
 {
   this->Number = number;

@@ -43,7 +43,6 @@ public:
   /// The request: the tasks. The answer: the bricks; empty where more samples are needed. `own`: null where the rank has no data.
   void make(std::uint64_t number, Reader& request, const DataPiece* own, int threads,
     std::vector<char>& answer);
-  void release();
 
 private:
   template <class Real>

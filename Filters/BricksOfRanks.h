@@ -40,6 +40,17 @@ public:
   std::vector<std::vector<char>> make(const schlieren::BrickRules& rules,
     const std::vector<schlieren::BrickTask>& tasks, const MakeHere& makeHere) const override;
 
+  /// See SourceOfRanks.
+  void useRanks(const std::shared_ptr<PieceRanks>& ranks) const
+  {
+    this->Ranks = ranks;
+    if (!this->ArePieces) // which have what they need to begin
+    {
+      this->Begun.clear();
+    }
+  }
+  bool usesRanks(const PieceRanks& ranks) const { return this->Ranks.get() == &ranks; }
+
 protected:
   using Tasks = std::vector<schlieren::BrickTask>;
   using Messages =
@@ -64,7 +75,7 @@ protected:
     const std::vector<double>& costs, const std::vector<std::size_t>& preferred);
   static double costOf(const schlieren::BrickTask& task);
 
-  std::shared_ptr<PieceRanks> Ranks;
+  mutable std::shared_ptr<PieceRanks> Ranks;
   std::uint64_t Number;
 
 private:

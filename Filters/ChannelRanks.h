@@ -31,7 +31,6 @@ public:
   {
     this->Channels = std::move(channels);
   }
-  const std::vector<schlieren::Channel*>& GetChannels() const { return this->Channels; }
   PieceWorker& GetOwn() { return this->Own; }
   void SetThreads(int threads) { this->Own.SetThreads(threads); }
   /// What this process answers.
@@ -39,7 +38,6 @@ public:
 
   /// Whether other ranks make bricks of data that this one has alone.
   void SetHelp(bool help) { this->Help = help; }
-  bool GetHelp() const { return this->Help; }
   bool MayHelp() const override;
 
   std::size_t Count() const override { return this->Channels.size() + 1; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BricksOfOneRank.h"
+#include "SourceOfRanks.h"
 
 #include "Medium/MediumSource.h"
 
@@ -14,7 +15,7 @@ namespace filters
 {
 
 /// A source that rank 0 has all of, of whose samples other ranks may make bricks.
-class HelpedSource : public schlieren::MediumSource
+class HelpedSource : public schlieren::MediumSource, public SourceOfRanks
 {
 public:
   /// From now on those that may help do.
@@ -27,6 +28,19 @@ public:
         boundary, [this](const schlieren::Lattice& lattice) { return this->samplesOn(lattice); });
     }
   }
+  bool useRanks(const std::shared_ptr<PieceRanks>& ranks) const override
+  {
+    if (this->Helpers)
+    {
+      this->Helpers->useRanks(ranks);
+    }
+    return true;
+  }
+  bool usesRanks(const PieceRanks& ranks) const override
+  {
+    return !this->Helpers || this->Helpers->usesRanks(ranks);
+  }
+
   const schlieren::BrickMakers* makers() const override
   {
     return this->Helpers && this->Helpers->mayHelp() ? this->Helpers.get() : nullptr;

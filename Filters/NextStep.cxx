@@ -4,6 +4,7 @@
 
 #include "ExposureSteps.h"
 #include "InputDescription.h"
+#include "SharedRefractivity.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -16,7 +17,6 @@
 #include <chrono>
 #include <future>
 #include <system_error>
-#include <utility>
 
 namespace filters
 {
@@ -90,7 +90,7 @@ TimeStep& NextStep::Arrive(vtkAlgorithm* filter, double time, vtkInformationVect
   else
   {
     this->This = TimeStep{ time, sharedCopy(vtkDataObject::GetData(inputs[0])),
-      sharedCopy(vtkDataObject::GetData(inputs[1])), nullptr, {}, nullptr };
+      sharedCopy(vtkDataObject::GetData(inputs[1])), nullptr, nullptr };
   }
   this->Next.reset();
   this->UpstreamTime = upstreamTime(filter);
@@ -102,14 +102,6 @@ TimeStep& NextStep::Arrive(vtkAlgorithm* filter, double time, vtkInformationVect
 const TimeStep* NextStep::Current(vtkAlgorithm* filter) const
 {
   return this->This && this->IsValid(filter) ? &*this->This : nullptr;
-}
-
-//------------------------------------------------------------------------------
-std::shared_ptr<const MadeRefractivity> NextStep::TakeRefractivity(
-  vtkAlgorithm* filter, const RefractivityKey& key)
-{
-  const bool isSame = this->Current(filter) && this->This->refractivity && this->This->key == key;
-  return isSame ? std::exchange(this->This->refractivity, nullptr) : nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -145,7 +137,7 @@ const TimeStep* NextStep::Read(vtkAlgorithm* filter, vtkInformationVector** inpu
   if (isThere && this->IsKeepable)
   {
     this->Next = TimeStep{ time, sharedCopy(vtkDataObject::GetData(inputs[0])),
-      sharedCopy(vtkDataObject::GetData(inputs[1])), nullptr, {}, nullptr };
+      sharedCopy(vtkDataObject::GetData(inputs[1])), nullptr, nullptr };
   }
   requestTime(filter, inputs, this->This->time);
   return this->GetNext();

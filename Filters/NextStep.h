@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "SharedRefractivity.h"
-
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -19,6 +17,7 @@ class vtkAlgorithm;
 class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
+struct MadeRefractivity;
 
 namespace filters
 {
@@ -28,8 +27,7 @@ struct TimeStep
 {
   double time = 0;
   vtkSmartPointer<vtkDataObject> data, bodies; // of this rank, sharing arrays; bodies may be null
-  std::shared_ptr<const MadeRefractivity> refractivity; // ahead; null: not made yet, or used
-  RefractivityKey key;                                  // of it
+  std::shared_ptr<const MadeRefractivity> refractivity; // null: not made yet
   std::unique_ptr<schlieren::Bench> bench;              // that has the medium; likewise
 };
 
@@ -55,10 +53,6 @@ public:
 
   /// Updates the inputs for a time, and afterwards requests the current one again. Null where there are no data.
   const TimeStep* Read(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
-
-  /// What was made ahead of the step of the last image, once, where it is from the same; else null.
-  std::shared_ptr<const MadeRefractivity> TakeRefractivity(
-    vtkAlgorithm* filter, const RefractivityKey& key);
 
   /// The step that has been read; null where there is none.
   TimeStep* GetNext() { return this->Next ? &*this->Next : nullptr; }

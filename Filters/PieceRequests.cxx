@@ -427,23 +427,29 @@ PieceRequests requestsForPieces(
   {
     requests.levels = findLevels(outlines.images);
   }
-  std::vector<char> make = pieceRequest(PieceWorker::Make);
-  put(number, make);
-  put(requests.levels    ? PieceWorker::Blocks
-      : outlines.isImage ? PieceWorker::Image
-                         : PieceWorker::Meshes,
-    make);
+  for (std::uint32_t rank = 0; rank < ranks.Count(); ++rank)
+  {
+    std::vector<char>& make = requests.make.emplace_back(pieceRequest(PieceWorker::Make));
+    put(PieceName{ number, rank }, make);
+    put(requests.levels    ? PieceWorker::Blocks
+        : outlines.isImage ? PieceWorker::Image
+                           : PieceWorker::Meshes,
+      make);
+  }
   if (requests.levels)
   {
     exchangeBlocks(ranks, outlines, *requests.levels);
-    requests.make.assign(ranks.Count(), make);
     return requests;
   }
-  putAll(outlines.ranges, make);
-  putAll(outlines.rangesOfFields, make);
-  put(outlines.whole, make);
-  putAll(packedData(bodies, {}), make);
-  requests.make.assign(ranks.Count(), make);
+  std::vector<char> ofAll;
+  putAll(outlines.ranges, ofAll);
+  putAll(outlines.rangesOfFields, ofAll);
+  put(outlines.whole, ofAll);
+  putAll(packedData(bodies, {}), ofAll);
+  for (std::vector<char>& make : requests.make)
+  {
+    make.insert(make.end(), ofAll.begin(), ofAll.end());
+  }
   addCopiesOfMeshes(ranks, outlines, requests.make);
   return requests;
 }

@@ -53,7 +53,7 @@ bool hasPoints(vtkDataObject* data)
 PieceWorker::PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept)
   : Self(self)
   , Kept(std::move(kept))
-  , Bricks(this->Kept)
+  , Held(std::make_shared<HeldPiece>(this->Kept))
 {
 }
 PieceWorker::~PieceWorker() = default;
@@ -83,8 +83,7 @@ void PieceWorker::ReleasePiece()
   this->Parts.clear();
   this->Outlines.clear();
   this->Fields.reset();
-  this->Piece.reset();
-  this->Bricks.release();
+  this->Held = std::make_shared<HeldPiece>(this->Kept);
 }
 
 std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
@@ -237,21 +236,26 @@ void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>
       else
       {
         this->ReleasePiece();
-        this->Number = number;
       }
-      this->Bricks.begin(number, request);
+      this->Held->bricks.begin(number, request);
       break;
     }
     case MakeBricks:
     {
       const auto number = request.Get<std::uint64_t>();
-      const bool hasPiece = this->Piece && number == this->Number;
-      this->Bricks.make(
-        number, request, hasPiece ? this->Piece.get() : nullptr, this->Threads, answer);
+      const bool hasPiece = number == this->Held->name.number;
+      this->Held->bricks.make(
+        number, request, hasPiece ? this->Held->piece.get() : nullptr, this->Threads, answer);
       break;
     }
-    case Advance: // whoever has both has done it
+    case Adopt:
+    {
+      const std::shared_ptr<HeldPiece> found = findPiece(request.Get<PieceName>());
+      this->ReleasePiece();
+      this->Held = found ? found : this->Held;
+      this->RequirePiece(found ? found->name.number : 0);
       break;
+    }
     case Forget:
       this->Release();
       break;
@@ -409,15 +413,16 @@ FieldsOfBlocks& PieceWorker::OwnFields()
   return *this->Fields;
 }
 
-/// The request: the piece's number, what the data are, and what that needs, see PieceOfParts(). The answer: what the
+/// The request: the piece's name, what the data are, and what that needs, see PieceOfParts(). The answer: what the
 /// constructor of PiecesSource reads.
 void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
 {
-  this->Number = request.Get<std::uint64_t>();
+  this->Held = std::make_shared<HeldPiece>(this->Kept, request.Get<PieceName>());
+  addPiece(this->Held);
   const auto kind = request.Get<DataKind>();
   if (!this->Lacks.empty())
   {
-    this->Piece = std::make_unique<MeshPiece>(
+    this->Held->piece = std::make_unique<MeshPiece>(
       std::vector<vtkSmartPointer<vtkDataSet>>(), CellTree::Reconstruction::Linear);
     throw ArraysMissing(this->Lacks);
   }
@@ -428,21 +433,21 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
     FieldsOfBlocks& made = this->OwnFields();
     tally = made.tally;
     label = made.label;
-    this->Piece = std::make_unique<AmrPiece>(std::move(made.fields));
+    this->Held->piece = std::make_unique<AmrPiece>(std::move(made.fields));
     this->Fields.reset();
   }
   else
   {
-    this->Piece = this->PieceOfParts(kind, request, tally, label);
+    this->Held->piece = this->PieceOfParts(kind, request, tally, label);
   }
-  put(this->Piece->summary(), answer);
+  put(this->Held->piece->summary(), answer);
   put(tally, answer);
   putAll(label, answer);
-  putAll(this->Piece->warning(), answer);
-  put(this->Piece->meshKey(), answer);
-  for (int field = 0; field < this->Piece->fields(); ++field)
+  putAll(this->Held->piece->warning(), answer);
+  put(this->Held->piece->meshKey(), answer);
+  for (int field = 0; field < this->Held->piece->fields(); ++field)
   {
-    put(this->Piece->rangeOfField(field, this->Piece->summary().bounds), answer);
+    put(this->Held->piece->rangeOfField(field, this->Held->piece->summary().bounds), answer);
   }
 }
 
@@ -591,12 +596,12 @@ Source PieceWorker::SourceOf(vtkDataObject* data, const std::vector<FieldMean::R
 const DataPiece& PieceWorker::PieceOf(Reader& request) const
 {
   this->RequirePiece(request.Get<std::uint64_t>());
-  return *this->Piece;
+  return *this->Held->piece;
 }
 
 void PieceWorker::RequirePiece(std::uint64_t number) const
 {
-  if (number != this->Number || !this->Piece)
+  if (number != this->Held->name.number || !this->Held->piece)
   {
     throw std::runtime_error(
       "A rank does not have its piece of the input any more. Update the filter again.");

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BrickWorker.h"
-#include "DataPiece.h"
 #include "FieldTints.h"
+#include "HeldPiece.h"
 #include "ImagePiece.h"
 #include "KeptOfMesh.h"
 #include "MeshHalo.h"
@@ -50,7 +49,7 @@ public:
     Sample,        // lattices
     BeginBricks,   // rules and facts, see BrickWorker
     MakeBricks,    // of its own samples and of others'
-    Advance,       // to what has been made of the next time step
+    Adopt,         // a piece that another worker of the rank holds
     Forget,        // the piece
     Answer
   };
@@ -83,10 +82,7 @@ public:
 
   static bool IsFor(std::uint32_t kind) { return kind >= Instant && kind < Answer; }
   /// After such a request nobody needs the piece of another time step.
-  static bool IsLastOfOthers(std::uint32_t kind)
-  {
-    return kind == Outline || kind == Advance || kind == Forget;
-  }
+  static bool IsLastOfOthers(std::uint32_t kind) { return kind == Outline || kind == Forget; }
 
   /// The answer to a request. Throws nothing: errors are answers. What is requested of a piece that has been made may be answered
   /// while another thread runs filters of VTK.
@@ -135,11 +131,9 @@ private:
   std::string Lacks;                      // what to say where the data have not the arrays
   FieldsOfBlocks& OwnFields();
   std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
-  std::unique_ptr<const DataPiece> Piece;
   int Threads = 1;
   std::shared_ptr<KeptOfMesh> Kept;
-  BrickWorker Bricks;
-  std::uint64_t Number = 0; // of the piece
+  std::shared_ptr<HeldPiece> Held; // never null
 };
 
 /// A message that requests something, as yet without what.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace filters
@@ -163,6 +164,29 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
     this->Bricks = std::make_unique<BricksOfPieces>(this->Ranks, this->Number,
       this->Mesh.keys.empty() ? 0 : this->Mesh.number, this->BoundsOfRanks, *this->Known);
   }
+}
+
+bool PiecesSource::useRanks(const std::shared_ptr<PieceRanks>& ranks) const
+{
+  std::vector<std::vector<char>> requests;
+  for (std::uint64_t rank = 0; rank < ranks->Count(); ++rank)
+  {
+    put(PieceName{ this->Number, rank }, requests.emplace_back(pieceRequest(PieceWorker::Adopt)));
+  }
+  try
+  {
+    readersOf(ranks->Request(std::move(requests)));
+  }
+  catch (const std::runtime_error&) // a rank has not come, or has left it
+  {
+    return false;
+  }
+  this->Ranks = ranks;
+  if (this->Bricks)
+  {
+    this->Bricks->useRanks(ranks);
+  }
+  return true;
 }
 
 /// `keys`: see PiecesMesh.

@@ -9,6 +9,7 @@
 #include "PieceWorker.h"
 #include "RefractivityModels.h"
 #include "SamplesOfPieces.h"
+#include "SourceOfRanks.h"
 
 #include "Medium/MediumSource.h"
 
@@ -39,7 +40,7 @@ struct PiecesMesh
  * All ranks get it, and make the tree's bricks, see BricksOfPieces. Where it is too large for that, rank 0 makes them of what the
  * others have on their lattices.
  */
-class PiecesSource : public schlieren::MediumSource
+class PiecesSource : public schlieren::MediumSource, public SourceOfRanks
 {
 public:
   /// Makes the pieces of the data that the ranks have. `bodies`: may be null. `outside`: of meshes; images have none.
@@ -48,6 +49,9 @@ public:
   PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bodies, Outside outside,
     bool hasFields, PiecesMesh kept = {}, const WorkProgress& progress = WorkProgress());
   const PiecesMesh& mesh() const { return this->Mesh; }
+
+  bool useRanks(const std::shared_ptr<PieceRanks>& ranks) const override;
+  bool usesRanks(const PieceRanks& ranks) const override { return this->Ranks.get() == &ranks; }
 
   bool hasGas() const { return this->Cells > 0; }
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->Facts.bounds); }
@@ -102,7 +106,7 @@ private:
   void askAbout(PieceWorker::Kind kind, const std::vector<Item>& items, const BoxOf& boxOf,
     const Take& take) const;
 
-  std::shared_ptr<PieceRanks> Ranks;
+  mutable std::shared_ptr<PieceRanks> Ranks;
   std::uint64_t Number;
   std::vector<schlieren::Box> BoundsOfRanks; // low > high: it has no cells
   std::vector<std::int64_t> CellsOfRanks;    // -1: it has not the arrays

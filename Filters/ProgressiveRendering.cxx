@@ -109,7 +109,7 @@ bool vtkSchlierenFilter::WorkOn()
   Internals& inside = *this->Inside;
   this->PassToMedium();
   const vtkMTimeType now = this->GetTimeOfImage();
-  const bool continues = inside.UnfinishedOf == now;
+  const bool continues = inside.UnfinishedOf == now && this->UseOwnRanks();
   if (continues && inside.Ready)
   {
     return true;
@@ -152,7 +152,8 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
       this->DescribeInputs(this->InputOfImage(0, this->GetInputDataObject(0, 0)),
         this->InputOfImage(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
-      this->Medium, this->ColorByField);
+      this->Medium, this->ColorByField) &&
+    this->UseOwnRanks();
 }
 
 //------------------------------------------------------------------------------
@@ -180,7 +181,8 @@ bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
     inside.holdsRefractivityOf(
-      this->DescribeInputs(input, bodies), this->Medium, this->ColorByField);
+      this->DescribeInputs(input, bodies), this->Medium, this->ColorByField) &&
+    this->UseOwnRanks();
 }
 
 //------------------------------------------------------------------------------
@@ -398,7 +400,6 @@ void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
 void vtkSchlierenFilter::MakeAhead(TimeStep& step, const schlieren::Scene& scene,
   const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
 {
-  step.key = this->KeyOfAhead(step.data, step.bodies);
   step.refractivity = this->FindOrMakeRefractivity(step.data, step.bodies,
     this->DescribeInputs(step.data, step.bodies), vtkRefractiveIndex::NEXT_STEP);
   // Its medium is another one where it needs the ambient refractivity that is being found now.

@@ -285,27 +285,19 @@ void vtkRefractiveIndex::SetHelp(bool help, StepOfPieces step)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::AdvancePieces()
+bool vtkRefractiveIndex::UseSource(const schlieren::MediumSource* source)
 {
-  ChannelRanks& before = *this->Pieces[THIS_STEP];
-  ChannelRanks& now = *this->Pieces[NEXT_STEP];
-  now.SetChannels(before.GetChannels());
-  now.SetHelp(before.GetHelp());
-  before.SetHelp(false);
-  before.SetChannels({});
-  before.GetOwn().ReleasePiece();
-  std::swap(this->Pieces[THIS_STEP], this->Pieces[NEXT_STEP]);
-  try
-  {
-    std::vector<std::vector<char>> requests(now.Count(), pieceRequest(PieceWorker::Advance));
-    requests[0].clear();
-    readersOf(now.Request(std::move(requests)));
-    return true;
-  }
-  catch (const std::runtime_error&)
-  {
-    return false;
-  }
+  const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
+  this->HasPieces = this->HasPieces || (source && source->isRemote());
+  this->Pieces[THIS_STEP]->SetThreads(threadsOf(this));
+  return !ofRanks || ofRanks->useRanks(this->Pieces[THIS_STEP]);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::UsesSource(const schlieren::MediumSource* source)
+{
+  const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
+  return !ofRanks || ofRanks->usesRanks(*this->Pieces[THIS_STEP]);
 }
 
 //------------------------------------------------------------------------------
@@ -354,10 +346,6 @@ std::vector<char> vtkRefractiveIndex::RespondForPiece(
   if (!PieceWorker::IsFor(kind))
   {
     return {};
-  }
-  if (step == THIS_STEP && kind == PieceWorker::Advance)
-  {
-    std::swap(this->Pieces[THIS_STEP], this->Pieces[NEXT_STEP]);
   }
   if (step == THIS_STEP && PieceWorker::IsLastOfOthers(kind))
   {

@@ -59,6 +59,22 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
 }
 
 //------------------------------------------------------------------------------
+std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtkDataObject* bodies)
+{
+  // Rank 0 may have none of the data.
+  vtkInformation* info = input->GetInformation();
+  std::vector<double> description = describeInput(input, upstreamTime(this, 0));
+  description.push_back(
+    info->Has(vtkDataObject::DATA_TIME_STEP()) ? info->Get(vtkDataObject::DATA_TIME_STEP()) : 0);
+  const std::vector<double> ofBodies = bodies
+    ? describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES))
+    : std::vector<double>();
+  description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  description.push_back(1); // not those of data that rank 0 has, see DescribeInputs()
+  return description;
+}
+
+//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
 {
   const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
@@ -103,7 +119,8 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   Internals& inside = *this->Inside;
   this->PassToMedium();
   std::vector<double> description = this->DescribeInputs(input, bodies);
-  if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField))
+  if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField) &&
+    this->UseOwnRanks())
   {
     return true;
   }
@@ -130,12 +147,10 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 }
 
 //------------------------------------------------------------------------------
-RefractivityKey vtkSchlierenFilter::KeyOfAhead(vtkDataObject* input, vtkDataObject* bodies)
+bool vtkSchlierenFilter::UseOwnRanks()
 {
-  return keyOf(this->Medium, input, bodies,
-    { static_cast<double>(this->Inside->Ranks.AreInPieces()),
-      static_cast<double>(this->ImagesBecomeTrees(input)) },
-    this->ColorByField);
+  const schlieren::MediumSource* source = this->Inside->Refractivity->Source.get();
+  return !hasOtherRanks() || this->Medium->UsesSource(source) || this->Medium->UseSource(source);
 }
 
 //------------------------------------------------------------------------------
@@ -143,23 +158,18 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description,
   vtkRefractiveIndex::StepOfPieces step)
 {
-  if (step == vtkRefractiveIndex::THIS_STEP)
-  {
-    const auto ahead = this->Inside->Ahead.TakeRefractivity(this, this->KeyOfAhead(input, bodies));
-    if (ahead && (!hasOtherRanks() || this->Medium->AdvancePieces()))
-    {
-      this->Medium->SetMesh(ahead->Mesh);
-      return ahead;
-    }
-  }
-  if (this->Inside->Ranks.AreInPieces()) // they belong to the ranks of this filter
+  const bool isNow = step == vtkRefractiveIndex::THIS_STEP;
+  const bool arePieces = this->Inside->Ranks.AreInPieces();
+  if (arePieces && this->Inside->Steps) // only this filter's ranks have what is between time steps
   {
     return this->MakeRefractivity(input, bodies, step);
   }
-  RefractivityKey key = keyOf(this->Medium, input, bodies, description, this->ColorByField);
-  if (std::shared_ptr<const MadeRefractivity> found = findRefractivity(key))
+  RefractivityKey key = keyOf(this->Medium, input, bodies,
+    arePieces ? this->DescribePieces(input, bodies) : description, this->ColorByField);
+  const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
+  if (found && (!isNow || !hasOtherRanks() || this->Medium->UseSource(found->Source.get())))
   {
-    if (step == vtkRefractiveIndex::THIS_STEP)
+    if (isNow && !arePieces)
     {
       this->Medium->ReleasePieces();
     }

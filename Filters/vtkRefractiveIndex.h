@@ -534,8 +534,10 @@ public:
    * SetInstantOfPieces() makes what these have that between the two steps, `ratio` of the way; 1 or more: of the later.
    *
    * While one thread requests something of the source of this time step, another may do all that with the next one, through
-   * channels of its own. Before its source is used through the channels of this step, AdvancePieces() makes it that. False
-   * where a rank has not come: then it has to be made anew.
+   * channels of its own.
+   *
+   * A source may be that of another filter or of another step: before it is used, UseSource() makes the ranks of this filter
+   * answer for it. False where they cannot: then it has to be made anew. UsesSource(): whether they do.
    */
   VTK_WRAPEXCLUDE bool CanUsePieces();
   VTK_WRAPEXCLUDE void SetPieceChannels(
@@ -546,7 +548,8 @@ public:
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
     SourceContents contents = REFRACTIVITY_ALONE, StepOfPieces step = THIS_STEP);
-  VTK_WRAPEXCLUDE bool AdvancePieces();
+  VTK_WRAPEXCLUDE bool UseSource(const schlieren::MediumSource* source);
+  VTK_WRAPEXCLUDE bool UsesSource(const schlieren::MediumSource* source);
   /// Frees them on all ranks, where there are any.
   VTK_WRAPEXCLUDE void ReleasePieces();
   VTK_WRAPEXCLUDE void SetPieceData(

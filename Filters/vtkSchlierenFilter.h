@@ -69,7 +69,6 @@
 
 class vtkPiecewiseFunction;
 struct MadeRefractivity;
-struct RefractivityKey;
 
 namespace filters
 {
@@ -990,15 +989,16 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
-  /// What was made ahead, that of another filter, or a new one. Null if aborted.
+  /// That of another filter, what was made ahead, or a new one. Null if aborted.
   std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(vtkDataObject* input,
     vtkDataObject* bodies, const std::vector<double>& description,
     vtkRefractiveIndex::StepOfPieces step);
   /// Null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
     vtkDataObject* input, vtkDataObject* bodies, vtkRefractiveIndex::StepOfPieces step);
-  /// What that of a kept time step is made from.
-  RefractivityKey KeyOfAhead(vtkDataObject* input, vtkDataObject* bodies);
+  /// Sees to it that the ranks answer this filter about its refractivity, which another filter may have used. False where they
+  /// cannot.
+  bool UseOwnRanks();
   /// Finds the gradients of the fields that tint, if they do.
   void UpdateFieldGradients(vtkDataObject* input);
   /// The newest time of all properties, Refine() apart, and of those and everything upstream.
@@ -1025,6 +1025,8 @@ private:
     vtkRefractiveIndex::StepOfPieces step);
   /// Everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
+  /// The same of data that stay on their ranks, for all filters that have the same.
+  std::vector<double> DescribePieces(vtkDataObject* input, vtkDataObject* bodies);
   /// Whether images without Bodies are not their own grids, of which ranks cannot have parts.
   bool ImagesBecomeTrees(vtkDataObject* input) const;
   /// Works on an image between updates. Whether an update has something to do now.

@@ -236,7 +236,7 @@ TEST(Pieces, AreOfTwoStepsAtATime)
     user.join();
     expectFresh(step, *source);
     expectFresh(step + 1, *next);
-    ASSERT_TRUE(ranks.Filters[0]->AdvancePieces());
+    ASSERT_TRUE(ranks.Filters[0]->UseSource(next.get()));
     source = std::move(next);
     expectFresh(step + 1, *source);
   }
@@ -250,7 +250,43 @@ TEST(Pieces, AreOfTwoStepsAtATime)
   EXPECT_THROW(unused->prepareContents({ unused->bounds() }), std::runtime_error);
   ranks.Channels[0]->AnswersLeft = 1;
   ranks.Channels[0]->send(std::vector<char>(4)); // then it leaves
-  EXPECT_FALSE(ranks.Filters[0]->AdvancePieces());
+  EXPECT_FALSE(ranks.Filters[0]->UseSource(source.get()));
+}
+
+// Filters of the same ranks use one source in turns, also after the one that has made it has made another.
+TEST(Pieces, AreSharedByFilters)
+{
+  const std::vector<Data> parts = cuts()[2];
+  Ranks fresh(parts), other(parts);
+  const auto expected = fresh.make();
+  auto ranks = std::make_unique<Ranks>(parts);
+  auto source = ranks->make();
+  EXPECT_TRUE(ranks->Filters[0]->UsesSource(source.get()));
+  for (int turn = 0; turn < 2; ++turn)
+  {
+    for (const vtkSmartPointer<vtkRefractiveIndex>& filter :
+      { other.Filters[0], ranks->Filters[0] })
+    {
+      ASSERT_TRUE(filter->UseSource(source.get()));
+      EXPECT_TRUE(filter->UsesSource(source.get()));
+      expectSame(*expected, *source, 1e-15);
+    }
+    EXPECT_FALSE(other.Filters[0]->UsesSource(source.get()));
+  }
+  ASSERT_TRUE(other.Filters[0]->UseSource(source.get()));
+  for (std::size_t rank = 1; rank < parts.size(); ++rank)
+  {
+    ranks->Filters[rank]->SetPieceData(parts[rank]);
+  }
+  const auto another = ranks->make();
+  expectSame(*expected, *source, 1e-15);
+  ASSERT_TRUE(ranks->Filters[0]->UseSource(source.get()));
+  EXPECT_FALSE(ranks->Filters[0]->UseSource(another.get())); // nobody has it any more
+  ASSERT_TRUE(other.Filters[0]->UseSource(source.get()));
+  ranks.reset();
+  expectSame(*expected, *source, 1e-15);
+  other.Filters[0]->ReleasePieces();
+  EXPECT_FALSE(other.Filters[0]->UseSource(source.get()));
 }
 
 // What depends on the mesh alone stays on all ranks from step to step, and goes where the mesh, the gas or a body is another.

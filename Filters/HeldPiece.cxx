@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HeldPiece.h"
+
+#include <iterator>
+#include <map>
+#include <mutex>
+
+namespace filters
+{
+
+namespace
+{
+
+using Key = std::pair<std::uint64_t, std::uint64_t>;
+
+struct Pieces
+{
+  std::mutex one;
+  std::map<Key, std::weak_ptr<HeldPiece>> all;
+};
+
+Pieces& pieces()
+{
+  static Pieces ofProcess;
+  return ofProcess;
+}
+
+Key keyOf(const PieceName& name) { return { name.number, name.rank }; }
+
+} // namespace
+
+void addPiece(const std::shared_ptr<HeldPiece>& piece)
+{
+  const std::lock_guard<std::mutex> lock(pieces().one);
+  auto& all = pieces().all;
+  for (auto entry = all.begin(); entry != all.end();)
+  {
+    entry = entry->second.expired() ? all.erase(entry) : std::next(entry);
+  }
+  all[keyOf(piece->name)] = piece;
+}
+
+std::shared_ptr<HeldPiece> findPiece(const PieceName& name)
+{
+  const std::lock_guard<std::mutex> lock(pieces().one);
+  const auto found = pieces().all.find(keyOf(name));
+  return found != pieces().all.end() ? found->second.lock() : nullptr;
+}
+
+} // namespace filters
