@@ -12,7 +12,7 @@
 namespace filters
 {
 
-/// What tells pieces apart, also where one process has those of several ranks.
+/// By what pieces are known, also where one process has those of several ranks.
 struct PieceName
 {
   std::uint64_t number = 0; ///< of the data, see newNumberOfPieces()

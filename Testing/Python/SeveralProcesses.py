@@ -246,6 +246,45 @@ def exposed_in_pieces():
     return exposed(limit=0)
 
 
+def shared():
+    """Filters use what one of them has made of data that stay where they are, in turns."""
+    from paraview.simple import Transform, Wavelet
+    from plugin_testing import Schlieren, image_array
+    import schlieren.vtkSchlierenFilters  # noqa: F401, for GetMediumBuilds
+    found = {}
+    source = Transform(Input=Wavelet(WholeExtent=[-12, 14, -10, 10, -9, 9]))
+    settings = {"Input": source, "MediumTolerance": 1e-3, "GatherLimit": 0, **BENCH}
+    first, second = Schlieren(**settings), Schlieren(Cutoff="Shadowgraph", PathModel="Straight", **settings)
+
+    def builds():
+        return [bench.GetClientSideObject().GetMediumBuilds() for bench in (first, second)]
+
+    def expect_images(words, *made):
+        for name, bench in (("first", first), ("second", second)):
+            found[f"{words}: {name}"] = image_array(bench, "Deflection")
+        assert builds() == list(made), (words, builds())
+
+    expect_images("both", is_rank0(), 0)
+    first.ViewDirection = [0.2, 0.1, -1]
+    second.ViewDirection = [1, 0.3, 0.2]
+    expect_images("other views", is_rank0(), 0)
+    first.GladstoneDaleConstant = 2e-6
+    second.ViewDirection = [0.1, 0.4, 1]
+    expect_images("one has another", 2 * is_rank0(), 0)
+    second.GladstoneDaleConstant = 2e-6
+    expect_images("both have another", 2 * is_rank0(), 0)
+    for bench in (first, second):
+        bench.TimeLimit = 0.05
+    first.ViewDirection = [0, 0, -1]
+    second.ViewDirection = [1, 0, 0]
+    for _ in range(40):
+        for bench in (first, second):
+            bench.UpdatePipeline()
+            bench.InvokeCommand("Refine")
+    expect_images("time-sliced", 2 * is_rank0(), 0)
+    return found
+
+
 # A source with 16 x 16 x 16 cells at times 0 and 1. As KIND says, each rank has all of them whatever is requested
 # ("same"), or a slab, from the beginning ("spread") or at time 1 ("spread later").
 INFORMATION = """
@@ -480,7 +519,7 @@ def run_results(command, parts, file):
 
 
 SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed,
-         "exposed pieces": exposed_in_pieces, "distributed": distributed}
+         "exposed pieces": exposed_in_pieces, "shared": shared, "distributed": distributed}
 PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     np.savez(sys.argv[-1], **{f"{part}: {name}": values for part in sys.argv[1:-1]
@@ -495,8 +534,8 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(on(1), parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 28 + 67 + 15 + 12 + 12, len(one)
-    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "distributed"] if not isSanitized else [])),
+    assert isSanitized or len(one) == 72 + 18 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
+    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "shared", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
         assert several.keys() == {name for name in one if name.split(":")[0] in parts}
@@ -504,7 +543,7 @@ else:
             assert values.size > 0, name
             if name.startswith("gathered: cell data"):  # means of points' cells are summed in another order
                 assert np.abs(one[name] - values).max() <= 1e-6 * np.abs(one[name]).max(), name
-            elif name.startswith(("pieces:", "exposed pieces:")):
+            elif name.startswith(("pieces:", "exposed pieces:", "shared:")):
                 # Slabs of two cells do not reach all that values of cells depend on.
                 limit = 1e-3 if name.startswith("pieces: cell data") else 1e-6
                 limit = 1 / 127 if name == "pieces: cell data: tinted" else limit  # one level of a colour
