@@ -250,7 +250,6 @@ def shared():
     """Filters use what one of them has made of data that stay where they are, in turns."""
     from paraview.simple import Transform, Wavelet
     from plugin_testing import Schlieren, image_array
-    import schlieren.vtkSchlierenFilters  # noqa: F401, for GetMediumBuilds
     found = {}
     source = Transform(Input=Wavelet(WholeExtent=[-12, 14, -10, 10, -9, 9]))
     settings = {"Input": source, "MediumTolerance": 1e-3, "GatherLimit": 0, **BENCH}
@@ -522,6 +521,8 @@ SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": i
          "exposed pieces": exposed_in_pieces, "shared": shared, "distributed": distributed}
 PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
+    import plugin_testing  # noqa: F401, loads the plugin
+    import schlieren.vtkSchlierenFilters  # noqa: F401, for GetMediumBuilds, before the first of them is wrapped
     np.savez(sys.argv[-1], **{f"{part}: {name}": values for part in sys.argv[1:-1]
                               for name, values in SAVED[part]().items()})
 elif sys.argv[1:]:
