@@ -379,6 +379,10 @@ int vtkSchlierenFilter::RequestData(
       serve();
     }
     inside.HasImage = steps.GetMeeting().GetHasImage().value_or(inside.HasImage);
+    if (step)
+    {
+      setTime(outputVector, step->time); // upstream may have another one
+    }
     this->Medium->SetPieceData(nullptr);
     this->Medium->SetPieceData(nullptr, nullptr, vtkRefractiveIndex::NEXT_STEP);
     return 1;
