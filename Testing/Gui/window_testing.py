@@ -146,6 +146,8 @@ until(lambda: plane.property("side") == {side})
             timeout=seconds, check=False)
         print(done.stdout)
         assert done.returncode == 0, f"paraview ended with {done.returncode}"
-        assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", done.stdout)
+        # Of a server without a display, which since VTK 9.6 draws even so.
+        said = re.sub(r"Generic Warning: In vtkXOpenGLRenderWindow.*\nbad X server connection", "", done.stdout)
+        assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", said)
         # What ParaView warns of where an image is shown by an array that it does not have.
         assert not re.search("Could not determine array range|Failed to locate selected", done.stdout)

@@ -14,6 +14,7 @@ import sys
 
 PROGRAMS = ("mpiexec", "pvbatch", "pvpython", "pvserver")
 SCENE_UNKNOWN = "what is behind the flow is not known"
+DRAWS = "The server draws without a display."  # as it does since VTK 9.6
 RANKS = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np"]
 
 
@@ -48,9 +49,9 @@ def draw(path, is_remote=False):
     assert "sample" in display.SchlierenBench.Status, display.SchlierenBench.Status
 
     # What is behind the flow is known where one process draws it all.
-    from vtkmodules.vtkParallelCore import vtkMultiProcessController
-    knows = view.GetClientSideObject().GetRemoteRenderingAvailable() if is_remote else \
-        vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses() == 1
+    from paraview import servermanager
+    knows = servermanager.ActiveConnection.GetNumberOfDataPartitions() == 1 and \
+        (not is_remote or view.GetClientSideObject().GetRemoteRenderingAvailable())
     simple.SetProperties(display.SchlierenBench, Cutoff="Background Oriented", BackgroundPattern="Scene")
     simple.Render(view)
     simple.Render(view)
@@ -94,7 +95,10 @@ def draw_with_server(path, *launcher):
         assert servermanager.ActiveConnection.IsRemote()
         simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=vars(simple))
         view = simple.CreateRenderView()
-        assert view.GetClientSideObject().GetRemoteRenderingAvailable() != bool(launcher)
+        canDraw = view.GetClientSideObject().GetRemoteRenderingAvailable()
+        assert canDraw or launcher
+        if canDraw and launcher:
+            print(DRAWS)
         simple.Delete(view)
         draw(path, is_remote=True)
     except BaseException:
@@ -125,7 +129,7 @@ def compare():
         said = done.stdout + done.stderr
         assert "remote rendering" not in said, said
         errors = re.findall(r"ERR\|.*(?:\n(?!.*(?:ERR|WARN)\|).*)?", said)
-        unknown = path in ("2.png", "blind.png", "blind2.png")
+        unknown = path in ("2.png", "blind2.png") or (path == "blind.png" and DRAWS not in said)
         said_by = 2 if path.startswith("blind") else 1  # a server says it, and its client
         assert len(errors) == said_by * unknown and all(SCENE_UNKNOWN in error for error in errors), said
     for path in ("2.png", "server.png", "blind.png", "blind2.png"):
