@@ -864,7 +864,8 @@ public:
    * as far from this one as this one from that before, at first the one after it. As much is taken to be needed as this
    * one takes; the medium comes on top, see MediumMemory. What is upstream has the data of the next step afterwards.
    * Of an exposure its own next step is read while an instant is traced, and nothing of the next exposure. No effect with a
-   * TimeLimit, and where ParaView runs as several processes whose MPI is for one thread: then there is one warning. The images do not depend on it, and another value is no reason to make one again.
+   * TimeLimit, and where ParaView runs as several processes whose MPI is for one thread: then there is one warning. The images
+   * do not depend on it, and another value is no reason to make one again.
    */
   void SetReadAheadMemory(int mebibytes) { this->ReadAheadMemory = std::max(0, mebibytes); }
   vtkGetMacro(ReadAheadMemory, int);
