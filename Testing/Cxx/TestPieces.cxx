@@ -217,7 +217,7 @@ TEST(Pieces, AreOfTwoStepsAtATime)
   };
   std::vector<std::unique_ptr<Ranks>> fresh;
   std::vector<std::shared_ptr<const schlieren::MediumSource>> expected;
-  for (const double time : { 0., 1., 2., 3., 4. })
+  for (const double time : { 0., 1., 2. })
   {
     fresh.push_back(std::make_unique<Ranks>(at(time)));
     expected.push_back(fresh.back()->make());
@@ -229,7 +229,7 @@ TEST(Pieces, AreOfTwoStepsAtATime)
   };
   Ranks ranks(at(0));
   auto source = ranks.make();
-  for (std::size_t step = 0; step < 4; ++step)
+  for (std::size_t step = 0; step < 2; ++step)
   {
     std::thread user([&] { expectFresh(step, *source); });
     auto next = ranks.makeNext(at(static_cast<double>(step + 1)));
