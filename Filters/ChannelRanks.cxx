@@ -53,11 +53,6 @@ bool ChannelRanks::MayHelp() const
       [](const schlieren::Channel* channel) { return channel && channel->isOpen(); });
 }
 
-std::vector<char> ChannelRanks::Respond(const std::vector<char>& request)
-{
-  return this->Own.Respond(request);
-}
-
 std::vector<std::vector<char>> ChannelRanks::Request(
   std::vector<std::vector<char>> requests, const std::function<void()>& meanwhile)
 {
@@ -82,7 +77,7 @@ std::vector<std::vector<char>> ChannelRanks::Request(
   }
   if (isAsked[0])
   {
-    answers[0] = this->Respond(requests[0]);
+    answers[0] = this->Own.Respond(requests[0]);
   }
   std::exception_ptr problem;
   try

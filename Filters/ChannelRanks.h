@@ -32,9 +32,6 @@ public:
     this->Channels = std::move(channels);
   }
   PieceWorker& GetOwn() { return this->Own; }
-  void SetThreads(int threads) { this->Own.SetThreads(threads); }
-  /// What this process answers.
-  std::vector<char> Respond(const std::vector<char>& request);
 
   /// Whether other ranks make bricks of data that this one has alone.
   void SetHelp(bool help) { this->Help = help; }

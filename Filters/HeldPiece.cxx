@@ -12,12 +12,10 @@ namespace filters
 namespace
 {
 
-using Key = std::pair<std::uint64_t, std::uint64_t>;
-
 struct Pieces
 {
   std::mutex one;
-  std::map<Key, std::weak_ptr<HeldPiece>> all;
+  std::map<PieceName, std::weak_ptr<HeldPiece>> all;
 };
 
 Pieces& pieces()
@@ -25,8 +23,6 @@ Pieces& pieces()
   static Pieces ofProcess;
   return ofProcess;
 }
-
-Key keyOf(const PieceName& name) { return { name.number, name.rank }; }
 
 } // namespace
 
@@ -38,13 +34,13 @@ void addPiece(const std::shared_ptr<HeldPiece>& piece)
   {
     entry = entry->second.expired() ? all.erase(entry) : std::next(entry);
   }
-  all[keyOf(piece->name)] = piece;
+  all[piece->name] = piece;
 }
 
 std::shared_ptr<HeldPiece> findPiece(const PieceName& name)
 {
   const std::lock_guard<std::mutex> lock(pieces().one);
-  const auto found = pieces().all.find(keyOf(name));
+  const auto found = pieces().all.find(name);
   return found != pieces().all.end() ? found->second.lock() : nullptr;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace filters
@@ -18,6 +19,10 @@ struct PieceName
   std::uint64_t number = 0; ///< of the data, see newNumberOfPieces()
   std::uint64_t rank = 0;
 };
+inline bool operator<(const PieceName& a, const PieceName& b)
+{
+  return std::tie(a.number, a.rank) < std::tie(b.number, b.rank);
+}
 
 /// What a rank has made of its piece of the data, and what makes bricks of it. Several PieceWorkers of a process may hold it.
 struct HeldPiece

@@ -58,6 +58,8 @@ PieceWorker::PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> k
 }
 PieceWorker::~PieceWorker() = default;
 
+int PieceWorker::GetThreads() const { return threadsOf(this->Self); }
+
 std::vector<char> pieceRequest(PieceWorker::Kind kind)
 {
   std::vector<char> request;
@@ -103,7 +105,7 @@ std::vector<char> PieceWorker::Respond(const std::vector<char>& request)
     const auto respond = [&] { this->Respond(kind, reader, answer); };
     if (kind < Contents)
     {
-      vtkSMPTools::LocalScope(loopsWith(this->Threads), respond);
+      vtkSMPTools::LocalScope(loopsWith(this->GetThreads()), respond);
     }
     else
     {
@@ -182,7 +184,7 @@ void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>
       const DataPiece& piece = this->PieceOf(request);
       const auto boxes = request.GetAll<std::vector<schlieren::Box>>();
       std::vector<Content> contents(boxes.size());
-      forEach(boxes.size(), this->Threads,
+      forEach(boxes.size(), this->GetThreads(),
         [&](std::size_t i)
         {
           contents[i].cells = piece.contentOf(boxes[i]);
@@ -205,7 +207,7 @@ void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>
       const DataPiece& piece = this->PieceOf(request);
       const auto places = request.GetAll<std::vector<Point>>();
       std::vector<unsigned char> are(places.size());
-      forEach(places.size(), this->Threads,
+      forEach(places.size(), this->GetThreads(),
         [&](std::size_t i) { are[i] = piece.holds(places[i]) ? 1 : 0; });
       putAll(are, answer);
       break;
@@ -215,7 +217,7 @@ void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>
       const DataPiece& piece = this->PieceOf(request);
       const auto lattices = request.GetAll<std::vector<schlieren::Lattice>>();
       std::vector<DataPiece::Samples> samples(lattices.size());
-      forEach(lattices.size(), this->Threads,
+      forEach(lattices.size(), this->GetThreads(),
         [&](std::size_t i) { samples[i] = piece.sample(lattices[i]); });
       for (const DataPiece::Samples& ofLattice : samples)
       {
@@ -245,7 +247,7 @@ void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>
       const auto number = request.Get<std::uint64_t>();
       const bool hasPiece = number == this->Held->name.number;
       this->Held->bricks.make(
-        number, request, hasPiece ? this->Held->piece.get() : nullptr, this->Threads, answer);
+        number, request, hasPiece ? this->Held->piece.get() : nullptr, this->GetThreads(), answer);
       break;
     }
     case Adopt:
@@ -562,13 +564,13 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,
       --extents.own[high];
     }
   }
-  auto piece = std::make_unique<ImagePiece>(
-    refractivity, extents, turnedBack(bodies, gridFrom(refractivity).direction), this->Threads);
+  auto piece = std::make_unique<ImagePiece>(refractivity, extents,
+    turnedBack(bodies, gridFrom(refractivity).direction), this->GetThreads());
   if (!ranges.ofFields.empty())
   {
     forFieldImages(
-      this->Self, image, refractivity, this->Threads,
-      [&](std::size_t, vtkImageData* field) { piece->addField(field, this->Threads); },
+      this->Self, image, refractivity, this->GetThreads(),
+      [&](std::size_t, vtkImageData* field) { piece->addField(field, this->GetThreads()); },
       ranges.ofFields);
   }
   return piece;

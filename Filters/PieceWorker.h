@@ -72,8 +72,7 @@ public:
   ~PieceWorker();
 
   /// How many threads it may have.
-  void SetThreads(int threads) { this->Threads = threads; }
-  int GetThreads() const { return this->Threads; }
+  int GetThreads() const;
 
   /// What the rank has of the input until the piece is made, and of the time step before; may be null.
   void SetData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
@@ -131,7 +130,6 @@ private:
   std::string Lacks;                      // what to say where the data have not the arrays
   FieldsOfBlocks& OwnFields();
   std::unique_ptr<FieldsOfBlocks> Fields; // until others' cells have come
-  int Threads = 1;
   std::shared_ptr<KeptOfMesh> Kept;
   std::shared_ptr<HeldPiece> Held; // never null
 };

@@ -387,7 +387,8 @@ void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
   else if (inside.Ahead.GetNext() &&
     place == (inside.Ranks.AreInPieces() ? Place::InPieces : Place::OnRank0))
   {
-    const Internals::WithReaders withReaders(inside, this->Medium, threadsFrom(*this));
+    const Internals::WithPieces withPieces(this->Medium, inside.Meeting->GetReaders(),
+      threadsFrom(*this), vtkRefractiveIndex::NEXT_STEP);
     attempt([&] { this->MakeAhead(*inside.Ahead.GetNext(), scene, ambient, isTraced); });
   }
   if (hasOtherRanks())

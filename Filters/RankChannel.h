@@ -52,8 +52,7 @@ struct HelloMessage
   std::int32_t meeting = 0; // of this rank
   double changes = 0;       // the version of the inputs
   double timeStep = 0;
-  Holdings inputs[2] = {};
-  std::int32_t pieceKinds = 0; // of the first of them, see pieceKindsOf()
+  InputsOfRank inputs;
   std::int32_t canReadAhead = 0;
 };
 struct ReadStepMessage
@@ -66,8 +65,7 @@ struct StepIsReadMessage
   std::uint32_t kind = StepIsRead;
   std::int32_t isThere = 0;
   std::int32_t isKeepable = 1;
-  Holdings inputs[2] = {};
-  std::int32_t pieceKinds = 0;
+  InputsOfRank inputs;
 };
 struct EndMessage
 {
@@ -222,6 +220,21 @@ public:
     std::vector<char> message = std::move(this->Messages.front());
     this->Messages.pop_front();
     return message;
+  }
+  /// On other ranks: a message that has arrived, whole; unset where it only prepares another one.
+  std::optional<std::vector<char>> TakeRequest()
+  {
+    std::vector<char> message = this->receive();
+    switch (read<ShortMessage>(message).kind)
+    {
+      case Ask:
+        this->send(messageOf(ShortMessage{ Ready, 0 }));
+        return {};
+      case Relay:
+        return this->ReceiveRelayed(read<RelayMessage>(message));
+      default:
+        return message;
+    }
   }
   /// The next one of a kind, and none before it; empty where the other rank leaves.
   std::vector<char> ReceiveOne(std::uint32_t kind)

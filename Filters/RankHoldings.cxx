@@ -3,6 +3,7 @@
 #include "RankHoldings.h"
 
 #include "InputDescription.h"
+#include "MeshHalo.h"
 #include "MeshKey.h"
 
 #include "vtkBoundingBox.h"
@@ -95,6 +96,21 @@ Holdings holdingsOf(vtkDataObject* input)
   return holdings;
 }
 
+InputsOfRank inputsOfRank(vtkDataObject* data, vtkDataObject* bodies)
+{
+  return { { holdingsOf(data), holdingsOf(bodies) }, pieceKindsOf(data) };
+}
+
+std::vector<Holdings> holdingsOf(std::size_t input, const std::vector<InputsOfRank>& ofRanks)
+{
+  std::vector<Holdings> holdings;
+  for (const InputsOfRank& ofRank : ofRanks)
+  {
+    holdings.push_back(ofRank.holdings[input]);
+  }
+  return holdings;
+}
+
 std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
 {
   std::vector<std::size_t> more;
@@ -109,6 +125,12 @@ std::vector<std::size_t> ranksWithMore(const std::vector<Holdings>& ofRanks)
     }
   }
   return more;
+}
+
+bool hasRank0All(const std::vector<Holdings>& ofRanks)
+{
+  const std::vector<std::size_t> ranks = ranksWithMore(ofRanks);
+  return ranks.empty() || ranks.back() == 0;
 }
 
 } // namespace ranks

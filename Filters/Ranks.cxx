@@ -158,9 +158,15 @@ bool haveOthersCores(int threads)
 }
 
 //------------------------------------------------------------------------------
-bool ranks::canStay(std::int32_t kinds, const std::vector<Holdings>& holdings, double maxCells)
+bool ranks::canStay(const std::vector<InputsOfRank>& ofRanks, double maxCells)
 {
+  const std::vector<Holdings> holdings = holdingsOf(0, ofRanks);
   const std::vector<std::size_t> ranks = ranksWithMore(holdings);
+  std::int32_t kinds = ofRanks[0].pieceKinds; // that all of them are
+  for (const InputsOfRank& ofRank : ofRanks)
+  {
+    kinds &= ofRank.pieceKinds;
+  }
   double cells = 0;
   for (const std::size_t rank : ranks)
   {
@@ -338,9 +344,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   hello.canReadAhead = canUseMpiInThreads() ? 1 : 0;
   if (this->Own)
   {
-    hello.inputs[0] = holdingsOf(this->Own->data);
-    hello.inputs[1] = holdingsOf(this->Own->bodies);
-    hello.pieceKinds = pieceKindsOf(this->Own->data);
+    hello.inputs = inputsOfRank(this->Own->data, this->Own->bodies);
   }
   channel.send(messageOf(hello));
   while (!this->HasMet)
@@ -411,26 +415,23 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
     }
     return {};
   }
-  std::vector<char> message = channel.receive();
-  if (read<ShortMessage>(message).kind == Relay)
+  std::optional<std::vector<char>> message = channel.TakeRequest();
+  if (!message)
   {
-    message = channel.ReceiveRelayed(read<RelayMessage>(message));
+    return {};
   }
-  const auto head = read<ShortMessage>(message);
+  const auto head = read<ShortMessage>(*message);
   switch (head.kind)
   {
-    case Ask:
-      channel.send(messageOf(ShortMessage{ Ready, 0 }));
-      return {};
     case ReadStep:
-      this->Next = read<ReadStepMessage>(message).time;
+      this->Next = read<ReadStepMessage>(*message).time;
       return {};
     case GiveData:
       channel.send(this->DataMessage(head.number));
       return {};
     case End:
     {
-      const auto end = read<EndMessage>(message);
+      const auto end = read<EndMessage>(*message);
       this->HasImage = end.hasImage != 0;
       this->Of.Inside->Worker.endTrace();
       channel.send(messageOf(ShortMessage{ Ended, 0 }));
@@ -439,13 +440,13 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
     default:
       break;
   }
-  std::vector<char> response = respond ? respond(message) : std::vector<char>();
+  std::vector<char> response = respond ? respond(*message) : std::vector<char>();
   if (!response.empty())
   {
     channel.send(std::move(response));
     return {};
   }
-  this->Of.Inside->Worker.answer(std::move(message), channel, threads);
+  this->Of.Inside->Worker.answer(std::move(*message), channel, threads);
   return {};
 }
 
@@ -555,25 +556,23 @@ std::string FilterRanks::Meeting::FindAbsent() const
 }
 
 //------------------------------------------------------------------------------
-std::vector<Holdings> FilterRanks::Others::HoldingsOf(int input, vtkDataObject* own) const
+const std::vector<InputsOfRank>& FilterRanks::Meeting::InputsOfAll() const
 {
-  std::vector<Holdings> holdings{ holdingsOf(own) };
-  for (const auto& channel : this->Channels)
+  if (this->OfAll.empty()) // it takes looking at all points
   {
-    holdings.push_back(channel->Guest ? channel->Guest->inputs[input] : Holdings{});
+    this->OfAll.push_back(inputsOfRank(this->Own->data, this->Own->bodies));
+    for (const auto& channel : this->Of.Inside->Channels)
+    {
+      this->OfAll.push_back(channel->Guest ? channel->Guest->inputs : InputsOfRank());
+    }
   }
-  return holdings;
+  return this->OfAll;
 }
 
 //------------------------------------------------------------------------------
 bool FilterRanks::Meeting::CanStayInPieces(double maxCells) const
 {
-  std::int32_t kinds = pieceKindsOf(this->Own->data);
-  for (const auto& channel : this->Of.Inside->Channels)
-  {
-    kinds &= channel->Guest->pieceKinds;
-  }
-  return canStay(kinds, this->Of.Inside->HoldingsOf(0, this->Own->data), maxCells);
+  return canStay(this->InputsOfAll(), maxCells);
 }
 
 //------------------------------------------------------------------------------
@@ -583,10 +582,7 @@ bool FilterRanks::Meeting::AreTooFew(double maxCells) const
   {
     return false;
   }
-  const std::vector<std::size_t> ranks =
-    ranksWithMore(this->Of.Inside->HoldingsOf(0, this->Own->data));
-  const bool hasRank0All = ranks.empty() || (ranks.size() == 1 && ranks[0] == 0);
-  return !hasRank0All && !this->CanStayInPieces(maxCells);
+  return !hasRank0All(holdingsOf(0, this->InputsOfAll())) && !this->CanStayInPieces(maxCells);
 }
 
 //------------------------------------------------------------------------------
@@ -596,12 +592,13 @@ vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
   const std::vector<std::string> arrays =
     input == 0 ? this->Own->arrays : std::vector<std::string>();
   const auto& channels = this->Of.Inside->Channels;
-  const std::vector<Holdings> holdings = this->Of.Inside->HoldingsOf(input, own);
-  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
-  if (ranks.empty() || (ranks.size() == 1 && ranks[0] == 0))
+  const std::vector<Holdings> holdings =
+    holdingsOf(static_cast<std::size_t>(input), this->InputsOfAll());
+  if (hasRank0All(holdings))
   {
     return nullptr;
   }
+  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
   for (const std::size_t rank : ranks)
   {
     if (rank > 0)

@@ -23,6 +23,11 @@ class vtkInformationVector;
 namespace filters
 {
 
+namespace ranks
+{
+struct InputsOfRank;
+}
+
 /// False on the other MPI processes of ParaView where there are several: rank 0 makes what there is one of, the
 /// others leave it empty.
 bool isRank0();
@@ -158,16 +163,19 @@ public:
     std::vector<char> DataMessage(int input) const;
     std::string FindAbsent() const;
     bool CanStayInPieces(double maxCells) const;
+    /// On rank 0, with inputs: what each rank has of them.
+    const std::vector<ranks::InputsOfRank>& InputsOfAll() const;
     vtkSmartPointer<vtkDataObject> Collect(int input);
 
     FilterRanks& Of;
     const std::optional<Inputs> Own;
     bool Outcome = false;
     std::optional<bool> HasImage;
-    bool HasMet = false;        // rank 0, on another rank
-    std::optional<double> Next; // the step that all ranks read
-    bool HasReaders = false;    // on rank 0: which wait for EndOfStep()
-    bool Drops = false;         // on another rank
+    bool HasMet = false;                            // rank 0, on another rank
+    mutable std::vector<ranks::InputsOfRank> OfAll; // empty: nobody has needed it
+    bool HasReaders = false;                        // on rank 0: which wait for EndOfStep()
+    std::optional<double> Next;                     // on another rank: the step that it reads
+    bool Drops = false;                             // likewise
   };
 
   /// On rank 0, after it has been gathered: all of an input of which this is what rank 0 has itself.

@@ -20,8 +20,8 @@ namespace filters
 {
 namespace ranks
 {
-/// Whether data stay on the ranks that have them, of the kinds of pieces that all of these are, see pieceKindsOf().
-bool canStay(std::int32_t kinds, const std::vector<Holdings>& holdings, double maxCells);
+/// Whether data stay on the ranks that have them.
+bool canStay(const std::vector<InputsOfRank>& ofRanks, double maxCells);
 } // namespace ranks
 } // namespace filters
 
@@ -43,8 +43,6 @@ struct filters::FilterRanks::Others
       this->Readers.push_back(std::make_unique<ranks::RankChannel>(this->OfReaders, rank, tag + 3));
     }
   }
-
-  std::vector<ranks::Holdings> HoldingsOf(int input, vtkDataObject* own) const;
 
   // Of all ranks. Objects of their own: while one thread traces rays, another reads, and what is upstream uses the
   // controller's.

@@ -3,8 +3,6 @@
 // A meeting of ranks that read the next time step, each in its main thread, while others trace rays.
 #include "RanksInternals.h"
 
-#include "MeshHalo.h"
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -44,26 +42,18 @@ FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetReaders(
   const StepAhead& step, const Inputs& own, double maxCells, Place& place)
 {
   StepAhead all = step;
-  std::vector<Holdings> ofData{ holdingsOf(own.data) }, ofBodies{ holdingsOf(own.bodies) };
-  std::int32_t kinds = pieceKindsOf(own.data);
+  std::vector<InputsOfRank> ofRanks{ inputsOfRank(own.data, own.bodies) };
   for (const auto& reader : this->Of.Inside->Readers)
   {
     const auto other = read<StepIsReadMessage>(reader->ReceiveOne(StepIsRead));
     all.isThere = all.isThere && other.isThere != 0;
     all.isKeepable = all.isKeepable && other.isKeepable != 0;
-    ofData.push_back(other.inputs[0]);
-    ofBodies.push_back(other.inputs[1]);
-    kinds &= other.pieceKinds;
+    ofRanks.push_back(other.inputs);
   }
-  const auto hasRank0All = [](const std::vector<Holdings>& holdings)
-  {
-    const std::vector<std::size_t> ranks = ranksWithMore(holdings);
-    return ranks.empty() || ranks.back() == 0;
-  };
-  place = !hasRank0All(ofBodies)       ? Place::Gathered
-    : canStay(kinds, ofData, maxCells) ? Place::InPieces
-    : hasRank0All(ofData)              ? Place::OnRank0
-                                       : Place::Gathered;
+  place = !hasRank0All(holdingsOf(1, ofRanks)) ? Place::Gathered
+    : canStay(ofRanks, maxCells)               ? Place::InPieces
+    : hasRank0All(holdingsOf(0, ofRanks))      ? Place::OnRank0
+                                               : Place::Gathered;
   return all;
 }
 
@@ -100,27 +90,22 @@ void FilterRanks::Meeting::ServeReader(
   const StepAhead& step, const Inputs& own, const Responder& respond)
 {
   RankChannel& reader = *this->Of.Inside->Readers[0];
-  StepIsReadMessage result;
-  result.isThere = step.isThere ? 1 : 0;
-  result.isKeepable = step.isKeepable ? 1 : 0;
-  result.inputs[0] = holdingsOf(own.data);
-  result.inputs[1] = holdingsOf(own.bodies);
-  result.pieceKinds = pieceKindsOf(own.data);
-  reader.send(messageOf(result));
+  reader.send(messageOf(StepIsReadMessage{ StepIsRead, step.isThere ? 1 : 0,
+    step.isKeepable ? 1 : 0, inputsOfRank(own.data, own.bodies) }));
   for (;;)
   {
-    std::vector<char> message = reader.receive();
-    if (read<ShortMessage>(message).kind == Relay)
+    const std::optional<std::vector<char>> message = reader.TakeRequest();
+    if (!message)
     {
-      message = reader.ReceiveRelayed(read<RelayMessage>(message));
+      continue;
     }
-    const auto head = read<ShortMessage>(message);
+    const auto head = read<ShortMessage>(*message);
     if (head.kind == StepEnds)
     {
       this->Drops = head.number == 0;
       return;
     }
-    reader.send(head.kind == Ask ? messageOf(ShortMessage{ Ready, 0 }) : respond(message));
+    reader.send(respond(*message));
   }
 }
 

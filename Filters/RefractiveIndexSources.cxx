@@ -116,7 +116,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
       forFieldImages(this, input, refractivity, threads,
         [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
     }
-    this->Pieces[step]->SetThreads(threadsOf(this));
     made->setHelpers(this->Pieces[step]);
     progress.reach(1);
   };
@@ -186,7 +185,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
         bringToCells(field);
         made->addField(*levels, field.source);
       }
-      this->Pieces[step]->SetThreads(threadsOf(this));
       made->setHelpers(this->Pieces[step]);
       take(made);
       return;
@@ -234,7 +232,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
       made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
-    this->Pieces[step]->SetThreads(threadsOf(this));
     made->setHelpers(this->Pieces[step]);
     take(made);
   };
@@ -289,7 +286,6 @@ bool vtkRefractiveIndex::UseSource(const schlieren::MediumSource* source)
 {
   const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
   this->HasPieces = this->HasPieces || (source && source->isRemote());
-  this->Pieces[THIS_STEP]->SetThreads(threadsOf(this));
   return !ofRanks || ofRanks->useRanks(this->Pieces[THIS_STEP]);
 }
 
@@ -351,8 +347,7 @@ std::vector<char> vtkRefractiveIndex::RespondForPiece(
   {
     this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
   }
-  this->Pieces[step]->SetThreads(threadsOf(this));
-  return this->Pieces[step]->Respond(message);
+  return this->Pieces[step]->GetOwn().Respond(message);
 }
 
 //------------------------------------------------------------------------------
@@ -363,7 +358,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   this->Grid.clear();
   this->Search->release();
   this->LeaveMesh();
-  this->Pieces[step]->SetThreads(threadsOf(this));
   this->SetPieceData(input, nullptr, step);
   this->HasPieces = true;
   if (step == THIS_STEP) // what has been made of another step is of no use

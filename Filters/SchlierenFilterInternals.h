@@ -25,69 +25,62 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What vtkSchlierenFilter keeps between updates.
 struct vtkSchlierenFilter::Internals
 {
-  /// The other ranks trace rays, and answer for their pieces of the data, while this is there.
+  /// The other ranks answer for their pieces of a time step, and help with its medium, while this is there.
+  class WithPieces
+  {
+  public:
+    /// `threads`: of this rank; 0: as many as cores.
+    WithPieces(vtkRefractiveIndex* medium, std::vector<schlieren::Channel*> channels, int threads,
+      vtkRefractiveIndex::StepOfPieces step)
+      : Medium(medium)
+      , Step(step)
+    {
+      this->Medium->SetPieceChannels(std::move(channels), step);
+      this->Medium->SetHelp(
+        filters::haveOthersCores(threads > 0 ? threads : schlieren::coresOfProcess()), step);
+    }
+    ~WithPieces()
+    {
+      this->Medium->SetHelp(false, this->Step);
+      this->Medium->SetPieceChannels({}, this->Step);
+    }
+    WithPieces(const WithPieces&) = delete;
+    WithPieces& operator=(const WithPieces&) = delete;
+
+  private:
+    vtkRefractiveIndex* Medium;
+    vtkRefractiveIndex::StepOfPieces Step;
+  };
+
+  /// They trace rays, too.
   class WithWorkers
   {
   public:
     WithWorkers(Internals& internals, vtkRefractiveIndex* medium,
       filters::FilterRanks::Meeting& meeting, int threads)
       : Of(internals)
-      , Medium(medium)
+      , Pieces(medium, meeting.GetChannels(), threads, vtkRefractiveIndex::THIS_STEP)
     {
       this->Of.Meeting = &meeting;
       this->Of.Images.SetWorkers(meeting.GetWorkers());
-      this->Medium->SetPieceChannels(meeting.GetChannels());
-      this->Medium->SetHelp(mayOthersHelp(threads));
     }
     ~WithWorkers()
     {
       this->Of.Meeting = nullptr;
       this->Of.Images.SetWorkers({});
-      this->Medium->SetHelp(false);
-      this->Medium->SetPieceChannels({});
-    }
-    /// `threads`: of this rank; 0: as many as cores.
-    static bool mayOthersHelp(int threads)
-    {
-      return filters::haveOthersCores(threads > 0 ? threads : schlieren::coresOfProcess());
     }
     WithWorkers(const WithWorkers&) = delete;
     WithWorkers& operator=(const WithWorkers&) = delete;
 
   private:
     Internals& Of;
-    vtkRefractiveIndex* Medium;
-  };
-
-  /// They answer for their pieces of the next time step while this is there, and help with its medium.
-  class WithReaders
-  {
-  public:
-    WithReaders(Internals& internals, vtkRefractiveIndex* medium, int threads)
-      : Medium(medium)
-    {
-      if (internals.Meeting)
-      {
-        this->Medium->SetPieceChannels(
-          internals.Meeting->GetReaders(), vtkRefractiveIndex::NEXT_STEP);
-        this->Medium->SetHelp(WithWorkers::mayOthersHelp(threads), vtkRefractiveIndex::NEXT_STEP);
-      }
-    }
-    ~WithReaders()
-    {
-      this->Medium->SetHelp(false, vtkRefractiveIndex::NEXT_STEP);
-      this->Medium->SetPieceChannels({}, vtkRefractiveIndex::NEXT_STEP);
-    }
-    WithReaders(const WithReaders&) = delete;
-    WithReaders& operator=(const WithReaders&) = delete;
-
-  private:
-    vtkRefractiveIndex* Medium;
+    WithPieces Pieces;
   };
 
   filters::FilterRanks Ranks;

@@ -38,6 +38,17 @@ bool sameSelection(vtkInformation* a, vtkInformation* b)
     number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
 }
 
+/// To a description of the filter's inputs; `bodies`: may be null.
+void addBodies(std::vector<double>& description, vtkAlgorithm* filter, vtkDataObject* bodies)
+{
+  if (bodies)
+  {
+    const std::vector<double> ofBodies =
+      describeInput(bodies, upstreamTime(filter, vtkRefractiveIndex::BODIES));
+    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -49,12 +60,7 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
     describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
   description.push_back(ranks.GetGatherings()); // of what other ranks have
   description.push_back(this->ImagesBecomeTrees(input));
-  if (bodies)
-  {
-    const std::vector<double> ofBodies =
-      describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES));
-    description.insert(description.end(), ofBodies.begin(), ofBodies.end());
-  }
+  addBodies(description, this, bodies);
   return description;
 }
 
@@ -66,11 +72,9 @@ std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtk
   std::vector<double> description = describeInput(input, upstreamTime(this, 0));
   description.push_back(
     info->Has(vtkDataObject::DATA_TIME_STEP()) ? info->Get(vtkDataObject::DATA_TIME_STEP()) : 0);
-  const std::vector<double> ofBodies = bodies
-    ? describeInput(bodies, upstreamTime(this, vtkRefractiveIndex::BODIES))
-    : std::vector<double>();
-  description.insert(description.end(), ofBodies.begin(), ofBodies.end());
-  description.push_back(1); // not those of data that rank 0 has, see DescribeInputs()
+  addBodies(description, this, bodies);
+  description.push_back(
+    -1); // not those of data that rank 0 has: DescribeInputs() has no such number
   return description;
 }
 
