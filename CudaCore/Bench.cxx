@@ -299,11 +299,9 @@ struct Bench::Stages
 
 DistributedMedium Bench::Stages::distributionFor(const Unfinished& request) const
 {
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  const bool canDistribute = !workers.empty() && request.device == Device::Cpu && field.source &&
-    canSuspend({ scene.pathModel, scene.integrator, scene.interpolation });
-  return canDistribute ? scene.distributedMedium : DistributedMedium::Off;
+  const bool canDistribute =
+    !workers.empty() && request.device == Device::Cpu && request.field.source;
+  return canDistribute ? request.scene.distributedMedium : DistributedMedium::Off;
 }
 
 template <class Real>

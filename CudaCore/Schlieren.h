@@ -271,7 +271,7 @@ struct Scene
   /// see Image::medium.
   std::size_t mediumMemory = std::size_t{ 1 } << 30;
   /// Whether each of a bench's workers has a part of a Field's source's voxels, and mediumMemory for it. Not where a GPU
-  /// traces, the source has fields, or rays bend and the integrator is not Leapfrog.
+  /// traces.
   DistributedMedium distributedMedium = DistributedMedium::Off;
   /// How far, in pixels, a straight ray may be from the refracted one for PathModel::Auto to take it.
   double pathTolerance = 0.01;

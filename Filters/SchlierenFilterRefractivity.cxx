@@ -81,9 +81,8 @@ std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtk
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
 {
-  const bool isBentOtherwise = this->PathModel != STRAIGHT && this->Integrator != LEAPFROG;
   if (this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF || !hasOtherRanks() ||
-    this->PathModel == DIFFERENCE || isBentOtherwise || this->Device == CUDA)
+    this->PathModel == DIFFERENCE || this->Device == CUDA)
   {
     return false;
   }

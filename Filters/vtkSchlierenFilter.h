@@ -761,8 +761,7 @@ public:
   /**
    * Where there are several processes, whether each has all voxels (off, the default), or a part of them and MediumMemory
    * for it (on; auto: where all do not fit into MediumMemory). Rays then go from process to process, and images, whose
-   * own grid is not divided, become a tree within MediumTolerance. No effect on a GPU, and where rays
-   * bend with another Integrator than LEAPFROG.
+   * own grid is not divided, become a tree within MediumTolerance. No effect on a GPU.
    */
   vtkSetClampMacro(DistributedMedium, int, DISTRIBUTED_MEDIUM_OFF, DISTRIBUTED_MEDIUM_ON);
   vtkGetMacro(DistributedMedium, int);

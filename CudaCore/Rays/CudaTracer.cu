@@ -198,7 +198,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
   const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
   if (!hasAll())
   {
-    if (canSuspend(task.kernel) && fields == 0)
+    if (!samplesBeyond(task.kernel) && fields == 0)
     {
       return traceInParts(task, pass, exits, bands, traced, monitor);
     }

@@ -4,10 +4,13 @@
 
 #include "Device/Parallel.h"
 #include "Rays/Kernels.h"
+#include "Rays/MarchOfPacks.h"
 #include "Rays/SimdMarch.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstring>
 #include <mutex>
 
 namespace schlieren
@@ -25,11 +28,13 @@ struct TwoPacks
   Entry entries[2][Lanes];
   int count = 0;
   std::size_t fields;
-  std::vector<float> gathered; ///< ray by ray
+  std::vector<float> gathered;              ///< ray by ray
+  std::vector<StepElsewhere<Number>> steps; ///< likewise
 
-  explicit TwoPacks(std::size_t ofFields)
-    : fields(ofFields)
-    , gathered(2 * Lanes * ofFields, 0.f)
+  explicit TwoPacks(const Carried& carried)
+    : fields(carried.fields)
+    , gathered(2 * Lanes * carried.fields, 0.f)
+    , steps(carried.hasSteps ? 2 * Lanes : 0)
   {
     for (int n = 0; n < 2; ++n)
     {
@@ -43,16 +48,23 @@ struct TwoPacks
   float* ofRay(int number) { return gathered.data() + fields * static_cast<std::size_t>(number); }
 };
 
-/// Puts a ray where it enters the grid, or where it is, and says whether that is in a leaf that is here: then it is one
-/// more of the packs. `ended`: in a wall.
-template <class Number, int Lanes>
-bool begin(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& ray,
-  const float* gathered, TwoPacks<Number, Lanes>& packs, bool& ended, RayExit& exit)
+enum class Begun
 {
-  const int n = packs.count / Lanes, i = packs.count % Lanes;
-  RayBatch<Number, Lanes>& batch = packs.batches[n];
-  const Entry entry = meetGrid(task, pass, ray.ray, batch, i);
-  ended = false;
+  Here,  ///< it is in a leaf that is here
+  There, ///< in one that is not
+  Ended  ///< in a wall
+};
+
+/// Puts a ray where it enters the grid, or where it is.
+template <class Number, int Lanes>
+Begun begin(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& ray,
+  RayBatch<Number, Lanes>& batch, int i, Entry& entry, RayExit& exit)
+{
+  if (ray.leaf != SuspendedRay<Number>::nowhere && !task.medium.leaves[ray.next].isResident())
+  {
+    return Begun::There;
+  }
+  entry = meetGrid(task, pass, ray.ray, batch, i);
   if (ray.leaf == SuspendedRay<Number>::nowhere)
   {
     const Vec3<double> start = startOf(batch, i);
@@ -60,60 +72,90 @@ bool begin(const RayTask<Number>& task, const Pass& pass, SuspendedRay<Number>& 
     if (!task.medium.leaves[ray.next].isResident())
     {
       batch.fate[i] = RayFate::Missed;
-      return false;
+      return Begun::There;
     }
     if (isWallAt(task.medium, start))
     {
       batch.fate[i] = RayFate::Blocked;
       exit = leaveGrid(task, batch, i, entry);
       batch.fate[i] = RayFate::Missed;
-      ended = true;
-      return false;
+      return Begun::Ended;
     }
   }
-  packs.entries[n][i] = entry;
-  packs.states[n][i] = ray;
-  std::copy_n(gathered, packs.fields, packs.ofRay(packs.count));
-  ++packs.count;
-  return true;
+  return Begun::Here;
+}
+
+/// Finds the samples that rays have come for.
+template <class Number, int Lanes>
+void findSamples(const RayTask<Number>& task, const AdvanceFunctions<Number, Lanes>& with,
+  TravellingRays<Number>& rays, std::size_t first, std::size_t end)
+{
+  SuspendedRay<Number>* states[Lanes];
+  StepElsewhere<Number>* steps[Lanes];
+  int count = 0;
+  for (std::size_t number = first; number < end; ++number)
+  {
+    if (rays.steps[number].home != StepElsewhere<Number>::nowhere)
+    {
+      states[count] = &rays.rays[number];
+      steps[count] = &rays.steps[number];
+      ++count;
+    }
+    if (count == Lanes || (count > 0 && number + 1 == end))
+    {
+      with.find(task, states, steps, count);
+      count = 0;
+    }
+  }
 }
 
 template <class Number, int Lanes>
-void advanceWith(const RayTask<Number>& task, AdvanceFunction<Number, Lanes> advance,
+void advanceWith(const RayTask<Number>& task, const AdvanceFunctions<Number, Lanes>& with,
   const Pass& pass, TravellingRays<Number>& rays, std::int64_t first, std::int64_t end,
   AdvancedRays<Number>& to)
 {
+  const bool hasSteps = rays.carried.hasSteps;
+  if (hasSteps)
+  {
+    findSamples(task, with, rays, static_cast<std::size_t>(first), static_cast<std::size_t>(end));
+  }
   for (std::int64_t next = first; next < end;)
   {
-    TwoPacks<Number, Lanes> packs(rays.fields);
+    TwoPacks<Number, Lanes> packs(rays.carried);
     for (; next < end && packs.count < 2 * Lanes; ++next)
     {
-      bool ended = false;
+      const auto number = static_cast<std::size_t>(next);
+      const int n = packs.count / Lanes, i = packs.count % Lanes;
+      SuspendedRay<Number>& ray = rays.rays[number];
       RayExit exit{};
-      SuspendedRay<Number>& ray = rays.rays[static_cast<std::size_t>(next)];
-      const float* const gathered =
-        rays.gathered.data() + rays.fields * static_cast<std::size_t>(next);
-      if (begin(task, pass, ray, gathered, packs, ended, exit))
+      switch (begin(task, pass, ray, packs.batches[n], i, packs.entries[n][i], exit))
       {
-        continue;
-      }
-      if (ended)
-      {
-        to.end({ ray.ray, exit }, gathered);
-      }
-      else
-      {
-        to.suspended.add(ray, gathered);
+        case Begun::Here:
+          packs.states[n][i] = ray;
+          std::copy_n(rays.ofRay(number), packs.fields, packs.ofRay(packs.count));
+          if (hasSteps)
+          {
+            packs.steps[static_cast<std::size_t>(packs.count)] = rays.steps[number];
+          }
+          ++packs.count;
+          break;
+        case Begun::There:
+          to.suspended.add(rays, number);
+          break;
+        case Begun::Ended:
+          to.end({ ray.ray, exit }, rays.ofRay(number));
+          break;
       }
     }
-    advance(task, packs.batches, packs.states);
+    with.advance(task, packs.batches, packs.states, packs.steps.data());
     for (int number = 0; number < packs.count; ++number)
     {
       const int n = number / Lanes, i = number % Lanes;
       const SuspendedRay<Number>& ray = packs.states[n][i];
       if (ray.next != SuspendedRay<Number>::nowhere)
       {
-        to.suspended.add(ray, packs.ofRay(number));
+        to.suspended.add(ray, packs.ofRay(number),
+          hasSteps ? &packs.steps[static_cast<std::size_t>(number)] : nullptr);
         continue;
       }
       const RayBatch<Number, Lanes>& batch = packs.batches[n];
@@ -124,29 +166,13 @@ void advanceWith(const RayTask<Number>& task, AdvanceFunction<Number, Lanes> adv
 }
 
 template <class Number>
-AdvanceFunction<Number, 1> advanceOneByOne(const KernelChoice& choice)
+AdvanceFunctions<Number, 1> advanceOneByOne(const KernelChoice& choice)
 {
-  return visitScheme(choice.interpolation,
-    [&choice](auto scheme)
-    {
-      return visitPath<decltype(scheme)>(choice.path,
-        [](auto kernel) -> AdvanceFunction<Number, 1>
-        {
-          return [](const RayTask<Number>& task, RayBatch<Number, 1>(&batches)[2],
-                   SuspendedRay<Number>(&states)[2][1])
-          {
-            for (int n = 0; n < 2; ++n)
-            {
-              MarchInResidentLeaves<decltype(kernel), Number> march(task, batches[n], states[n]);
-              march.takeAllSteps();
-              march.findDrift();
-            }
-          };
-        });
-    });
+  return visitKernel(
+    choice, [](auto kernel) { return advanceFunctions<decltype(kernel), SchemeOfTask, Number>(); });
 }
 
-/// Calls visit with the function for some instructions.
+/// Calls visit with the functions for some instructions.
 template <class Number, class Visit>
 void visitAdvance(const KernelChoice& kernel, Simd simd, const Visit& visit)
 {
@@ -198,6 +224,46 @@ void takeValues(
   }
 }
 
+/// Of the samples only those that are known.
+template <class Number>
+void writeStep(const StepElsewhere<Number>& step, std::vector<char>& message)
+{
+  const char* const bytes = reinterpret_cast<const char*>(&step);
+  message.insert(message.end(), bytes, bytes + offsetof(StepElsewhere<Number>, found));
+  for (std::int32_t number = 0; number < StepElsewhere<Number>::most; ++number)
+  {
+    if ((step.known >> number & 1u) != 0)
+    {
+      append(std::vector<Sample<Number>>{ step.found[number] }, message);
+    }
+  }
+}
+
+/// From some byte on, which becomes that behind it. False where there is no more of it.
+template <class Number>
+bool readStep(const std::vector<char>& message, std::size_t& at, StepElsewhere<Number>& step)
+{
+  const auto take = [&](void* to, std::size_t bytes)
+  {
+    const bool isThere = message.size() - at >= bytes;
+    if (isThere)
+    {
+      std::memcpy(to, message.data() + at, bytes);
+      at += bytes;
+    }
+    return isThere;
+  };
+  bool isThere = take(&step, offsetof(StepElsewhere<Number>, found));
+  for (std::int32_t number = 0; number < StepElsewhere<Number>::most; ++number)
+  {
+    if ((step.known >> number & 1u) != 0)
+    {
+      isThere = isThere && take(&step.found[number], sizeof(Sample<Number>));
+    }
+  }
+  return isThere;
+}
+
 /// Before rays in a message.
 struct RayCounts
 {
@@ -216,7 +282,7 @@ template <class Real>
 void TravellingRays<Real>::write(std::vector<char>& message) const
 {
   std::vector<BegunRay> begun;
-  TravellingRays others{ fields, {}, {} };
+  TravellingRays others(carried);
   for (std::size_t number = 0; number < rays.size(); ++number)
   {
     const SuspendedRay<Real>& ray = rays[number];
@@ -233,6 +299,10 @@ void TravellingRays<Real>::write(std::vector<char>& message) const
   append(begun, message);
   append(others.rays, message);
   append(others.gathered, message);
+  for (const StepElsewhere<Real>& step : others.steps)
+  {
+    writeStep(step, message);
+  }
 }
 
 template <class Real>
@@ -247,7 +317,7 @@ std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::si
   at += sizeof(counts);
   const std::size_t bytesOfBegun = counts.begun * sizeof(BegunRay);
   const std::size_t bytesOfOthers = counts.others * sizeof(SuspendedRay<Real>);
-  const std::size_t bytesOfGathered = counts.others * fields * sizeof(float);
+  const std::size_t bytesOfGathered = counts.others * carried.fields * sizeof(float);
   if (counts.begun > message.size() || counts.others > message.size() ||
     message.size() - at < bytesOfBegun + bytesOfOthers + bytesOfGathered)
   {
@@ -260,7 +330,16 @@ std::size_t TravellingRays<Real>::read(const std::vector<char>& message, std::si
     begin(ray.ray, ray.leaf);
   }
   takeValues(message, counts.others, at, rays);
-  takeValues(message, counts.others * fields, at, gathered);
+  takeValues(message, counts.others * carried.fields, at, gathered);
+  fill();
+  for (std::size_t number = rays.size() - counts.others; carried.hasSteps && number < rays.size();
+       ++number)
+  {
+    if (!readStep(message, at, steps[number]))
+    {
+      return 0;
+    }
+  }
   return at;
 }
 
@@ -280,7 +359,7 @@ template <class Real>
 bool AdvancedRays<Real>::fromMessage(const std::vector<char>& message)
 {
   AdvancedMessage head;
-  const std::size_t fields = suspended.fields;
+  const std::size_t fields = suspended.carried.fields;
   if (!read(message, head) || head.kind != RayWorker::Advanced || head.ended > message.size() ||
     message.size() - sizeof(head) < head.ended * (sizeof(EndedRay) + fields * sizeof(float)))
   {
@@ -297,16 +376,16 @@ template <class Real>
 AdvancedRays<Real> advanceRays(
   const RayTask<Real>& task, const Pass& pass, TravellingRays<Real> rays, int threads, Simd simd)
 {
-  AdvancedRays<Real> all(rays.fields);
+  AdvancedRays<Real> all(rays.carried);
   std::mutex lock; // of these
   constexpr std::int64_t grain = 64;
-  const auto advanceAll = [&](auto advance)
+  const auto advanceAll = [&](const auto& with)
   {
     parallelFor(static_cast<std::int64_t>(rays.size()), grain, threads,
       [&](std::int64_t begin, std::int64_t end)
       {
-        AdvancedRays<Real> here(rays.fields);
-        advanceWith(task, advance, pass, rays, begin, end, here);
+        AdvancedRays<Real> here(rays.carried);
+        advanceWith(task, with, pass, rays, begin, end, here);
         const std::lock_guard<std::mutex> guard(lock);
         all.add(here);
       });

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "Medium/PartOfTree.h"
+#include "Rays/SamplesElsewhere.h"
 #include "Rays/TeamMessages.h"
 #include "Rays/Tracer.h"
 
@@ -19,15 +20,37 @@
 namespace schlieren
 {
 
-/// Rays that have come to a process, with what they have gathered of each of so many fields.
+/// What goes with a ray beside its state.
+struct Carried
+{
+  std::size_t fields = 0; ///< what it has gathered of each of so many
+  bool hasSteps = false;  ///< a StepElsewhere
+
+  template <class Real>
+  static Carried by(const RayTask<Real>& task)
+  {
+    return { static_cast<std::size_t>(task.gradients.count), samplesBeyond(task.kernel) };
+  }
+};
+
+/// Rays that have come to a process.
 template <class Real>
 struct TravellingRays
 {
-  std::size_t fields = 0;
+  Carried carried;
   std::vector<SuspendedRay<Real>> rays;
-  std::vector<float> gathered; ///< ray by ray
+  std::vector<float> gathered;            ///< ray by ray
+  std::vector<StepElsewhere<Real>> steps; ///< likewise
+
+  TravellingRays() = default;
+  explicit TravellingRays(const Carried& with)
+    : carried(with)
+  {
+  }
 
   std::size_t size() const { return rays.size(); }
+  float* ofRay(std::size_t number) { return gathered.data() + carried.fields * number; }
+  const float* ofRay(std::size_t number) const { return gathered.data() + carried.fields * number; }
 
   /// A ray that has not entered the grid yet.
   void begin(std::int64_t ray, std::int32_t leaf)
@@ -37,27 +60,39 @@ struct TravellingRays
     state.leaf = SuspendedRay<Real>::nowhere;
     state.next = leaf;
     rays.push_back(state);
-    gathered.resize(fields * rays.size(), 0.f);
+    fill();
   }
-  void add(const SuspendedRay<Real>& ray, const float* ofRay)
+  void add(const SuspendedRay<Real>& ray, const float* sums, const StepElsewhere<Real>* step)
   {
     rays.push_back(ray);
-    gathered.insert(gathered.end(), ofRay, ofRay + fields);
+    gathered.insert(gathered.end(), sums, sums + carried.fields);
+    if (carried.hasSteps)
+    {
+      steps.push_back(*step);
+    }
   }
   void add(const TravellingRays& from, std::size_t number)
   {
-    add(from.rays[number], from.gathered.data() + fields * number);
+    add(from.rays[number], from.ofRay(number), from.steps.data() + number);
+  }
+  void add(const TravellingRays& more)
+  {
+    rays.insert(rays.end(), more.rays.begin(), more.rays.end());
+    gathered.insert(gathered.end(), more.gathered.begin(), more.gathered.end());
+    steps.insert(steps.end(), more.steps.begin(), more.steps.end());
   }
 
   /// The last ones, so many at most.
   TravellingRays takeBack(std::size_t most)
   {
     const std::size_t left = rays.size() - std::min(most, rays.size());
-    const auto ray = rays.begin() + static_cast<std::ptrdiff_t>(left);
-    const auto ofRay = gathered.begin() + static_cast<std::ptrdiff_t>(fields * left);
-    TravellingRays taken{ fields, { ray, rays.end() }, { ofRay, gathered.end() } };
+    TravellingRays taken(carried);
+    for (std::size_t number = left; number < rays.size(); ++number)
+    {
+      taken.add(*this, number);
+    }
     rays.resize(left);
-    gathered.resize(fields * left);
+    fill();
     return taken;
   }
 
@@ -66,14 +101,23 @@ struct TravellingRays
 
   /// More rays, from a message, from some byte on. Where they end; 0 where there are fewer than it says.
   std::size_t read(const std::vector<char>& message, std::size_t at);
+
+private:
+  /// As much for each ray as there is to be, and no more.
+  void fill()
+  {
+    gathered.resize(carried.fields * rays.size(), 0.f);
+    steps.resize(carried.hasSteps ? rays.size() : 0);
+  }
 };
 
 /// A channel sends messages of up to 64 kB without waiting for the other process, which may be sending, too. So many rays
 /// fit into one, with what has become of them.
 template <class Real>
-constexpr std::size_t raysAtOnce(std::size_t fields)
+constexpr std::size_t raysAtOnce(const Carried& carried)
 {
-  const std::size_t bytes = sizeof(SuspendedRay<Real>) + fields * sizeof(float);
+  const std::size_t bytes = sizeof(SuspendedRay<Real>) + carried.fields * sizeof(float) +
+    (carried.hasSteps ? sizeof(StepElsewhere<Real>) : 0);
   return std::max<std::size_t>(1, (60000 - 512) / bytes);
 }
 
@@ -151,8 +195,8 @@ struct AdvancedMessage
 template <class Real>
 struct AdvancedRays
 {
-  explicit AdvancedRays(std::size_t fields)
-    : suspended{ fields, {}, {} }
+  explicit AdvancedRays(const Carried& carried)
+    : suspended(carried)
   {
   }
 
@@ -161,19 +205,16 @@ struct AdvancedRays
   TravellingRays<Real> suspended; ///< that have come to other processes' leaves
   double worstDrift = 0;
 
-  void end(const EndedRay& ray, const float* ofRay)
+  void end(const EndedRay& ray, const float* sums)
   {
     ended.push_back(ray);
-    gathered.insert(gathered.end(), ofRay, ofRay + suspended.fields);
+    gathered.insert(gathered.end(), sums, sums + suspended.carried.fields);
   }
   void add(const AdvancedRays& more)
   {
-    const auto append = [](auto& values, const auto& others)
-    { values.insert(values.end(), others.begin(), others.end()); };
-    append(ended, more.ended);
-    append(gathered, more.gathered);
-    append(suspended.rays, more.suspended.rays);
-    append(suspended.gathered, more.suspended.gathered);
+    ended.insert(ended.end(), more.ended.begin(), more.ended.end());
+    gathered.insert(gathered.end(), more.gathered.begin(), more.gathered.end());
+    suspended.add(more.suspended);
     worstDrift = std::max(worstDrift, more.worstDrift);
   }
 

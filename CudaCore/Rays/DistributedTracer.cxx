@@ -123,7 +123,8 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   start.head.number = newNumber();
   start.tree = state.owners.tree();
   start.firstSample = task.medium.samples - state.tree.samples().data();
-  const auto fields = static_cast<std::size_t>(task.gradients.count);
+  const Carried carried = Carried::by(task);
+  const std::size_t fields = carried.fields;
   start.firstGradient = fields > 0 ? task.gradients.values - state.tree.gradientValues().data() : 0;
   start.simd = simd;
   start.pass = pass;
@@ -141,7 +142,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   state.begin(start);
   const AdvanceMessage head{ RayWorker::Advance, sizeof(Real), start.head.number };
 
-  std::vector<TravellingRays<Real>> waiting(count, { fields, {}, {} }); // for a part
+  std::vector<TravellingRays<Real>> waiting(count, TravellingRays<Real>(carried)); // for a part
   std::int64_t underWay = 0;
 
   // -1: all have it.
@@ -217,7 +218,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
       {
         continue; // of a trace that has failed
       }
-      AdvancedRays<Real> advanced(fields);
+      AdvancedRays<Real> advanced(carried);
       if (!advanced.fromMessage(answer))
       {
         throwAbsentOwner(static_cast<std::int32_t>(n + 1));
@@ -240,9 +241,9 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     typename State::Worker& worker = state.workers[n];
     while (waiting[n + 1].size() > 0 &&
       (worker.given == 0 ||
-        (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce<Real>(fields))))
+        (worker.given < givenAtOnce && waiting[n + 1].size() >= raysAtOnce<Real>(carried))))
     {
-      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce<Real>(fields));
+      const TravellingRays<Real> rays = waiting[n + 1].takeBack(raysAtOnce<Real>(carried));
       std::vector<char> request = messageOf(head);
       rays.write(request);
       state.traffic.own.add(
@@ -270,7 +271,7 @@ bool DistributedTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     if (waiting[0].size() > 0)
     {
       take(
-        0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce<Real>(fields)), threads, simd));
+        0, advanceRays(task, pass, waiting[0].takeBack(raysAtOnce<Real>(carried)), threads, simd));
       isIdle = false;
     }
     if (underWay == 0 && (isStopped || tiles.left().count() == 0))

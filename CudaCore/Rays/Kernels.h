@@ -9,7 +9,7 @@
 namespace schlieren
 {
 
-/// Calls visit with an object of the kernel's type, of those that canSuspend().
+/// Calls visit with an object of the kernel's type, of those that do not look at more than the middles of their steps.
 template <class Scheme, class Visit>
 auto visitPath(PathModel path, const Visit& visit)
 {

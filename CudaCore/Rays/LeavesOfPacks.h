@@ -250,6 +250,7 @@ SCHLIEREN_HD void readLeaves(const MediumView<NumberOf<Real>>& medium,
   to.high = { local(medium.last.x, 0), local(medium.last.y, 1), local(medium.last.z, 2) };
   to.step = step > 0 ? in.usualStep : Real{};
   to.isConstant = in.isConstant;
+  to.isNearEdge = in.isNearEdge;
   to.someConstant = any((in.isConstant > 0) & (step > 0));
   to.someNearEdge = any((in.isNearEdge > 0) & (step > 0));
   to.someNearEnd = any((in.isNearEnd > 0) & (step > 0));

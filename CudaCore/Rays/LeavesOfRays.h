@@ -141,6 +141,7 @@ struct LeavesInPacks
   Real perIndex;        ///< local by index coordinates
   Real step;            ///< the usual one; 0 for rays that are not under way
   Real isConstant;      ///< 1 where nothing changes, else 0
+  Real isNearEdge;      ///< 1 where gas may end, else 0
   bool someConstant;    ///< of the rays that are under way
   bool someNearEdge;    ///< likewise: gas may end
   bool someNearEnd;     ///< likewise: the leaf is at a side of the domain
@@ -171,7 +172,7 @@ SCHLIEREN_NOINLINE void readLeaves(const MediumView<NumberOf<Real>>& medium,
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
   Number value[lanes], perIndex[lanes], low[3][lanes], high[3][lanes], usual[lanes],
-    isConstant[lanes];
+    isConstant[lanes], isNearEdge[lanes];
   const double last[3] = { medium.last.x, medium.last.y, medium.last.z };
   toArray(step, usual);
   to.someConstant = false;
@@ -182,7 +183,9 @@ SCHLIEREN_NOINLINE void readLeaves(const MediumView<NumberOf<Real>>& medium,
     const Leaf<Number>& leaf = medium.leaves[in.leaf[i]];
     value[i] = leaf.offset;
     perIndex[i] = static_cast<Number>(leaf.perIndex);
+    const bool mayEnd = leaf.kind == Leaf<Number>::Mixed || leaf.kind == Leaf<Number>::Solid;
     isConstant[i] = leaf.kind == Leaf<Number>::Constant ? Number(1) : Number(0);
+    isNearEdge[i] = mayEnd ? Number(1) : Number(0);
     for (int axis = 0; axis < 3; ++axis)
     {
       low[axis][i] = static_cast<Number>(leaf.toLocal(axis, 0));
@@ -192,8 +195,7 @@ SCHLIEREN_NOINLINE void readLeaves(const MediumView<NumberOf<Real>>& medium,
     {
       usual[i] = steps.in(leaf);
       to.someConstant = to.someConstant || leaf.kind == Leaf<Number>::Constant;
-      to.someNearEdge =
-        to.someNearEdge || leaf.kind == Leaf<Number>::Mixed || leaf.kind == Leaf<Number>::Solid;
+      to.someNearEdge = to.someNearEdge || mayEnd;
     }
   }
   to.value = fromArray<Real>(value);
@@ -202,6 +204,7 @@ SCHLIEREN_NOINLINE void readLeaves(const MediumView<NumberOf<Real>>& medium,
   to.high = packsOf<Real>(high);
   to.step = fromArray<Real>(usual);
   to.isConstant = fromArray<Real>(isConstant);
+  to.isNearEdge = fromArray<Real>(isNearEdge);
 }
 
 /// A pack of rays that is to change leaves.

@@ -9,9 +9,17 @@
 #include "Medium/SimdInterpolation.h"
 #include "Rays/BlockOfLeaves.h"
 #include "Rays/Marcher.h"
+#include "Rays/SimdMarch.h"
 
 namespace schlieren
 {
+
+/// SchemeOfTask, by rows.
+struct SchemeOfTaskByRows : SchemeOfTask
+{
+  template <class Scheme>
+  using Of = ByRows<Scheme>;
+};
 
 /// At most `most` steps of which none leaves the grid.
 template <class Kernel, class Real, class May>
@@ -245,6 +253,35 @@ SCHLIEREN_HD void marchTwo(March<Kernel, Real, May>& a, March<Kernel, Real, May>
   }
   a.findDrift();
   b.findDrift();
+}
+
+/// AdvanceFunctions of a kernel. `Apart`: the scheme of kernels that sample beyond.
+template <class Kernel, class Apart, class Real>
+AdvanceFunctions<NumberOf<Real>, lanesOf<Real>> advanceFunctions()
+{
+  using Number = NumberOf<Real>;
+  constexpr int lanes = lanesOf<Real>;
+  using Marching = MarchInResidentLeaves<Kernel, Real>;
+  const auto advance = [](const RayTask<Number>& task, RayBatch<Number, lanes>(&batches)[2],
+                         SuspendedRay<Number>(&states)[2][lanes],
+                         [[maybe_unused]] StepElsewhere<Number>* steps)
+  {
+    if constexpr (Marching::mayMiss)
+    {
+      for (int n = 0; n < 2; ++n)
+      {
+        SamplesOfSteps<Real> samples(steps + n * lanes);
+        Marching(task, batches[n], states[n], &samples).takeAllSteps();
+      }
+    }
+    else
+    {
+      Marching a(task, batches[0], states[0]);
+      Marching b(task, batches[1], states[1]);
+      marchTwo(a, b);
+    }
+  };
+  return { advance, &findMissing<Apart, Real> };
 }
 
 } // namespace schlieren

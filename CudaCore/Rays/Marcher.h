@@ -8,6 +8,7 @@
 #include "Rays/InBoxes.h"
 #include "Rays/LeavesOfRays.h"
 #include "Rays/RayTask.h"
+#include "Rays/SamplesElsewhere.h"
 #include "Rays/SuspendedRays.h"
 
 #include <cstdint>
@@ -26,32 +27,6 @@ SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
     return 0;
   }
   return steps < beyond ? minimum(static_cast<std::int32_t>(steps), most) : most;
-}
-
-/// In place of a scheme: the one that the task names, looked up for each sample. For integrators whose samples are a
-/// function of their own anyway, so that their steps are compiled once for all schemes.
-struct SchemeOfTask
-{
-  template <class Scheme>
-  using Of = Scheme;
-};
-
-/// A function of its own where a step takes several samples: in line, their code would be too much.
-template <class Scheme, class Real>
-SCHLIEREN_NOINLINE Sample<Real> sampleApart(
-  const RayTask<NumberOf<Real>>& task, const std::int64_t* base, const Vec3<Real>& at)
-{
-  if constexpr (std::is_base_of_v<SchemeOfTask, Scheme>)
-  {
-    return visitScheme(task.kernel.interpolation,
-      [&](auto scheme) {
-        return interpolate<typename Scheme::template Of<decltype(scheme)>>(task.medium, base, at);
-      });
-  }
-  else
-  {
-    return interpolate<Scheme>(task.medium, base, at);
-  }
 }
 
 /// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
@@ -84,6 +59,8 @@ struct March
   static constexpr bool areApart = May::leavesElsewhere;
   using Batch = RayBatch<Number, lanes>;
   using Suspended = std::conditional_t<areApart, SuspendedRays<Real>, NoSuspendedRays>;
+  /// A step may look into leaves that are not resident.
+  static constexpr bool mayMiss = areApart && Integrator::samplesBeyond;
 
   const RayTask<Number>& task;
   Batch& batch;
@@ -106,13 +83,14 @@ struct March
   std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
   Suspended suspended;
+  SamplesOfSteps<Real>* samples; ///< mayMiss
 
   // Rays are distinguished by masks, or in arrays, but never by an index into a pack: that would keep the
   // pack in memory, in every step.
 
-  /// `states`: areApart: of the rays, see MarchInResidentLeaves.
-  SCHLIEREN_HD March(
-    const RayTask<Number>& ofTask, Batch& ofBatch, decltype(Suspended::states) states = nullptr)
+  /// `states`: areApart: of the rays, see MarchInResidentLeaves. `ofSteps`: mayMiss: of these.
+  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch,
+    decltype(Suspended::states) states = nullptr, SamplesOfSteps<Real>* ofSteps = nullptr)
     : task(ofTask)
     , batch(ofBatch)
     , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
@@ -125,6 +103,7 @@ struct March
     , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
     , nextStep(Real{} + ofTask.step)
     , suspended{ states }
+    , samples(ofSteps)
   {
     Number usual[lanes], start[3][lanes];
     for (int i = 0; i < lanes; ++i)
@@ -315,7 +294,7 @@ struct March
     someNearEdge = leaves.someNearEdge;
     if constexpr (areApart)
     {
-      inGas = someNearEdge || !(cruise > 0) ? inGas : Real{} + 1;
+      inGas = leaves.isNearEdge > 0 ? inGas : Real{} + 1;
     }
     else
     {
@@ -394,6 +373,10 @@ struct March
       {
         if (someSuspended)
         {
+          if constexpr (mayMiss)
+          {
+            samples->keep();
+          }
           suspended.keep(ray, in, cruise, steps);
           park(suspended.areSuspended() > 0);
           areUnderWay = any(cruise > 0);
@@ -432,10 +415,7 @@ struct March
   {
     PlacesElsewhere<Real> places;
     findElsewhere(task.medium, in, at, places);
-    Sample<Real> found = sampleApart<Scheme>(task, places.base, withinLeaf(places.at));
-    found.value += places.value;
-    found.gradient = places.finer * found.gradient;
-    return onlyGas(found);
+    return onlyGas(sampleAt<Scheme>(task, places));
   }
 
   /// Ends the rays that have come to a wall, and finds out which are where there is no gas.
@@ -477,7 +457,11 @@ struct March
   {
     const std::int64_t* base = isTree() ? in.base : nullptr;
     Sample<Real> found;
-    if constexpr (Integrator::samplesBeyond)
+    if constexpr (mayMiss)
+    {
+      return onlyGas(samples->template find<Scheme>(task, in, baseValue, at));
+    }
+    else if constexpr (Integrator::samplesBeyond)
     {
       if (isTree() && any(insetOf(at, task.medium.leafLow, task.medium.leafHigh) < 0))
       {
@@ -535,6 +519,10 @@ struct March
     Real step, const Mask& leaving, const Vec3<Real>& x, const Vec3<Real>& along) const
   {
     constexpr int iterations = 3;
+    if constexpr (mayMiss)
+    {
+      samples->next(0, leaving ? cruise : Real{});
+    }
     for (int iteration = 0; iteration < iterations; ++iteration)
     {
       Ray<Real> there = ray;
@@ -559,7 +547,11 @@ struct March
   SCHLIEREN_HD auto takeIfGood(const Ray<Real>& there, const Real& step, const Real& error)
   {
     const Real shortest = Real{} + task.step * Number(1. / 4096);
-    const auto good = (error <= 1) | (step <= shortest);
+    auto good = (error <= 1) | (step <= shortest);
+    if constexpr (mayMiss)
+    {
+      good = good & (cruise > 0);
+    }
     takeWhere(good, there);
     // The error of a step of the second order, which is what is compared, goes by its cube.
     const Real factor = Number(0.9) / squareRoot(squareRoot(error));
@@ -582,33 +574,45 @@ struct March
     ray.pathError = good ? there.pathError : ray.pathError;
   }
 
+  /// Those that have left the grid, of rays that may.
   template <class Mask>
-  SCHLIEREN_HD void finishOutside(const Mask& leaving)
+  SCHLIEREN_HD Mask areOutside(const Mask& leaving) const
   {
     // Of a step: nearer to the grid's side than this is there.
     constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
     const Real rest =
       wayOut(Path::position(ray, light), Path::along(ray, light), domainLow, domainHigh);
-    const auto done = leaving & (cruise > 0) & (rest <= Number(near) * cruise);
+    return leaving & (cruise > 0) & (rest <= Number(near) * cruise);
+  }
+
+  template <class Mask>
+  SCHLIEREN_HD void finishOutside(const Mask& leaving)
+  {
+    const auto done = areOutside(leaving);
     if (any(done))
     {
       finish(done, RayFate::Left, steps + 1);
     }
   }
 
-  /// How far | |p| / n - 1 | is from 0 at the end, which nothing in the integration forces it to be.
+  /// How far | |p| / n - 1 | is from 0, which nothing in the integration forces it to be.
+  SCHLIEREN_HD Real drift(const Vec3<Real>& q, const Vec3<Real>& at) const
+  {
+    const Real nu = valueApart(at);
+    const Real n = 1 + nu;
+    const Real by = (2 * (dot(q, light.d) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
+    return by < 0 ? -by : by;
+  }
+
+  /// That at the end. Where mayMiss, the last step has found it.
   SCHLIEREN_HD void findDrift()
   {
-    if constexpr (!Path::bends)
+    if constexpr (!Path::bends || mayMiss)
     {
       return;
     }
     someNearEdge = someNearEdge || areApart; // when each of them ended
-    const Vec3<Real> q = packs(batch.q);
-    const Real nu = valueApart(packs(batch.end));
-    const Real n = 1 + nu;
-    const Real drift = (2 * (dot(q, light.d) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
-    toArray(drift < 0 ? -drift : drift, batch.drift);
+    toArray(drift(packs(batch.q), packs(batch.end)), batch.drift);
     for (int i = 0; i < lanes; ++i)
     {
       batch.drift[i] = batch.fate[i] == RayFate::Left ? batch.drift[i] : 0;
@@ -694,6 +698,11 @@ struct March
       {
         step = endingOutside(step, next.leaving, x, along);
       }
+      if constexpr (mayMiss)
+      {
+        suspendMissing();
+        step = cruise > 0 ? step : Real{};
+      }
     }
     if constexpr (areApart)
     {
@@ -717,12 +726,33 @@ struct March
     return next;
   }
 
+  /// mayMiss: rays whose steps need samples that are not here are suspended where these steps began, and go for the samples.
+  SCHLIEREN_HD void suspendMissing()
+  {
+    if constexpr (mayMiss)
+    {
+      if (samples->someMissing())
+      {
+        const auto which = samples->suspendMissing(suspended.states, in.leaf) > 0;
+        samples->keep();
+        suspended.keep(samples->ray(), samples->leaves(), cruise, steps);
+        park(which);
+        areUnderWay = any(cruise > 0);
+      }
+    }
+  }
+
   SCHLIEREN_HD void take(NextStep next)
   {
+    if constexpr (mayMiss)
+    {
+      samples->next(StepElsewhere<Number>::firstOfStep, cruise);
+    }
     if constexpr (isAdaptive)
     {
       Real error{};
       const Ray<Real> there = attempt(next.step, error);
+      suspendMissing();
       const auto good = takeIfGood(there, next.step, error);
       next.leaving = next.leaving & good;
       next.step = good ? next.step : Real{};
@@ -730,6 +760,19 @@ struct March
     else
     {
       advance(ray, next.step, next.middle);
+    }
+    if constexpr (mayMiss)
+    {
+      suspendMissing();
+      if (next.someLeave)
+      {
+        const auto done = areOutside(next.leaving);
+        samples->next(StepElsewhere<Number>::atEnd, done ? cruise : Real{});
+        const Real atEnd = drift(ray.q, Path::position(ray, light));
+        suspendMissing();
+        toArray(done & (cruise > 0) ? atEnd : fromArray<Real>(batch.drift), batch.drift);
+      }
+      samples->end();
     }
     if (isGathering())
     {
@@ -795,9 +838,17 @@ struct March
     takeLeaves();
     suspended.limitSteps(cruise);
     park(cruise == 0);
+    if constexpr (mayMiss)
+    {
+      Real longest, gas;
+      samples->restore(longest, gas);
+      nextStep = enters > 0 ? nextStep : longest;
+      inGas = enters > 0 ? inGas : gas;
+    }
     if constexpr (Path::bends)
     {
-      const Vec3<Real> atEntry = valueApart(ray.start) * light.d;
+      // They are in their leaves, but for rounding.
+      const Vec3<Real> atEntry = valueApart(withinLeaf(ray.start)) * light.d;
       ray.q.x = enters > 0 ? atEntry.x : ray.q.x;
       ray.q.y = enters > 0 ? atEntry.y : ray.q.y;
       ray.q.z = enters > 0 ? atEntry.z : ray.q.z;
@@ -811,6 +862,10 @@ struct March
     std::int32_t inside = 0;
     while (areUnderWay && (inside > 0 || !isTrapped()))
     {
+      if constexpr (mayMiss)
+      {
+        samples->begin(ray, in, nextStep, inGas, cruise);
+      }
       take(inside > 0 ? stepInside() : chooseStep());
       --inside;
       if (!isAdaptive && inside < 0)

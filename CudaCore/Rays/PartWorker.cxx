@@ -134,7 +134,7 @@ bool PartWorker::begin(const std::vector<char>& message)
       part<Real>().tree->gradientValues().data() + request.firstGradient;
   }
   part<Real>().request = request;
-  part<Real>().waiting.fields = static_cast<std::size_t>(request.task.gradients.count);
+  part<Real>().waiting = TravellingRays<Real>(Carried::by(request.task));
   bytesOfReal_ = sizeof(Real);
   addresses_ = valuesFrom<std::int32_t>(sizeof(request), message);
   taken_ = 0;
@@ -200,11 +200,11 @@ bool PartWorker::advancePart(Channel& channel, Peers& peers, int threads)
     return false;
   }
   const BeginMessage<Real>& request = here.request;
-  const std::size_t fields = here.waiting.fields;
+  const Carried carried = here.waiting.carried;
   AdvancedRays<Real> advanced = advanceRays(request.task, request.pass,
-    here.waiting.takeBack(raysAtOnce<Real>(fields)), threads, request.simd);
+    here.waiting.takeBack(raysAtOnce<Real>(carried)), threads, request.simd);
 
-  std::vector<TravellingRays<Real>> toOwners(addresses_.size(), { fields, {}, {} });
+  std::vector<TravellingRays<Real>> toOwners(addresses_.size(), TravellingRays<Real>(carried));
   for (std::size_t number = 0; number < advanced.suspended.size(); ++number)
   {
     const Leaf<Real>& next = request.task.medium.leaves[advanced.suspended.rays[number].next];

@@ -31,22 +31,6 @@ void marchPacks(const RayTask<NumberOf<Pack>>& task, RayBatch<NumberOf<Pack>, la
   }
 }
 
-template <class Kernel, class Pack>
-void advancePacks(const RayTask<NumberOf<Pack>>& task,
-  RayBatch<NumberOf<Pack>, lanesOf<Pack>> (&batches)[2],
-  SuspendedRay<NumberOf<Pack>> (&states)[2][lanesOf<Pack>])
-{
-  MarchInResidentLeaves<Kernel, Pack> a(task, batches[0], states[0]);
-  MarchInResidentLeaves<Kernel, Pack> b(task, batches[1], states[1]);
-  marchTwo(a, b);
-}
-
-struct SchemeOfTaskByRows : SchemeOfTask
-{
-  template <class Scheme>
-  using Of = ByRows<Scheme>;
-};
-
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice)
 {
@@ -68,26 +52,23 @@ MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice)
 }
 
 template <class Number, int Lanes>
-AdvanceFunction<Number, Lanes> simdAdvance(const KernelChoice& choice)
+AdvanceFunctions<Number, Lanes> simdAdvance(const KernelChoice& choice)
 {
-  return visitScheme(choice.interpolation,
-    [&choice](auto scheme)
-    {
-      return visitPath<decltype(scheme)>(choice.path,
-        [](auto kernel) -> AdvanceFunction<Number, Lanes>
-        { return &advancePacks<decltype(kernel), SimdPack<Number, Lanes>>; });
-    });
+  return visitKernel(choice,
+    [](auto kernel)
+    { return advanceFunctions<decltype(kernel), SchemeOfTask, SimdPack<Number, Lanes>>(); });
 }
 
 template <class Number, int Lanes>
-AdvanceFunction<Number, Lanes> simdAdvanceByRows(const KernelChoice& choice)
+AdvanceFunctions<Number, Lanes> simdAdvanceByRows(const KernelChoice& choice)
 {
   return visitScheme(choice.interpolation,
     [&choice](auto scheme)
     {
-      return visitPath<ByRows<decltype(scheme)>>(choice.path,
-        [](auto kernel) -> AdvanceFunction<Number, Lanes>
-        { return &advancePacks<decltype(kernel), SimdPack<Number, Lanes>>; });
+      return visitKernelOf<ByRows<decltype(scheme)>, SchemeOfTaskByRows>(choice,
+        [](auto kernel) {
+          return advanceFunctions<decltype(kernel), SchemeOfTaskByRows, SimdPack<Number, Lanes>>();
+        });
     });
 }
 

@@ -7,6 +7,6 @@ namespace schlieren
 {
 
 template MarchFunction<float, 4> simdMarch(const KernelChoice&);
-template AdvanceFunction<float, 4> simdAdvance(const KernelChoice&);
+template AdvanceFunctions<float, 4> simdAdvance(const KernelChoice&);
 
 } // namespace schlieren

@@ -12,12 +12,6 @@
 namespace schlieren
 {
 
-/// Whether rays can be suspended: with integrators that look at the medium only in the middle of their steps.
-inline bool canSuspend(const KernelChoice& kernel)
-{
-  return kernel.path == PathModel::Straight || kernel.integrator == Integrator::Leapfrog;
-}
-
 /// A ray whose march has come to a leaf that is not resident: what of it is not the pass's and the task's, to the last
 /// bit, in the coordinates of the leaf that it leaves.
 template <class Number>
@@ -133,8 +127,9 @@ struct SuspendedRays
       }
       else
       {
+        const Leaf<Number>& leaf = medium.leaves[from.leaf];
         in.leaf[i] = from.leaf;
-        in.base[i] = 0;
+        in.base[i] = leaf.isResident() ? leaf.brick * medium.brickStride : 0;
         in.travelled[i] = from.travelled;
       }
       const Number ofOffset[3] = { from.offset.x, from.offset.y, from.offset.z };

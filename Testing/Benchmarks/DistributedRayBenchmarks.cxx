@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What it costs rays that each process has a part of the medium: processor seconds of all processes, which are threads
-// here, against those of one process that has all. 512^2 rays, Quadratic and Leapfrog in single precision, medians of all
+// here, against those of one process that has all. 512^2 rays, Quadratic in single precision, medians of all
 // turns. Also how far deflections are from those of that process, by the largest one.
 //
 //   SchlierenDistributedRayBenchmarks [turns [processes ...]]
@@ -58,7 +58,8 @@ Medium<float> coarseTree(const Flow& flow, const std::shared_ptr<BrickOwners>& o
 
 struct Rays
 {
-  Rays(const Flow& flow, const Direction& direction, const std::shared_ptr<BrickOwners>& owners)
+  Rays(const Flow& flow, const Direction& direction, Integrator integrator,
+    const std::shared_ptr<BrickOwners>& owners)
     : medium(coarseTree(flow, owners))
   {
     const Grid grid = coarsestGrid(*flow.source);
@@ -72,7 +73,9 @@ struct Rays
       { light.u, light.v, { dot(centre, light.u), dot(centre, light.v) }, { flow.half, flow.half },
         flow.finest },
       {});
-    task = makeTask<float>(medium, nullptr, FieldGradientsView{}, light, RaySettings{});
+    RaySettings settings;
+    settings.kernel.integrator = integrator;
+    task = makeTask<float>(medium, nullptr, FieldGradientsView{}, light, settings);
     pass = { 0, 0, view.width, view.height, { 0, 0 } };
     traced.resize(pass, 0);
   }
@@ -110,9 +113,16 @@ Difference differenceOf(const RayExits& a, const RayExits& b)
   return difference;
 }
 
-void compare(const Flow& flow, const Direction& direction, std::size_t processes, int turns)
+struct Method
 {
-  Rays alone(flow, direction, nullptr);
+  const char* name;
+  Integrator integrator;
+};
+
+void compare(const Flow& flow, const Direction& direction, const Method& method,
+  std::size_t processes, int turns)
+{
+  Rays alone(flow, direction, method.integrator, nullptr);
   std::vector<std::unique_ptr<Worker>> workers;
   std::vector<Channel*> channels;
   while (workers.size() + 1 < processes)
@@ -121,7 +131,7 @@ void compare(const Flow& flow, const Direction& direction, std::size_t processes
     channels.push_back(workers.back()->channel());
   }
   const auto owners = std::make_shared<BrickChannels>(channels);
-  Rays parts(flow, direction, owners);
+  Rays parts(flow, direction, method.integrator, owners);
   DistributedTracer<float> tracer(parts.medium, *owners);
   std::vector<double> seconds, ratio;
   for (int turn = 0; turn < turns; ++turn)
@@ -137,9 +147,10 @@ void compare(const Flow& flow, const Direction& direction, std::size_t processes
   const double rays = static_cast<double>(parts.traced.crossed) * turns;
   const auto& traffic = tracer.traffic();
   const auto perRay = [rays](std::int64_t count) { return static_cast<double>(count) / rays; };
-  std::printf("| %s | %s | %zu | %.3f | %.2f | %.2f | %.2f | %.0f | %.4f | %.0f | %.4f | %.1e | "
-              "%.1e | %.1e |\n",
-    flow.name, direction.name, processes, median(seconds), median(ratio),
+  std::printf(
+    "| %s | %s | %s | %zu | %.3f | %.2f | %.2f | %.2f | %.0f | %.4f | %.0f | %.4f | %.1e | "
+    "%.1e | %.1e |\n",
+    flow.name, direction.name, method.name, processes, median(seconds), median(ratio),
     *std::min_element(ratio.begin(), ratio.end()),
     perRay(traffic.own.states + traffic.amongWorkers.states), perRay(traffic.own.bytes),
     perRay(traffic.own.messages), perRay(traffic.amongWorkers.bytes),
@@ -162,10 +173,11 @@ int main(int count, char** arguments)
     numbers = { 1, 4 };
   }
   std::puts(
-    "| medium | view | processes | seconds of one that has all | times as long | least | "
+    "| medium | view | integrator | processes | seconds of one that has all | times as long | "
+    "least | "
     "states/ray | bytes/ray of the first process | messages/ray of it | bytes/ray among others | "
     "messages/ray among them | worst difference | mean | above 1e-6 |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   const Flow flows[] = { { "three balls", std::make_shared<BallsSource>(threeBalls(1e-4)),
                            { 0, 0, 0 }, 0.6, 1e-4 },
     { "bow shock and body", std::make_shared<BowShockSource>(), { 0.5, 0, 0 }, 3, 6. / 512 } };
@@ -173,9 +185,13 @@ int main(int count, char** arguments)
   {
     for (const Direction& direction : { directions[0], directions[2] })
     {
-      for (const std::size_t processes : numbers)
+      for (const Method& method : { Method{ "Leapfrog", Integrator::Leapfrog },
+             Method{ "Rk4", Integrator::Rk4 }, Method{ "Adaptive", Integrator::Adaptive } })
       {
-        compare(flow, direction, processes, turns);
+        for (const std::size_t processes : numbers)
+        {
+          compare(flow, direction, method, processes, turns);
+        }
       }
     }
   }

@@ -59,6 +59,7 @@ struct Setting
   std::shared_ptr<const MediumSource> source;
   Vector direction{ 0.3, -0.5, -0.8 };
   PathModel path = PathModel::Refracted;
+  Integrator integrator = Integrator::Leapfrog;
   Interpolation interpolation = Interpolation::Quadratic;
   double tolerance = 0.01;
   double finest = 0.005; ///< voxels that the view needs
@@ -79,7 +80,7 @@ struct Traced
     const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
     refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, setting.finest }, {});
     RaySettings rays;
-    rays.kernel = { setting.path, Integrator::Leapfrog, setting.interpolation };
+    rays.kernel = { setting.path, setting.integrator, setting.interpolation };
     task = makeTask<Real>(medium, nullptr, medium.tree->gradients(), light, rays);
   }
 

@@ -191,6 +191,9 @@ def distributed():
         assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
         seen.ViewDirection = [0.6, 0.1, -1]
         found[f"{kind}: from another side"] = image_array(seen, "Deflection")
+        seen.Integrator = "RK4"
+        found[f"{kind}: RK4"] = image_array(seen, "Deflection")
+        seen.Integrator = "Leapfrog"
         seen.Fields = ["rho"]
         seen.ColorByField = 1
         found[f"{kind}: tinted"] = image_array(seen, "Color").astype(np.float64)
@@ -535,7 +538,7 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(on(1), parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 18 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
+    assert isSanitized or len(one) == 72 + 21 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "shared", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
