@@ -3,7 +3,7 @@
 """What several ranks take: processor seconds and memory of each, for a first image and for another view.
 
     SCHLIEREN_PLUGIN=…/Schlieren.so mpiexec -np 4 pvbatch --sym --force-offscreen-rendering \
-        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples [steps]]]
+        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples [steps]]] [property=value ...]
 
 MODE: gathered, stay or distributed. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
 has a sector. One thread on each rank. Prints a row: ranks, mode, cells, pixels, and for the first image and for another view the
@@ -12,8 +12,11 @@ what they have with the data, MB; then the voxels, MB, and million rays of the o
 
 With `steps` the density pulsates, and rows have the seconds on the clock of each time step's image from the second on, without and
 with reading ahead (MPI has to allow threads: OMPI_MPI_THREAD_LEVEL=3), and of making the data alone.
+
+Other properties may be given, MediumTolerance=0 for example; their values are Python's.
 """
 
+import ast
 import math
 import os
 import resource
@@ -100,13 +103,15 @@ simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
 
 
 def measure():
-    mode, cells = sys.argv[1], int(float(sys.argv[2]))
-    pixels = int(sys.argv[3]) if len(sys.argv) > 3 else 512
-    samples = int(sys.argv[4]) if len(sys.argv) > 4 else 1
+    numbers = [argument for argument in sys.argv[2:] if "=" not in argument]
+    others = dict(argument.split("=", 1) for argument in sys.argv[2:] if "=" in argument)
+    mode, cells = sys.argv[1], int(float(numbers[0]))
+    pixels = int(numbers[1]) if len(numbers) > 1 else 512
+    samples = int(numbers[2]) if len(numbers) > 2 else 1
     size = {"POLAR": round((cells / 3)**(1 / 3)), "AROUND": 2 * round((cells / 3)**(1 / 3))}
     size["LAYERS"] = round(cells / size["POLAR"] / size["AROUND"])
     cells = math.prod(size.values())
-    steps = size["NUMBER"] = int(sys.argv[5]) if len(sys.argv) > 5 else 0
+    steps = size["NUMBER"] = int(numbers[3]) if len(numbers) > 3 else 0
     script, extent = SECTORS, EXTENT
     for name, number in size.items():
         script, extent = script.replace(name, str(number)), extent.replace(name, str(number))
@@ -114,7 +119,8 @@ def measure():
     source.UpdatePipeline()
     before = megabytes()
     bench = Schlieren(Input=source, Density=["POINTS", "rho"], ParallelScale=3, FocalPoint=[0, 0, 0],  # noqa: F821
-                      ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1, Device="CPU", **MODES[mode])
+                      ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1, Device="CPU",
+                      **MODES[mode], **{name: ast.literal_eval(value) for name, value in others.items()})
     row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {cells:.3g} | {pixels} |"
     if steps > 0:
         for memory in (0, 1 << 20, 0, 1 << 20):
