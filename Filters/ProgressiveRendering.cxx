@@ -318,7 +318,8 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
   else if (const TimeStep* step = inside.Ahead.Current(this))
   {
     next = inside.Ahead.Predict(this->GetExecutive()->GetInputInformation(0, 0));
-    kibibytes = kibibytesOf(step->data) + kibibytesOf(step->bodies);
+    kibibytes = kibibytesOf(inside.Ranks.GetInput(0, step->data)) +
+      kibibytesOf(inside.Ranks.GetInput(1, step->bodies));
   }
   if (!next || this->ReadAheadMemory == 0 || kibibytes > this->ReadAheadMemory * 1024.0)
   {
@@ -377,7 +378,7 @@ void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
   Place place = Place::OnRank0;
   if (hasOtherRanks())
   {
-    read = inside.Meeting->MeetReaders(read, own, this->MostGathered(), place);
+    read = inside.Meeting->MeetReaders(read, time, own, this->MostGathered(), place);
     inside.Ahead.SetKeepable(read.isKeepable);
   }
   if (!read.isThere)
@@ -401,8 +402,11 @@ void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
 void vtkSchlierenFilter::MakeAhead(TimeStep& step, const schlieren::Scene& scene,
   const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
 {
-  step.refractivity = this->FindOrMakeRefractivity(step.data, step.bodies,
-    this->DescribeInputs(step.data, step.bodies), vtkRefractiveIndex::NEXT_STEP);
+  const FilterRanks& ranks = this->Inside->Ranks;
+  vtkDataObject* const data = ranks.GetInputAhead(0, step.data);
+  vtkDataObject* const bodies = ranks.GetInputAhead(1, step.bodies);
+  step.refractivity = this->FindOrMakeRefractivity(
+    data, bodies, this->DescribeInputs(data, bodies), vtkRefractiveIndex::NEXT_STEP);
   // Its medium is another one where it needs the ambient refractivity that is being found now.
   const bool isAmbientKnown = !this->LockAmbient || !this->Inside->FindsAmbient;
   const bool hasTints = this->ColorByField && step.refractivity && !step.refractivity->Source;

@@ -87,6 +87,13 @@ std::string absenceOf(std::size_t rank, std::size_t ranks)
     "See what that rank has reported, or use one process.";
 }
 
+bool hasAll(const std::vector<std::string>& names, const std::vector<std::string>& wanted)
+{
+  return std::all_of(wanted.begin(), wanted.end(),
+    [&](const std::string& name)
+    { return std::find(names.begin(), names.end(), name) != names.end(); });
+}
+
 /// One rank can have so many times as many cells of an image as of a mesh: it takes some 10 bytes a point, a mesh some 200,
 /// and less time; and the medium of an image that one rank has is its own grid, which is exact.
 constexpr double cellsOfImageForOne = 160;
@@ -174,6 +181,63 @@ bool ranks::canStay(const std::vector<InputsOfRank>& ofRanks, double maxCells)
   }
   cells /= (kinds & (PieceOfImage | PiecesOfBlocks)) != 0 ? cellsOfImageForOne : 1;
   return kinds != NoPieces && ranks.size() > 1 && cells > maxCells;
+}
+
+//------------------------------------------------------------------------------
+std::vector<char> ranks::dataMessage(int input, const FilterRanks::Inputs& own)
+{
+  try
+  {
+    return messageOf(ShortMessage{ Data, 1 },
+      input == 0 ? packedData(own.data, own.arrays) : packedData(own.bodies, {}));
+  }
+  catch (const std::exception& problem)
+  {
+    const std::string text = problem.what();
+    return messageOf(ShortMessage{ Data, 0 }, { text.begin(), text.end() });
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> ranks::collect(int input, const FilterRanks::Inputs& own,
+  const std::vector<InputsOfRank>& ofRanks,
+  const std::vector<std::unique_ptr<RankChannel>>& channels)
+{
+  const std::vector<Holdings> holdings = holdingsOf(static_cast<std::size_t>(input), ofRanks);
+  if (hasRank0All(holdings))
+  {
+    return nullptr;
+  }
+  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
+  for (const std::size_t rank : ranks)
+  {
+    if (rank > 0)
+    {
+      channels[rank - 1]->send(messageOf(ShortMessage{ GiveData, input }));
+    }
+  }
+  std::vector<std::vector<char>> parts;
+  for (const std::size_t rank : ranks)
+  {
+    if (rank == 0)
+    {
+      parts.push_back(input == 0 ? packedData(own.data, own.arrays) : packedData(own.bodies, {}));
+      continue;
+    }
+    std::vector<char> message = channels[rank - 1]->ReceiveOne(Data);
+    if (message.empty())
+    {
+      throw std::runtime_error(absenceOf(rank, holdings.size()));
+    }
+    const bool hasData = read<ShortMessage>(message).number != 0;
+    message.erase(message.begin(), message.begin() + sizeof(ShortMessage));
+    if (!hasData)
+    {
+      throw std::runtime_error(std::string(message.begin(), message.end()));
+    }
+    parts.push_back(std::move(message));
+  }
+  return gatheredData(parts);
 }
 
 //------------------------------------------------------------------------------
@@ -278,7 +342,15 @@ bool FilterRanks::Request(
 //------------------------------------------------------------------------------
 vtkDataObject* FilterRanks::GetInput(int input, vtkDataObject* own) const
 {
-  vtkDataObject* gathered = this->Gathered[input];
+  vtkDataObject* gathered = this->Gathered[static_cast<std::size_t>(input)];
+  return gathered && own ? gathered : own;
+}
+
+//------------------------------------------------------------------------------
+vtkDataObject* FilterRanks::GetInputAhead(int input, vtkDataObject* own) const
+{
+  vtkDataObject* gathered =
+    this->Ahead ? this->Ahead->gathered[static_cast<std::size_t>(input)].Get() : nullptr;
   return gathered && own ? gathered : own;
 }
 
@@ -427,7 +499,7 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
       this->Next = read<ReadStepMessage>(*message).time;
       return {};
     case GiveData:
-      channel.send(this->DataMessage(head.number));
+      channel.send(dataMessage(head.number, *this->Own));
       return {};
     case End:
     {
@@ -448,22 +520,6 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
   }
   this->Of.Inside->Worker.answer(std::move(*message), channel, threads);
   return {};
-}
-
-//------------------------------------------------------------------------------
-std::vector<char> FilterRanks::Meeting::DataMessage(int input) const
-{
-  try
-  {
-    return messageOf(ShortMessage{ Data, 1 },
-      input == 0 ? packedData(this->Own->data, this->Own->arrays)
-                 : packedData(this->Own->bodies, {}));
-  }
-  catch (const std::exception& problem)
-  {
-    const std::string text = problem.what();
-    return messageOf(ShortMessage{ Data, 0 }, { text.begin(), text.end() });
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -502,7 +558,9 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
 {
   FilterRanks& of = this->Of;
   Inputs all = *this->Own;
-  if (of.Inside && !(of.Compared == of.Now && of.MostCells == maxCells))
+  const auto& arrays = this->Own->arrays;
+  const bool lacksArrays = of.Gathered[0] && !hasAll(of.Arrays, arrays);
+  if (of.Inside && (!(of.Compared == of.Now && of.MostCells == maxCells) || lacksArrays))
   {
     of.Compared = of.Now;
     of.MostCells = maxCells;
@@ -511,11 +569,18 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
     of.Gathered[0] = of.Gathered[1] = nullptr;
     of.Problem = this->FindAbsent();
     of.InPieces = of.Problem.empty() && this->CanStayInPieces(maxCells);
+    const std::optional<AheadOf> ahead = std::exchange(of.Ahead, std::nullopt);
+    const bool isAhead = ahead && ahead->version == of.Now && ahead->maxCells == maxCells &&
+      !of.InPieces && hasAll(ahead->arrays, arrays);
+    of.Arrays = isAhead ? ahead->arrays : arrays;
     try
     {
       for (int input = of.InPieces ? 1 : 0; input < 2 && of.Problem.empty(); ++input)
       {
-        of.Gathered[input] = this->Collect(input);
+        const auto n = static_cast<std::size_t>(input);
+        of.Gathered[n] = isAhead
+          ? ahead->gathered[n]
+          : collect(input, *this->Own, this->InputsOfAll(), of.Inside->Channels);
       }
     }
     catch (const std::bad_alloc&)
@@ -583,51 +648,6 @@ bool FilterRanks::Meeting::AreTooFew(double maxCells) const
     return false;
   }
   return !hasRank0All(holdingsOf(0, this->InputsOfAll())) && !this->CanStayInPieces(maxCells);
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkDataObject> FilterRanks::Meeting::Collect(int input)
-{
-  vtkDataObject* own = input == 0 ? this->Own->data : this->Own->bodies;
-  const std::vector<std::string> arrays =
-    input == 0 ? this->Own->arrays : std::vector<std::string>();
-  const auto& channels = this->Of.Inside->Channels;
-  const std::vector<Holdings> holdings =
-    holdingsOf(static_cast<std::size_t>(input), this->InputsOfAll());
-  if (hasRank0All(holdings))
-  {
-    return nullptr;
-  }
-  const std::vector<std::size_t> ranks = ranksWithMore(holdings);
-  for (const std::size_t rank : ranks)
-  {
-    if (rank > 0)
-    {
-      channels[rank - 1]->send(messageOf(ShortMessage{ GiveData, input }));
-    }
-  }
-  std::vector<std::vector<char>> parts;
-  for (const std::size_t rank : ranks)
-  {
-    if (rank == 0)
-    {
-      parts.push_back(packedData(own, arrays));
-      continue;
-    }
-    std::vector<char> message = channels[rank - 1]->ReceiveOne(Data);
-    if (message.empty())
-    {
-      throw std::runtime_error(absenceOf(rank, holdings.size()));
-    }
-    const bool hasData = read<ShortMessage>(message).number != 0;
-    message.erase(message.begin(), message.begin() + sizeof(ShortMessage));
-    if (!hasData)
-    {
-      throw std::runtime_error(std::string(message.begin(), message.end()));
-    }
-    parts.push_back(std::move(message));
-  }
-  return gatheredData(parts);
 }
 
 } // namespace filters

@@ -7,6 +7,7 @@
 
 #include "Rays/Channel.h"
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -133,9 +134,11 @@ public:
       InPieces,
       Gathered
     };
-    /// On rank 0, in the thread that reads: waits for the others. What all ranks have where this one has `own`, and where the data
-    /// will be at the meeting for that step, see Gather(). Bodies have to be on rank 0, too.
-    StepAhead MeetReaders(const StepAhead& step, const Inputs& own, double maxCells, Place& place);
+    /// On rank 0, in the thread that reads: waits for the others. What all ranks have of the step of this time where this one has
+    /// `own`, and where the data will be at the meeting for it, see Gather(). Bodies have to be on rank 0, too. What rank 0
+    /// would have to gather it gathers now, and has, see GetInputAhead().
+    StepAhead MeetReaders(
+      const StepAhead& step, double time, const Inputs& own, double maxCells, Place& place);
     /// Likewise: the connections to the others until EndOfStep(), which rank 0 has to call. They keep the step, or forget it.
     std::vector<schlieren::Channel*> GetReaders() const;
     void EndOfStep(bool isKept);
@@ -160,12 +163,10 @@ public:
     std::optional<bool> ServeOnce(int threads, const Responder& respond);
     bool ServeAndRead(int threads, const Responder& respond, const Reader& reader);
     void ServeReader(const StepAhead& step, const Inputs& own, const Responder& respond);
-    std::vector<char> DataMessage(int input) const;
     std::string FindAbsent() const;
     bool CanStayInPieces(double maxCells) const;
     /// On rank 0, with inputs: what each rank has of them.
     const std::vector<ranks::InputsOfRank>& InputsOfAll() const;
-    vtkSmartPointer<vtkDataObject> Collect(int input);
 
     FilterRanks& Of;
     const std::optional<Inputs> Own;
@@ -180,6 +181,8 @@ public:
 
   /// On rank 0, after it has been gathered: all of an input of which this is what rank 0 has itself.
   vtkDataObject* GetInput(int input, vtkDataObject* own) const;
+  /// Likewise of a step that has been read ahead.
+  vtkDataObject* GetInputAhead(int input, vtkDataObject* own) const;
 
   /// On rank 0: whether the data have stayed on several ranks, and how often other data were gathered.
   bool AreInPieces() const { return this->InPieces; }
@@ -210,8 +213,18 @@ private:
   double MostCells = 0;  // of Compared
   bool InPieces = false; // likewise
   int Gatherings = 0;
-  std::string Problem;                        // of Compared
-  vtkSmartPointer<vtkDataObject> Gathered[2]; // likewise; null: rank 0 has all of it
+  std::string Problem; // of Compared
+  using OfInputs = std::array<vtkSmartPointer<vtkDataObject>, 2>;
+  OfInputs Gathered;               // likewise; null: rank 0 has all of it
+  std::vector<std::string> Arrays; // of the data, that were gathered
+  struct AheadOf
+  {
+    Version version;
+    double maxCells;
+    OfInputs gathered;
+    std::vector<std::string> arrays;
+  };
+  std::optional<AheadOf> Ahead; // of the next time step
 };
 
 } // namespace filters

@@ -8,6 +8,7 @@
 #include "Ranks.h"
 
 #include "vtkMultiProcessController.h"
+#include "vtkSmartPointer.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 #include "vtkMPIController.h"
@@ -22,6 +23,14 @@ namespace ranks
 {
 /// Whether data stay on the ranks that have them.
 bool canStay(const std::vector<InputsOfRank>& ofRanks, double maxCells);
+
+/// On rank 0: all of an input, of which other ranks have some; null where rank 0 has all. Throws std::runtime_error where it
+/// cannot be had.
+vtkSmartPointer<vtkDataObject> collect(int input, const FilterRanks::Inputs& own,
+  const std::vector<InputsOfRank>& ofRanks,
+  const std::vector<std::unique_ptr<RankChannel>>& channels);
+/// On other ranks: the answer to GiveData.
+std::vector<char> dataMessage(int input, const FilterRanks::Inputs& own);
 } // namespace ranks
 } // namespace filters
 

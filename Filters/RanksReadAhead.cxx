@@ -3,6 +3,8 @@
 // A meeting of ranks that read the next time step, each in its main thread, while others trace rays.
 #include "RanksInternals.h"
 
+#include "vtkDataObject.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -39,8 +41,9 @@ void FilterRanks::Meeting::BeginToRead(double time)
 
 //------------------------------------------------------------------------------
 FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetReaders(
-  const StepAhead& step, const Inputs& own, double maxCells, Place& place)
+  const StepAhead& step, double time, const Inputs& own, double maxCells, Place& place)
 {
+  this->Of.Ahead.reset();
   StepAhead all = step;
   std::vector<InputsOfRank> ofRanks{ inputsOfRank(own.data, own.bodies) };
   for (const auto& reader : this->Of.Inside->Readers)
@@ -54,6 +57,25 @@ FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetReaders(
     : canStay(ofRanks, maxCells)               ? Place::InPieces
     : hasRank0All(holdingsOf(0, ofRanks))      ? Place::OnRank0
                                                : Place::Gathered;
+  if (all.isThere && place == Place::Gathered && !canStay(ofRanks, maxCells))
+  {
+    try
+    {
+      FilterRanks::OfInputs gathered;
+      const Inputs withArrays{ own.data, own.bodies, this->Own->arrays };
+      for (int input = 0; input < 2; ++input)
+      {
+        gathered[static_cast<std::size_t>(input)] =
+          collect(input, withArrays, ofRanks, this->Of.Inside->Readers);
+      }
+      this->Of.Ahead =
+        AheadOf{ { this->Of.Now.changes, time }, maxCells, std::move(gathered), withArrays.arrays };
+      place = Place::OnRank0;
+    }
+    catch (const std::exception&) // the request for that step will say it
+    {
+    }
+  }
   return all;
 }
 
@@ -77,6 +99,10 @@ void FilterRanks::Meeting::EndOfStep(bool isKept)
   if (!std::exchange(this->HasReaders, false))
   {
     return;
+  }
+  if (!isKept)
+  {
+    this->Of.Ahead.reset();
   }
   for (const auto& reader : this->Of.Inside->Readers)
   {
@@ -105,7 +131,9 @@ void FilterRanks::Meeting::ServeReader(
       this->Drops = head.number == 0;
       return;
     }
-    reader.send(respond(*message));
+    reader.send(head.kind == GiveData
+        ? dataMessage(head.number, { own.data, own.bodies, this->Own->arrays })
+        : respond(*message));
   }
 }
 

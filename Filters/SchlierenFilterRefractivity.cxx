@@ -58,7 +58,7 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
   std::vector<double> description =
     describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
-  description.push_back(ranks.GetGatherings()); // of what other ranks have
+  description.push_back(ranks.AreInPieces() ? ranks.GetGatherings() : 0); // of what others have
   description.push_back(this->ImagesBecomeTrees(input));
   addBodies(description, this, bodies);
   return description;

@@ -69,6 +69,8 @@ def images(isAhead):
     body = Sphere(Radius=0.2, Center=[0.5, 0.2, 0])
     for name, kind, settings in (
             ("requested", "requested", {"Bodies": body}),
+            ("gathered", "tetrahedra", {}),
+            ("gathered with bodies", "tetrahedra", {"Bodies": body}),
             ("image", "image", {}),
             ("image that stays", "image", {"Bodies": body, "GatherLimit": 0}),
             ("tetrahedra that stay", "tetrahedra", {"GatherLimit": 0}),
@@ -93,7 +95,7 @@ def images(isAhead):
             twice = on_several() and kind != "image" and "GatherLimit" not in settings
             assert steps == [0] * twice + AHEAD, (name, steps)
             # What was made of steps that were read ahead is used; of the second the ambient refractivity was not known yet.
-            isMadeAhead = name == "requested" or on_several() and "stay" in name
+            isMadeAhead = name == "requested" or on_several() and ("stay" in name or "gathered" in name or name == "image")
             assert not isMadeAhead or builds[:4] == [1, 2, 2, 2], (name, builds)
         seen.UpdatePropertyInformation()
         assert not on_several() or ("on their ranks" in seen.GetProperty("Grid").GetData()) == ("GatherLimit" in settings), name
@@ -111,7 +113,7 @@ def images(isAhead):
 
 
 def expect_same(one, several):
-    assert one.keys() == several.keys() and len(one) == 6 * 2 * len(IN_ANY_ORDER) + 6
+    assert one.keys() == several.keys() and len(one) == 8 * 2 * len(IN_ANY_ORDER) + 6
     for name, values in several.items():
         assert values.size > 0 and np.ptp(values) > 0, name
         difference = np.abs(one[name] - values) / np.abs(one[name]).max()

@@ -350,8 +350,8 @@ def redistribute():
 
 def spread():
     """Data that come to be spread over the ranks, and are together again."""
-    from paraview.simple import (AppendDatasets, ExtractSurface, ProgrammableSource, RedistributeDataSet, Sphere,
-                                 Wavelet)
+    from paraview.simple import (AppendDatasets, Calculator, ExtractSurface, ProgrammableSource, RedistributeDataSet,
+                                 Sphere, Wavelet)
     from plugin_testing import RefractiveIndex, Schlieren
 
     wavelet = Wavelet(WholeExtent=3 * [-8, 8])
@@ -372,6 +372,13 @@ def spread():
     expect("of the same parts", seen, True)
     seen.ImageSize = [16, 16]
     expect("of fewer pixels", seen, True, pixels=16 * 16)
+    seen = Schlieren(Input=Calculator(Input=parts, ResultArrayName="twice", Function="2*RTData"), PathModel="Straight", **BENCH)
+    expect("of an array", seen, True)
+    path = values_of(seen, "OpticalPathDifference").copy()
+    seen.Density = ["POINTS", "twice"]
+    expect("of an array that rank 0 has not got from the others", seen, True)
+    if is_rank0():
+        assert np.abs(values_of(seen, "OpticalPathDifference") - 2 * path).max() < 1e-6 * np.ptp(path)
 
     source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", ScriptRequestInformation=INFORMATION)
 
