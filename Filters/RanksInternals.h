@@ -21,6 +21,10 @@ namespace filters
 {
 namespace ranks
 {
+/// One rank can have so many times as many cells of an image as of a mesh: it takes some 10 bytes a point, a mesh some 200,
+/// and less time; and the medium of an image that one rank has is its own grid, which is exact.
+inline constexpr double cellsOfImageForOne = 160;
+
 /// Whether data stay on the ranks that have them.
 bool canStay(const std::vector<InputsOfRank>& ofRanks, double maxCells);
 
