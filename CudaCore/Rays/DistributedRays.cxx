@@ -232,7 +232,7 @@ void writeStep(const StepElsewhere<Number>& step, std::vector<char>& message)
   message.insert(message.end(), bytes, bytes + offsetof(StepElsewhere<Number>, found));
   for (std::int32_t number = 0; number < StepElsewhere<Number>::most; ++number)
   {
-    if ((step.known >> number & 1u) != 0)
+    if (step.knows(number))
     {
       append(std::vector<Sample<Number>>{ step.found[number] }, message);
     }
@@ -256,7 +256,7 @@ bool readStep(const std::vector<char>& message, std::size_t& at, StepElsewhere<N
   bool isThere = take(&step, offsetof(StepElsewhere<Number>, found));
   for (std::int32_t number = 0; number < StepElsewhere<Number>::most; ++number)
   {
-    if ((step.known >> number & 1u) != 0)
+    if (step.knows(number))
     {
       isThere = isThere && take(&step.found[number], sizeof(Sample<Number>));
     }
