@@ -183,6 +183,8 @@ public:
   vtkDataObject* GetInput(int input, vtkDataObject* own) const;
   /// Likewise of a step that has been read ahead.
   vtkDataObject* GetInputAhead(int input, vtkDataObject* own) const;
+  /// Forgets what was gathered of it.
+  void ReleaseAhead() { this->Ahead.reset(); }
 
   /// On rank 0: whether the data have stayed on several ranks, and how often other data were gathered.
   bool AreInPieces() const { return this->InPieces; }

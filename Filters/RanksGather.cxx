@@ -30,6 +30,12 @@ std::string absenceOf(std::size_t rank, std::size_t ranks)
     "See what that rank has reported, or use one process.";
 }
 
+/// What this rank sends of an input.
+std::vector<char> packed(int input, const FilterRanks::Inputs& own)
+{
+  return input == 0 ? packedData(own.data, own.arrays) : packedData(own.bodies, {});
+}
+
 bool hasAll(const std::vector<std::string>& names, const std::vector<std::string>& wanted)
 {
   return std::all_of(wanted.begin(), wanted.end(),
@@ -63,8 +69,7 @@ std::vector<char> ranks::dataMessage(int input, const FilterRanks::Inputs& own)
 {
   try
   {
-    return messageOf(ShortMessage{ Data, 1 },
-      input == 0 ? packedData(own.data, own.arrays) : packedData(own.bodies, {}));
+    return messageOf(ShortMessage{ Data, 1 }, packed(input, own));
   }
   catch (const std::exception& problem)
   {
@@ -96,7 +101,7 @@ vtkSmartPointer<vtkDataObject> ranks::collect(int input, const FilterRanks::Inpu
   {
     if (rank == 0)
     {
-      parts.push_back(input == 0 ? packedData(own.data, own.arrays) : packedData(own.bodies, {}));
+      parts.push_back(packed(input, own));
       continue;
     }
     std::vector<char> message = channels[rank - 1]->ReceiveOne(Data);

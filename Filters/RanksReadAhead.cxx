@@ -53,11 +53,12 @@ FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetReaders(
     all.isKeepable = all.isKeepable && other.isKeepable != 0;
     ofRanks.push_back(other.inputs);
   }
+  const bool stays = canStay(ofRanks, maxCells);
   place = !hasRank0All(holdingsOf(1, ofRanks)) ? Place::Gathered
-    : canStay(ofRanks, maxCells)               ? Place::InPieces
+    : stays                                    ? Place::InPieces
     : hasRank0All(holdingsOf(0, ofRanks))      ? Place::OnRank0
                                                : Place::Gathered;
-  if (all.isThere && place == Place::Gathered && !canStay(ofRanks, maxCells))
+  if (all.isThere && place == Place::Gathered && !stays)
   {
     try
     {

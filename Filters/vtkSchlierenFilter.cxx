@@ -279,6 +279,7 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   else
   {
     inside.Ahead.Release();
+    inside.Ranks.ReleaseAhead();
   }
   return 1;
 }

@@ -86,13 +86,17 @@ struct TravellingRays
   TravellingRays takeBack(std::size_t most)
   {
     const std::size_t left = rays.size() - std::min(most, rays.size());
-    TravellingRays taken(carried);
-    for (std::size_t number = left; number < rays.size(); ++number)
+    const auto takeFrom = [left](auto& values, std::size_t perRay)
     {
-      taken.add(*this, number);
-    }
-    rays.resize(left);
-    fill();
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(perRay * left);
+      std::decay_t<decltype(values)> taken(first, values.end());
+      values.erase(first, values.end());
+      return taken;
+    };
+    TravellingRays taken(carried);
+    taken.rays = takeFrom(rays, 1);
+    taken.gathered = takeFrom(gathered, carried.fields);
+    taken.steps = takeFrom(steps, carried.hasSteps ? 1 : 0);
     return taken;
   }
 
