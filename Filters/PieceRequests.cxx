@@ -67,6 +67,7 @@ struct Outlines
   bool isImage = false; // also of a composite, where each rank has one part of it
   Outline::Extent whole{ 0, -1, 0, -1, 0, -1 }; // of the image
   bool areAmrImages = true;                     // all that the ranks have
+  bool areOfOne = false;                        // all parts, of one dataset
   std::vector<AmrImage> images;
   std::vector<std::uint64_t> firstImages; // of each rank, and the number of all
 
@@ -178,6 +179,7 @@ void Outlines::add(std::uint32_t rank, Reader& reader)
     const auto layers = reader.Get<int>();
     const auto names = reader.GetAll<std::vector<PointName>>();
     ++this->parts;
+    this->areOfOne = this->areOfOne || slot.empty();
     if (place[3] > 0) // the spacing of an image
     {
       this->partsOfImage.push_back({ rank, slot, place, cellsIn(extent) });
@@ -422,7 +424,7 @@ PieceRequests requestsForPieces(
   PieceRanks& ranks, std::uint64_t number, vtkDataObject* bodies, bool hasFields)
 {
   const Outlines outlines(ranks, hasFields);
-  PieceRequests requests{ {}, outlines.rangesOfFields.size(), {} };
+  PieceRequests requests{ {}, outlines.rangesOfFields.size(), outlines.areOfOne, {} };
   if (!outlines.isImage && outlines.areAmrImages && !outlines.images.empty())
   {
     requests.levels = findLevels(outlines.images);

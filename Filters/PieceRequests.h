@@ -20,6 +20,7 @@ struct PieceRequests
 {
   std::optional<AmrLevels> levels;     // where the data are such blocks
   std::size_t fields;                  // besides N
+  bool areOfOne;                       // the ranks' data are parts of one dataset
   std::vector<std::vector<char>> make; // PieceWorker::Make, of each rank
 };
 

@@ -138,9 +138,18 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
       lacking = problem.what();
     }
   }
-  if (this->Label.empty() && !lacking.empty())
+  if (!lacking.empty())
   {
-    throw ArraysMissing(lacking);
+    if (this->Label.empty())
+    {
+      throw ArraysMissing(lacking);
+    }
+    if (requests.areOfOne)
+    {
+      throw std::runtime_error("The parts of the input on several ranks have not the same arrays. "
+                               "Of one of them: " +
+        lacking + " Check the reader or filter that has made them.");
+    }
   }
   if (requests.levels)
   {

@@ -43,7 +43,8 @@ enum Kind : std::uint32_t
   Relay,      // to others: a message comes in pieces
   ReadStep,   // to others: a time step that they read while they trace rays
   StepIsRead, // to rank 0, an answer to ReadStep, on the connection of readers
-  StepEnds    // to others, likewise: 1 where they keep it
+  StepEnds,   // to others, likewise: 1 where they keep it
+  Fails       // in place of Hello, and to others: what is upstream has failed
 };
 
 struct HelloMessage
@@ -54,6 +55,13 @@ struct HelloMessage
   double timeStep = 0;
   InputsOfRank inputs;
   std::int32_t canReadAhead = 0;
+};
+struct FailsMessage
+{
+  std::uint32_t kind = Fails;
+  std::int32_t changes = 0; // the version of the inputs
+  double timeStep = 0;
+  char name[64] = {}; // the class of what has failed
 };
 struct ReadStepMessage
 {
@@ -89,11 +97,11 @@ struct ShortMessage
 };
 
 template <class Head>
-std::vector<char> messageOf(const Head& head, std::vector<char> behind = {})
+std::vector<char> messageOf(const Head& head, const std::vector<char>& behind = {})
 {
-  std::vector<char> message = std::move(behind);
-  message.insert(message.begin(), sizeof(Head), 0);
+  std::vector<char> message(sizeof(Head) + behind.size());
   std::memcpy(message.data(), &head, sizeof(Head));
+  std::copy(behind.begin(), behind.end(), message.begin() + sizeof(Head));
   return message;
 }
 
@@ -262,6 +270,8 @@ public:
 
   // On rank 0: of a rank that waits for it, and of one that is at the meeting.
   std::optional<HelloMessage> Greeting, Guest;
+  // The last time that the other rank's filter has not run.
+  std::optional<FailsMessage> Failure;
 
   /// Between readers, where nobody is greeted.
   void Open() { this->Guest.emplace(); }
@@ -286,6 +296,9 @@ public:
       {
         case Hello: // to the next meeting, where this one has not ended
           this->Greeting = read<HelloMessage>(message);
+          break;
+        case Fails:
+          this->Failure = read<FailsMessage>(message);
           break;
         case Leave:
           this->Greeting.reset();

@@ -159,8 +159,62 @@ FilterRanks::FilterRanks() = default;
 FilterRanks::~FilterRanks() = default;
 
 //------------------------------------------------------------------------------
+void FilterRanks::Note(vtkAlgorithm* filter, vtkInformation* request)
+{
+  if (request->Has(Pipeline::REQUEST_DATA_OBJECT()))
+  {
+    this->CountChanges(filter);
+    this->WatchUpstream(filter);
+  }
+  else if (request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    this->WatchUpstream(filter);
+  }
+  else if (request->Has(Pipeline::REQUEST_DATA()))
+  {
+    this->Upstream.Ignore(); // it comes, whatever it has
+  }
+}
+
+//------------------------------------------------------------------------------
+void FilterRanks::WatchUpstream(vtkAlgorithm* filter)
+{
+  if (!this->Inside)
+  {
+    return;
+  }
+  this->Upstream.Watch(filter,
+    [this](const std::string& name)
+    {
+      for (const auto& channel : this->Inside->Channels)
+      {
+        channel->send(this->FailureOf(name));
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+std::vector<char> FilterRanks::FailureOf(const std::string& name) const
+{
+  FailsMessage message;
+  message.changes = this->Now.changes;
+  message.timeStep = this->Now.timeStep;
+  name.copy(message.name, sizeof(message.name) - 1);
+  return messageOf(message);
+}
+
+//------------------------------------------------------------------------------
 void FilterRanks::CountChanges(vtkAlgorithm* filter)
 {
+  vtkMultiProcessController* controller = controllerOfRanks();
+  if (!this->Inside && controller)
+  {
+    // All ranks run their filters in the same order.
+    static int filters = 0;
+    constexpr int most = 2250; // all tags are below 32768, which MPI grants
+    this->Inside =
+      std::make_unique<Others>(controller, firstTag + Others::Tags * (filters++ % most));
+  }
   const vtkMTimeType time = upstreamTime(filter);
   if (this->Now.changes == 0 || time > this->CountedAt.GetMTime())
   {
@@ -205,15 +259,6 @@ bool FilterRanks::Request(
   vtkAlgorithm* filter, vtkInformationVector** inputs, Part part, double maxCells)
 {
   part = maxCells >= this->TooFew ? Part::All : part;
-  vtkMultiProcessController* controller = controllerOfRanks();
-  if (!this->Inside && controller)
-  {
-    // All ranks run their filters in the same order.
-    static int filters = 0;
-    constexpr int most = 2250; // all tags are below 32768, which MPI grants
-    this->Inside =
-      std::make_unique<Others>(controller, firstTag + Others::Tags * (filters++ % most));
-  }
   this->RequestedAt = Clock::now();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
@@ -269,12 +314,20 @@ FilterRanks::Meeting::Meeting(FilterRanks& ranks, const std::optional<Inputs>& i
 }
 
 //------------------------------------------------------------------------------
+bool FilterRanks::Meeting::HasFailed(const ranks::RankChannel& channel) const
+{
+  const Version& now = this->Of.Now;
+  return channel.Failure && channel.Failure->changes == now.changes &&
+    channel.Failure->timeStep == now.timeStep;
+}
+
+//------------------------------------------------------------------------------
 void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
 {
   for (const auto& channel : this->Of.Inside->Channels)
   {
     channel->Poll();
-    while (!channel->Greeting && Clock::now() < end)
+    while (!channel->Greeting && !this->HasFailed(*channel) && Clock::now() < end)
     {
       waitABit();
       channel->Poll();
@@ -305,12 +358,13 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   channel.send(messageOf(hello));
   while (!this->HasMet)
   {
-    while (!channel.hasMessage() && Clock::now() < end)
+    while (!channel.hasMessage() && !this->HasFailed(channel) && Clock::now() < end)
     {
       waitABit();
     }
     if (!channel.hasMessage())
     {
+      channel.Failure.reset();
       channel.send(messageOf(ShortMessage{ Leave, 0 }));
       return;
     }
@@ -333,12 +387,17 @@ FilterRanks::Meeting::~Meeting()
     {
       channel->send(messageOf(EndMessage{ End, this->Outcome, this->HasImage.value_or(false) }));
     }
+    else // if it comes yet, it need not wait for another meeting
+    {
+      channel->send(this->Of.FailureOf("the meeting"));
+    }
   }
   for (const auto& channel : this->Of.Inside->Channels)
   {
     // What it has yet to send of what has failed here it could not send later, and would wait for ever.
     channel->ReceiveOne(Ended);
     channel->Close();
+    channel->Failure.reset();
   }
 }
 

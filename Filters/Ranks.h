@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "UpstreamFailure.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
 
@@ -27,7 +29,8 @@ namespace filters
 namespace ranks
 {
 struct InputsOfRank;
-}
+class RankChannel;
+} // namespace ranks
 
 /// False on the other MPI processes of ParaView where there are several: rank 0 makes what there is one of, the
 /// others leave it empty.
@@ -55,9 +58,10 @@ public:
   FilterRanks();
   ~FilterRanks();
 
-  /// In REQUEST_DATA_OBJECT, which comes before anything that reads files and so can fail on one rank alone: counts
-  /// the changes of properties upstream, the same on all ranks.
-  void CountChanges(vtkAlgorithm* filter);
+  /// In ProcessRequest. REQUEST_DATA_OBJECT comes before anything that reads files and so can fail on one rank alone: counts
+  /// the changes of properties upstream, the same on all ranks. From there until REQUEST_DATA, what fails upstream is
+  /// reported to the ranks that would wait for this one.
+  void Note(vtkAlgorithm* filter, vtkInformation* request);
 
   /// Which part of the inputs a rank requests.
   enum class Part
@@ -160,6 +164,8 @@ public:
     using Time = std::chrono::steady_clock::time_point;
     void WaitForOthers(Time end);
     void WaitForRank0(Time end);
+    /// Whether something upstream of that rank's filter has failed.
+    bool HasFailed(const ranks::RankChannel& channel) const;
     std::optional<bool> ServeOnce(int threads, const Responder& respond);
     bool ServeAndRead(int threads, const Responder& respond, const Reader& reader);
     void ServeReader(const StepAhead& step, const Inputs& own, const Responder& respond);
@@ -191,8 +197,14 @@ public:
   int GetGatherings() const { return this->Gatherings; }
 
 private:
+  void CountChanges(vtkAlgorithm* filter);
+  void WatchUpstream(vtkAlgorithm* filter);
+  /// The message that this rank does not meet others with these inputs, because that has failed.
+  std::vector<char> FailureOf(const std::string& name) const;
+
   struct Others;
   std::unique_ptr<Others> Inside; // null where there are no others
+  UpstreamFailure Upstream;
 
   /// Of the inputs. Other ranks than 0 send what they have of each.
   struct Version

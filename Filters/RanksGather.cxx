@@ -23,10 +23,12 @@ using namespace ranks;
 namespace
 {
 
-std::string absenceOf(std::size_t rank, std::size_t ranks)
+/// `because`: where it is known.
+std::string absenceOf(std::size_t rank, std::size_t ranks, const std::string& because = "")
 {
   return "Rank " + std::to_string(rank) + " of " + std::to_string(ranks) +
-    " does not say what it has of the input, so it is not known whether rank 0 has all of it. "
+    " does not say what it has of the input" + because +
+    ", so it is not known whether rank 0 has all of it. "
     "See what that rank has reported, or use one process.";
 }
 
@@ -196,7 +198,9 @@ std::string FilterRanks::Meeting::FindAbsent() const
     const std::optional<HelloMessage>& guest = channels[n]->Guest;
     if (!guest || guest->changes != now.changes || guest->timeStep != now.timeStep)
     {
-      return absenceOf(n + 1, channels.size() + 1);
+      const bool isKnown = !guest && this->HasFailed(*channels[n]);
+      return absenceOf(n + 1, channels.size() + 1,
+        isKnown ? std::string(" because its ") + channels[n]->Failure->name + " has failed" : "");
     }
   }
   return "";

@@ -130,10 +130,7 @@ bool vtkRefractiveIndex::HasArray(int index)
 vtkTypeBool vtkRefractiveIndex::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-  {
-    this->Ranks->CountChanges(this);
-  }
+  this->Ranks->Note(this, request);
   return this->Superclass::ProcessRequest(request, input, output);
 }
 

@@ -141,10 +141,7 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-  {
-    this->Inside->Ranks.CountChanges(this);
-  }
+  this->Inside->Ranks.Note(this, request);
   return this->Superclass::ProcessRequest(request, input, output);
 }
 

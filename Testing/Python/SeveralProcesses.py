@@ -324,13 +324,14 @@ def say(words):
         print(words, file=sys.stderr, flush=True)  # where error messages go
 
 
-def expect(words, bench, isMade, *time, pixels=None):
-    """An update, and whether it makes something. `words`: of the only error message where there is one."""
+def expect(words, bench, isMade, *time, pixels=None, seconds=10):
+    """An update, and whether it makes something. `words`: of the only error message where there is one. `seconds`: that it
+    takes at most."""
     say("Expected: " + words)
     start = time_of_day()
     bench.UpdatePipeline(*time)
     bench.UpdatePipeline(*time)  # no second error, and nobody waits for ranks that have nothing to do
-    assert time_of_day() - start < 25, words
+    assert time_of_day() - start < seconds, (words, time_of_day() - start)
     points = bench.GetDataInformation().GetNumberOfPoints()
     assert (points > 0) == (isMade and is_rank0()), f"{words}: {points} points"
     assert pixels in (None, points) or not is_rank0(), f"{words}: {points} points"
@@ -478,15 +479,54 @@ if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == {rank}
     reader = XMLImageDataReader(FileName=["small.vti"])
     seen = Schlieren(Input=reader, **BENCH)
     expect("nothing", seen, True)
-    # VTK does not run a filter whose input has failed; the others must not wait for it. Rank 0 does, but not for long.
+    # VTK does not run a filter whose input has failed; the others must not wait for it.
     for rank, words, isMade in ((0, "Error opening file", True), (2, "Rank 2 of 4 does not say", False)):
         here = os.getcwd()
         move(rank, "/")
         reader.FileName = ["./small.vti"]
-        expect(words, seen, isMade)
+        expect(words, seen, isMade, seconds=5)
         move(rank, here)
         reader.FileName = ["small.vti"]
         expect("nothing", seen, True)
+    # One that takes much longer than others is waited for, but not for ever.
+    source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", ScriptRequestInformation=INFORMATION)
+    source.Script = DATA.replace("KIND", "'spread'") + """
+import time
+time.sleep(15 if rank == 2 else 0)
+"""
+    expect("Rank 2 of 4 does not say", Schlieren(Input=source, **BENCH), False, seconds=20)
+    expect("nothing", seen, True)  # after that one has come
+
+
+def broken():
+    """A rank whose part has no density."""
+    from paraview.simple import ProgrammableSource
+    from plugin_testing import Schlieren
+    source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", ScriptRequestInformation=INFORMATION)
+    source.Script = DATA.replace("KIND", "'spread'") + """
+if rank == 2:
+    output.GetPointData().RemoveArray("RTData")
+"""
+    for limit in (0, 10000000):
+        expect("have not the same arrays", Schlieren(Input=source, GatherLimit=limit, **BENCH), False)
+
+
+def full():
+    """A rank that has no memory left."""
+    from paraview.simple import ProgrammableSource, Transform, Wavelet
+    from plugin_testing import Schlieren
+    mesh = Transform(Input=Wavelet(WholeExtent=3 * [-50, 50]))
+    mesh.UpdatePipeline()
+    ProgrammableSource(Script="""
+import resource
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 2:
+    with open("/proc/self/statm") as file:
+        size = int(file.read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (size + 30000000, -1))
+""").UpdatePipeline()
+    say("Expected: not enough memory, or, where VTK notices that first, the end of all ranks")
+    Schlieren(Input=mesh, GatherLimit=0, **BENCH).UpdatePipeline()
 
 
 def killed():
@@ -529,7 +569,7 @@ def run_results(command, parts, file):
 
 SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed,
          "exposed pieces": exposed_in_pieces, "shared": shared, "distributed": distributed}
-PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "killed": killed}
+PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "broken": broken, "full": full, "killed": killed}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
     import plugin_testing  # noqa: F401, loads the plugin
     import schlieren.vtkSchlierenFilters  # noqa: F401, for GetMediumBuilds, before the first of them is wrapped
@@ -581,10 +621,16 @@ else:
     for options in ([], ["--sym"])[isSanitized:]:
         said = run(on(4) + options, "requested")
         assert "ERR|" not in said and "Expected: the end" in said
-    assert len(re.findall("ERR.* Rank 2 of 4 does not say", run(on(4), "missing"))) == 1
-    started = time_of_day()
-    run(on(4), "killed", ends=False)
-    assert time_of_day() - started < 30
+    said = run(on(4), "missing")
+    assert len(re.findall("ERR.* Rank 2 of 4 does not say what it has of the input because its vtkFileSeriesReader has failed,", said)) == 1
+    assert len(re.findall("ERR.* Rank 2 of 4 does not say what it has of the input,", said)) == 1
+    said = run(on(4), "broken")
+    assert said.count("ERR|") == 2 and said.count("have not the same arrays.") == 1 and said.count("have not the same arrays of") == 1
+    assert "Expected: the end" in said
+    for part, words in (("killed", "exited on signal 9"), ("full", "memory for a rank's piece|Unable to allocate|bad_alloc")):
+        started = time_of_day()
+        said = run(on(4), part, ends=False if part == "killed" else None)
+        assert time_of_day() - started < 20 and re.search(words, said), part
     # What VTK 9.2 sends from rank to rank, the expat of Debian 12 does not read since its version 2.5.0-1+deb12u2.
     if "Error parsing XML in stream" in run(on(4), "redistribute"):
         print("Skipped: Redistribute DataSet loses cells here. What does not need it is as it should be.")
