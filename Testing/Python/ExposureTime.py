@@ -8,6 +8,7 @@ import numpy as np
 from paraview import simple
 from plugin_testing import EVERY_VOXEL, Schlieren, output, image_array
 from series_testing import write_series
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 STEPS = np.linspace(0, 2, 33).tolist()
 CONSTANT, RADIUS = 2.26e-4, 0.3
@@ -36,6 +37,12 @@ def error(bench, begin, end):
 
 def output_of(bench):
     return bench.GetClientSideObject().GetOutputDataObject(0)
+
+
+def numpy_of(reader):
+    """The components of the pixels of a file, by rows from below."""
+    image = reader.GetClientSideObject().GetOutputDataObject(0)
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[1], image.GetDimensions()[0], -1)
 
 
 def bench_of(source, **settings):
@@ -124,3 +131,26 @@ low = image_array(bench, "Intensity").copy()
 bench.UpdatePipeline(1.015)
 assert np.abs((low + image_array(bench, "Intensity")) / 2 - image_array(ours, "Intensity")).max() < 1e-5
 assert not np.array_equal(plain, low)
+
+# An animation: each of its frames is what the film has got around that time.
+bench = bench_of(flow, **fixed)
+view = simple.CreateRenderView(ViewSize=[256, 32], OrientationAxesVisibility=0, CameraParallelProjection=1)
+shown = simple.Show(bench, view)
+shown.SetRepresentationType("Slice")
+simple.ColorBy(shown, ("POINTS", "Intensity"))
+colors = simple.GetColorTransferFunction("Intensity")
+colors.RGBPoints, colors.ColorSpace = [0, 0, 0, 0, 1, 1, 1, 1], "RGB"
+shown.SetScalarBarVisibility(view, False)
+view.CameraPosition, view.CameraFocalPoint, view.CameraParallelScale = [0, 0, 5], [0, 0, 0], 0.1
+simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+frames = [12, 16, 20]
+simple.SaveAnimation("exposed.png", view, FrameWindow=[frames[0], frames[-1]])
+inside = slice(4, -4)  # the slice goes from the middle of the first pixel to that of the last
+across = ((np.arange(256) - 127.5) / 32 * 0.2)[inside]
+for frame in frames:
+    grey = simple.PNGSeriesReader(FileNames=[f"exposed.{frame:04d}.png"])
+    grey.UpdatePipeline()
+    found = numpy_of(grey)[16, inside, 0] / 255
+    time = STEPS[frame]
+    assert np.abs(found - truth(across, time - EXPOSURE / 2, time + EXPOSURE / 2)).max() < 1.5e-2, frame
+    assert np.abs(found - truth(across, time - 1e-3, time + 1e-3)).max() > 0.05, frame  # which is not that instant
