@@ -118,11 +118,11 @@ Head read(const std::vector<char>& message)
 
 inline void waitABit() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
-/// Messages by MPI, with this tag; the pieces of those that ranks pass on have the next one.
+/// Messages with this tag; the pieces of those that ranks pass on have the next one.
 class RankChannel : public schlieren::Channel
 {
 public:
-  RankChannel(Communicator* communicator, int rank, int tag)
+  RankChannel(const Communicator& communicator, int rank, int tag)
     : Of(communicator)
     , Rank(rank)
     , Tag(tag)
@@ -136,7 +136,7 @@ public:
     std::memcpy(head.data(), &size, sizeof(size));
     this->Outgoing.Send(std::move(head), this->Rank, this->Tag);
     this->Outgoing.Send(std::move(message), this->Rank, this->Tag);
-    while (size > largestSmall && this->Outgoing.HasUnsent())
+    while (size > largestSmall && this->Outgoing.CountUnsent() > 0)
     {
       waitABit();
     }
@@ -164,11 +164,8 @@ public:
                   nodes.begin(), nodes.end(), [](RankChannel* node) { return !node->IsReady(); }),
       nodes.end());
     nodes.insert(nodes.begin(), nullptr); // this process
-    const auto rankOf = [&](std::size_t node)
-    {
-      return node == 0        ? this->Of->GetLocalProcessId()
-        : node < nodes.size() ? nodes[node]->Rank
-                              : -1;
+    const auto rankOf = [&](std::size_t node) {
+      return node == 0 ? this->Of.rank() : node < nodes.size() ? nodes[node]->Rank : -1;
     };
     for (std::size_t node = 1; node < nodes.size(); ++node)
     {
@@ -178,7 +175,8 @@ public:
     Pieces pieces(*this, { rankOf(1), rankOf(2) });
     for (std::int64_t first = 0; first < size; first += bytesOfPiece)
     {
-      pieces.Send(message.data() + first, std::min(bytesOfPiece, size - first));
+      const auto end = message.begin() + std::min(first + bytesOfPiece, size);
+      pieces.Send({ message.begin() + first, end });
     }
     pieces.Wait();
   }
@@ -194,21 +192,15 @@ public:
     {
     }
     const bool hasRoom = message.capacity() >= static_cast<std::size_t>(head.bytes);
-    std::vector<char> passing(hasRoom ? 0 : bytesOfPiece);
     Pieces pieces(*this, { head.to[0], head.to[1] });
+    std::vector<char> piece;
     for (std::int64_t first = 0; first < head.bytes; first += bytesOfPiece)
     {
-      const std::int64_t count = std::min(bytesOfPiece, head.bytes - first);
+      this->Of.recv(head.from, this->Tag + 1, piece);
+      pieces.Send(piece);
       if (hasRoom)
       {
-        message.resize(static_cast<std::size_t>(first + count));
-      }
-      char* piece = hasRoom ? message.data() + first : passing.data();
-      this->Of->Receive(piece, count, head.from, this->Tag + 1);
-      pieces.Send(piece, count);
-      if (!hasRoom)
-      {
-        pieces.Wait();
+        message.insert(message.end(), piece.begin(), piece.end());
       }
     }
     pieces.Wait();
@@ -285,13 +277,13 @@ public:
   /// Takes what has arrived.
   void Poll()
   {
-    this->Outgoing.HasUnsent();
-    while (this->HasArrived())
+    this->Outgoing.CountUnsent();
+    while (this->Of.iprobe(this->Rank, this->Tag))
     {
       std::int64_t size = 0;
-      this->Receive(reinterpret_cast<char*>(&size), sizeof(size));
-      std::vector<char> message(static_cast<std::size_t>(size));
-      this->Receive(message.data(), message.size());
+      const std::vector<char> head = ranks::receive(this->Of, this->Rank, this->Tag, sizeof(size));
+      std::memcpy(&size, head.data(), sizeof(size));
+      std::vector<char> message = ranks::receive(this->Of, this->Rank, this->Tag, size);
       switch (schlieren::RayWorker::kindOf(message))
       {
         case Hello: // to the next meeting, where this one has not ended
@@ -329,72 +321,49 @@ private:
     }
     return false;
   }
-  bool HasArrived()
-  {
-    int has = 0;
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
-    this->Of->Iprobe(this->Rank, this->Tag, &has, nullptr);
-#endif
-    return has != 0;
-  }
-
   static constexpr std::int64_t largestSmall = 1 << 16;
   static constexpr std::int64_t bytesOfPiece = 1 << 18;
-  void Receive(char* bytes, std::size_t size)
-  {
-    forPieces(size,
-      [&](std::size_t first, int count)
-      { this->Of->Receive(bytes + first, count, this->Rank, this->Tag); });
-  }
+  static_assert(bytesOfPiece <= longestPiece);
 
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
-  /// On their way to up to two ranks.
+  /// Pieces of a message on their way to up to two ranks.
   class Pieces
   {
   public:
     Pieces(RankChannel& channel, const std::array<int, 2>& to)
-      : Channel(channel)
+      : Tag(channel.Tag + 1)
       , To(to)
+      , Outgoing(channel.Of)
     {
     }
-    /// The bytes must stay until it has waited.
-    void Send(const char* bytes, std::int64_t count)
+    void Send(const std::vector<char>& piece)
     {
       for (const int rank : this->To)
       {
         if (rank >= 0)
         {
-          this->Requests.emplace_back();
-          this->Channel.Of->NoBlockSend(
-            bytes, static_cast<int>(count), rank, this->Channel.Tag + 1, this->Requests.back());
+          this->WaitFor(mostUnsent);
+          this->Outgoing.Send(piece, rank, this->Tag);
         }
       }
     }
-    void Wait()
-    {
-      for (vtkMPICommunicator::Request& request : this->Requests)
-      {
-        request.Wait();
-      }
-      this->Requests.clear();
-    }
+    void Wait() { this->WaitFor(0); }
 
   private:
-    RankChannel& Channel;
+    static constexpr std::size_t mostUnsent = 16;
+    void WaitFor(std::size_t unsent)
+    {
+      while (this->Outgoing.CountUnsent() > unsent)
+      {
+        std::this_thread::yield();
+      }
+    }
+
+    int Tag;
     std::array<int, 2> To;
-    std::vector<vtkMPICommunicator::Request> Requests;
+    Outbox Outgoing;
   };
 
-#else
-  struct Pieces
-  {
-    Pieces(RankChannel&, const std::array<int, 2>&) {}
-    void Send(const char*, std::int64_t) {}
-    void Wait() {}
-  };
-#endif
-
-  Communicator* Of;
+  Communicator Of;
   int Rank, Tag;
   Outbox Outgoing{ this->Of };
   std::deque<std::vector<char>> Messages;

@@ -1,15 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Bytes from rank to rank, by VTK's DIY.
 #pragma once
 
-#include "vtkCommunicator.h"
+#include "vtk_diy2.h"
 
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-#include "vtkMPICommunicator.h"
-#endif
+#include <stdexcept> // which some versions of DIY lack
+// clang-format off
+#include VTK_DIY2(diy/mpi.hpp)
+// clang-format on
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <utility>
 #include <vector>
@@ -20,82 +24,78 @@ namespace filters
 namespace ranks
 {
 
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-using Communicator = vtkMPICommunicator;
-#else
-using Communicator = vtkCommunicator; // there are no other ranks
-#endif
+using Communicator = diy::mpi::communicator;
 
-/// Calls visit(first, count) for the pieces of a message: MPI counts by integers.
-template <class Visit>
-void forPieces(std::size_t size, const Visit& visit)
-{
-  constexpr std::size_t largest = std::size_t{ 1 } << 30;
-  for (std::size_t first = 0; first < size; first += largest)
-  {
-    visit(first, static_cast<int>(std::min(largest, size - first)));
-  }
-}
+/// MPI counts by integers: what is longer goes in several pieces, all but the last of this length.
+inline constexpr std::int64_t longestPiece = std::int64_t{ 1 } << 30;
 
 /// Bytes on their way to other ranks. MPI's own way to send may wait until the other process receives, however little it is.
 class Outbox
 {
 public:
-  explicit Outbox(Communicator* communicator)
-    : Of(communicator)
+  explicit Outbox(Communicator communicator)
+    : Of(std::move(communicator))
   {
   }
 
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
   /// Returns at once.
   void Send(std::vector<char> bytes, int rank, int tag)
   {
-    this->Unsent.push_back({ std::move(bytes), {} });
-    Message& last = this->Unsent.back();
-    forPieces(last.bytes.size(),
-      [&](std::size_t first, int count)
-      {
-        last.requests.emplace_back();
-        this->Of->NoBlockSend(static_cast<const char*>(last.bytes.data()) + first, count, rank, tag,
-          last.requests.back());
-      });
+    const auto size = static_cast<std::int64_t>(bytes.size());
+    if (size <= longestPiece)
+    {
+      this->SendPiece(std::move(bytes), rank, tag);
+      return;
+    }
+    for (std::int64_t first = 0; first < size; first += longestPiece)
+    {
+      const auto last = bytes.begin() + std::min(first + longestPiece, size);
+      this->SendPiece({ bytes.begin() + first, last }, rank, tag);
+    }
   }
 
-  /// Whether some of it has not been sent yet. Frees what has been.
-  bool HasUnsent()
+  /// How many pieces have not been sent yet. Frees those that have been.
+  std::size_t CountUnsent()
   {
-    const auto isSent = [](vtkMPICommunicator::Request& request) { return request.Test() != 0; };
-    while (!this->Unsent.empty())
+    while (!this->Unsent.empty() && this->Unsent.front().request.test())
     {
-      std::vector<vtkMPICommunicator::Request>& requests = this->Unsent.front().requests;
-      while (!requests.empty() && isSent(requests.back()))
-      {
-        requests.pop_back();
-      }
-      if (!requests.empty())
-      {
-        return true;
-      }
       this->Unsent.pop_front();
     }
-    return false;
+    return this->Unsent.size();
   }
 
 private:
-  struct Message
+  void SendPiece(std::vector<char> bytes, int rank, int tag)
   {
-    std::vector<char> bytes;
-    std::vector<vtkMPICommunicator::Request> requests;
-  };
-  std::list<Message> Unsent; // which MPI reads
-#else                        // there are no other ranks
-  void Send(std::vector<char>, int, int) {}
-  bool HasUnsent() { return false; }
+    Piece& piece = this->Unsent.emplace_back();
+    piece.bytes = std::move(bytes);
+    piece.request = this->Of.isend(rank, tag, piece.bytes);
+  }
 
-private:
-#endif
-  Communicator* Of;
+  struct Piece
+  {
+    std::vector<char> bytes; // which MPI reads
+    diy::mpi::request request{};
+  };
+  Communicator Of;
+  std::list<Piece> Unsent;
 };
+
+/// Waits for what an Outbox sends: so many bytes.
+inline std::vector<char> receive(
+  const Communicator& communicator, int rank, int tag, std::int64_t size)
+{
+  std::vector<char> bytes;
+  bytes.reserve(static_cast<std::size_t>(size));
+  communicator.recv(rank, tag, bytes);
+  while (static_cast<std::int64_t>(bytes.size()) < size)
+  {
+    std::vector<char> piece;
+    communicator.recv(rank, tag, piece);
+    bytes.insert(bytes.end(), piece.begin(), piece.end());
+  }
+  return bytes;
+}
 
 } // namespace ranks
 

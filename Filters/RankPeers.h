@@ -4,8 +4,6 @@
 
 #include "RankOutbox.h"
 
-#include "vtkMultiProcessController.h"
-
 #include "Rays/Channel.h"
 
 #include <cstdint>
@@ -18,11 +16,13 @@ namespace filters
 namespace ranks
 {
 
-/// Messages between ranks by MPI, from and to any of them, with a tag of their own. Addresses are ranks.
+/// Messages between ranks, from and to any of them, with a tag of their own. Addresses are ranks. DIY's iexchange, which
+/// does the same for blocks, ends when all ranks agree that there is nothing left: one that has failed could not leave it,
+/// and rank 0 could not abort.
 class RankPeers : public schlieren::Peers
 {
 public:
-  RankPeers(Communicator* communicator, int tag)
+  RankPeers(const Communicator& communicator, int tag)
     : Of(communicator)
     , Tag(tag)
   {
@@ -30,29 +30,23 @@ public:
 
   void send(std::int32_t address, std::vector<char> message) override
   {
-    this->Outgoing.HasUnsent();
+    this->Outgoing.CountUnsent();
     this->Outgoing.Send(std::move(message), address, this->Tag);
   }
 
   std::vector<char> receive() override
   {
     std::vector<char> message;
-    this->Outgoing.HasUnsent();
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI // else there are no other ranks
-    int has = 0, from = 0, size = 0;
-    const char* type = nullptr; // says that it counts bytes
-    this->Of->Iprobe(vtkMultiProcessController::ANY_SOURCE, this->Tag, &has, &from, type, &size);
-    if (has != 0)
+    this->Outgoing.CountUnsent();
+    if (auto status = this->Of.iprobe(diy::mpi::any_source, this->Tag))
     {
-      message.resize(static_cast<std::size_t>(size));
-      this->Of->Receive(message.data(), size, from, this->Tag);
+      this->Of.recv(status->source(), this->Tag, message);
     }
-#endif
     return message;
   }
 
 private:
-  Communicator* Of;
+  Communicator Of;
   int Tag;
   Outbox Outgoing{ this->Of };
 };

@@ -7,6 +7,7 @@
 #include "RankPeers.h"
 #include "Ranks.h"
 
+#include "vtkDIYUtilities.h"
 #include "vtkMultiProcessController.h"
 #include "vtkSmartPointer.h"
 
@@ -44,38 +45,23 @@ struct filters::FilterRanks::Others
   static constexpr int Tags = 5;
   /// With so many tags from this one on.
   Others(vtkMultiProcessController* controller, int tag)
-    : Own(communicatorOf(controller))
-    , OfReaders(communicatorOf(controller))
-    , Peers(this->Own, tag + 2)
+    : Of(vtkDIYUtilities::GetCommunicator(controller))
+    , Peers(this->Of, tag + 2)
   {
     const bool isFirst = controller->GetLocalProcessId() == 0;
     const int ranks = controller->GetNumberOfProcesses();
     for (int rank = isFirst ? 1 : 0; rank < (isFirst ? ranks : 1); ++rank)
     {
-      this->Channels.push_back(std::make_unique<ranks::RankChannel>(this->Own, rank, tag));
-      this->Readers.push_back(std::make_unique<ranks::RankChannel>(this->OfReaders, rank, tag + 3));
+      this->Channels.push_back(std::make_unique<ranks::RankChannel>(this->Of, rank, tag));
+      this->Readers.push_back(std::make_unique<ranks::RankChannel>(this->Of, rank, tag + 3));
     }
   }
 
-  // Of all ranks. Objects of their own: while one thread traces rays, another reads, and what is upstream uses the
-  // controller's.
-  vtkSmartPointer<ranks::Communicator> Own, OfReaders;
+  ranks::Communicator Of; // all ranks
   std::vector<std::unique_ptr<ranks::RankChannel>>
     Channels,                  // on rank 0: to all others; there: to it
     Readers;                   // likewise, between the threads that read the next time step
   ranks::RankPeers Peers;      // not on rank 0
   schlieren::RayWorker Worker; // likewise
   int Meetings = 0;            // likewise
-
-private:
-  static vtkSmartPointer<ranks::Communicator> communicatorOf(vtkMultiProcessController* controller)
-  {
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-    auto copy = vtkSmartPointer<ranks::Communicator>::New();
-    copy->CopyFrom(vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()));
-    return copy;
-#else
-    return controller->GetCommunicator();
-#endif
-  }
 };

@@ -587,7 +587,8 @@ else:
     distributed_before = {}
     assert isSanitized or len(one) == 72 + 21 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "shared", "distributed"] if not isSanitized else [])),
-                         (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else [])):
+                         (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else []),
+                         (8, ["gathered"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
         assert several.keys() == {name for name in one if name.split(":")[0] in parts}
         for name, values in several.items():
@@ -612,10 +613,12 @@ else:
     if not isSanitized:
         assert np.ptp(one["same: mesh: Intensity, direct"]) > 0.5
         assert one["same: mesh with a ball: BlockedFraction, direct"].max() == 1
-        one, several = images_of_example(on(1), "one"), images_of_example(on(4), "several")
-        assert len(one) > 8 and one.keys() == several.keys()
-        for name in one:
-            assert np.array_equal(one[name], several[name]), name
+        one = images_of_example(on(1), "one")
+        for ranks in (2, 4, 8):
+            several = images_of_example(on(ranks), "several")
+            assert len(one) > 8 and one.keys() == several.keys()
+            for name in one:
+                assert np.array_equal(one[name], several[name]), (name, ranks)
         assert 0.02 < (one["sphere: BlockedFraction"] == 1).mean() < 0.2
 
     for options in ([], ["--sym"])[isSanitized:]:
