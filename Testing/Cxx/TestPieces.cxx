@@ -670,9 +670,21 @@ TEST(Pieces, ArraysThatOneRankLacksAreTakenFromTheOthers)
   }
   without->GetPointData()->RemoveArray("N");
   addPointArray(without, "M", ball);
-  Ranks some({ part, without });
+  // Of two blocks.
+  std::vector<Data> blocks;
+  for (vtkUnstructuredGrid* block : { part.Get(), without.Get() })
+  {
+    auto all = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+    all->SetNumberOfBlocks(2);
+    all->SetBlock(static_cast<unsigned int>(blocks.size()), block);
+    blocks.emplace_back(all);
+  }
+  Ranks some(blocks);
   const auto source = some.make();
   EXPECT_LT(source->bounds().high[0], 0.2);
+  // Of one dataset.
+  Ranks one({ part, without });
+  EXPECT_NE(problemOf(one).find("have not the same arrays"), std::string::npos) << problemOf(one);
   Ranks none({ without, without });
   EXPECT_NE(
     problemOf(none).find("The input has no array 'N'. Set IndexArray to one of: point arrays M"),
