@@ -630,7 +630,7 @@ else:
     said = run(on(4), "broken")
     assert said.count("ERR|") == 2 and said.count("have not the same arrays.") == 1 and said.count("have not the same arrays of") == 1
     assert "Expected: the end" in said
-    faults = [("killed", "exited on signal 9"), ("full", "memory for a rank's piece|Unable to allocate|bad_alloc")]
+    faults = [("killed", r"exited on\s+signal 9"), ("full", "memory for a rank's piece|Unable to allocate|bad_alloc")]
     for part, words in faults[:1 if isSanitized else 2]:  # sanitizers need memory of their own
         started = time_of_day()
         said = run(on(4), part, ends=False if part == "killed" else None)
