@@ -321,6 +321,7 @@ private:
     }
     return false;
   }
+
   static constexpr std::int64_t largestSmall = 1 << 16;
   static constexpr std::int64_t bytesOfPiece = 1 << 18;
   static_assert(bytesOfPiece <= longestPiece);

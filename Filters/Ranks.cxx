@@ -316,9 +316,7 @@ FilterRanks::Meeting::Meeting(FilterRanks& ranks, const std::optional<Inputs>& i
 //------------------------------------------------------------------------------
 bool FilterRanks::Meeting::HasFailed(const ranks::RankChannel& channel) const
 {
-  const Version& now = this->Of.Now;
-  return channel.Failure && channel.Failure->changes == now.changes &&
-    channel.Failure->timeStep == now.timeStep;
+  return channel.Failure && isOf(this->Of.Now, *channel.Failure);
 }
 
 //------------------------------------------------------------------------------

@@ -194,9 +194,8 @@ std::string FilterRanks::Meeting::FindAbsent() const
   const auto& channels = this->Of.Inside->Channels;
   for (std::size_t n = 0; n < channels.size(); ++n)
   {
-    const Version& now = this->Of.Now;
     const std::optional<HelloMessage>& guest = channels[n]->Guest;
-    if (!guest || guest->changes != now.changes || guest->timeStep != now.timeStep)
+    if (!guest || !isOf(this->Of.Now, *guest))
     {
       const bool isKnown = !guest && this->HasFailed(*channels[n]);
       return absenceOf(n + 1, channels.size() + 1,

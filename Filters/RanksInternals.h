@@ -26,6 +26,13 @@ namespace ranks
 /// and less time; and the medium of an image that one rank has is its own grid, which is exact.
 inline constexpr double cellsOfImageForOne = 160;
 
+/// Whether another rank says it of this version of the inputs.
+template <class Message, class Version>
+bool isOf(const Version& version, const Message& message)
+{
+  return message.changes == version.changes && message.timeStep == version.timeStep;
+}
+
 /// Whether data stay on the ranks that have them.
 bool canStay(const std::vector<InputsOfRank>& ofRanks, double maxCells);
 
