@@ -125,27 +125,8 @@ void validateCutoff(const Scene& scene)
     scene.histogramSize, ". Set it between 0 (no histogram) and 2048.");
 }
 
-#ifdef SCHLIEREN_WITHOUT_PAPER_METHODS
-void validateMethods(const Scene& scene)
-{
-  const auto require = [](bool isThere, const char* name, const char* others)
-  {
-    if (!isThere)
-    {
-      throw Error(std::string(name) + ", which this program was built without. Choose " + others +
-        ", or build with SCHLIEREN_PAPER_METHODS=ON.");
-    }
-  };
-  require(scene.integrator != Integrator::Euler, "Integrator is Euler", "Leapfrog");
-  require(scene.interpolation != Interpolation::Central, "Interpolation is Central", "Quadratic");
-}
-#endif
-
 void validateScene(const Scene& scene)
 {
-#ifdef SCHLIEREN_WITHOUT_PAPER_METHODS
-  validateMethods(scene);
-#endif
   if (scene.samplesPerPixel < 1)
   {
     throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +

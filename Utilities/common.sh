@@ -8,7 +8,9 @@
 #
 #   say TEXT...              a line about what happens now, with the seconds since the script began
 #   die TEXT...              an error message, then exit 1
-#   install_dependencies     installs what is missing (Utilities/install-dependencies)
+#   install_dependencies [PRESET]
+#                            installs what is missing (Utilities/install-dependencies) and meanwhile builds the tracer of
+#                            a CMake preset (release), which takes no more than a compiler, CMake and ninja
 #   quietly LOG COMMAND...   output goes to the file LOG; its last lines are shown when COMMAND fails
 #   build_plugin [PRESET [TARGET]]
 #                            configures and builds a CMake preset (release), all of it or one target,
@@ -37,8 +39,34 @@ die()
 
 install_dependencies()
 {
-  "$SCHLIEREN_ROOT/Utilities/install-dependencies" ||
-    die "Some packages are missing and could not be installed; see above."
+  local build=$SCHLIEREN_ROOT/build/${1:-release} tracer=
+  _install()
+  {
+    "$SCHLIEREN_ROOT/Utilities/install-dependencies" "$@" ||
+      die "Some packages are missing and could not be installed; see above."
+  }
+  # Packages are installed one after the other, which leaves processors idle. Where somebody has built the plugin
+  # before, there is nothing to gain.
+  if [[ ! -e $build/CMakeCache.txt && -n $("$SCHLIEREN_ROOT/Utilities/install-dependencies" --missing) ]]; then
+    _install --compiler
+    if (cd "$SCHLIEREN_ROOT" && quietly "$build/configure.log" cmake --preset "${1:-release}" \
+      "${SCHLIEREN_CMAKE[@]}" -DSCHLIEREN_CORE_ONLY=ON); then
+      say "Building the tracer meanwhile"
+      # ninja itself, which ends its compilers when it is told to end.
+      nice -n 5 ninja -C "$build" -j "$SCHLIEREN_JOBS" SchlierenCore >"$build/tracer.log" 2>&1 </dev/null &
+      tracer=$!
+      # shellcheck disable=SC2064 # this process, not one that is started later
+      trap "kill $tracer 2>/dev/null || true" EXIT
+    fi
+  fi
+  _install
+  say "All packages are there"
+  if [[ -n $tracer ]]; then
+    # What it could not build, the build of the plugin says.
+    wait "$tracer" || true
+    trap - EXIT
+    say "Built the tracer"
+  fi
 }
 
 quietly()

@@ -6,6 +6,7 @@
 #include "Rays/Kernels.h"
 #include "Rays/MarchOfPacks.h"
 #include "Rays/SimdMarch.h"
+#include "Rays/SimdUnits.h"
 
 #include <algorithm>
 #include <atomic>
@@ -177,21 +178,32 @@ template <class Number, class Visit>
 void visitAdvance(const KernelChoice& kernel, Simd simd, const Visit& visit)
 {
   constexpr bool isSingle = std::is_same_v<Number, float>;
-#ifdef SCHLIEREN_HAS_AVX
-  if (simd >= Simd::Avx512)
+  constexpr int ofAvx512 = isSingle ? 16 : 8, ofAvx2 = isSingle ? 8 : 4;
+  simd = packsFor(kernel, simd);
+  if constexpr (isCompiledFor(Simd::Avx512))
   {
-    constexpr int lanes = isSingle ? 16 : 8;
-    visit(simd == Simd::Avx512 ? simdAdvance<Number, lanes>(kernel)
-                               : simdAdvanceByRows<Number, lanes>(kernel));
-    return;
+    if (simd == Simd::Avx512)
+    {
+      visit(simdAdvance<Number, ofAvx512>(kernel));
+      return;
+    }
   }
-  if (simd == Simd::Avx2)
+  if constexpr (isCompiledFor(Simd::Avx512Rows))
   {
-    constexpr int lanes = isSingle ? 8 : 4;
-    visit(simdAdvance<Number, lanes>(kernel));
-    return;
+    if (simd == Simd::Avx512Rows)
+    {
+      visit(simdAdvanceByRows<Number, ofAvx512>(kernel));
+      return;
+    }
   }
-#endif
+  if constexpr (isCompiledFor(Simd::Avx2))
+  {
+    if (simd == Simd::Avx2)
+    {
+      visit(simdAdvance<Number, ofAvx2>(kernel));
+      return;
+    }
+  }
   if constexpr (isSingle) // see traceTiles()
   {
     if (simd != Simd::None)

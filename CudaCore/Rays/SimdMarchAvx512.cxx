@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // For AVX-512 (F, DQ, BW, VL).
+#define SCHLIEREN_WITHOUT_PAPER_METHODS // see packsFor()
 #include "Rays/SimdMarch.inl"
 
 namespace schlieren

@@ -5,6 +5,7 @@
 #include "Device/Parallel.h"
 #include "Rays/Kernels.h"
 #include "Rays/SimdMarch.h"
+#include "Rays/SimdUnits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -207,7 +208,11 @@ MarchFunction<Number, 1> marchOneByOne(const KernelChoice& choice)
 
 bool hasSimd(Simd simd)
 {
-#ifdef SCHLIEREN_HAS_AVX
+  if (!isCompiledFor(simd))
+  {
+    return false;
+  }
+#ifdef __x86_64__
   if (simd >= Simd::Avx512)
   {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -219,12 +224,12 @@ bool hasSimd(Simd simd)
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   }
 #endif
-  return simd <= Simd::Four;
+  return true;
 }
 
 Simd bestSimd()
 {
-#ifdef SCHLIEREN_HAS_AVX
+#ifdef __x86_64__
   // A gather takes one load for each number on Intel's processors, and several times that on others. By the vendor and
   // not by a measurement, so that images do not depend on what else a machine does.
   const Simd best = __builtin_cpu_is("intel") ? Simd::Avx512 : Simd::Avx512Rows;
@@ -234,6 +239,13 @@ Simd bestSimd()
   }
 #endif
   return hasSimd(Simd::Avx2) ? Simd::Avx2 : Simd::Four;
+}
+
+Simd packsFor(const KernelChoice& kernel, Simd simd)
+{
+  const bool isOfPaper = kernel.interpolation == Interpolation::Central ||
+    (kernel.path == PathModel::Refracted && kernel.integrator == Integrator::Euler);
+  return isOfPaper ? std::min(simd, Simd::Four) : simd;
 }
 
 TileQueue TracedPass::tilesLeft(const Pass& pass)
@@ -273,24 +285,35 @@ void traceTiles(const RayTask<Real>& task, const Pass& pass, TileQueue& tiles, T
   {
     simd = Simd::None; // the others multiply strides of 32 bits
   }
+  simd = packsFor(kernel, simd);
   const auto traceWith = [&](auto marchBatches)
   { traceTilesWith(task, marchBatches, pass, tiles, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
-#ifdef SCHLIEREN_HAS_AVX
-  if (simd >= Simd::Avx512)
+  constexpr int ofAvx512 = isSingle ? 16 : 8, ofAvx2 = isSingle ? 8 : 4;
+  if constexpr (isCompiledFor(Simd::Avx512))
   {
-    constexpr int lanes = isSingle ? 16 : 8;
-    traceWith(
-      simd == Simd::Avx512 ? simdMarch<Real, lanes>(kernel) : simdMarchByRows<Real, lanes>(kernel));
-    return;
+    if (simd == Simd::Avx512)
+    {
+      traceWith(simdMarch<Real, ofAvx512>(kernel));
+      return;
+    }
   }
-  if (simd == Simd::Avx2)
+  if constexpr (isCompiledFor(Simd::Avx512Rows))
   {
-    constexpr int lanes = isSingle ? 8 : 4;
-    traceWith(simdMarch<Real, lanes>(kernel));
-    return;
+    if (simd == Simd::Avx512Rows)
+    {
+      traceWith(simdMarchByRows<Real, ofAvx512>(kernel));
+      return;
+    }
   }
-#endif
+  if constexpr (isCompiledFor(Simd::Avx2))
+  {
+    if (simd == Simd::Avx2)
+    {
+      traceWith(simdMarch<Real, ofAvx2>(kernel));
+      return;
+    }
+  }
   if constexpr (isSingle) // for doubles the instructions that all have are too narrow to gain
   {
     if (simd != Simd::None)

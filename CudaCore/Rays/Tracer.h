@@ -267,11 +267,15 @@ enum class Simd
   Avx512Rows ///< whose samples are read by rows, for processors with slow gathers
 };
 
-/// Whether this processor has them.
+/// Whether this processor has them, and the program was compiled for them (SCHLIEREN_SIMD).
 bool hasSimd(Simd simd);
 
-/// The best ones of this processor.
+/// The best ones that it has.
 Simd bestSimd();
+
+/// Of these instructions, those that a kernel has packs for. The paper's methods, with which its images can be
+/// reproduced, have packs of four alone: wider ones would take a quarter of the tracer's compile time.
+Simd packsFor(const KernelChoice& kernel, Simd simd);
 
 /// Traces a pass on the CPU into `traced`, which has its size, or resumes it. Returns false if aborted or
 /// paused; the same call then does the rest. `simd` must be one that the processor has.

@@ -3,7 +3,7 @@
 #
 # Files that are compiled for instructions which not every processor has must define nothing that others
 # define, too: the linker could choose theirs for all. What works on packs is theirs alone.
-#   cmake -DNM=nm -DOBJECTS=a.o;b.o -P CheckSimdSymbols.cmake
+#   cmake -DNM=nm -DOBJECTS=a.o;b.o -DCOUNT=2 -P CheckSimdSymbols.cmake
 set(looked 0)
 foreach(object IN LISTS OBJECTS)
   if(object MATCHES "SimdMarchAvx")
@@ -20,6 +20,6 @@ foreach(object IN LISTS OBJECTS)
     endforeach()
   endif()
 endforeach()
-if(NOT looked EQUAL 3)
-  message(FATAL_ERROR "Expected three files for AVX, found ${looked}.")
+if(NOT looked EQUAL COUNT)
+  message(FATAL_ERROR "Expected ${COUNT} files for AVX, found ${looked}.")
 endif()
