@@ -8,9 +8,8 @@
 #
 #   say TEXT...              a line about what happens now, with the seconds since the script began
 #   die TEXT...              an error message, then exit 1
-#   install_dependencies [PRESET]
-#                            installs what is missing (Utilities/install-dependencies) and meanwhile builds the tracer of
-#                            a CMake preset (release), which takes no more than a compiler, CMake and ninja
+#   install_dependencies     installs what is missing (Utilities/install-dependencies) and meanwhile builds the tracer of
+#                            the preset release, which takes no more than a compiler, CMake and ninja
 #   quietly LOG COMMAND...   output goes to the file LOG; its last lines are shown when COMMAND fails
 #   build_plugin [PRESET [TARGET]]
 #                            configures and builds a CMake preset (release), all of it or one target,
@@ -39,7 +38,7 @@ die()
 
 install_dependencies()
 {
-  local build=$SCHLIEREN_ROOT/build/${1:-release} tracer=
+  local build=$SCHLIEREN_ROOT/build/release tracer=
   _install()
   {
     "$SCHLIEREN_ROOT/Utilities/install-dependencies" "$@" ||
@@ -49,7 +48,7 @@ install_dependencies()
   # before, there is nothing to gain.
   if [[ ! -e $build/CMakeCache.txt && -n $("$SCHLIEREN_ROOT/Utilities/install-dependencies" --missing) ]]; then
     _install --compiler
-    if (cd "$SCHLIEREN_ROOT" && quietly "$build/configure.log" cmake --preset "${1:-release}" \
+    if (cd "$SCHLIEREN_ROOT" && quietly "$build/configure.log" cmake --preset release \
       "${SCHLIEREN_CMAKE[@]}" -DSCHLIEREN_CORE_ONLY=ON); then
       say "Building the tracer meanwhile"
       # ninja itself, which ends its compilers when it is told to end.
