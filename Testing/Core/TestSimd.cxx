@@ -172,6 +172,38 @@ TEST(Simd, SkippingRaysStayWithinTheTolerance)
   expectSame<float>(settings, 1e-4, 1e-2);
 }
 
+TEST(Simd, ThePapersMethodsHavePacksOfFour)
+{
+  const auto packs = [](PathModel path, Integrator integrator, Interpolation interpolation) {
+    return packsFor({ path, integrator, interpolation }, Simd::Avx2);
+  };
+  constexpr PathModel refracted = PathModel::Refracted, straight = PathModel::Straight;
+  EXPECT_EQ(packs(refracted, Integrator::Euler, Interpolation::Quadratic), Simd::Four);
+  EXPECT_EQ(packs(refracted, Integrator::Leapfrog, Interpolation::Central), Simd::Four);
+  EXPECT_EQ(packs(straight, Integrator::Leapfrog, Interpolation::Central), Simd::Four);
+  EXPECT_EQ(packs(straight, Integrator::Euler, Interpolation::Cubic), Simd::Avx2); // which is not asked
+  EXPECT_EQ(packs(refracted, Integrator::Adaptive, Interpolation::Linear), Simd::Avx2);
+  EXPECT_EQ(
+    packsFor({ refracted, Integrator::Euler, Interpolation::Linear }, Simd::None), Simd::None);
+}
+
+#ifdef __x86_64__
+/// SCHLIEREN_SIMD=NATIVE compiles for what the processor of the build has, and these are the same then.
+TEST(Simd, TheBestInstructionsOfThisProcessorAreThere)
+{
+  const bool hasAvx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  if (!__builtin_cpu_supports("fma") || !__builtin_cpu_supports("avx2"))
+  {
+    GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
+  }
+  EXPECT_EQ(bestSimd(),
+    !hasAvx512                    ? Simd::Avx2
+      : __builtin_cpu_is("intel") ? Simd::Avx512
+                                  : Simd::Avx512Rows);
+}
+#endif
+
 } // namespace
 
 } // namespace schlieren
