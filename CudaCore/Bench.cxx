@@ -25,6 +25,7 @@
 #include <limits>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace schlieren
@@ -263,8 +264,10 @@ struct Bench::Stages
   template <class Real>
   MediumOfBench<Real>& prepareMedium(
     const Field& field, const Scene& scene, DistributedMedium distribution);
+  /// Makes another medium in the place of one that does not do. Where that fails there is none.
   template <class Real>
-  void distributeMedium(MediumOfBench<Real>& current, const Field& field, const Scene& scene);
+  void remakeMedium(MediumOfBench<Real>& current, const Field& field, const Scene& scene,
+    DistributedMedium distribution);
   /// What the scene needs, where it can be had.
   DistributedMedium distributionFor(const Unfinished& request) const;
   /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
@@ -316,12 +319,17 @@ std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
 }
 
 template <class Real>
-void Bench::Stages::distributeMedium(
-  MediumOfBench<Real>& current, const Field& field, const Scene& scene)
+void Bench::Stages::remakeMedium(MediumOfBench<Real>& current, const Field& field,
+  const Scene& scene, DistributedMedium distribution)
 {
+  const std::optional<MediumKey> key = std::exchange(mediumKey, std::nullopt);
   current = {}; // first: two media at once might not fit
-  current.owners = std::make_shared<BrickChannels>(workers);
+  if (distribution == DistributedMedium::On)
+  {
+    current.owners = std::make_shared<BrickChannels>(workers);
+  }
   current.shared = makeMedium<Real>(field, scene, current.owners);
+  mediumKey = key;
 }
 
 template <class Real>
@@ -334,7 +342,7 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(
                                   : static_cast<const void*>(field.doubles);
   const Grid& grid = field.grid;
   const MediumKey key{ grid.dimensions, grid.origin, grid.spacing, grid.direction, field.version,
-    samples, field.ambient, scene.interpolation, scene.precision,
+    samples, field.offset, field.ambient, scene.interpolation, scene.precision,
     hasSource ? scene.mediumTolerance : 0, hasSource ? scene.mediumMemory : 0, distribution };
   const auto* before = std::get_if<MediumOfBench<Real>>(&medium);
   const bool haveOwnersChanged =
@@ -348,7 +356,7 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(
     MediumOfBench<Real> current;
     if (distribution == DistributedMedium::On)
     {
-      distributeMedium(current, field, scene);
+      remakeMedium(current, field, scene, distribution);
     }
     else if (media)
     {
@@ -483,10 +491,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   const auto useOwn = [&]
   {
     inUse.reset();
-    current.distributed.reset();
-    current.owners.reset();
-    current.shared = makeMedium<Real>(field, scene, nullptr);
-    current.changesSeen = noChange;
+    remakeMedium(current, field, scene, DistributedMedium::Off);
     inUse.emplace(*current.shared);
   };
   if (!*inUse)
@@ -509,7 +514,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
       !watch.isAborted())
     {
       inUse.reset();
-      distributeMedium(current, field, scene);
+      remakeMedium(current, field, scene, DistributedMedium::On);
       inUse.emplace(*current.shared);
       refineFor(column, current, watch.monitor(), request);
     }
@@ -671,7 +676,10 @@ void Bench::Stages::leaveDevice()
     {
       if constexpr (!std::is_same_v<std::decay_t<decltype(current)>, std::monostate>)
       {
-        current.shared->cuda.reset();
+        if (current.shared)
+        {
+          current.shared->cuda.reset();
+        }
       }
     },
     medium);

@@ -191,10 +191,13 @@ struct Field
   std::shared_ptr<const MediumSource> source;
   const float* singles = nullptr;
   const double* doubles = nullptr;
+  /// Of the samples, which hold N less this. Near the surroundings' N it leaves single precision the digits of a weak
+  /// flow. Not of a source.
+  double offset = 0;
   /// 0: solid, blocks light. 1: gas (solid where the sample is not finite). 2 (transparent): no data, but
   /// light passes; the sample is not read, the gas around is continued. Null: 1 everywhere.
   const unsigned char* valid = nullptr;
-  std::optional<double> ambient; ///< N outside; unset: median over the domain's boundary
+  std::optional<double> ambient; ///< N outside; unset: the median over the domain's boundary
   double lengthScale = 1;        ///< metres per data unit
   FieldGradients gradients;      ///< of the fields that Scene::fieldColors belong to
   /// Changes whenever anything that the arrays hold has changed: the same version, the same data.
@@ -342,7 +345,9 @@ struct Image
   /// 2 per pixel, data units, likewise: the place of the pattern that is seen, less the one seen without the
   /// flow. What is seen has moved the other way.
   PixelArray<float> backgroundDisplacement;
-  PixelArray<float> deflection;             ///< 2 per pixel: direction cosines along u and v
+  /// 2 per pixel: direction cosines along u and v. This and the next two are those of the ray through the pixel's
+  /// centre, from the middle of the light source; where that ends in a solid, the mean of the pixel's rays that do not.
+  PixelArray<float> deflection;
   PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
   /// 2 per pixel: at the exit plane, data units; with a perspective, and of Cutoff::Background, where rays go from the
   /// camera on, at the entry plane.

@@ -26,6 +26,7 @@ struct MediumKey
   std::array<double, 9> direction;
   std::uint64_t version;
   const void* samples;
+  double offset;
   std::optional<double> ambient;
   Interpolation interpolation;
   Precision precision;
@@ -35,7 +36,7 @@ struct MediumKey
 
   auto tie() const
   {
-    return std::tie(dimensions, origin, spacing, direction, version, samples, ambient,
+    return std::tie(dimensions, origin, spacing, direction, version, samples, offset, ambient,
       interpolation, precision, tolerance, memory, distribution);
   }
 };

@@ -3,6 +3,7 @@
 #include "FieldFromImage.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
@@ -53,6 +54,10 @@ schlieren::Field fieldFrom(vtkImageData* refractivity)
   field.grid = gridFrom(refractivity);
   field.singles = floats ? floats->GetPointer(0) : nullptr;
   field.doubles = doubles ? doubles->GetPointer(0) : nullptr;
+  if (vtkDataArray* offset = refractivity->GetFieldData()->GetArray("RefractivityOffset"))
+  {
+    field.offset = offset->GetComponent(0, 0);
+  }
   auto* mask = bytesOf(refractivity, maskName);
   field.valid = mask ? mask->GetPointer(0) : nullptr;
   field.version = refractivity->GetMTime();

@@ -26,6 +26,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace filters
 {
@@ -50,13 +51,27 @@ vtkSmartPointer<Array> newArray(
   array->SetNumberOfComponents(components);
   const auto size = static_cast<vtkIdType>(values.size());
   array->SetArray(values.release(), size, 0, Array::VTK_DATA_ARRAY_DELETE);
-  if (components == 2)
-  {
-    array->SetComponentName(0, "u");
-    array->SetComponentName(1, "v");
-  }
   setUnit(array, unit);
   setRanges(array);
+  return array;
+}
+
+/// Of two values for each pixel. The third component, along the light, is 0: what ParaView takes for a vector has three.
+vtkSmartPointer<vtkFloatArray> newVectors(
+  const char* name, schlieren::PixelArray<float>& values, const char* unit)
+{
+  const schlieren::PixelArray<float> pairs = std::move(values);
+  schlieren::PixelArray<float> vectors(pairs.size() / 2 * 3);
+  for (std::size_t pixel = 0; pixel < pairs.size() / 2; ++pixel)
+  {
+    vectors[3 * pixel] = pairs[2 * pixel];
+    vectors[3 * pixel + 1] = pairs[2 * pixel + 1];
+    vectors[3 * pixel + 2] = 0;
+  }
+  auto array = newArray<vtkFloatArray>(name, vectors, 3, unit);
+  array->SetComponentName(0, "u");
+  array->SetComponentName(1, "v");
+  array->SetComponentName(2, "w");
   return array;
 }
 
@@ -122,10 +137,10 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
 
   vtkPointData* arrays = output->GetPointData();
   arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1, "1"));
-  arrays->AddArray(newArray<vtkFloatArray>("Deflection", image.deflection, 2, "rad"));
+  arrays->AddArray(newVectors("Deflection", image.deflection, "rad"));
   arrays->AddArray(
     newArray<vtkDoubleArray>("OpticalPathDifference", image.opticalPathDifference, 1, "m"));
-  arrays->AddArray(newArray<vtkFloatArray>("Displacement", image.displacement, 2, dataUnits));
+  arrays->AddArray(newVectors("Displacement", image.displacement, dataUnits));
   arrays->AddArray(newArray<vtkFloatArray>("BlockedFraction", image.blockedFraction, 1, "1"));
   if (!image.background.empty())
   {
@@ -133,8 +148,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
   }
   if (!image.backgroundDisplacement.empty())
   {
-    arrays->AddArray(newArray<vtkFloatArray>(
-      "BackgroundDisplacement", image.backgroundDisplacement, 2, dataUnits));
+    arrays->AddArray(newVectors("BackgroundDisplacement", image.backgroundDisplacement, dataUnits));
   }
 
   addFieldValue<vtkStringArray>(

@@ -44,7 +44,8 @@ private:
 /// A value of a field.
 inline double valueAt(const schlieren::Field& field, std::size_t point)
 {
-  return field.singles ? static_cast<double>(field.singles[point]) : field.doubles[point];
+  return field.offset +
+    (field.singles ? static_cast<double>(field.singles[point]) : field.doubles[point]);
 }
 
 } // namespace filters

@@ -554,7 +554,8 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfImage(vtkImageData* image,
   const Source source = this->SourceOf(image, ranges.ofModel);
   label = source.label;
   vtkNew<vtkImageData> refractivity;
-  tally = convertImage(source, this->Self->GetDoublePrecision(), refractivity);
+  tally = convertImage(source,
+    this->Self->GetDoublePrecision() ? Numbers::Doubles : Numbers::Differences, refractivity);
   mergeMasks(refractivity);
   for (const std::size_t high : { 1, 3, 5 })
   {

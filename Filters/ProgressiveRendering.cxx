@@ -349,8 +349,8 @@ schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
   const auto read = [&]
   {
     inside.IsReadingAhead = true;
+    const AtTheEnd end([&] { inside.IsReadingAhead = false; });
     this->ReadAhead(*next, scene, ambient, isTraced);
-    inside.IsReadingAhead = false;
   };
   return traceWhile(read, traceAndSay, monitor);
 }
@@ -436,6 +436,13 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
   monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
   monitor.progress = [this](double fraction)
   { this->Progress(mediumFraction + (1 - mediumFraction) * fraction); };
+  const AtTheEnd forgetInstants(
+    [&]
+    {
+      inside.MediumTime = 0; // the refractivity is that of no input
+      inside.FirstInstant.reset();
+      inside.Instant = 0;
+    });
   MeanImage mean;
   steps.Keep();
   for (const TimeExposure::Instant& instant : inside.Exposure.Instants)
@@ -488,7 +495,6 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
     mean.Add(std::move(image));
     ++inside.Instant;
   }
-  inside.MediumTime = 0; // the refractivity is that of no input
   return this->Show(mean.Take(), output, histogram);
 }
 

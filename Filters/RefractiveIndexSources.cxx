@@ -98,7 +98,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
   StepOfPieces step)
 {
   vtkNew<vtkImageData> refractivity;
-  warning = this->Convert(input, refractivity);
+  warning = this->Convert(input, refractivity, nullptr, DIFFERENCES);
   this->Grid.clear();
   if (this->GetAbortExecute())
   {

@@ -411,7 +411,7 @@ std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
   return prepared;
 }
 
-Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
   bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
 {
   Tally tally;
@@ -440,7 +440,7 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
       return tally;
     }
   }
-  setArrays(output, { values }, Linear(), valid, doublePrecision);
+  setArrays(output, { values }, Linear(), valid, numbers);
   if (outside)
   {
     setOutside(outside, output);

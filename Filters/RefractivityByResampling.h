@@ -58,7 +58,7 @@ std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
 /// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight. Where `progress` says to stop,
 /// the output has no arrays.
-Tally resample(const Resampling& plan, const Source& source, bool doublePrecision,
+Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
   bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output);
 
 } // namespace filters

@@ -257,7 +257,7 @@ void gridOf(const Amr& amr, vtkImageData* structure)
   structure->SetSpacing(amr.spacing.data());
 }
 
-Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtkImageData* output)
+Tally convertAmr(const Amr& amr, const Source& source, Numbers numbers, vtkImageData* output)
 {
   Tally tally;
   Grid grid = valuesOf(amr, source, tally);
@@ -266,7 +266,7 @@ Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtk
   gridOf(amr, output);
   vtkNew<vtkDoubleArray> values;
   values->SetArray(grid.values.data(), static_cast<vtkIdType>(grid.values.size()), 1);
-  setArrays(output, { values }, Linear(), nullptr, doublePrecision);
+  setArrays(output, { values }, Linear(), nullptr, numbers);
   return tally;
 }
 

@@ -42,6 +42,6 @@ std::optional<Amr> planAmr(
 void gridOf(const Amr& amr, vtkImageData* structure);
 
 /// Fills `output` as planned. N is formed in the cells of the input, before anything is interpolated.
-Tally convertAmr(const Amr& amr, const Source& source, bool doublePrecision, vtkImageData* output);
+Tally convertAmr(const Amr& amr, const Source& source, Numbers numbers, vtkImageData* output);
 
 } // namespace filters

@@ -192,7 +192,7 @@ void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
   }
 }
 
-Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* output)
+Tally convertImage(const Source& source, Numbers numbers, vtkImageData* output)
 {
   const Leaf& leaf = source.leaves[0];
   gridOfImage(source.image, leaf.ofCells, output);
@@ -210,7 +210,7 @@ Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* out
     hidePoints(source.image, valid);
     hidePointsOfHiddenCells(source.image, valid);
   }
-  const Tally tally = setArrays(output, leaf.arrays, source.model, valid, doublePrecision);
+  const Tally tally = setArrays(output, leaf.arrays, source.model, valid, numbers);
   if (const auto outside = leaf.ofCells ? nullptr : outsideFrom(source.image))
   {
     setOutside(outside, output);

@@ -13,6 +13,6 @@ namespace filters
 void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure);
 
 /// Fills `output` from source.image.
-Tally convertImage(const Source& source, bool doublePrecision, vtkImageData* output);
+Tally convertImage(const Source& source, Numbers numbers, vtkImageData* output);
 
 } // namespace filters

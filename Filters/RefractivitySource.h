@@ -26,6 +26,17 @@ constexpr const char* arrayName = "Refractivity";
 constexpr const char* maskName = "vtkValidPointMask"; // as vtkResampleToImage calls it
 constexpr const char* transparentName = "TransparentPointMask";
 
+// A value of the field data, where the first of these arrays holds N less that: see Numbers::Differences.
+constexpr const char* offsetName = "RefractivityOffset";
+
+/// What the array Refractivity holds.
+enum class Numbers
+{
+  Singles,
+  Doubles,
+  Differences // in single precision, from a value near that of the surroundings: weak flows keep their digits
+};
+
 /// The arrays that a model takes its values from, in its order. Each has one component and one value for
 /// each point, or each has one for each cell.
 using Arrays = std::vector<vtkDataArray*>;

@@ -5,6 +5,7 @@
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
@@ -24,7 +25,7 @@ namespace filters
 namespace
 {
 
-/// Where N goes.
+/// Where N goes, less `offset`.
 template <class Real>
 struct Results
 {
@@ -32,10 +33,15 @@ struct Results
   unsigned char* valid;
   bool isValidSet; // else all is valid as yet, and `valid` holds anything
   Real invalid;
+  double offset;
 
   void set(vtkIdType i, double refractivity) const
   {
-    const Real n = static_cast<Real>(refractivity);
+    this->keep(i, static_cast<Real>(refractivity - this->offset));
+  }
+
+  void keep(vtkIdType i, Real n) const
+  {
     const bool isValid = this->valid[i] != 0 && std::isfinite(n);
     this->valid[i] = isValid ? 1 : 0;
     this->out[i] = isValid ? n : this->invalid;
@@ -73,12 +79,12 @@ struct LinearConversion
     using Value = std::decay_t<decltype(values[0])>;
     const float factor = static_cast<float>(this->model.scale);
     const bool isInFloats = std::is_same_v<Value, float> && std::is_same_v<Real, float> &&
-      this->model.offset == 0 && std::isnormal(factor);
+      this->model.offset == this->results.offset && std::isnormal(factor);
     const bool isGood = isInFloats
       ? this->Store(values, first, count,
           [factor](auto v) { return static_cast<Real>(factor * static_cast<float>(v)); })
       : this->Store(values, first, count,
-          [scale = this->model.scale, offset = this->model.offset](auto v)
+          [scale = this->model.scale, offset = this->model.offset - this->results.offset](auto v)
           { return static_cast<Real>(scale * static_cast<double>(v) + offset); });
     unsigned char* valid = this->results.valid + first;
     const auto bytes = static_cast<std::size_t>(count);
@@ -90,7 +96,7 @@ struct LinearConversion
     {
       for (vtkIdType i = 0; i < count; ++i)
       {
-        this->results.set(first + i, this->results.out[first + i]);
+        this->results.keep(first + i, this->results.out[first + i]);
       }
     }
   }
@@ -166,16 +172,107 @@ vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count)
   return mask;
 }
 
+double refractivityOf(const Linear& model, const double* values)
+{
+  return model.scale * values[0] + model.offset;
+}
+
+template <class Gas>
+double refractivityOf(const Gas& model, const double* values)
+{
+  return model.refractivity(values);
+}
+
+/// N at a point; NaN where it is not finite.
+double refractivityAt(vtkIdType point, const Arrays& values, const Model& model)
+{
+  std::vector<double> state;
+  for (vtkDataArray* array : values)
+  {
+    state.push_back(array->GetComponent(point, 0));
+    if (!std::isfinite(state.back()))
+    {
+      return std::nan("");
+    }
+  }
+  const double n =
+    std::visit([&](const auto& gas) { return refractivityOf(gas, state.data()); }, model);
+  return std::isfinite(n) ? n : std::nan("");
+}
+
+/// Calls visit(point) for some thousands of the points of a grid's faces at most.
+template <class Visit>
+void forSomeOfFaces(const int (&points)[3], const Visit& visit)
+{
+  constexpr int mostAlongAxis = 32;
+  const vtkIdType strides[3] = { 1, points[0], static_cast<vtkIdType>(points[0]) * points[1] };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const int stepA = (points[a] - 1) / mostAlongAxis + 1;
+    const int stepB = (points[b] - 1) / mostAlongAxis + 1;
+    for (const int face : { 0, points[axis] - 1 })
+    {
+      for (int i = 0; i < points[a]; i += stepA)
+      {
+        for (int j = 0; j < points[b]; j += stepB)
+        {
+          visit(face * strides[axis] + i * strides[a] + j * strides[b]);
+        }
+      }
+    }
+  }
+}
+
+/// About N of the surroundings: the median over some points of the grid's faces, or of all points where there is
+/// none; 0 where there is no gas.
+double offsetFor(
+  vtkImageData* grid, const Arrays& values, const Model& model, vtkUnsignedCharArray* valid)
+{
+  std::vector<double> found;
+  const auto add = [&](vtkIdType point)
+  {
+    const double n =
+      valid && valid->GetValue(point) == 0 ? std::nan("") : refractivityAt(point, values, model);
+    if (!std::isnan(n))
+    {
+      found.push_back(n);
+    }
+  };
+  const vtkIdType count = values[0]->GetNumberOfTuples();
+  int points[3];
+  grid->GetDimensions(points);
+  if (grid->GetNumberOfPoints() == count) // else it is a plane, all of which is on the faces
+  {
+    forSomeOfFaces(points, add);
+  }
+  if (found.empty())
+  {
+    constexpr vtkIdType mostOfAll = 10000;
+    for (vtkIdType point = 0; point < count; point += (count - 1) / mostOfAll + 1)
+    {
+      add(point);
+    }
+  }
+  if (found.empty())
+  {
+    return 0;
+  }
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+  std::nth_element(found.begin(), middle, found.end());
+  return *middle;
+}
+
 template <class Array>
 vtkSmartPointer<Array> convertWith(const Arrays& values, const Model& model,
-  vtkUnsignedCharArray* valid, bool isValidSet, double invalid, Tally& tally)
+  vtkUnsignedCharArray* valid, bool isValidSet, double invalid, double offset, Tally& tally)
 {
   using Real = typename Array::ValueType;
   auto refractivity = vtkSmartPointer<Array>::New();
   refractivity->SetName(arrayName);
   refractivity->SetNumberOfValues(values[0]->GetNumberOfTuples());
   const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0), isValidSet,
-    static_cast<Real>(invalid) };
+    static_cast<Real>(invalid), offset };
   std::visit([&](const auto& chosen) { convertBy(chosen, values, results, tally); }, model);
   return refractivity;
 }
@@ -221,7 +318,7 @@ template <class Array>
 vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally)
 {
-  return convertWith<Array>(values, model, valid, true, invalid, tally);
+  return convertWith<Array>(values, model, valid, true, invalid, 0, tally);
 }
 
 template vtkSmartPointer<vtkFloatArray> convert(
@@ -230,7 +327,7 @@ template vtkSmartPointer<vtkDoubleArray> convert(
   const Arrays&, const Model&, vtkUnsignedCharArray*, double, Tally&);
 
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
-  vtkUnsignedCharArray* valid, bool doublePrecision)
+  vtkUnsignedCharArray* valid, Numbers numbers)
 {
   Tally tally;
   const bool isValidSet = valid != nullptr;
@@ -240,13 +337,21 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
     mask = newUnsetMask(values[0]->GetNumberOfTuples());
   }
   vtkSmartPointer<vtkDataArray> refractivity;
-  if (doublePrecision)
+  if (numbers == Numbers::Doubles)
   {
-    refractivity = convertWith<vtkDoubleArray>(values, model, mask, isValidSet, 0, tally);
+    refractivity = convertWith<vtkDoubleArray>(values, model, mask, isValidSet, 0, 0, tally);
   }
   else
   {
-    refractivity = convertWith<vtkFloatArray>(values, model, mask, isValidSet, 0, tally);
+    double offset = 0;
+    if (numbers == Numbers::Differences)
+    {
+      vtkNew<vtkDoubleArray> ofField;
+      ofField->SetName(offsetName);
+      ofField->InsertNextValue(offset = offsetFor(output, values, model, valid));
+      output->GetFieldData()->AddArray(ofField);
+    }
+    refractivity = convertWith<vtkFloatArray>(values, model, mask, isValidSet, 0, offset, tally);
   }
   output->GetPointData()->SetScalars(refractivity);
   output->GetPointData()->AddArray(mask);

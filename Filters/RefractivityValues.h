@@ -29,8 +29,8 @@ vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally);
 
 /// Adds both arrays to `output`, whose points the values and the mask belong to. Without a mask all are
-/// valid as yet.
+/// valid as yet. Of a plane the values may be those of one layer.
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
-  vtkUnsignedCharArray* valid, bool doublePrecision);
+  vtkUnsignedCharArray* valid, Numbers numbers);
 
 } // namespace filters

@@ -216,7 +216,8 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     {
       this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
     }
-    made->Warning = this->Medium->Convert(input, made->Image, bodies);
+    made->Warning =
+      this->Medium->Convert(input, made->Image, bodies, vtkRefractiveIndex::DIFFERENCES);
     if (!this->Medium->GetAbortExecute())
     {
       mergeMasks(made->Image);

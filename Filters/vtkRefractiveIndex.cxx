@@ -202,7 +202,7 @@ std::string vtkRefractiveIndex::NewNoteOnGases(const Source& source)
 
 //------------------------------------------------------------------------------
 std::string vtkRefractiveIndex::Convert(
-  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies)
+  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, ConvertedValues values)
 {
   output->Initialize();
   this->Grid.clear();
@@ -215,6 +215,9 @@ std::string vtkRefractiveIndex::Convert(
   }
 
   const vtkSMPTools::Config threads = loopsWith(threadsOf(this));
+  const Numbers numbers = this->DoublePrecision ? Numbers::Doubles
+    : values == DIFFERENCES                     ? Numbers::Differences
+                                                : Numbers::Singles;
   Tally tally;
   std::string note = "the data's own";
   vtkSMPTools::LocalScope(threads,
@@ -227,14 +230,14 @@ std::string vtkRefractiveIndex::Convert(
       if (source.image)
       {
         this->Search->release();
-        tally = convertImage(source, this->DoublePrecision, output);
+        tally = convertImage(source, numbers, output);
         SamplingBox(this->SamplingBounds).crop(output);
       }
       else if (const GridPlan& plan = this->PlanGrid(source, input); plan.amr)
       {
         this->Search->release();
         note = plan.amr->note;
-        tally = convertAmr(*plan.amr, source, this->DoublePrecision, output);
+        tally = convertAmr(*plan.amr, source, numbers, output);
         if (!this->GetOutsideBlocksLight())
         {
           setOutside(outsideOfBoxes(source.leaves, output), output);
@@ -245,8 +248,7 @@ std::string vtkRefractiveIndex::Convert(
         note = plan.resampling.note;
         const bool wasSeries = this->Search->isSeries;
         tally = resample(
-          plan.resampling, source, this->DoublePrecision, this->GetOutsideBlocksLight(),
-          *this->Search,
+          plan.resampling, source, numbers, this->GetOutsideBlocksLight(), *this->Search,
           [this](double done)
           {
             this->UpdateProgress(0.05 + 0.95 * done);

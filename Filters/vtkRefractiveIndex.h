@@ -478,10 +478,16 @@ public:
    * What the filter does, without a pipeline: fills `output` from `input` and, where not null, `bodies`. Returns what the user
    * should be warned of, mostly nothing. Throws std::runtime_error with a message for the user, and
    * std::bad_alloc; `output` is then undefined. If AbortExecute is set meanwhile, it returns early
-   * with an empty output.
+   * with an empty output. Without DoublePrecision, DIFFERENCES keep the digits of a weak flow: Refractivity then is N less
+   * RefractivityOffset of the field data, a value near that of the surroundings.
    */
-  VTK_WRAPEXCLUDE std::string Convert(
-    vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies = nullptr);
+  enum ConvertedValues
+  {
+    PLAIN,
+    DIFFERENCES
+  };
+  VTK_WRAPEXCLUDE std::string Convert(vtkDataObject* input, vtkImageData* output,
+    vtkDataObject* bodies = nullptr, ConvertedValues values = PLAIN);
 
   /**
    * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what

@@ -8,18 +8,19 @@
  * z = 0, whose coordinates are those of the view: x = position . u, y = position . v in data units,
  * where u points right and v up. So the image of the default view lies over the data.
  *
- * Point arrays of the image (their vtkDataArray::UNITS_LABEL is the unit), all but the first two
- * and the last two from the rays that start in the pixel:
+ * Point arrays of the image (their vtkDataArray::UNITS_LABEL is the unit). Deflection, OpticalPathDifference and
+ * Displacement are those of the ray through the pixel's centre, from the middle of the light source; where that ends in a
+ * solid, the mean of the pixel's rays that do not. Vectors have a third component, 0:
  * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured image;
  * - `Color` (3 unsigned chars, active scalars then), where the image has colours: in sRGB behind a
  *   COLOR_FILTER, in WhiteLight and of a background's PICTURE; else, with ColorByField, the intensity, tinted, as linear bytes:
  *   255 is 1, of a shadowgraph 2;
- * - `Deflection` (2 floats): direction cosines along u and v of the light that leaves; light bends
+ * - `Deflection` (3 floats): direction cosines along u and v of the light that leaves; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, against undisturbed light;
- * - `Displacement` (2 floats): sideways, at the plane where light leaves the data, data units;
- * - `BlockedFraction` (float): fraction of the light that a solid stopped;
- * - `Background` (float) and `BackgroundDisplacement` (2 floats, data units), with BACKGROUND_ORIENTED
+ * - `Displacement` (3 floats): sideways, at the plane where light leaves the data, data units;
+ * - `BlockedFraction` (float): fraction of the pixel's rays that a solid stopped;
+ * - `Background` (float) and `BackgroundDisplacement` (3 floats, data units), with BACKGROUND_ORIENTED
  *   only: the same without the flow, and the place of the pattern that is seen, less that without the flow
  *   (what is seen has moved in the opposite direction).
  *
@@ -101,7 +102,8 @@ public:
     GRADED_FILTER = 4,
     COLOR_FILTER = 5,
     INTERFEROGRAM = 6,
-    BACKGROUND_ORIENTED = 7
+    BACKGROUND_ORIENTED = 7,
+    NUMERICAL_SCHLIEREN = 8
   };
 
   enum LockModes
@@ -332,7 +334,8 @@ public:
    * - GRADED_FILTER: that of GradedFilter at 1/2 - offset + k e;
    * - COLOR_FILTER: the colour at k eps of ColorFilterImage, or of a wheel;
    * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
-   * - BACKGROUND_ORIENTED: what a camera sees of a pattern behind the flow.
+   * - BACKGROUND_ORIENTED: what a camera sees of a pattern behind the flow;
+   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), no stop of a bench, but what images of computed flows often show.
    */
   virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);

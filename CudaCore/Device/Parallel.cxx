@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -79,9 +80,12 @@ std::int64_t parallelFrom(std::int64_t first, std::int64_t count, std::int64_t g
       others.emplace_back(work, false);
     }
   }
+  // The system gives no more threads, or no memory for them: those that there are do the work.
   catch (const std::system_error&)
   {
-    // The system gives no more threads: those that there are do the work.
+  }
+  catch (const std::bad_alloc&)
+  {
   }
   work(true);
   for (std::thread& other : others)

@@ -38,7 +38,7 @@ struct Sums
 {
   FilmSize film;
   Counter* light; ///< plane by plane
-  PixelSums* pixels;
+  PixelRays* pixels;
   RayCounts* counts;
   LightSums* planes;
 };
@@ -319,7 +319,7 @@ struct CudaFilm::DeviceMemory
   {
     // All zero bits are zeros, of all that is summed up here.
     clear(light.data(), pixels * films.planes.size() * sizeof(Counter));
-    clear(sums.data(), pixels * sizeof(PixelSums));
+    clear(sums.data(), pixels * sizeof(PixelRays));
     clear(counts.data(), sizeof(RayCounts));
     clear(planes.data(), films.planes.size() * sizeof(LightSums));
     if (films.samples)
@@ -385,7 +385,7 @@ struct CudaFilm::DeviceMemory
   std::int64_t raysPerBand;
   std::size_t pixels;
   CudaBuffer<Counter> light;
-  CudaBuffer<PixelSums> sums;
+  CudaBuffer<PixelRays> sums;
   CudaBuffer<RayCounts> counts;
   CudaBuffer<LightSums> planes;
   Sums view;
@@ -443,15 +443,15 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
   }
 }
 
-RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
+RayCounts CudaFilm::develop(Films& films, CentreValues& values) const
 {
   if (memory_->samples)
   {
-    memory_->samples->develop(*films.samples, means); // overwritten below
+    memory_->samples->develop(*films.samples, values); // overwritten below
   }
   const std::size_t pixels = memory_->pixels, planes = films.planes.size();
   const std::size_t bytesOfLight = pixels * planes * sizeof(Counter);
-  const std::size_t bytesOfSums = pixels * sizeof(PixelSums);
+  const std::size_t bytesOfSums = pixels * sizeof(PixelRays);
   const std::size_t bytesOfPlanes = planes * sizeof(LightSums);
   CudaHostBuffer& fetched =
     memory_->hostRoom(bytesOfLight + bytesOfSums + bytesOfPlanes + sizeof(RayCounts));
@@ -479,9 +479,9 @@ RayCounts CudaFilm::develop(Films& films, PixelMeans& means) const
   {
     take(plane.data(), pixels * sizeof(Counter));
   }
-  std::vector<PixelSums> sums(pixels);
+  std::vector<PixelRays> sums(pixels);
   take(sums.data(), bytesOfSums);
-  means.setSums(std::move(sums));
+  values.set(std::move(sums));
   for (std::size_t plane = 0; plane < planes; ++plane)
   {
     LightSums all;

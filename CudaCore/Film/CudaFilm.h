@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Film/CentreValues.h"
 #include "Film/Exposure.h"
-#include "Film/PixelMeans.h"
 #include "Rays/CudaPass.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace schlieren
 {
 
 /// An image that is summed up on the CUDA device, from rays that lie there. Not a bit differs from
-/// that of expose() and PixelMeans: sums of light are whole numbers, and each pixel's means are added up in
+/// that of expose() and CentreValues: sums of light are whole numbers, and each pixel's rays are added up in
 /// the order of the passes. Throws DeviceError.
 class CudaFilm
 {
@@ -23,13 +23,13 @@ public:
   explicit CudaFilm(const Films& films, std::int64_t raysPerBand = std::int64_t{ 1 } << 20);
   ~CudaFilm();
 
-  /// Does what schlieren::expose does, and adds up means and counts, for rays that lie there: `traced`
+  /// Does what schlieren::expose does, and adds up counts and what pixels' rays carry, for rays that lie there: `traced`
   /// covers `pass`.
   void expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
     const Projection& projection, std::int64_t margin, FilmEstimator estimator);
 
   /// Hands over all that has been added up.
-  RayCounts develop(Films& films, PixelMeans& means) const;
+  RayCounts develop(Films& films, CentreValues& values) const;
 
 private:
   struct DeviceMemory;

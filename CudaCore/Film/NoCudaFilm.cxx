@@ -19,6 +19,6 @@ void CudaFilm::expose(
 {
 }
 
-RayCounts CudaFilm::develop(Films&, PixelMeans&) const { return {}; }
+RayCounts CudaFilm::develop(Films&, CentreValues&) const { return {}; }
 
 } // namespace schlieren

@@ -9,7 +9,7 @@ namespace schlieren
 
 ProgressiveImage::ProgressiveImage(const Scene& scene)
   : scene_(scene)
-  , means_(scene.view.width, scene.view.height, scene.threads)
+  , centres_(scene.view.width, scene.view.height, scene.threads)
 {
 }
 
@@ -50,7 +50,7 @@ bool ProgressiveImage::add(
     }
     if (!isLast || monitor.paused)
     {
-      means_.add(waiting_);
+      centres_.add(waiting_);
       waiting_.clear();
     }
   }
@@ -79,7 +79,7 @@ void ProgressiveImage::developCounts(Image& image)
 {
   if (filmOnDevice_)
   {
-    counts_ = filmOnDevice_->develop(*films_, means_);
+    counts_ = filmOnDevice_->develop(*films_, centres_);
   }
   image.samples = static_cast<int>(passes_);
   image.undisturbedLevel = undisturbedLevel(exposure_.cutoff);
@@ -94,7 +94,7 @@ void ProgressiveImage::develop(Image& image)
 {
   developCounts(image);
   filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);
-  means_.develop(waiting_, image);
+  centres_.develop(waiting_, image);
   if (undisturbed_)
   {
     image.background = undisturbed_->develop();
@@ -109,7 +109,7 @@ bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
   const PixelArray<float> samples = schlieren::develop(*films_, passes_, scene_.threads, image);
   films_.reset(); // all that follows wants memory, too
   filterNoise(samples, scene_, image);
-  means_.develop(waiting_, image);
+  centres_.develop(waiting_, image);
   if (!completeUndisturbed(monitor))
   {
     return false;

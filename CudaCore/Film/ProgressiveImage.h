@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Film/CentreValues.h"
 #include "Film/CudaFilm.h"
 #include "Film/Development.h"
 #include "Film/Exposure.h"
-#include "Film/PixelMeans.h"
 #include "Rays/Tracer.h"
 #include "Schlieren.h"
 
@@ -67,9 +67,9 @@ private:
   Exposure exposure_;
   std::optional<Films> films_;
   std::unique_ptr<CudaFilm> filmOnDevice_; ///< of passes that lie there
-  PixelMeans means_;
+  CentreValues centres_;
   RayCounts counts_;
-  std::vector<TracedRays> waiting_; ///< not in means_ yet
+  std::vector<TracedRays> waiting_; ///< not in centres_ yet
   std::int64_t passes_ = 0;
   std::int64_t nextRow_ = 0; ///< of the pass that is being added
   std::optional<UndisturbedImage> undisturbed_;

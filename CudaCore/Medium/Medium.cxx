@@ -100,10 +100,11 @@ struct Range
   std::int64_t gas = 0;
 };
 
-/// Copies a row of samples as nu, 0 where there is no gas; returns the number of points that are gas.
+/// Copies a row of samples as nu, 0 where there is no gas; returns the number of points that are gas. `zero`: the
+/// sample of the ambient gas.
 /// Without branches and with one range per place in the row, so that it vectorises.
 template <class Real, class Value, class IsValid>
-int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, double ambient,
+int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, double zero,
   double scale, Real* nu, Value* lowest, Value* highest)
 {
   constexpr Value infinite = std::numeric_limits<Value>::infinity();
@@ -112,7 +113,7 @@ int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, dou
   {
     const Value n = values[i];
     const bool isGas = (std::abs(n) < infinite) & isValid(i);
-    const Real shifted = static_cast<Real>((static_cast<double>(n) - ambient) * scale);
+    const Real shifted = static_cast<Real>((static_cast<double>(n) - zero) * scale);
     nu[i] = isGas ? shifted : Real(0);
     const Value low = isGas ? n : infinite;
     const Value high = isGas ? n : -infinite;
@@ -123,11 +124,14 @@ int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, dou
   return gas;
 }
 
-/// Copies the samples into the padded volume as nu, 0 where there is no gas, and finds the range.
+/// Copies the samples, which hold N less `offset`, into the padded volume as nu, 0 where there is no gas, and finds
+/// the range of N.
 template <class Real, class Value>
-Range load(const Samples<Value>& samples, double ambient, PaddedVolume<Real>& volume, int threads)
+Range load(const Samples<Value>& samples, double offset, double ambient, PaddedVolume<Real>& volume,
+  int threads)
 {
   const auto [nx, ny, nz] = volume.dimensions;
+  const double zero = ambient - offset;
   const double scale = 1 / (1 + ambient);
   std::vector<Range> planes(static_cast<std::size_t>(nz));
   parallelFor(nz, 1, threads,
@@ -144,7 +148,7 @@ Range load(const Samples<Value>& samples, double ambient, PaddedVolume<Real>& vo
           const std::int64_t row = (k * ny + j) * nx;
           const auto loadWith = [&, nx](const auto& isValid)
           {
-            return loadRow(samples.values + row, isValid, nx, ambient, scale, &volume.at(0, j, k),
+            return loadRow(samples.values + row, isValid, nx, zero, scale, &volume.at(0, j, k),
               lowest.data(), highest.data());
           };
           const unsigned char* valid = samples.valid;
@@ -152,8 +156,10 @@ Range load(const Samples<Value>& samples, double ambient, PaddedVolume<Real>& vo
                                         : loadWith([valid = valid + row](std::int64_t i)
                                             { return Samples<Value>::maySayGas(valid[i]); });
         }
-        range.lowest = static_cast<double>(*std::min_element(lowest.begin(), lowest.end()));
-        range.highest = static_cast<double>(*std::max_element(highest.begin(), highest.end()));
+        range.lowest =
+          offset + static_cast<double>(*std::min_element(lowest.begin(), lowest.end()));
+        range.highest =
+          offset + static_cast<double>(*std::max_element(highest.begin(), highest.end()));
       }
     });
   Range total;
@@ -393,10 +399,10 @@ Medium<Real> build(
   const Samples<Value> samples{ values, field.valid };
   // Before there is a volume: it takes memory, too.
   const double ambient =
-    ambientOf(field, [&] { return boundaryMedian(samples, field.grid.dimensions); });
+    ambientOf(field, [&] { return field.offset + boundaryMedian(samples, field.grid.dimensions); });
   Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {}, nullptr };
   medium.ambient = ambient;
-  const Range range = load(samples, ambient, medium.volume, threads);
+  const Range range = load(samples, field.offset, ambient, medium.volume, threads);
   validateRange(range.lowest, range.highest);
   medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
   medium.rangeOfNu = (range.highest - range.lowest) / (1 + ambient);

@@ -76,6 +76,8 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
       return Circular{ k };
     case Cutoff::CircularComplement:
       return CircularComplement{ k };
+    case Cutoff::NumericalSchlieren:
+      return NumericalSchlieren{ k };
     case Cutoff::GradedFilter:
       table_.clear();
       std::transform(scene.gradedFilter.begin(), scene.gradedFilter.end(),

@@ -7,6 +7,7 @@
 #include "Optics/ColorFilter.h"
 #include "Optics/Interferogram.h"
 #include "Optics/KnifeEdge.h"
+#include "Optics/NumericalSchlieren.h"
 #include "Optics/Pattern.h"
 #include "Optics/RayAtFilm.h"
 #include "Optics/WhiteLight.h"
@@ -28,9 +29,9 @@ struct Shadowgraph
 
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
-using Cutoffs =
-  std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter, ColorWheel,
-    ColorImage, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes, BackgroundImage>;
+using Cutoffs = std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter,
+  ColorWheel, ColorImage, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes,
+  BackgroundImage, NumericalSchlieren>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {

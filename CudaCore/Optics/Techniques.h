@@ -24,8 +24,9 @@ enum class Cutoff
   ColorFilter, ///< the colour at k eps of Scene::colorFilter, or of a wheel: hue is the direction of eps,
                ///< saturation min(1, k |eps|)
   Interferogram, ///< I = (1 + cos(2 pi OPD / wavelength + carrier)) / 2; undisturbed: 1 without a carrier
-  Background ///< what a camera sees of a pattern behind the flow (BOS): the light of the place where its ray
-             ///< meets the pattern. Undisturbed: the pattern's mean
+  Background, ///< what a camera sees of a pattern behind the flow (BOS): the light of the place where its ray
+              ///< meets the pattern. Undisturbed: the pattern's mean
+  NumericalSchlieren ///< I = exp(-5 k |eps|); undisturbed: 1
 };
 
 /// Where the light that a technique records comes from.
@@ -60,7 +61,7 @@ struct Technique
 };
 
 /// In the order of Cutoff.
-constexpr std::array<Technique, 8> techniques = { {
+constexpr std::array<Technique, 9> techniques = { {
   // cutoff, full scale, edge, fringes, plane, colours
   { Cutoff::KnifeEdge, 0.5, true, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::Shadowgraph, 0, false, false, RecordedPlane::Screen, Coloring::None },
@@ -70,6 +71,7 @@ constexpr std::array<Technique, 8> techniques = { {
   { Cutoff::ColorFilter, 1, false, false, RecordedPlane::Focus, Coloring::Always },
   { Cutoff::Interferogram, 0, false, true, RecordedPlane::Focus, Coloring::InWhiteLight },
   { Cutoff::Background, 0, false, false, RecordedPlane::Background, Coloring::OfBackgroundImage },
+  { Cutoff::NumericalSchlieren, 1, false, false, RecordedPlane::Focus, Coloring::None },
 } };
 
 constexpr const Technique& techniqueOf(Cutoff cutoff)

@@ -4,6 +4,7 @@
 
 #include "Optics/Circular.h"
 #include "Optics/KnifeEdge.h"
+#include "Optics/NumericalSchlieren.h"
 
 #include <QtMath>
 
@@ -87,6 +88,9 @@ double pqCutoff::transmission(const QPointF& deflection) const
       break;
     case CircularComplement:
       schlieren::CircularComplement{ this->K }.shade(ray, light);
+      break;
+    case NumericalSchlieren:
+      schlieren::NumericalSchlieren{ this->K }.shade(ray, light);
       break;
     case GradedFilter:
     {

@@ -17,7 +17,8 @@ struct pqCutoff
     Circular = 2,
     CircularComplement = 3,
     GradedFilter = 4,
-    ColorFilter = 5
+    ColorFilter = 5,
+    NumericalSchlieren = 8
   };
 
   int Kind = NoCutoff;

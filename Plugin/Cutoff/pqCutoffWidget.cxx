@@ -29,7 +29,8 @@ static_assert(int(pqCutoff::KnifeEdge) == Filter::KNIFE_EDGE &&
   int(pqCutoff::Circular) == Filter::CIRCULAR &&
   int(pqCutoff::CircularComplement) == Filter::CIRCULAR_COMPLEMENT &&
   int(pqCutoff::GradedFilter) == Filter::GRADED_FILTER &&
-  int(pqCutoff::ColorFilter) == Filter::COLOR_FILTER);
+  int(pqCutoff::ColorFilter) == Filter::COLOR_FILTER &&
+  int(pqCutoff::NumericalSchlieren) == Filter::NUMERICAL_SCHLIEREN);
 
 constexpr int digits = 4; // of numbers that a mouse sets
 

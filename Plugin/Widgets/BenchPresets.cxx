@@ -63,6 +63,7 @@ const std::vector<BenchPreset>& benchPresets()
       { { "KFromOptics", 1, nullptr }, { "SourceShape", Filter::SLIT, nullptr } }),
     preset("Bright field", { { "Cutoff", Filter::CIRCULAR, nullptr } }),
     preset("Dark field", { { "Cutoff", Filter::CIRCULAR_COMPLEMENT, nullptr } }),
+    preset("Numerical schlieren", { { "Cutoff", Filter::NUMERICAL_SCHLIEREN, nullptr } }),
     preset("Colour wheel", { { "Cutoff", Filter::COLOR_FILTER, nullptr } }),
     preset("Shadowgraph", { { "Cutoff", Filter::SHADOWGRAPH, nullptr } }),
     preset("Interferogram, infinite fringes", { { "Cutoff", Filter::INTERFEROGRAM, nullptr } }),

@@ -295,6 +295,7 @@ def look(source, arguments, tolerance):
     columns, rows, _ = made.GetDimensions()
     arrays = {name: vtk_to_numpy(made.GetPointData().GetArray(name)).reshape(rows, columns, -1).squeeze()
               for name in ("Deflection", "OpticalPathDifference", "BlockedFraction")}
+    arrays["Deflection"] = arrays["Deflection"][..., :2]
     return arrays, made.GetFieldData(), seconds
 
 

@@ -81,7 +81,7 @@ def far_field():
     cases.PIXELS = PIXELS // 4
     bend, _ = cases.truth(FAR, cases.flow_around_sphere, 12)
     # The truth at the middles of 4 x 4 pixels: between them.
-    deflection = array("Deflection").reshape(PIXELS // 4, 4, PIXELS // 4, 4, 2)[:, 1:3, :, 1:3].mean(axis=(1, 3))
+    deflection = array("Deflection").reshape(PIXELS // 4, 4, PIXELS // 4, 4, 3)[:, 1:3, :, 1:3, :2].mean(axis=(1, 3))
     counts = cases.away_from(blocked.reshape(PIXELS // 4, 4, PIXELS // 4, 4).max(axis=(1, 3)) > 0, 1)
     rms, worst = cases.errors(deflection, bend, counts)
     print(f"  deflection: rms error {rms:.2e}, worst {worst:.2e} of the largest", flush=True)

@@ -12,11 +12,18 @@ namespace
 std::atomic<std::size_t> allocated{ 0 };
 std::atomic<std::size_t> most{ 0 };
 
+/// Requests of this thread for memory until one fails; negative: none does.
+thread_local int untilFailure = -1;
+
 /// Before each block stands its size.
 constexpr std::size_t header = alignof(std::max_align_t);
 
 void* allocate(std::size_t size) noexcept
 {
+  if (untilFailure >= 0 && untilFailure-- == 0)
+  {
+    return nullptr;
+  }
   void* block = std::malloc(size + header);
   if (block == nullptr)
   {
@@ -75,5 +82,11 @@ PeakMemory::PeakMemory()
 }
 
 std::size_t PeakMemory::bytes() const { return most - before_; }
+
+FailingAllocation::FailingAllocation(int number) { untilFailure = number; }
+
+FailingAllocation::~FailingAllocation() { untilFailure = -1; }
+
+bool FailingAllocation::hasFailed() const { return untilFailure < 0; }
 
 } // namespace schlieren

@@ -21,4 +21,16 @@ private:
   std::size_t before_;
 };
 
+/// As long as it is there, one request of this thread for memory fails: the first where `number` is 0, and so on.
+class FailingAllocation
+{
+public:
+  explicit FailingAllocation(int number);
+  ~FailingAllocation();
+  FailingAllocation(const FailingAllocation&) = delete;
+  FailingAllocation& operator=(const FailingAllocation&) = delete;
+
+  bool hasFailed() const;
+};
+
 } // namespace schlieren

@@ -90,7 +90,7 @@ void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin, estimator);
   }
   const RayCounts counts = expose(traced, cutoff, projection, margin, estimator, 1, films);
-  PixelMeans means(width, height, 1), meansOfDevice(width, height, 1);
+  CentreValues means(width, height, 1), meansOfDevice(width, height, 1);
   const RayCounts countsOfDevice = onDevice.develop(filmsOfDevice, meansOfDevice);
 
   for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
@@ -170,8 +170,8 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
     expectSameImages(cutoff, FilmEstimator::Sheet);
     expectSameImages(cutoff, FilmEstimator::Photon);
   };
-  for (const Cutoff cutoff :
-    { Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement, Cutoff::GradedFilter })
+  for (const Cutoff cutoff : { Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement,
+         Cutoff::GradedFilter, Cutoff::NumericalSchlieren })
   {
     scene.cutoff = cutoff;
     check();

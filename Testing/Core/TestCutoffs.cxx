@@ -137,6 +137,22 @@ TEST(KnifeEdge, OfADiscLetsASegmentPass)
   EXPECT_NEAR((lightOf(middle, 1e-6, 0) - 0.5) / 1e-6, 4 / pi, 1e-5);
 }
 
+TEST(NumericalSchlieren, DarkensExponentially)
+{
+  for (const double distance : { 0., 1e-9, 0.1, 1., 3., 7.9 })
+  {
+    const double expected = std::exp(-5 * distance);
+    EXPECT_NEAR(lightOf(NumericalSchlieren{ 2000 }, 3e-4 * distance, -4e-4 * distance), expected,
+      1e-8 * expected);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double strange : { 1., std::numeric_limits<double>::infinity(), nan })
+  {
+    EXPECT_NEAR(lightOf(NumericalSchlieren{ 1e12 }, strange, 0), 0, 1e-12);
+  }
+  EXPECT_EQ(lightOf(NumericalSchlieren{ 0 }, 0.3, 0.4), 1);
+}
+
 TEST(Circular, DarkensWithTheDeflectionWhateverItsDirection)
 {
   for (const double degrees : { 0., 37., 90., 200., 315. })
@@ -318,6 +334,7 @@ TEST(UndisturbedLevel, IsThatOfLightThatNothingBends)
   EXPECT_EQ(level(Cutoff::Shadowgraph), 1);
   EXPECT_EQ(level(Cutoff::Circular), 1);
   EXPECT_EQ(level(Cutoff::CircularComplement), 0);
+  EXPECT_EQ(level(Cutoff::NumericalSchlieren), 1);
   EXPECT_EQ(level(Cutoff::GradedFilter), 0.5);
   EXPECT_EQ(level(Cutoff::ColorFilter), 1);
   EXPECT_EQ(level(Cutoff::Interferogram), 1);
@@ -361,9 +378,9 @@ TEST(Cutoffs, AnyDeflectionGivesLight)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double huge = std::numeric_limits<double>::max();
   Scene scene;
-  for (const Cutoff cutoff :
-    { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement,
-      Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram })
+  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
+         Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter,
+         Cutoff::Interferogram, Cutoff::NumericalSchlieren })
   {
     scene.cutoff = cutoff;
     for (const int variant : { 0, 1, 2, 3 })

@@ -5,6 +5,7 @@
 #include "AnalyticSources.h"
 #include "ClosedForms.h"
 #include "Fields.h"
+#include "PeakMemory.h"
 #include "Rays/DistributedTracer.h"
 #include "RaysInTree.h"
 #include "SameImage.h"
@@ -17,6 +18,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -713,6 +715,35 @@ TEST(DistributedImage, MayHaveFewerBricksThanProcesses)
   EXPECT_EQ(image.medium.processes, 81);
   EXPECT_LT(image.medium.bricks, 80);
   EXPECT_LT(differenceOf(Bench().render(field, scene), image).second, 1e-6);
+}
+
+/// Wherever that was.
+TEST(DistributedImage, IsMadeAnewAfterMemoryWasLacking)
+{
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(3e-4)));
+  Scene scene = sceneOf(DistributedMedium::On);
+  scene.view.width = scene.view.height = 8;
+  scene.mediumTolerance = 0.3;
+  BenchOfTeam team(2);
+  const Image expected = team.bench.render(field, scene);
+  EXPECT_EQ(expected.medium.processes, 3);
+  int failures = 0;
+  for (int number = 0; number < 10000; number += number < 40 ? 1 : number / 2)
+  {
+    Bench bench;
+    bench.setWorkers(team.channels);
+    try
+    {
+      const FailingAllocation failing(number);
+      bench.render(field, scene);
+    }
+    catch (const std::bad_alloc&)
+    {
+      ++failures;
+    }
+    EXPECT_LT(differenceOf(expected, bench.render(field, scene)).second, 1e-6) << number;
+  }
+  EXPECT_GT(failures, 30);
 }
 
 TEST(DistributedImage, IsMadeAnewAfterAFault)

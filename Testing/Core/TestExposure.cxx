@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // From traced rays to images: invented rays, counted one by one.
+#include "Film/CentreValues.h"
 #include "Film/Exposure.h"
-#include "Film/PixelMeans.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/Spread.h"
 
@@ -140,43 +140,58 @@ TEST(Exposure, IsTheSumOfAllRays)
   }
 }
 
-TEST(PixelMeans, AreThoseOfTheRaysThatStartThere)
+/// Of a pixel, in one number.
+double carriedBy(const RayExit& exit)
+{
+  return exit.deflection[1] + 1e3 * exit.opticalPathDifference +
+    1e-3 * double{ exit.displacement[0] };
+}
+
+/// The rays of the first pass, which start in the pixels' centres; where these are dark, the means of the others.
+TEST(CentreValues, AreThoseOfTheFirstRayOrElseMeans)
 {
   const InventedRays invented(4, 1);
   Image image;
-  PixelMeans(width, height, 2).develop(invented.rays, image);
-  std::vector<double> sums(width * height), lights(width * height), blocked(width * height);
-  for (const TracedRays& rays : invented.rays)
+  CentreValues(width, height, 2).develop(invented.rays, image);
+  std::vector<double> expected(width * height), rays(width * height), blocked(width * height);
+  std::vector<bool> hasCentre(width * height);
+  for (const TracedRays& ofPass : invented.rays)
   {
-    forEachRayOfImage(rays, 0,
+    forEachRayOfImage(ofPass, 0,
       [&](std::int64_t column, std::int64_t row, const RayExit& exit)
       {
         const auto pixel = static_cast<std::size_t>(row * width + column);
         blocked[pixel] += exit.fate == RayFate::Blocked ? 0.25 : 0;
-        if (exit.fate == RayFate::Left || exit.fate == RayFate::Missed)
+        const bool reaches = exit.fate == RayFate::Left || exit.fate == RayFate::Missed;
+        if (reaches && !hasCentre[pixel])
         {
-          lights[pixel] += 1;
-          sums[pixel] += exit.deflection[1] + 1e3 * exit.opticalPathDifference +
-            1e-3 * double{ exit.displacement[0] };
+          hasCentre[pixel] = &ofPass == invented.rays.data();
+          rays[pixel] += 1;
+          expected[pixel] += carriedBy(exit);
         }
       });
   }
-  for (std::size_t pixel = 0; pixel < sums.size(); ++pixel)
+  int centres = 0, means = 0;
+  for (std::size_t pixel = 0; pixel < expected.size(); ++pixel)
   {
-    const double mean = double{ image.deflection[2 * pixel + 1] } +
+    const double found = double{ image.deflection[2 * pixel + 1] } +
       1e3 * image.opticalPathDifference[pixel] + 1e-3 * double{ image.displacement[2 * pixel] };
-    ASSERT_NEAR(mean, lights[pixel] > 0 ? sums[pixel] / lights[pixel] : 0, 1e-9);
+    ASSERT_NEAR(found, rays[pixel] > 0 ? expected[pixel] / rays[pixel] : 0, 1e-9);
     ASSERT_EQ(double{ image.blockedFraction[pixel] }, blocked[pixel]);
+    centres += hasCentre[pixel] ? 1 : 0;
+    means += rays[pixel] > 1 ? 1 : 0;
   }
+  EXPECT_GT(centres, 100);
+  EXPECT_GT(means, 100);
 }
 
 /// Passes that are not cached come one by one.
-TEST(PixelMeans, DoNotDependOnWhichPassesComeAtOnce)
+TEST(CentreValues, DoNotDependOnWhichPassesComeAtOnce)
 {
   const InventedRays invented(5, 1);
   Image atOnce, inParts;
-  PixelMeans(width, height, 1).develop(invented.rays, atOnce);
-  PixelMeans means(width, height, 3);
+  CentreValues(width, height, 1).develop(invented.rays, atOnce);
+  CentreValues means(width, height, 3);
   means.add({ invented.rays[0], invented.rays[1] });
   means.add({ invented.rays[2] });
   means.develop({ invented.rays[3], invented.rays[4] }, inParts);

@@ -49,8 +49,8 @@ struct Errors
 };
 
 /// Renders a column along z seen along -y at odd pixel positions and compares every pixel.
-Errors errorsAt(
-  std::int64_t n, Device device, Precision precision, Interpolation interpolation, double step = 1)
+Errors errorsAt(std::int64_t n, Device device, Precision precision, Interpolation interpolation,
+  int samplesPerPixel = 1)
 {
   SampledField<double> column(cube(n, half), columnAlong({ 0, 0, 1 }));
   column.field.ambient = 0;
@@ -58,8 +58,7 @@ Errors errorsAt(
   scene.device = device;
   scene.precision = precision;
   scene.interpolation = interpolation;
-  scene.stepSize = step;
-  scene.samplesPerPixel = 1;
+  scene.samplesPerPixel = samplesPerPixel;
   scene.view.viewDirection = { 0, -1, 0 };
   scene.view.viewUp = { 0, 0, 1 };
   scene.view.width = 97;
@@ -100,6 +99,21 @@ TEST_P(GaussianColumn, DeflectionAndOpdMatchClosedForm)
     EXPECT_LT(errors.opd, 1e-3) << name(precision);
     RecordProperty(std::string("deflection") + name(precision), std::to_string(errors.deflection));
     RecordProperty(std::string("opd") + name(precision), std::to_string(errors.opd));
+  }
+}
+
+/// However many rays a pixel has, and wherever their mean place is.
+TEST_P(GaussianColumn, DeflectionAndOpdAreThoseOfThePixelsCentre)
+{
+  const Errors ofOne = errorsAt(112, GetParam(), Precision::Single, Interpolation::Quadratic);
+  for (const int samples : { 2, 3, 4, 8, 16, 32, 64 })
+  {
+    const Errors errors =
+      errorsAt(112, GetParam(), Precision::Single, Interpolation::Quadratic, samples);
+    EXPECT_EQ(errors.deflection, ofOne.deflection) << samples;
+    EXPECT_EQ(errors.opd, ofOne.opd) << samples;
+    EXPECT_LT(errors.deflection, 1e-3) << samples;
+    EXPECT_LT(errors.opd, 1e-3) << samples;
   }
 }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the medium, its homogeneity map and images take while they are made, in bytes, against the samples
 // that they are made from.
+#include "Device/Parallel.h"
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
 #include "PeakMemory.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace schlieren
 {
@@ -101,6 +103,22 @@ TEST(Memory, OfAImageIsThatOfTheSamplesAndAThird)
   bench.render(field.field, scene);
   EXPECT_GT(static_cast<double>(peak.bytes()), volume);
   EXPECT_LE(static_cast<double>(peak.bytes()), maxPerVolume * volume);
+}
+
+TEST(Memory, ThatThreadsLackLeavesTheWorkToTheOthers)
+{
+  int failures = 0;
+  for (int number = 0; number < 20; ++number)
+  {
+    constexpr std::int64_t count = 1000;
+    std::atomic<std::int64_t> sum{ 0 };
+    const FailingAllocation failing(number);
+    EXPECT_TRUE(parallelFor(
+      count, 10, 6, [&sum](std::int64_t begin, std::int64_t end) { sum += end - begin; }));
+    EXPECT_EQ(sum, count) << number;
+    failures += failing.hasFailed() ? 1 : 0;
+  }
+  EXPECT_GT(failures, 5);
 }
 
 } // namespace

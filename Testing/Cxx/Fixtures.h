@@ -115,15 +115,17 @@ inline vtkDataArray* arrayOf(vtkAlgorithm* filter, const char* name)
   return vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetPointData()->GetArray(name);
 }
 
-/// All values of a point array, component by component.
+/// All values of a point array, component by component; of a vector in the image's plane those along u and v.
 inline std::vector<double> valuesOf(vtkAlgorithm* filter, const char* name)
 {
   std::vector<double> values;
   vtkDataArray* array = arrayOf(filter, name);
   EXPECT_NE(array, nullptr) << name;
+  const bool isInPlane = array && array->GetComponentName(2) != nullptr;
   for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
   {
-    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+    for (int component = 0; component < (isInPlane ? 2 : array->GetNumberOfComponents());
+         ++component)
     {
       values.push_back(array->GetComponent(i, component));
     }

@@ -56,8 +56,8 @@ TEST(Pipeline, OutputIsAsDocumented)
   EXPECT_EQ(image->GetOrigin()[2], 0);
   EXPECT_STREQ(image->GetPointData()->GetScalars()->GetName(), "Intensity");
   const std::tuple<const char*, int, int> arrays[] = { { "Intensity", VTK_FLOAT, 1 },
-    { "Deflection", VTK_FLOAT, 2 }, { "OpticalPathDifference", VTK_DOUBLE, 1 },
-    { "Displacement", VTK_FLOAT, 2 }, { "BlockedFraction", VTK_FLOAT, 1 } };
+    { "Deflection", VTK_FLOAT, 3 }, { "OpticalPathDifference", VTK_DOUBLE, 1 },
+    { "Displacement", VTK_FLOAT, 3 }, { "BlockedFraction", VTK_FLOAT, 1 } };
   for (const auto& [name, type, components] : arrays)
   {
     vtkDataArray* array = arrayOf(filter, name);

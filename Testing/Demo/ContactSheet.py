@@ -52,7 +52,7 @@ def check_below(what, value, limit):
 
 # Rays leave the film's edge or come from beyond it: not there.
 inner = np.s_[6:-6, 6:-6]
-eps = shot("knife 0")["Deflection"].astype(float)
+eps = shot("knife 0")["Deflection"][..., :2].astype(float)
 u, v = eps[..., 0], eps[..., 1]
 size = np.hypot(u, v)
 k, round_k = shot("knife 0").facts["KScale"], shot("circular").facts["KScale"]
@@ -111,7 +111,7 @@ for name in ("near", "far", "straight", "refracted", "photons", "sheet", "many")
     check_below(f"light of '{name}' - 1", abs(light(name)[inner].mean() - 1), 0.02)
 expected = np.zeros((HEIGHT, WIDTH))
 distance = contact_sheet.caustic_distance(eps, frame.pixel) / 8
-shift = (shot("knife 0")["Displacement"] + distance * eps) / frame.pixel
+shift = (shot("knife 0")["Displacement"][..., :2] + distance * eps) / frame.pixel
 FINE = 5  # rays along each side of a pixel
 for i, j in np.ndindex(FINE, FINE):  # all rays at this place of their pixels
     row, column = i / FINE, j / FINE
@@ -146,7 +146,7 @@ assert white[zeroth].mean() > 235 and np.ptp(white, axis=2).max() > 100
 
 # Behind the flow, another place is seen: as far away as its distance times the deflection.
 away = 8 * frame.pixel / np.percentile(size, 99)
-moved = shot("shift")["BackgroundDisplacement"].astype(float)
+moved = shot("shift")["BackgroundDisplacement"][..., :2].astype(float)
 check_below("displacement against distance x deflection",
             rms((moved - away * eps)[inner]) / rms(away * eps), 0.1)
 pattern = shot("pattern")["Background"].astype(float)

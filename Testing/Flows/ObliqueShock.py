@@ -21,7 +21,7 @@ schlieren = Schlieren(flow, Density=["POINTS", "rho"], GladstoneDaleConstant=K,
                       ImageSize=[656, 160], FocalPoint=[2.05, 0.5, 0.5], ParallelScale=0.5)
 x, y = coordinates(schlieren)
 path = image_array(schlieren, "OpticalPathDifference")
-deflection = image_array(schlieren, "Deflection")
+deflection = image_array(schlieren, "Deflection")[..., :2]
 
 
 def angle(ratio, mach):

@@ -177,7 +177,7 @@ assert np.array_equal(seen("loaded")[1], shown)
 # On the image: the rays of the pixels in the brush's circle, times k.
 assert seen("cleared")[0] == seen("beside")[0] == seen("taken")[0] == ""
 text, shown = seen("image")
-deflection = np.load(os.path.join(FOLDER, "image.npz"))["Deflection"].reshape(PIXELS, PIXELS, 2)
+deflection = np.load(os.path.join(FOLDER, "image.npz"))["Deflection"].reshape(PIXELS, PIXELS, 3)[..., :2]
 rows, columns = np.mgrid[:PIXELS, :PIXELS]
 away = np.hypot(columns - PIXEL[0], rows - PIXEL[1]) - 0.03 * PIXELS
 places = np.clip(K * deflection, -1, 1)

@@ -123,7 +123,7 @@ for kind, (x, y) in PLACES.items():
     assert changed[away < -2].mean() > 0.9, (kind, changed[away < -2].mean())
     if not is_remote:
         # The mouse is somewhere in a pixel, so that those at the circle's rim may be in or out.
-        places = np.clip(K * kept["deflection"].reshape(rows, columns, 2), -1, 1)
+        places = np.clip(K * kept["deflection"].reshape(rows, columns, 3)[..., :2], -1, 1)
         for points, is_in in ((places[away < -1.5], True), (places[away < 1.5], False)):
             distance = np.min([np.hypot(*(on_filter - point).transpose(2, 0, 1)) for point in points], axis=0)
             if is_in:

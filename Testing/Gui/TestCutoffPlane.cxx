@@ -77,6 +77,8 @@ TEST(CutoffPlane, StopsDependOnTheDistanceAlone)
   EXPECT_NEAR(cutoff.transmission({ 3e-4, -4e-4 }), 0.5, 1e-12);
   cutoff.Kind = pqCutoff::CircularComplement;
   EXPECT_NEAR(cutoff.transmission({ -6e-4, 0 }), 0.6, 1e-12);
+  cutoff.Kind = pqCutoff::NumericalSchlieren;
+  EXPECT_NEAR(cutoff.transmission({ 0, 6e-4 }), std::exp(-3.), 1e-9);
 }
 
 TEST(CutoffPlane, TheMouseFindsLinesAndTheHandleThatTurns)

@@ -93,6 +93,14 @@ assert units == {"Intensity": "1", "Deflection": "rad", "OpticalPathDifference":
                  "Displacement": "data units", "BlockedFraction": "1", "TraceSeconds": "s",
                  "DisplacementBound": "data units", "SkippingBound": "rad"}, units
 
+# ParaView's Calculator takes deflections as vectors.
+bent = image_array(plain, "Deflection")
+assert bent.shape[-1] == 3 and not bent[..., 2].any() and np.abs(bent[..., :2]).max() > 0
+for expression, expected in (("mag(Deflection)", np.linalg.norm(bent, axis=-1)), ("Deflection_X", bent[..., 0])):
+    calculator = simple.Calculator(Input=plain, ResultArrayName="calculated", Function=expression)
+    assert np.allclose(image_array(calculator, "calculated"), expected, rtol=1e-6, atol=0), expression
+    simple.Delete(calculator)
+
 # The histogram is a second output: as many rays as came out, at the deflections that they have.
 bins = simple.OutputPort(plain, "Histogram")
 assert bins.Port == vtkSchlierenFilter.HISTOGRAM_PORT
@@ -102,7 +110,7 @@ rays = vtk_to_numpy(histogram.GetPointData().GetArray("Rays")).reshape(256, 256)
 assert histogram.GetPointData().GetScalars().GetName() == "Rays"
 x = histogram.GetOrigin()[0] + np.arange(256) * histogram.GetSpacing()[0]
 assert np.allclose(x, -x[::-1], atol=1e-6 * x[-1]), "The middle of the bins is no deflection"
-deflection = image_array(plain, "Deflection").reshape(-1, 2)
+deflection = image_array(plain, "Deflection")[..., :2].reshape(-1, 2)
 assert rays.sum() >= 256, rays.sum()
 edges = np.linspace(x[0] - (x[1] - x[0]) / 2, x[-1] + (x[1] - x[0]) / 2, 257)
 expected, _, _ = np.histogram2d(deflection[:, 1], deflection[:, 0], bins=2 * [edges])

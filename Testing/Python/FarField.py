@@ -45,7 +45,7 @@ def seen(bench):
     image = output(bench)
     arrays = {name: vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(PIXELS, PIXELS, -1)
               for name in ("Deflection", "BlockedFraction")}
-    return image, arrays["Deflection"].astype(float), arrays["BlockedFraction"][:, :, 0]
+    return image, arrays["Deflection"][..., :2].astype(float), arrays["BlockedFraction"][:, :, 0]
 
 
 def field_data(image, name):

@@ -108,7 +108,7 @@ def seen(data, **view):
     image = output(bench)
     x = image.GetOrigin()[0] + image.GetSpacing()[0] * np.arange(PIXELS)
     u, v = np.meshgrid(x, image.GetOrigin()[1] + image.GetSpacing()[1] * np.arange(PIXELS))
-    return bench, u, v, image_array(bench, "Deflection").astype(float), image_array(bench, "BlockedFraction")
+    return bench, u, v, image_array(bench, "Deflection")[..., :2].astype(float), image_array(bench, "BlockedFraction")
 
 
 def check(name, data, counts, body_area=0., rms=0.01, worst=0.04):
@@ -169,7 +169,7 @@ moving.GetPointData().GetArray("rho").Modified()
 moving.GetPoints().Modified()
 moving.Modified()
 bench.Input.MarkModified(None)
-again = image_array(bench, "Deflection")
+again = image_array(bench, "Deflection")[..., :2]
 fresh = vtkStructuredGrid()
 fresh.DeepCopy(moving)
 assert np.array_equal(again, seen(fresh)[3].astype(again.dtype))

@@ -19,7 +19,7 @@ TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "R
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
          "Cutoff": {"Knife Edge", "Shadowgraph", "Circular", "Circular Complement", "Graded Filter",
-                    "Color Filter", "Interferogram", "Background Oriented"},
+                    "Color Filter", "Interferogram", "Background Oriented", "Numerical Schlieren"},
          "LockK": {"Off", "Over Time", "Always"},
          "FringeMode": {"Infinite", "Finite"}, "LightSource": {"Collimated", "Diverging"},
          "SourceShape": {"Point", "Slit", "Disc"},

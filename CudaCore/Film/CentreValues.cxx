@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Film/PixelMeans.h"
+#include "Film/CentreValues.h"
 
 #include "Device/Parallel.h"
 
@@ -11,7 +11,7 @@ namespace schlieren
 {
 
 template <class Use>
-void PixelMeans::forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const
+void CentreValues::forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const
 {
   constexpr std::int64_t rowsPerPiece = 16;
   parallelFor(height_, rowsPerPiece, threads_,
@@ -22,24 +22,24 @@ void PixelMeans::forEachPixel(const std::vector<TracedRays>& passes, const Use& 
         for (std::int64_t column = 0; column < width_; ++column)
         {
           const auto pixel = static_cast<std::size_t>(row * width_ + column);
-          PixelSums sums = sums_.empty() ? PixelSums{} : sums_[pixel];
+          PixelRays ofPixel = pixels_.empty() ? PixelRays{} : pixels_[pixel];
           for (const TracedRays& rays : passes)
           {
-            sums.add(rays.exits[rays.rayOf(column, row)]);
+            ofPixel.add(rays.exits[rays.rayOf(column, row)]);
           }
-          use(pixel, sums);
+          use(pixel, ofPixel);
         }
       }
     });
 }
 
-void PixelMeans::add(const std::vector<TracedRays>& passes)
+void CentreValues::add(const std::vector<TracedRays>& passes)
 {
-  sums_.resize(static_cast<std::size_t>(width_ * height_));
-  forEachPixel(passes, [this](std::size_t pixel, const PixelSums& sums) { sums_[pixel] = sums; });
+  pixels_.resize(static_cast<std::size_t>(width_ * height_));
+  forEachPixel(passes, [this](std::size_t pixel, const PixelRays& rays) { pixels_[pixel] = rays; });
 }
 
-void PixelMeans::develop(const std::vector<TracedRays>& last, Image& image)
+void CentreValues::develop(const std::vector<TracedRays>& last, Image& image)
 {
   const auto pixels = static_cast<std::size_t>(width_ * height_);
   image.deflection = PixelArray<float>(2 * pixels);
@@ -47,19 +47,19 @@ void PixelMeans::develop(const std::vector<TracedRays>& last, Image& image)
   image.opticalPathDifference = PixelArray<double>(pixels);
   image.blockedFraction = PixelArray<float>(pixels);
   forEachPixel(last,
-    [&image](std::size_t pixel, const PixelSums& sums)
+    [&image](std::size_t pixel, const PixelRays& rays)
     {
       // A division takes as long as all the rest, and most pixels need none.
-      const double perRay = sums.reached > 1 ? 1. / sums.reached : 1;
+      const double perRay = rays.summed > 1 ? 1. / rays.summed : 1;
       for (std::size_t axis = 0; axis < 2; ++axis)
       {
-        image.deflection[2 * pixel + axis] = static_cast<float>(sums.deflection[axis] * perRay);
-        image.displacement[2 * pixel + axis] = static_cast<float>(sums.displacement[axis] * perRay);
+        image.deflection[2 * pixel + axis] = static_cast<float>(rays.deflection[axis] * perRay);
+        image.displacement[2 * pixel + axis] = static_cast<float>(rays.displacement[axis] * perRay);
       }
       image.opticalPathDifference[pixel] =
-        sums.reached > 1 ? sums.opticalPathDifference / sums.reached : sums.opticalPathDifference;
+        rays.summed > 1 ? rays.opticalPathDifference / rays.summed : rays.opticalPathDifference;
       image.blockedFraction[pixel] =
-        sums.blocked > 0 ? static_cast<float>(sums.blocked) / static_cast<float>(sums.rays) : 0;
+        rays.blocked > 0 ? static_cast<float>(rays.blocked) / static_cast<float>(rays.rays) : 0;
     });
 }
 

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Rays/TracedRays.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Of the rays that start in a pixel: what the first one carries, which starts in the pixel's centre. Where
+/// that does not reach the film, the sums over those that do.
+struct PixelRays
+{
+  double deflection[2]{ 0, 0 };
+  double displacement[2]{ 0, 0 };
+  double opticalPathDifference = 0;
+  std::int32_t summed = 0;    ///< rays
+  std::int32_t hasCentre = 0; ///< 1: all of this is the first ray's
+  std::int32_t blocked = 0;
+  std::int32_t rays = 0;
+
+  SCHLIEREN_HD void add(const RayExit& exit)
+  {
+    const bool isFirst = rays == 0;
+    ++rays;
+    blocked += exit.fate == RayFate::Blocked ? 1 : 0;
+    if (exit.reachesFilm() && hasCentre == 0)
+    {
+      hasCentre = isFirst ? 1 : 0;
+      ++summed;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        deflection[axis] += exit.deflection[axis];
+        displacement[axis] += static_cast<double>(exit.displacement[axis]);
+      }
+      opticalPathDifference += exit.opticalPathDifference;
+    }
+  }
+};
+
+/// What light carries at the pixels' centres. A mean over all rays of a pixel would belong to another place: the mean
+/// place of a few samples is not the centre. Only where the centre is dark is it the mean over the rays beside it.
+/// Each pixel is summed in the order of the passes, so that no result depends on the number of threads, or on which
+/// passes come at once.
+class CentreValues
+{
+public:
+  CentreValues(int width, int height, int threads)
+    : width_(width)
+    , height_(height)
+    , threads_(threads)
+  {
+  }
+
+  /// Adds passes that more will follow. The first of all starts in the centres.
+  void add(const std::vector<TracedRays>& passes);
+
+  /// Takes what is known of all pixels, row by row, from a device that has added passes.
+  void set(std::vector<PixelRays> pixels) { pixels_ = std::move(pixels); }
+
+  /// Adds the last passes and writes the values into the image. Pixels from which no ray reaches the film hold 0.
+  void develop(const std::vector<TracedRays>& last, Image& image);
+
+private:
+  /// Calls use(pixel, its rays) with what is known and these passes.
+  template <class Use>
+  void forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const;
+
+  std::int64_t width_;
+  std::int64_t height_;
+  int threads_;
+  std::vector<PixelRays> pixels_; ///< of what has been added; most often nothing
+};
+
+} // namespace schlieren

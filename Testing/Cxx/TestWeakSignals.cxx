@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Sound of 1 Pa in air, on grids: it changes the refractivity by three millionths, of which single precision would keep
+// one digit.
+#include "BallOnLevels.h"
+#include "Surfaces.h"
+
+#include "vtkAppendFilter.h"
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+
+constexpr double gladstoneDale = 2.26e-4, atRest = 1.2041, speedOfSound = 343;
+constexpr double waveNumber = 2 * pi * 40e3 / speedOfSound;
+constexpr double length = 0.04, depth = 0.1;
+
+/// Along x.
+double sound(const Vec& x)
+{
+  return gladstoneDale * (atRest + std::sin(waveNumber * x[0]) / (speedOfSound * speedOfSound));
+}
+
+const double amplitude =
+  gladstoneDale / (speedOfSound * speedOfSound) * waveNumber * depth / (1 + gladstoneDale * atRest);
+
+vtkSmartPointer<vtkImageData> grid(int points = 321, int layers = 5)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(points, 5, layers);
+  image->SetSpacing(length / (points - 1), 0.02 / 4, depth / std::max(layers - 1, 1));
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> soundOnPoints(const ScalarField& refractivity = sound)
+{
+  auto image = grid();
+  addPointArray(image, "N", refractivity);
+  return image;
+}
+
+vtkSmartPointer<vtkSchlierenFilter> benchOfSound(vtkDataObject* data)
+{
+  auto filter = bench(data, 8);
+  filter->SetAutoAmbientRefractivity(true);
+  filter->SetImageSize(320, 16);
+  filter->SetParallelScale(0.001);
+  filter->SetFocalPoint(length / 2, 0.01, depth / 2);
+  return filter;
+}
+
+/// The largest error of the deflection away from the ends, of the amplitude.
+double errorOf(vtkSchlierenFilter* filter, double allDepth = depth)
+{
+  filter->Update();
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  const std::vector<double> made = valuesOf(filter, "Deflection");
+  double worst = 0;
+  for (vtkIdType pixel = 0; pixel < image->GetNumberOfPoints(); ++pixel)
+  {
+    const double x = image->GetPoint(pixel)[0];
+    if (x > 0.12 * length && x < 0.88 * length)
+    {
+      const double right = amplitude * allDepth / depth * std::cos(waveNumber * x);
+      worst = std::max(worst, std::abs(made[static_cast<std::size_t>(2 * pixel)] - right));
+      worst = std::max(worst, std::abs(made[static_cast<std::size_t>(2 * pixel + 1)]));
+    }
+  }
+  EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
+  return worst / (amplitude * allDepth / depth);
+}
+
+TEST(WeakSignals, AreRightOnGrids)
+{
+  EXPECT_LT(errorOf(benchOfSound(soundOnPoints())), 1e-3);
+
+  auto ofCells = grid();
+  addCellArray(ofCells, "N", sound);
+  auto filter = benchOfSound(ofCells);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  EXPECT_LT(errorOf(filter, 0.75 * depth), 1e-3); // between the middles of the outermost cells
+
+  auto plane = grid(321, 1);
+  addPointArray(plane, "N", sound);
+  EXPECT_LT(errorOf(benchOfSound(plane), 1), 1e-3);
+}
+
+TEST(WeakSignals, AreRightInABoxAndWhereTheSurroundingsAreGiven)
+{
+  auto filter = benchOfSound(soundOnPoints());
+  filter->SetSamplingBounds(0, 0.9 * length, 0, 0.02, 0, depth);
+  EXPECT_LT(errorOf(filter), 1e-3);
+  filter = benchOfSound(soundOnPoints());
+  filter->SetAutoAmbientRefractivity(false);
+  filter->SetAmbientRefractivity(gladstoneDale * atRest);
+  EXPECT_LT(errorOf(filter), 1e-3);
+}
+
+TEST(WeakSignals, AreRightBesideAStrongFlow)
+{
+  // Hot gas, around which there is a little less sound to see.
+  auto filter = benchOfSound(soundOnPoints(
+    [](const Vec& x) { return sound(x) - 1e-4 * std::exp(-std::pow((x[1] - 0.02) / 0.002, 2)); }));
+  filter->SetFocalPoint(length / 2, 0.004, depth / 2);
+  EXPECT_LT(errorOf(filter), 1e-3);
+}
+
+TEST(WeakSignals, AreRightOfARefractivityThatWasMadeBefore)
+{
+  vtkNew<vtkRefractiveIndex> before;
+  before->SetInputData(soundOnPoints());
+  before->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  before->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  before->SetDoublePrecision(true);
+  before->Update();
+  auto filter = benchOfSound(before->GetOutputDataObject(0));
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Refractivity");
+  EXPECT_LT(errorOf(filter), 1e-3);
+  // What the filter gives itself is N.
+  before->SetDoublePrecision(false);
+  before->Update();
+  EXPECT_NEAR(arrayOf(before, "Refractivity")->GetComponent(0, 0), gladstoneDale * atRest, 1e-11);
+}
+
+TEST(WeakSignals, AreRightWithBodiesAndOfResampledMeshes)
+{
+  auto filter = benchOfSound(soundOnPoints());
+  filter->SetInputDataObject(
+    1, box({ 0.002, 0.002, 0.01 }, { length / 2, 0.018, depth / 2 })); // out of sight
+  EXPECT_LT(errorOf(filter), 1e-3);
+
+  vtkNew<vtkAppendFilter> append;
+  append->AddInputData(soundOnPoints());
+  append->Update();
+  filter = benchOfSound(append->GetOutput());
+  filter->SetSamplingDimensions(321, 5, 5);
+  EXPECT_LT(errorOf(filter), 1e-3);
+}
+
+TEST(WeakSignals, AreRightOnLevels)
+{
+  vtkNew<vtkOverlappingAMR> amr;
+  initialize(amr, std::vector<unsigned int>{ 1 });
+  const double origin[3] = { 0, 0, 0 };
+  amr->SetOrigin(origin);
+  amr->SetGridDescription(xyzGrid);
+  vtkNew<vtkUniformGrid> block;
+  block->SetDimensions(321, 5, 5);
+  block->SetSpacing(length / 320, 0.005, depth / 4);
+  addCellArray(block, "N", sound);
+  vtkAMRBox box(origin, block->GetDimensions(), block->GetSpacing(), origin);
+  amr->SetSpacing(0, block->GetSpacing());
+  amr->SetAMRBox(0, 0, box);
+  amr->SetDataSet(0, 0, block);
+  for (const int given : { 0, 1 })
+  {
+    auto filter = benchOfSound(amr);
+    filter->SetInputArrayToProcess(
+      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+    filter->SetMediumTolerance(1e-4);
+    if (given)
+    {
+      filter->SetSamplingDimensions(320, 4, 4);
+    }
+    EXPECT_LT(errorOf(filter, given ? 0.75 * depth : depth), 2e-3) << given;
+  }
+}
+
+} // namespace
