@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BetweenTimeSteps.h"
 
+#include "AvailableMemory.h"
 #include "CellTypes.h"
 #include "ImagePlace.h"
 
@@ -115,7 +116,7 @@ vtkSmartPointer<vtkDataArray> blend(vtkDataArray* earlier, vtkDataArray* later, 
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(earlier->GetDataType()));
   result->SetName(earlier->GetName());
   result->SetNumberOfComponents(earlier->GetNumberOfComponents());
-  result->SetNumberOfTuples(earlier->GetNumberOfTuples());
+  setTuples(result, earlier->GetNumberOfTuples());
   Blend blender{ ratio, result };
   if (!vtkArrayDispatch::Dispatch2BySameValueType<vtkArrayDispatch::Reals>::Execute(
         earlier, later, blender))

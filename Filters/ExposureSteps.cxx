@@ -133,7 +133,13 @@ ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
 //------------------------------------------------------------------------------
 ExposureSteps::~ExposureSteps()
 {
-  while (this->Meeting && hasOtherRanks() && this->Resume())
+  try
+  {
+    while (this->Meeting && hasOtherRanks() && this->Resume())
+    {
+    }
+  }
+  catch (const std::exception&) // it may be what has been thrown already
   {
   }
   this->Meeting.reset();

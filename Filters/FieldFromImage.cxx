@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldFromImage.h"
 
+#include "AvailableMemory.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -78,7 +79,7 @@ void mergeMasks(vtkImageData* refractivity)
   {
     vtkNew<vtkUnsignedCharArray> merged; // the others may be the input's
     merged->SetName(maskName);
-    merged->SetNumberOfValues(valid->GetNumberOfValues());
+    setTuples(merged, valid->GetNumberOfValues());
     std::transform(valid->GetPointer(0), valid->GetPointer(0) + count, outside->GetPointer(0),
       merged->GetPointer(0),
       [](unsigned char isValid, unsigned char isOutside)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldTints.h"
 
+#include "AvailableMemory.h"
 #include "FieldFromImage.h"
 #include "RefractivityModels.h"
 #include "RefractivitySource.h"
@@ -178,8 +179,8 @@ std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* 
         continue;
       }
       auto nowhere = vtkSmartPointer<vtkDoubleArray>::New();
-      nowhere->SetNumberOfValues(
-        leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
+      setTuples(
+        nowhere, leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
       nowhere->FillValue(std::numeric_limits<double>::quiet_NaN());
       field.source.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells, leaf.input });
       field.made.push_back(nowhere);
@@ -244,8 +245,13 @@ std::vector<float> fieldGradients(
 {
   const schlieren::Grid grid = gridFrom(refractivity);
   const std::size_t count = medium->GetFields().size();
-  std::vector<float> gradients(
-    count * static_cast<std::size_t>(refractivity->GetNumberOfPoints()), 0);
+  const auto points = static_cast<std::size_t>(refractivity->GetNumberOfPoints());
+  // And of one field at a time: numbers of an array, the field's own, and a mask.
+  constexpr std::size_t bytesOfField = sizeof(double) + sizeof(float) + 1;
+  requireMemory(static_cast<double>(points * (count * sizeof(float) + bytesOfField)),
+    "The fields that color the image, on a grid of " + std::to_string(points) + " points,",
+    "Give fewer Fields or smaller SamplingDimensions.");
+  std::vector<float> gradients(count * points, 0);
   forFieldImages(medium, input, refractivity, threads,
     [&](std::size_t field, vtkImageData* values)
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlatData.h"
 
+#include "AvailableMemory.h"
 #include "CellTypes.h"
 #include "InputDescription.h"
 
@@ -122,6 +123,12 @@ void extrudeStructured(
 void extrudeCells(vtkDataSet* data, const Plane& plane, Extrusion& to)
 {
   const vtkIdType count = data->GetNumberOfPoints();
+  // Two layers of points and their numbers; corners of a cell, its type and number.
+  constexpr double bytesOfPoint = 2 * (3 * sizeof(double) + sizeof(vtkIdType));
+  constexpr double bytesOfCell = 11 * sizeof(vtkIdType);
+  requireMemory(bytesOfPoint * static_cast<double>(count) +
+      bytesOfCell * static_cast<double>(data->GetNumberOfCells()),
+    "To extrude the 2-D data", "Use a coarser input.");
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
   for (const double offset : { -0.5, 0.5 })
@@ -177,7 +184,7 @@ vtkSmartPointer<vtkDataArray> chosenValues(vtkDataArray* from, vtkIdList* ids)
   auto to = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
   to->SetName(from->GetName());
   to->SetNumberOfComponents(from->GetNumberOfComponents());
-  to->SetNumberOfTuples(ids->GetNumberOfIds());
+  setTuples(to, ids->GetNumberOfIds());
   from->GetTuples(ids, to);
   return to;
 }
@@ -434,7 +441,7 @@ void extrudeArrays(vtkImageData* image, int flat)
     vtkDataArray* array = arrays->GetArray(i);
     auto single = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
     single->DeepCopy(array);
-    array->SetNumberOfTuples(image->GetNumberOfPoints());
+    setTuples(array, image->GetNumberOfPoints());
     for (vtkIdType run = 0; run < layers; ++run)
     {
       array->InsertTuples(2 * run * stride, stride, run * stride, single);

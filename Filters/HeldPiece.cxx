@@ -18,9 +18,10 @@ struct Pieces
   std::map<PieceName, std::weak_ptr<HeldPiece>> all;
 };
 
+/// Never deleted: when the program exits, filters may be deleted after static objects.
 Pieces& pieces()
 {
-  static Pieces ofProcess;
+  static auto& ofProcess = *new Pieces;
   return ofProcess;
 }
 

@@ -3,6 +3,7 @@
 #include "ImageOutput.h"
 
 #include "ArrayRanges.h"
+#include "AvailableMemory.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -185,7 +186,7 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
   vtkNew<vtkUnsignedCharArray> array;
   array->SetName("Color");
   array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(image.color.size()) / 3);
+  setTuples(array, static_cast<vtkIdType>(image.color.size()) / 3);
   const float white = scale == ColorScale::LinearToTwice ? 2 : 1;
   std::transform(image.color.begin(), image.color.end(), array->GetPointer(0),
     [white, scale](float light)

@@ -4,8 +4,10 @@
 #include "SchlierenFilterInternals.h"
 
 #include "AtTheEnd.h"
+#include "AvailableMemory.h"
 #include "ExposureSteps.h"
 #include "FieldTints.h"
+#include "Guarded.h"
 #include "ImageOutput.h"
 #include "InputDescription.h"
 #include "MeanImage.h"
@@ -20,12 +22,28 @@
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 using namespace filters;
 
 namespace
 {
+
+/// Throws where the arrays of an image, and of what it is made of, do not fit into memory.
+void requireMemoryFor(const schlieren::View& view, bool isColored, bool hasBackground)
+{
+  constexpr double ofRays = 7 * sizeof(float) + sizeof(double); // directions, displacements, paths
+  constexpr double ofFilm = sizeof(float) + sizeof(double);
+  constexpr double ofColor = 3 * (sizeof(float) + sizeof(double) + 1);
+  constexpr double ofBackground = 3 * sizeof(float) + sizeof(double);
+  const double bytes =
+    ofRays + ofFilm + (isColored ? ofColor : 0) + (hasBackground ? ofBackground : 0);
+  const double width = view.width, height = view.height;
+  requireMemory(bytes * std::max(0., width) * std::max(0., height),
+    "An image of " + std::to_string(view.width) + " x " + std::to_string(view.height) + " pixels",
+    "Give a smaller ImageSize.");
+}
 
 bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
 {
@@ -43,7 +61,13 @@ void vtkSchlierenFilter::Refine()
   if (isRank0())
   {
     const Internals::WithWorkers withWorkers(inside, this->Medium, meeting, threadsFrom(*this));
-    hasMore = this->RefineOnRank0();
+    const auto work = [&] { hasMore = this->RefineOnRank0(); };
+    if (!guarded(work, "", [](const std::string&) {})) // an update begins again, and says it
+    {
+      inside.Images.Cancel();
+      inside.UnfinishedOf = 0;
+      hasMore = true;
+    }
     meeting.SetOutcome(hasMore);
   }
   else
@@ -116,27 +140,18 @@ bool vtkSchlierenFilter::WorkOn()
   }
   if (continues || this->CanBegin(now))
   {
-    try
+    schlieren::Monitor monitor;
+    monitor.progress = [&inside](double done) { inside.Done = done; };
+    schlieren::Image image = continues ? inside.Images.Resume(this->TimeLimit, monitor)
+                                       : this->Begin(false, this->TimeLimit, monitor);
+    inside.UnfinishedOf = now;
+    if (!image.finished && image.intensity.empty())
     {
-      schlieren::Monitor monitor;
-      monitor.progress = [&inside](double done) { inside.Done = done; };
-      schlieren::Image image = continues ? inside.Images.Resume(this->TimeLimit, monitor)
-                                         : this->Begin(false, this->TimeLimit, monitor);
-      inside.UnfinishedOf = now;
-      if (!image.finished && image.intensity.empty())
-      {
-        inside.Ready.reset();
-        return false;
-      }
-      inside.Ready = std::move(image);
-      return true;
+      inside.Ready.reset();
+      return false;
     }
-    catch (const std::exception&) // an update begins again, and says it
-    {
-      inside.Images.Cancel();
-      inside.UnfinishedOf = 0;
-      return true;
-    }
+    inside.Ready = std::move(image);
+    return true;
   }
   return std::exchange(inside.UnfinishedOf, 0) != 0; // then there will be another image
 }
@@ -293,6 +308,8 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
+  requireMemoryFor(
+    scene.view, this->ColorByField || this->HasOwnColor(), CutoffHasBackground(this->Cutoff));
   const auto paths = this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
                                                    : TimeSlicedImage::Paths::OfScene;
   const auto trace = [&](const schlieren::Monitor& ofTrace)

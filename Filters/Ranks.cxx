@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <thread>
 #include <utility>
 
@@ -44,7 +45,9 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr int firstTag = 21300; // a number that nobody else uses
 
-/// How long a rank waits for others that may not come: they read about as much as it has, or nothing.
+/// How long a rank waits for others that will come, however long they read: longer than any reader takes.
+constexpr double secondsForReaders = 24 * 3600;
+/// And for those that may not come: they read about as much as it has, or nothing.
 constexpr double secondsForInputs = 10;
 constexpr double partsOfOwnTime = 10;
 constexpr double secondsWithout = 2; // where nothing upstream runs
@@ -280,6 +283,13 @@ bool FilterRanks::Request(
   }
   const bool isAnother = !(this->Requested == this->Now);
   this->Requested = this->Now;
+  if (this->Inside)
+  {
+    for (const auto& channel : this->Inside->Channels)
+    {
+      channel->send(messageOf(ComesMessage{ Comes, this->Now.changes, this->Now.timeStep }));
+    }
+  }
   return isAnother;
 }
 
@@ -320,18 +330,27 @@ bool FilterRanks::Meeting::HasFailed(const ranks::RankChannel& channel) const
 }
 
 //------------------------------------------------------------------------------
+bool FilterRanks::Meeting::IsAwaited(const RankChannel& channel, Clock::time_point end) const
+{
+  const bool comes = channel.Coming && isOf(this->Of.Now, *channel.Coming);
+  const auto longer = std::chrono::duration_cast<Clock::duration>(Seconds(secondsForReaders));
+  return !this->HasFailed(channel) && Clock::now() < (comes ? end + longer : end);
+}
+
+//------------------------------------------------------------------------------
 void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
 {
   for (const auto& channel : this->Of.Inside->Channels)
   {
     channel->Poll();
-    while (!channel->Greeting && !this->HasFailed(*channel) && Clock::now() < end)
+    while (!channel->Greeting && this->IsAwaited(*channel, end))
     {
       waitABit();
       channel->Poll();
     }
     channel->Close(); // to what is left of meetings before
     channel->Guest = std::exchange(channel->Greeting, std::nullopt);
+    channel->Coming.reset(); // it has come, or will not
     if (channel->isOpen())
     {
       channel->send(messageOf(ShortMessage{ Begin, channel->Guest->meeting }));
@@ -356,7 +375,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   channel.send(messageOf(hello));
   while (!this->HasMet)
   {
-    while (!channel.hasMessage() && !this->HasFailed(channel) && Clock::now() < end)
+    while (!channel.hasMessage() && this->IsAwaited(channel, end))
     {
       waitABit();
     }
@@ -369,13 +388,22 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
     const auto message = read<ShortMessage>(channel.receive()); // or of a meeting before
     this->HasMet = message.kind == Begin && message.number == meeting;
   }
+  channel.Coming.reset(); // it has come
 }
 
 //------------------------------------------------------------------------------
 FilterRanks::Meeting::~Meeting()
 {
-  if (!this->Of.Inside || !isRank0())
+  if (!this->Of.Inside)
   {
+    return;
+  }
+  if (!isRank0())
+  {
+    if (this->HasMet && std::uncaught_exceptions() > 0) // rank 0 would wait for an answer
+    {
+      this->Of.Inside->Channels[0]->send(messageOf(ShortMessage{ Leave, 0 }));
+    }
     return;
   }
   this->EndOfStep(false); // where that was forgotten, they would wait for ever

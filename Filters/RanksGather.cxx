@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // What ranks have of the inputs: whether it stays where it is, and how rank 0 gets it.
+#include "AvailableMemory.h"
 #include "GatheredData.h"
 #include "MeshHalo.h"
 #include "RanksInternals.h"
@@ -119,6 +120,14 @@ vtkSmartPointer<vtkDataObject> ranks::collect(int input, const FilterRanks::Inpu
     }
     parts.push_back(std::move(message));
   }
+  double bytes = 0;
+  for (const std::vector<char>& part : parts)
+  {
+    bytes += static_cast<double>(part.size());
+  }
+  // Datasets of the parts, and what they are joined to.
+  requireMemory(2 * bytes, "To gather the data that the ranks have of the input on rank 0",
+    "Use a coarser input.");
   return gatheredData(parts);
 }
 

@@ -265,7 +265,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
 bool vtkRefractiveIndex::CanUsePieces()
 {
   const int* given = this->SamplingDimensions;
-  return std::all_of(given, given + 3, isZero) && !SamplingBox(this->SamplingBounds).isGiven();
+  return std::all_of(given, given + 3, isZero) && !SamplingBox::isWanted(this->SamplingBounds);
 }
 
 //------------------------------------------------------------------------------

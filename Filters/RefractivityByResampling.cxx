@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityByResampling.h"
 
+#include "AvailableMemory.h"
 #include "CellMeans.h"
 #include "CellTypes.h"
 #include "FlatData.h"
@@ -238,7 +239,7 @@ vtkSmartPointer<vtkDataSet> prepare(
     const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);
     vtkNew<vtkDoubleArray> ofPoints;
     ofPoints->SetName(arrayName);
-    ofPoints->SetNumberOfValues(data->GetNumberOfPoints());
+    setTuples(ofPoints, data->GetNumberOfPoints());
     prepared->GetPointData()->SetScalars(ofPoints);
     std::vector<CellsAround> around;
     setMeansAroundPoints(MeshArrays(prepared), ofCells, valid, ofPoints,
@@ -420,7 +421,7 @@ Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
   const std::vector<vtkDataSet*> leaves(prepared.begin(), prepared.end());
   setPoints(plan, output);
   vtkNew<vtkDoubleArray> values;
-  values->SetNumberOfValues(output->GetNumberOfPoints());
+  setTuples(values, output->GetNumberOfPoints());
   auto valid = newMask(output->GetNumberOfPoints());
   const double fraction = outsideBlocksLight ? 1 : 0.5; // of the search for visible cells
   if (!sampleMeshes(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityValues.h"
 
+#include "AvailableMemory.h"
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
 #include "vtkDoubleArray.h"
@@ -168,7 +169,7 @@ vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetName(maskName);
-  mask->SetNumberOfValues(count);
+  setTuples(mask, count);
   return mask;
 }
 
@@ -270,7 +271,7 @@ vtkSmartPointer<Array> convertWith(const Arrays& values, const Model& model,
   using Real = typename Array::ValueType;
   auto refractivity = vtkSmartPointer<Array>::New();
   refractivity->SetName(arrayName);
-  refractivity->SetNumberOfValues(values[0]->GetNumberOfTuples());
+  setTuples(refractivity, values[0]->GetNumberOfTuples());
   const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0), isValidSet,
     static_cast<Real>(invalid), offset };
   std::visit([&](const auto& chosen) { convertBy(chosen, values, results, tally); }, model);

@@ -34,6 +34,18 @@ SamplingBox::SamplingBox(const double given[6])
 }
 
 //------------------------------------------------------------------------------
+bool SamplingBox::isWanted(const double bounds[6])
+{
+  bool isAll = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double low = bounds[2 * axis], high = bounds[2 * axis + 1];
+    isAll = isAll && std::isfinite(low) && std::isfinite(high) && low >= high;
+  }
+  return !isAll;
+}
+
+//------------------------------------------------------------------------------
 void SamplingBox::isOutside(const double data[6]) const
 {
   std::ostringstream text;

@@ -25,6 +25,8 @@ public:
   {
     return this->bounds[2 * axis] < this->bounds[2 * axis + 1];
   }
+  /// Whether these bounds want anything but all of the data, be it a box or numbers that are not finite. Does not throw.
+  static bool isWanted(const double bounds[6]);
 
   /// `bounds`, with what is given instead. Throws where nothing of them is in the box.
   std::array<double, 6> within(const double bounds[6]) const;

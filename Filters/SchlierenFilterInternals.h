@@ -6,6 +6,7 @@
 #include "LastImage.h"
 #include "NextStep.h"
 #include "Ranks.h"
+#include "RequestGuard.h"
 #include "RgbImages.h"
 #include "SceneFromSettings.h"
 #include "SensitivityLock.h"
@@ -83,6 +84,7 @@ struct vtkSchlierenFilter::Internals
     WithPieces Pieces;
   };
 
+  filters::RequestGuard Guard;
   filters::FilterRanks Ranks;
   filters::FilterRanks::Meeting* Meeting = nullptr; // on rank 0, while the others work for it
   filters::TimeSlicedImage Images;

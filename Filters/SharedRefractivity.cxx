@@ -30,9 +30,10 @@ struct Entries
   std::vector<Entry> All;
 };
 
+/// Never deleted: when the program exits, filters may be deleted after static objects.
 Entries& entries()
 {
-  static Entries all;
+  static auto& all = *new Entries;
   return all;
 }
 
@@ -79,6 +80,8 @@ void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefr
 //------------------------------------------------------------------------------
 std::shared_ptr<schlieren::SharedMedia> mediaOfProcess()
 {
-  static const auto media = std::make_shared<schlieren::SharedMedia>();
+  // Never deleted, like entries().
+  static const auto& media =
+    *new const std::shared_ptr<schlieren::SharedMedia>(std::make_shared<schlieren::SharedMedia>());
   return media;
 }

@@ -5,7 +5,6 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
-#include "vtkNew.h"
 #include "vtkOutputWindow.h"
 
 #include <algorithm>
@@ -37,9 +36,10 @@ public:
   std::set<UpstreamFailure*> Watchers;
 };
 
+/// Never deleted: when the program exits, filters may be deleted after static objects.
 Observer& observer()
 {
-  static vtkNew<Observer> one;
+  static Observer* const one = Observer::New();
   return *one;
 }
 

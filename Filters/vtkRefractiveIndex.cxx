@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "AvailableMemory.h"
 #include "ChannelRanks.h"
+#include "Guarded.h"
 #include "InputDescription.h"
 #include "MeshSearch.h"
 #include "PiecesSource.h"
@@ -11,6 +13,7 @@
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
 #include "RefractivityOutside.h"
+#include "RequestGuard.h"
 #include "SamplingBox.h"
 
 #include "vtkFieldData.h"
@@ -27,7 +30,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -37,6 +39,26 @@ vtkStandardNewMacro(vtkRefractiveIndex);
 
 namespace
 {
+
+const char* const noMemory = "There is not enough memory for the refractivity grid. Use a coarser "
+                             "input or smaller SamplingDimensions.";
+
+/// Throws where the arrays of a grid do not fit into memory, with what making them takes for each of its points.
+void requireMemoryFor(
+  vtkImageData* grid, bool isDouble, std::size_t bytesToMake, const std::string& remedy)
+{
+  int points[3];
+  grid->GetDimensions(points);
+  const std::size_t bytes = bytesToMake + 1 + (isDouble ? sizeof(double) : sizeof(float));
+  requireMemory(static_cast<double>(bytes) * points[0] * points[1] * points[2],
+    "The refractivity on a grid of " + std::to_string(points[0]) + " x " +
+      std::to_string(points[1]) + " x " + std::to_string(points[2]) + " points",
+    remedy);
+}
+
+const char* const fewerPoints =
+  "Give smaller SamplingDimensions (zeros: chosen from the data), or SamplingBounds of a part of "
+  "the data.";
 
 void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
 {
@@ -53,6 +75,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   : Plan(std::make_shared<GridPlan>())
   , Mesh(std::make_shared<KeptMesh>())
   , Search(std::make_shared<MeshSearch>())
+  , Guard(std::make_shared<RequestGuard>())
   , Ranks(std::make_shared<FilterRanks>())
   , MeshOfPieces(std::make_shared<PiecesMesh>())
 {
@@ -130,8 +153,13 @@ bool vtkRefractiveIndex::HasArray(int index)
 vtkTypeBool vtkRefractiveIndex::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  this->Ranks->Note(this, request);
-  return this->Superclass::ProcessRequest(request, input, output);
+  const auto work = [&]
+  {
+    this->Ranks->Note(this, request);
+    return this->Superclass::ProcessRequest(request, input, output);
+  };
+  return this->Guard->Process(request, work, noMemory,
+    [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfGrid(), output); });
 }
 
 //------------------------------------------------------------------------------
@@ -230,6 +258,8 @@ std::string vtkRefractiveIndex::Convert(
       if (source.image)
       {
         this->Search->release();
+        gridOfImage(source.image, source.leaves[0].ofCells, output);
+        requireMemoryFor(output, this->DoublePrecision, 0, "Use a coarser input.");
         tally = convertImage(source, numbers, output);
         SamplingBox(this->SamplingBounds).crop(output);
       }
@@ -237,6 +267,8 @@ std::string vtkRefractiveIndex::Convert(
       {
         this->Search->release();
         note = plan.amr->note;
+        gridOf(*plan.amr, output);
+        requireMemoryFor(output, this->DoublePrecision, 2 * sizeof(double), fewerPoints);
         tally = convertAmr(*plan.amr, source, numbers, output);
         if (!this->GetOutsideBlocksLight())
         {
@@ -246,6 +278,8 @@ std::string vtkRefractiveIndex::Convert(
       else
       {
         note = plan.resampling.note;
+        gridOf(plan.resampling, output);
+        requireMemoryFor(output, this->DoublePrecision, sizeof(double), fewerPoints);
         const bool wasSeries = this->Search->isSeries;
         tally = resample(
           plan.resampling, source, numbers, this->GetOutsideBlocksLight(), *this->Search,
@@ -378,8 +412,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   setComplete(outputVector);
 
   // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
-  const auto latestChange = [this]() { return std::max(this->GetMTime(), upstreamTime(this)); };
-  const vtkMTimeType now = latestChange();
+  const vtkMTimeType now = this->GetTimeOfGrid();
   if (this->FailedAt == now)
   {
     return 1;
@@ -393,8 +426,9 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     return 1;
   }
 
-  try
+  const auto makeGrid = [&]
   {
+    this->Guard->ThrowEarlier();
     const FilterRanks::Inputs inputs = meeting.Gather();
     this->SetAbortExecute(0); // it stays set after an abort
     const std::string warning = this->Convert(inputs.data, output, inputs.bodies);
@@ -404,25 +438,31 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     }
     if (this->GetAbortExecute())
     {
-      this->FailedAt = latestChange(); // further requests need not wait again
-      return 1;
+      this->FailedAt = this->GetTimeOfGrid(); // further requests need not wait again
+      return;
     }
     // Where RequestInformation could not know it. Without the second, VTK would crop the output.
     tellGrid(output, outInfo);
     outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
     setComplete(outputVector);
-    return 1;
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro(<< "There is not enough memory for the refractivity grid. Use a coarser input or "
-                     "smaller SamplingDimensions.");
-  }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro(<< problem.what());
-  }
-  output->Initialize();
-  this->FailedAt = now;
+  };
+  // Before the other ranks leave.
+  guarded(makeGrid, noMemory,
+    [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractiveIndex::GetTimeOfGrid()
+{
+  return std::max(this->GetMTime(), upstreamTime(this));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::Fail(
+  const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
+{
+  this->FailedAt = now;
+  vtkErrorMacro(<< problem);
+  vtkImageData::GetData(outputs)->Initialize();
 }

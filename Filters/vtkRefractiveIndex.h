@@ -64,6 +64,7 @@ class MediumSource;
 namespace filters
 {
 class FilterRanks;
+class RequestGuard;
 struct GridPlan;
 struct KeptMesh;
 struct MeshSearch;
@@ -608,8 +609,11 @@ private:
   vtkRefractiveIndex(const vtkRefractiveIndex&) = delete;
   void operator=(const vtkRefractiveIndex&) = delete;
 
-  /// Newest time of this filter and of everything upstream when it last failed.
+  /// Newest time of this filter and of everything upstream when it last failed; and now.
   vtkMTimeType FailedAt = 0;
+  vtkMTimeType GetTimeOfGrid();
+  /// Reports a problem of the inputs and properties of a time, and leaves the output empty.
+  void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
 
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
@@ -629,6 +633,7 @@ private:
   std::string ToldOfGases;
   std::string NewNoteOnGases(const filters::Source& source);
 
+  std::shared_ptr<filters::RequestGuard> Guard;
   std::shared_ptr<filters::FilterRanks> Ranks;
   std::shared_ptr<filters::ChannelRanks> Pieces[2]; // by StepOfPieces
   bool HasPieces = false;

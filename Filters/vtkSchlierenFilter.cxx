@@ -4,6 +4,7 @@
 
 #include "AtTheEnd.h"
 #include "ExposureSteps.h"
+#include "Guarded.h"
 #include "InputDescription.h"
 #include "Preview.h"
 #include "QualityPresets.h"
@@ -21,7 +22,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -73,6 +73,10 @@ std::optional<double> timeOf(
   }
   return outInfo->Get(Pipeline::UPDATE_TIME_STEP());
 }
+
+const char* const noMemory =
+  "There is not enough memory for the refractivity grid or the image. Use a coarser input, smaller "
+  "SamplingDimensions or a smaller ImageSize.";
 
 const char* const noIndexYet = "No image: the refractive index is not known yet";
 
@@ -141,8 +145,13 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  this->Inside->Ranks.Note(this, request);
-  return this->Superclass::ProcessRequest(request, input, output);
+  const auto work = [&]
+  {
+    this->Inside->Ranks.Note(this, request);
+    return this->Superclass::ProcessRequest(request, input, output);
+  };
+  return this->Inside->Guard.Process(request, work, noMemory,
+    [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfImage(), output); });
 }
 
 //------------------------------------------------------------------------------
@@ -421,8 +430,9 @@ int vtkSchlierenFilter::RequestData(
   inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
-  try
+  const auto makeImage = [&]
   {
+    inside.Guard.ThrowEarlier();
     const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(maxCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
@@ -430,7 +440,7 @@ int vtkSchlierenFilter::RequestData(
     {
       this->ForgetImage();
       this->Status = noIndexYet;
-      return 1;
+      return;
     }
     const bool continues = !isExposure && this->Continues(input, bodies);
     inside.UnfinishedOf = 0;
@@ -453,30 +463,34 @@ int vtkSchlierenFilter::RequestData(
     if (isMade)
     {
       showLast();
-      return 1;
+      return;
     }
-  }
-  catch (const std::bad_alloc&)
-  {
-    inside.FailedAt = now;
-    vtkErrorMacro(<< "There is not enough memory for the refractivity grid or the image. Use a "
-                     "coarser input, smaller SamplingDimensions or a smaller ImageSize.");
-  }
-  catch (const std::exception& problem)
-  {
-    inside.FailedAt = now;
-    vtkErrorMacro(<< problem.what());
-  }
-  const bool isStopped = this->TimeLimit > 0 && this->GetAbortExecute() && inside.FailedAt != now;
-  this->ForgetImage();
-  output->Initialize();
-  histogram->Initialize();
-  if (isStopped)
-  {
-    inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
-    this->Status = isExposure ? "No image: the exposure was stopped" : noIndexYet;
-  }
+    this->ForgetImage();
+    output->Initialize();
+    histogram->Initialize();
+    if (this->TimeLimit > 0 && this->GetAbortExecute())
+    {
+      inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
+      this->Status = isExposure ? "No image: the exposure was stopped" : noIndexYet;
+    }
+  };
+  // Before the other ranks leave.
+  guarded(makeImage, noMemory,
+    [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::Fail(
+  const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
+{
+  this->Inside->FailedAt = now;
+  vtkErrorMacro(<< problem);
+  this->ForgetImage();
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkImageData::GetData(outputs, port)->Initialize();
+  }
 }
 
 //------------------------------------------------------------------------------

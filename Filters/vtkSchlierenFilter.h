@@ -1055,6 +1055,8 @@ private:
   /// Hands out what there is of an image, where there is anything new. False if aborted.
   bool Show(schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram);
   void ForgetImage();
+  /// Reports a problem of the inputs and properties of a time, and leaves the outputs empty.
+  void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
 
   vtkNew<vtkRefractiveIndex> Medium;
   std::unique_ptr<Internals> Inside;

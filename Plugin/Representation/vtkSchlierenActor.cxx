@@ -5,6 +5,8 @@
 #include "SceneBehind.h"
 #include "vtkSchlierenFilter.h"
 
+#include "Guarded.h"
+
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -394,6 +396,16 @@ bool vtkSchlierenActor::Refine()
 
 //------------------------------------------------------------------------------
 int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  int drawn = 0;
+  filters::guarded([&] { drawn = this->DrawImage(viewport); },
+    "There is not enough memory to draw the image. Make the view smaller.",
+    [this](const std::string& problem) { vtkErrorMacro(<< problem); });
+  return drawn;
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
   if (!renderer || this->IsHidden(renderer))

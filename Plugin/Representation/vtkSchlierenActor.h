@@ -145,6 +145,8 @@ protected:
   ~vtkSchlierenActor() override;
 
 private:
+  /// RenderOpaqueGeometry(), which no exception leaves.
+  int DrawImage(vtkViewport* viewport);
   vtkSchlierenActor(const vtkSchlierenActor&) = delete;
   void operator=(const vtkSchlierenActor&) = delete;
 

@@ -5,6 +5,8 @@
 #include "vtkSchlierenActor.h"
 #include "vtkSchlierenFilter.h"
 
+#include "Guarded.h"
+
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
@@ -107,11 +109,17 @@ void vtkSchlierenRepresentation::TraceForClient(const double request[14])
   view.ParallelScale = request[9];
   view.ViewAngle = request[10];
   view.Size = { static_cast<int>(request[11]), static_cast<int>(request[12]) };
-  if (this->Actor->GetBench())
-  {
-    this->PassTimeToBench();
-  }
-  this->TracedImage = this->Actor->ImageForElsewhere(view, static_cast<int>(request[13]));
+  this->TracedImage = nullptr;
+  this->Guarded(
+    [&]
+    {
+      if (this->Actor->GetBench())
+      {
+        this->PassTimeToBench();
+      }
+      this->TracedImage = this->Actor->ImageForElsewhere(view, static_cast<int>(request[13]));
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -246,7 +254,31 @@ bool vtkSchlierenRepresentation::RemoveFromView(vtkView* view)
 }
 
 //------------------------------------------------------------------------------
+int vtkSchlierenRepresentation::Guarded(const std::function<int()>& work)
+{
+  int result = 1;
+  filters::guarded([&] { result = work(); },
+    "There is not enough memory to show the flow as Schlieren.",
+    [this](const std::string& problem) { vtkErrorMacro(<< problem); });
+  return result;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkSchlierenRepresentation::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  return this->Guarded([&] { return this->Superclass::ProcessRequest(request, input, output); });
+}
+
+//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
+{
+  return this->Guarded([&] { return this->RespondToView(request, input, output); });
+}
+
+//------------------------------------------------------------------------------
+int vtkSchlierenRepresentation::RespondToView(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
   // For ParaView, what is not an input cannot change what is drawn of the data.

@@ -21,7 +21,7 @@
 #include "vtkSchlierenRepresentationModule.h" // for export macro
 #include "vtkSmartPointer.h"                  // for TracedImage
 
-#include <functional> // for SetRequest
+#include <functional> // for SetRequest, Guarded
 
 class vtkPolyData;
 class vtkSchlierenActor;
@@ -69,6 +69,8 @@ public:
 
   void SetVisibility(bool isVisible) override;
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
@@ -88,6 +90,10 @@ private:
   vtkSchlierenRepresentation(const vtkSchlierenRepresentation&) = delete;
   void operator=(const vtkSchlierenRepresentation&) = delete;
 
+  /// Does what ParaView requests, which no exception may reach: it becomes a message.
+  int Guarded(const std::function<int()>& work);
+  int RespondToView(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output);
   void PassTimeToBench();
   void UseRequest();
   /// A message where another flow is shown instead; one, until that has changed.

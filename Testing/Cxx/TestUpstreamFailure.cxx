@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,19 @@ TEST_F(Upstream, FailureElsewhereOrLaterIsNotReported)
   source->Update();
   EXPECT_EQ(names.size(), 1u);
   EXPECT_TRUE(others.empty());
+}
+
+// ParaView deletes its filters after static objects that have been made after its own.
+TEST(UpstreamAtExit, IsWatchedUntilAllIsGone)
+{
+  EXPECT_EXIT(
+    {
+      static UpstreamFailure made;
+      vtkNew<vtkImageShiftScale> filter;
+      made.Watch(filter, nullptr);
+      std::exit(0);
+    },
+    testing::ExitedWithCode(0), "");
 }
 
 } // namespace
