@@ -27,9 +27,9 @@
  * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
  * `LightEmitted`, `LightOnFilm` and `LightOutside` (behind the cutoff, in full light of all pixels; the
  * first is the sum of the others), `FringeSpacing` (of finite fringes, data units),
- * `ExposureInterval` (of an image with ExposureTime: begin and end, in the data's time), `AmbientRefractivity` (the
- * value used), `RaysTraced`, `RaysLost` (trapped in the medium or turned back
- * by it), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
+ * `ExposureInterval` (of an image with ExposureTime: begin and end, in the data's time), `AmbientRefractivity` and
+ * `ExitRefractivity` (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
+ * reflected where they would leave), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
  * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
  * changes no direction cosine by more), each left out where it says nothing, and `MomentumDrift` (largest relative error of |p| = n where
  * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight`,
@@ -115,6 +115,14 @@ public:
   {
     INFINITE_FRINGES = 0,
     FINITE_FRINGES = 1
+  };
+
+  enum Exits
+  {
+    EXIT_AUTO = 0,
+    EXIT_SURROUNDINGS = 1,
+    EXIT_AIR = 2,
+    EXIT_CUSTOM = 3
   };
 
   enum LightSources
@@ -258,6 +266,20 @@ public:
   vtkSetMacro(LockAmbient, bool);
   vtkGetMacro(LockAmbient, bool);
   vtkBooleanMacro(LockAmbient, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What light enters where it leaves the data through a plane across the line of sight, at which it is refracted
+   * (n sin of the angle is kept), one of Exits: EXIT_SURROUNDINGS (no change), EXIT_AIR (n - 1 = 2.718e-4), EXIT_CUSTOM
+   * (ExitRefractivity, n - 1, more than -1; default: 2.7e-4), or EXIT_AUTO (the default): air where the surroundings
+   * are a liquid, n - 1 > 0.1, which a warning then says, else the surroundings. Deflections are angles out there;
+   * screens and patterns are there, too. Light that is totally reflected is lost.
+   */
+  vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
+  vtkGetMacro(ExitInto, int);
+  vtkSetMacro(ExitRefractivity, double);
+  vtkGetMacro(ExitRefractivity, double);
   void SetLockedAmbient(double ambient);
   double GetLockedAmbient() const;
   ///@}
