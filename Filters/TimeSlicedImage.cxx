@@ -143,8 +143,9 @@ std::string driftInWords(const schlieren::Image& image)
     "index changes by up to " +
     textOf(image.steepestChange) + " over one voxel, near (" + textOf(at[0]) + ", " +
     textOf(at[1]) + ", " + textOf(at[2]) +
-    "), as at a face of glass. Remove what is no fluid with Threshold or a mask, set Integrator to "
-    "Adaptive and Interpolation to Quadratic or Cubic, or make the step several voxels wide.";
+    "), as at a face of glass. Remove what is no fluid with Threshold (and set Outside to Passes), "
+    "set Integrator to Adaptive and Interpolation to Quadratic, or make the jump several voxels "
+    "wide.";
 }
 
 /// Where ExitInto is automatic and not that of all flows of gases.

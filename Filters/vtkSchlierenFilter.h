@@ -270,11 +270,13 @@ public:
 
   ///@{
   /**
-   * What light enters where it leaves the data through a plane across the line of sight, at which it is refracted
-   * (n sin of the angle is kept), one of Exits: EXIT_SURROUNDINGS (no change), EXIT_AIR (n - 1 = 2.718e-4), EXIT_CUSTOM
-   * (ExitRefractivity, n - 1, more than -1; default: 2.7e-4), or EXIT_AUTO (the default): air where the surroundings
-   * are a liquid, n - 1 > 0.1, which a warning then says, else the surroundings. Deflections are angles out there;
-   * screens and patterns are there, too. Light that is totally reflected is lost.
+   * What light enters where it leaves the data through a plane across the line of sight, the window of a tank, at which
+   * n sin of its angle is kept (Snell), one of Exits: EXIT_AIR (n - 1 = 2.718e-4); EXIT_CUSTOM (ExitRefractivity,
+   * n - 1, more than -1; default: 2.7e-4); EXIT_SURROUNDINGS: there is no window, and angles are those in the data;
+   * or EXIT_AUTO (the default): air where the surroundings are a liquid, n - 1 > 0.1, which a warning says once; a
+   * window into the surroundings where they are a gas, but there is more than 0.1 in the data; else as
+   * EXIT_SURROUNDINGS. Deflections are angles behind the window, as screens and patterns are; light that is totally
+   * reflected is lost.
    */
   vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
   vtkGetMacro(ExitInto, int);
@@ -678,7 +680,9 @@ public:
   /**
    * How refracted rays take their steps, one of Integrators: LEAPFROG is of second order and looks up
    * one gradient a step, RK4 of fourth order with four, ADAPTIVE of third order with three and steps as
-   * long as AdaptiveTolerance allows, EULER of first order with one (Brownlee et al. 2011).
+   * long as AdaptiveTolerance allows, EULER of first order with one (Brownlee et al. 2011). Where the index changes by
+   * more than a twentieth in a step, as at a face of glass, steps are adaptive, but of EULER; if MomentumDrift is above
+   * 1 % all the same, a warning says so and where that is.
    */
   vtkSetClampMacro(Integrator, int, LEAPFROG, EULER);
   vtkGetMacro(Integrator, int);

@@ -27,7 +27,7 @@ enum class RayFate : std::int32_t
 /// undisturbed light `ratio` times d.u and d.v.
 struct ExitFaces
 {
-  bool refract; ///< else light goes on in the direction that it has in the data
+  bool refract; ///< else light keeps the direction that it has in the data
   double
     ratio; ///< n_ref by the index of what light leaves the data into; 1 where they do not refract
 };
