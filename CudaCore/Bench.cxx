@@ -562,8 +562,9 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
     : scene.homogeneityTolerance;
   const HomogeneityMap<Real>* map =
     skips > 0 ? current.shared->mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
-  image.skippingBound =
-    map == nullptr ? 0 : skippingBound(tracedMedium, light, tolerance, scene.interpolation);
+  image.skippingBound = map == nullptr
+    ? 0
+    : light.faces.ratio * skippingBound(tracedMedium, light, tolerance, scene.interpolation);
   const RayTask<Real> task =
     makeTask<Real>(tracedMedium, map, tracedMedium.gradientsOf(field), light, settings);
 
@@ -579,8 +580,8 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   const std::int64_t around = rays.margin();
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
-  const DeflectionErrors errors{ noiseFloor(tracedMedium, field, light),
-    image.medium.deflectionError };
+  const DeflectionErrors errors{ light.faces.ratio * noiseFloor(tracedMedium, field, light),
+    light.faces.ratio * image.medium.deflectionError };
   ProgressiveImage& progressive = *request.image;
   const auto isNewImageThere = [&]
   { return progressive.isWhole() && progressive.passes() > request.shown; };
