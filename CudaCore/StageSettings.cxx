@@ -106,11 +106,11 @@ double slopeOutside(const DisplacementBound& bound, const Light& light)
     return bound.slope;
   }
   // The sine of undisturbed light and that of what bends it add up at the most; the slope's derivative by the sine is
-  // 1 / cosine^3.
+  // 1 / cosine^3. Light that hardly gets out is dim, and no image is wider for it.
+  constexpr double grazing = 0.95;
   const double cosine = light.smallestCosine();
-  const double sine = ratio * (std::sqrt(1 - cosine * cosine) + bound.bend);
-  return sine < 1 ? ratio * bound.bend / std::pow(1 - sine * sine, 1.5)
-                  : std::numeric_limits<double>::infinity();
+  const double sine = std::min(grazing, ratio * (std::sqrt(1 - cosine * cosine) + bound.bend));
+  return ratio * bound.bend / std::pow(1 - sine * sine, 1.5);
 }
 
 } // namespace

@@ -102,6 +102,7 @@ TEST_P(ExitFacesOfTank, AreThereWhenTheSurroundingsAreAir)
   {
     Scene scene = tankScene(GetParam());
     scene.pathModel = path;
+    scene.precision = Precision::Double; // as n is compared with that of air
     const Image image = Bench().render(tank.field, scene);
     EXPECT_EQ(image.exitRefractivity, airRefractivity);
     EXPECT_NEAR(deflectionOf(image), slope * depth / airIndex, 1e-4 * slope * depth);
@@ -338,7 +339,7 @@ TEST_P(GlassInGas, ARodRefractsAsSnellSays)
       if (std::abs(h) < 0.85)
       {
         const double found = image.deflection[2 * pixelOf(image, column, 1)];
-        EXPECT_NEAR(found, h > 0 ? -turned : turned, 0.012 * turned + 1e-3) << h;
+        EXPECT_NEAR(found, h > 0 ? -turned : turned, 0.014 * turned + 1e-3) << h;
       }
     }
   }
