@@ -91,6 +91,13 @@ struct MediumOfBench
   std::unique_ptr<DistributedTracer<Real>> distributed; ///< once rays have been traced
 };
 
+template <class Real>
+ExitFaces facesOf(const MediumOfBench<Real>& current, const Scene& scene)
+{
+  const Medium<Real>& medium = current.shared->medium;
+  return exitFacesOf(scene, medium.ambient, medium.largestN);
+}
+
 /// While it is there, its bench is at work in the medium.
 template <class Real>
 class InUse
@@ -411,8 +418,8 @@ bool Bench::Stages::prepare(Unfinished& request, const Watch& watch)
   if (inUse && field.source)
   {
     const Frame frame = frameOf(field.grid, scene.view);
-    refineFor(
-      columnOf(scene, lightOf(scene, field.grid, frame), frame), current, watch.monitor(), request);
+    const Light light = lightOf(scene, field.grid, frame, facesOf(current, scene));
+    refineFor(columnOf(scene, light, frame), current, watch.monitor(), request);
   }
   return !watch.isAborted();
 }
@@ -499,7 +506,8 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
     useOwn();
   }
   image.ambient = current.shared->medium.ambient;
-  const Light light = lightOf(scene, field.grid, image.frame);
+  image.exitRefractivity = exitRefractivityOf(scene, image.ambient);
+  Light light = lightOf(scene, field.grid, image.frame, facesOf(current, scene));
   if (field.source)
   {
     const Column column = columnOf(scene, light, image.frame);
@@ -532,6 +540,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
     request.beginAnew();
   }
   const Medium<Real>& tracedMedium = current.shared->medium;
+  light.faces = facesOf(current, scene); // of all voxels
   // What differs by rounding only is homogeneous.
   constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
   const double tolerance = std::max(
@@ -545,22 +554,29 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   const DisplacementBound& bound = *request.bound;
   image.displacementBound = bound.displacement;
   image.displacementWithin = bound.withinMedium;
-  const RaySettings settings = settingsOf(scene, field.lengthScale, bound, image.frame);
+  const SteepestPlace steepest = findSteepest(tracedMedium.slopes);
+  image.steepestChange = steepest.perVoxel;
+  image.steepestPlace = placeOf(field.grid, steepest.at);
+  const RaySettings settings =
+    settingsOf(scene, field.lengthScale, bound, image.frame, steepest.perVoxel);
   image.pathModel = settings.kernel.path;
+  image.integrator = settings.kernel.integrator;
   // An adaptive step is as long as the medium lets it be without a map.
   const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
     ? 0
     : scene.homogeneityTolerance;
   const HomogeneityMap<Real>* map =
     skips > 0 ? current.shared->mapFor(tolerance, scene.interpolation, scene.threads) : nullptr;
-  image.skippingBound =
-    map == nullptr ? 0 : skippingBound(tracedMedium, light, tolerance, scene.interpolation);
+  image.skippingBound = map == nullptr
+    ? 0
+    : light.faces.ratio * skippingBound(tracedMedium, light, tolerance, scene.interpolation);
   const RayTask<Real> task =
     makeTask<Real>(tracedMedium, map, tracedMedium.gradientsOf(field), light, settings);
 
-  const std::int64_t margin = marginFor(bound, scene, image.frame);
+  const std::int64_t margin = marginFor(bound, scene, image.frame, light);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
-    {}, LightKey::of(scene, image.frame, filmDistance(scene, image.frame)) };
+    {},
+    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces) };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
@@ -569,8 +585,8 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   const std::int64_t around = rays.margin();
   Pass pass{ -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
 
-  const DeflectionErrors errors{ noiseFloor(tracedMedium, field, light),
-    image.medium.deflectionError };
+  const DeflectionErrors errors{ light.faces.ratio * noiseFloor(tracedMedium, field, light),
+    light.faces.ratio * image.medium.deflectionError };
   ProgressiveImage& progressive = *request.image;
   const auto isNewImageThere = [&]
   { return progressive.isWhole() && progressive.passes() > request.shown; };
@@ -617,7 +633,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
       }
       progressive.begin(
         { cutoffs.cutoffOf(scene, request.kScale, image.frame.pixelSize),
-          projectionOf(scene, image.frame, light, (1 + tracedMedium.ambient) * field.lengthScale),
+          projectionOf(scene, image.frame, light, (1 + image.exitRefractivity) * field.lengthScale),
           margin,
           (view.width + 2 * margin) * (view.height + 2 * margin) *
             passesToHold(scene.samplesPerPixel) },

@@ -51,7 +51,8 @@ enum class PathModel
   Refracted ///< the ray bends
 };
 
-/// How a refracted ray takes its steps. A straight one always looks at their midpoints.
+/// How a refracted ray takes its steps. A straight one always looks at their midpoints. Where the index changes by more
+/// than a twentieth in a step, as at faces of glass, steps are adaptive but with Euler.
 enum class Integrator
 {
   Leapfrog, ///< one gradient a step, second order, symplectic
@@ -65,6 +66,23 @@ enum class Precision
   Single,
   Double
 };
+
+/// What light enters where it leaves the data: see ExitFaces.
+enum class ExitInto
+{
+  /// Air where the surroundings are a liquid (more than leastOfLiquids); the surroundings, through a face, where something
+  /// in the data is one; else as Surroundings.
+  Auto,
+  Surroundings, ///< without a face: the direction is that in the data
+  Air,
+  Custom ///< Scene::exitRefractivity
+};
+
+/// n - 1 of air at 20 degrees Celsius and 101325 Pa, dry, at 633 nm (Ciddor 1996).
+constexpr double airRefractivity = 2.718e-4;
+
+/// No gas has as much of n - 1, and few liquids less: liquid hydrogen 0.11, water 0.33.
+constexpr double leastOfLiquids = 0.1;
 
 /// Whether processes that work together have a part of the medium each, or all of it.
 enum class DistributedMedium
@@ -101,7 +119,7 @@ enum class SourceShape
 struct LightSource
 {
   /// From a point source to the middle of the data, data units: more than half the depth. Unset: collimated. With a
-  /// perspective the source is in the pupil, whatever this is.
+  /// perspective the source is in the pupil, whatever this is. The source is where light leaves the data into.
   std::optional<double> distance;
   SourceShape shape = SourceShape::Point;
   /// Of a slit, across the knife edge; diameter of a disc.
@@ -133,8 +151,8 @@ enum class PatternKind
 struct BackgroundPattern
 {
   PatternKind kind = PatternKind::Dots;
-  std::optional<double>
-    distance; ///< from where the data begins, away from the viewer; unset: one depth
+  std::optional<double> distance; ///< from where the data begins, away from the viewer, in what
+                                  ///< light leaves them into; unset: one depth
   /// Of stripes, and of the cells that have a dot each: data units of the image; 0: eight pixels. What is finer than four
   /// pixels fades to grey, and is gone at two.
   double period = 0;
@@ -237,12 +255,15 @@ struct Scene
   double wavelength = 632.8e-9;                ///< of an interferogram, metres
   Fringes fringes;
   BackgroundPattern background;
-  /// From where light leaves the data to the screen, data units; unset: one data depth.
+  /// From where light leaves the data to the screen, data units, in what light leaves them into; unset: one data depth.
   std::optional<double> screenDistance;
   /// Of the plane in focus from the data's middle (with a perspective from the focal point) along w, data units.
   double focusOffset = 0;
 
   LightSource source;
+
+  ExitInto exitInto = ExitInto::Surroundings;
+  double exitRefractivity = airRefractivity; ///< n - 1, of ExitInto::Custom
 
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
@@ -345,8 +366,9 @@ struct Image
   /// 2 per pixel, data units, likewise: the place of the pattern that is seen, less the one seen without the
   /// flow. What is seen has moved the other way.
   PixelArray<float> backgroundDisplacement;
-  /// 2 per pixel: direction cosines along u and v. This and the next two are those of the ray through the pixel's
-  /// centre, from the middle of the light source; where that ends in a solid, the mean of the pixel's rays that do not.
+  /// 2 per pixel: direction cosines along u and v, in what light leaves the data into. This and the next two are those of
+  /// the ray through the pixel's centre, from the middle of the light source; where that ends in a solid, the mean of
+  /// the pixel's rays that do not.
   PixelArray<float> deflection;
   PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
   /// 2 per pixel: at the exit plane, data units; with a perspective, and of Cutoff::Background, where rays go from the
@@ -358,14 +380,16 @@ struct Image
   int threads = 0;             ///< on the CPU
   int workers = 0;             ///< other processes that rays could be traced by
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
-  PathModel pathModel = PathModel::Refracted; ///< the one used: Straight or Refracted
-  double kScale = 0;                          ///< the k used; 0 where there is no cutoff
-  double undisturbedLevel = 1;                ///< intensity of light that nothing bends
+  PathModel pathModel = PathModel::Refracted;   ///< the one used: Straight or Refracted
+  Integrator integrator = Integrator::Leapfrog; ///< the one used
+  double kScale = 0;                            ///< the k used; 0 where there is no cutoff
+  double undisturbedLevel = 1;                  ///< intensity of light that nothing bends
   /// Of the rays that start in the image and reach the film: cut off at the darkest or brightest light.
   double saturatedFraction = 0;
   LightBalance light;
   Histogram histogram;
   double ambient = 0;            ///< the ambient refractivity used
+  double exitRefractivity = 0;   ///< of what light leaves the data into
   std::int64_t raysTraced = 0;   ///< rays of this image that crossed the grid
   std::int64_t stepsTaken = 0;   ///< integration steps of these rays
   std::int64_t raysBlocked = 0;  ///< rays that a solid stopped
@@ -379,8 +403,10 @@ struct Image
   /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it shows
   /// the error of steps and interpolation.
   double momentumDrift = 0;
-  MediumStatistics medium; ///< of a Field's source
-  bool aborted = false;    ///< the monitor stopped it; all arrays are empty
+  double steepestChange = 0; ///< of the index, by that of the surroundings, over one voxel
+  Vector steepestPlace{};    ///< about where that is, data units
+  MediumStatistics medium;   ///< of a Field's source
+  bool aborted = false;      ///< the monitor stopped it; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.

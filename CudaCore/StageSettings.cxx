@@ -12,8 +12,8 @@
 namespace schlieren
 {
 
-RaySettings settingsOf(
-  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame)
+RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
+  const Frame& frame, double steepest)
 {
   RaySettings settings;
   const bool straightWillDo = scene.pathModel == PathModel::Auto &&
@@ -24,7 +24,9 @@ RaySettings settingsOf(
   settings.kernel.interpolation = scene.interpolation;
   if (settings.kernel.path == PathModel::Refracted)
   {
-    settings.kernel.integrator = scene.integrator;
+    const bool isTooSteep = steepest * scene.stepSize > largestChangeInStep;
+    settings.kernel.integrator =
+      isTooSteep && scene.integrator != Integrator::Euler ? Integrator::Adaptive : scene.integrator;
   }
   if (settings.kernel.integrator == Integrator::Adaptive)
   {
@@ -71,20 +73,75 @@ double focusDistance(const Frame& frame, double offset)
                          : -0.5 * (frame.exit - frame.entry) + offset;
 }
 
-/// How much larger the image is on a film at such a distance from where rays leave the data.
-double magnificationAt(const Scene& scene, const Frame& frame, double film)
+/// Where a place at a distance from the plane where rays leave the data, less than 0 within them, seems to be from
+/// outside. So what is in focus there lies where it does in the data.
+double apparentDistance(double distance, const Frame& frame, double exitRatio)
 {
+  // Behind the data of a camera's view there is the same as in them: see Light.
+  const double within =
+    std::min(0., frame.pupil > 0 ? distance : std::max(distance, frame.entry - frame.exit));
+  return within / exitRatio + (distance - within);
+}
+
+/// How much larger the image is on a film at such a distance from where rays leave the data.
+double magnificationAt(const Scene& scene, const Frame& frame, double film, double exitRatio)
+{
+  const double inData = exitRatio * film;
   if (frame.pupil > 0)
   {
-    return 1 + (film + frame.focus - frame.entry) / frame.pupil;
+    return 1 + (inData + frame.focus - frame.entry) / frame.pupil;
   }
   const double depth = frame.exit - frame.entry;
-  return scene.source.distance ? 1 + (film + 0.5 * depth) / *scene.source.distance : 1;
+  return scene.source.distance
+    ? 1 + (inData + 0.5 * depth) / distanceInData(*scene.source.distance, frame, exitRatio)
+    : 1;
+}
+
+/// See DisplacementBound::slope: the same of rays where they have left the data.
+double slopeOutside(const DisplacementBound& bound, const Light& light)
+{
+  const double ratio = light.faces.ratio;
+  if (ratio == 1)
+  {
+    return bound.slope;
+  }
+  // The sine of undisturbed light and that of what bends it add up at the most; the slope's derivative by the sine is
+  // 1 / cosine^3. Light that hardly gets out is dim, and no image is wider for it.
+  constexpr double grazing = 0.95;
+  const double cosine = light.smallestCosine();
+  const double sine = std::min(grazing, ratio * (std::sqrt(1 - cosine * cosine) + bound.bend));
+  return ratio * bound.bend / std::pow(1 - sine * sine, 1.5);
 }
 
 } // namespace
 
-double filmDistance(const Scene& scene, const Frame& frame)
+double exitRefractivityOf(const Scene& scene, double ambient)
+{
+  switch (scene.exitInto)
+  {
+    case ExitInto::Auto:
+      return ambient > leastOfLiquids ? airRefractivity : ambient;
+    case ExitInto::Air:
+      return airRefractivity;
+    case ExitInto::Custom:
+      return scene.exitRefractivity;
+    case ExitInto::Surroundings:
+      break;
+  }
+  return ambient;
+}
+
+ExitFaces exitFacesOf(const Scene& scene, double ambient, double largestN)
+{
+  if (scene.exitInto == ExitInto::Surroundings ||
+    (scene.exitInto == ExitInto::Auto && !(std::max(ambient, largestN) > leastOfLiquids)))
+  {
+    return noFaces;
+  }
+  return { true, (1 + ambient) / (1 + exitRefractivityOf(scene, ambient)) };
+}
+
+double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& faces)
 {
   const double depth = frame.exit - frame.entry;
   switch (techniqueOf(scene.cutoff).plane)
@@ -96,22 +153,25 @@ double filmDistance(const Scene& scene, const Frame& frame)
     case RecordedPlane::Focus:
       break;
   }
-  return focusDistance(frame, scene.focusOffset);
+  return apparentDistance(focusDistance(frame, scene.focusOffset), frame, faces.ratio);
 }
 
-std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame)
+std::int64_t marginFor(
+  const DisplacementBound& bound, const Scene& scene, const Frame& frame, const Light& light)
 {
   if (isOfCamera(scene.cutoff))
   {
     return 1;
   }
   const double depth = frame.exit - frame.entry;
+  const double slope = slopeOutside(bound, light);
   double largest = 0; // data units of the image
-  for (const double film : { scene.screenDistance.value_or(depth),
+  for (const double distance : { scene.screenDistance.value_or(depth),
          focusDistance(frame, scene.focusOffset), focusDistance(frame, 0) })
   {
-    const double magnification = magnificationAt(scene, frame, film);
-    const double moved = bound.displacement + std::abs(film) * bound.slope;
+    const double film = apparentDistance(distance, frame, light.faces.ratio);
+    const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
+    const double moved = bound.displacement + std::abs(film) * slope;
     largest = std::max(largest, magnification > 0 ? moved / magnification : 0);
   }
   const double pixels = std::ceil(largest / frame.pixelSize) + 1;
@@ -119,15 +179,15 @@ std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const
   return static_cast<std::int64_t>(pixels < most ? pixels : most);
 }
 
-Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame)
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces)
 {
-  const double film = filmDistance(scene, frame);
+  const double film = filmDistance(scene, frame, faces);
   if (!isOfCamera(scene.cutoff))
   {
-    return lightFrom(scene.source, film, grid, scene.view, frame);
+    return lightFrom(scene.source, film, grid, scene.view, frame, faces);
   }
-  return frame.pupil > 0 ? lightFrom(LightSource{}, film, grid, scene.view, frame)
-                         : reversedLight(grid, frame);
+  return frame.pupil > 0 ? lightFrom(LightSource{}, film, grid, scene.view, frame, faces)
+                         : reversedLight(grid, frame, faces);
 }
 
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
@@ -157,16 +217,18 @@ Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
 Projection projectionOf(
   const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit)
 {
-  Projection projection{ filmDistance(scene, frame), 1 / (frame.pixelSize * light.magnification),
-    pathPerDataUnit, light.inclination };
+  Projection projection{ filmDistance(scene, frame, light.faces),
+    1 / (frame.pixelSize * light.magnification), pathPerDataUnit, light.inclination };
+  projection.exitRatio = light.faces.ratio;
   projection.isOfCamera = isOfCamera(scene.cutoff);
   if (frame.pupil > 0)
   {
-    projection.perSourceDistance = 1 / (frame.pupil * light.magnification);
+    projection.perSourceDistance = light.faces.ratio / (frame.pupil * light.magnification);
   }
   else if (!projection.isOfCamera && scene.source.distance)
   {
-    projection.perSourceDistance = 1 / (*scene.source.distance * light.magnification);
+    projection.perSourceDistance = light.faces.ratio /
+      (distanceInData(*scene.source.distance, frame, light.faces.ratio) * light.magnification);
   }
   return projection;
 }
@@ -178,8 +240,10 @@ void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& l
   {
     const std::array<double, 2> place =
       sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);
-    pass.tilt[0] = place[0] / light.magnification;
-    pass.tilt[1] = place[1] / light.magnification;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      pass.tilt[axis] = place[axis] / (light.magnification * light.faces.ratio);
+    }
   }
 }
 

@@ -50,12 +50,18 @@ struct LightKey
   double width = 0, length = 0; ///< of an extended source, as the next two
   double angle = 0;
   double film = 0;
+  ExitFaces faces = noFaces;
 
-  auto tie() const { return std::tie(isOfCamera, distance, shape, width, length, angle, film); }
+  auto tie() const
+  {
+    return std::tie(
+      isOfCamera, distance, shape, width, length, angle, film, faces.refract, faces.ratio);
+  }
 
-  static LightKey of(const Scene& scene, const Frame& frame, double film)
+  static LightKey of(const Scene& scene, const Frame& frame, double film, const ExitFaces& faces)
   {
     LightKey key;
+    key.faces = faces;
     key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
     if (key.isOfCamera)
     {
@@ -99,10 +105,15 @@ struct RaysKey
   }
 };
 
-/// How a scene's rays are to be traced where no ray is displaced further than `bound`. What does not matter
-/// to them has its default, so that changing it needs no re-tracing.
-RaySettings settingsOf(
-  const Scene& scene, double lengthScale, const DisplacementBound& bound, const Frame& frame);
+/// The most that nu may change in a step of Integrator::Leapfrog or Rk4, which keep |p| = 1 + nu to a few thousandths
+/// then.
+constexpr double largestChangeInStep = 0.05;
+
+/// How a scene's rays are to be traced where no ray is displaced further than `bound`, and nu changes by no more than
+/// `steepest` from voxel to voxel: where that is too much for a step, as at faces of glass, steps are adaptive. What does
+/// not matter to them has its default, so that changing it needs no re-tracing.
+RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
+  const Frame& frame, double steepest);
 
 /// The largest |d nu / d index| in a cube in which nu varies by 1: see NuRange.
 double steepestOf(Interpolation interpolation);
@@ -118,17 +129,25 @@ double skippingBound(
 template <class Real>
 double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light);
 
+/// n - 1 of what light leaves the data into, where that of the surroundings is `ambient`.
+double exitRefractivityOf(const Scene& scene, double ambient);
+
+/// Where it does. With ExitInto::Auto the faces refract light if there is a liquid or a solid in it, N being `largestN`
+/// at most: of gases, which mostly have no faces where the data end, that would change a deflection by its nu there.
+ExitFaces exitFacesOf(const Scene& scene, double ambient, double largestN);
+
 /// How far past the plane where rays leave the data they meet what the film shows: a screen; the background
-/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera. Data units. With a perspective
-/// rays leave the data at their far end, behind which a screen is, too.
-double filmDistance(const Scene& scene, const Frame& frame);
+/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera, where it seems to be from
+/// outside. Data units. With a perspective rays leave the data at their far end, behind which a screen is, too.
+double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& faces);
 
 /// Pixels around the image from which light may be bent into it, at most an eighth of its longer
 /// side (or 16). At least one, because the film distributes a ray over four pixels. The same for all
 /// cutoffs, so that changing the cutoff needs no re-tracing, but for a camera's rays, which stay in their pixel.
-std::int64_t marginFor(const DisplacementBound& bound, const Scene& scene, const Frame& frame);
+std::int64_t marginFor(
+  const DisplacementBound& bound, const Scene& scene, const Frame& frame, const Light& light);
 
-Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame);
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 
 /// The part of a source's medium that a view looks at, with the margin around the image.
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame);

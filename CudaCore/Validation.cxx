@@ -157,6 +157,13 @@ void validateScene(const Scene& scene)
     throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
       ". Set it to zero or more, in data units.");
   }
+  if (scene.exitInto == ExitInto::Custom &&
+    !(scene.exitRefractivity > -1 && std::isfinite(scene.exitRefractivity)))
+  {
+    throw Error("ExitRefractivity is " + std::to_string(scene.exitRefractivity) +
+      ", but it is n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Set it "
+      "to more than -1, or ExitInto to Air or Surroundings.");
+  }
   if (!(scene.noiseFilterRadius >= 0 && scene.noiseFilterRadius <= largestFilterRadius))
   {
     std::ostringstream text;

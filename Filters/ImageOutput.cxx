@@ -165,6 +165,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
   addFieldValue<vtkDoubleArray>(output, "LightOnFilm", image.light.onFilm);
   addFieldValue<vtkDoubleArray>(output, "LightOutside", image.light.outside);
   addFieldValue<vtkDoubleArray>(output, "AmbientRefractivity", image.ambient);
+  addFieldValue<vtkDoubleArray>(output, "ExitRefractivity", image.exitRefractivity);
   addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);
   addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
   addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);

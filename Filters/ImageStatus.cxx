@@ -55,11 +55,13 @@ std::string deviceInWords(const schlieren::Image& image)
 /// What straight rays leave out: a bound on how far refracted ones are beside them where they leave the data. It is
 /// left out where it is too large to say anything, and so is MomentumDrift: |p| may be right where the direction
 /// of p is not.
-std::string accuracyInWords(const schlieren::Image& image)
+std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
   if (image.pathModel == schlieren::PathModel::Refracted)
   {
-    return "refracted rays";
+    return image.integrator == scene.integrator
+      ? "refracted rays"
+      : "refracted rays, with short steps where the index jumps";
   }
   constexpr double least = 0.01; // pixels
   constexpr double most = 10;
@@ -80,7 +82,7 @@ std::string statusInWords(
   {
     words += speedInWords(raysPerSecond) + " on ";
   }
-  return words + deviceInWords(image) + ", " + accuracyInWords(image);
+  return words + deviceInWords(image) + ", " + accuracyInWords(image, scene);
 }
 
 } // namespace filters

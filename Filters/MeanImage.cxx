@@ -90,10 +90,16 @@ void MeanImage::Add(schlieren::Image&& image)
 
   // The worst of them.
   mean.pathModel = std::max(mean.pathModel, image.pathModel);
+  mean.integrator = std::max(mean.integrator, image.integrator);
   mean.displacementBound = std::max(mean.displacementBound, image.displacementBound);
   mean.displacementWithin = std::max(mean.displacementWithin, image.displacementWithin);
   mean.skippingBound = std::max(mean.skippingBound, image.skippingBound);
   mean.momentumDrift = std::max(mean.momentumDrift, image.momentumDrift);
+  if (image.steepestChange > mean.steepestChange)
+  {
+    mean.steepestChange = image.steepestChange;
+    mean.steepestPlace = image.steepestPlace;
+  }
   const double error = std::max(mean.medium.estimatedError, image.medium.estimatedError);
   mean.medium = image.medium;
   mean.medium.estimatedError = error;

@@ -261,7 +261,9 @@ std::optional<double> vtkSchlierenFilter::KeptK()
   return this->Inside->KLock.For(this->LockK,
     this->CircumstancesOf(
       { static_cast<double>(this->Cutoff), static_cast<double>(this->AutoAmbientRefractivity),
-        this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity },
+        this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity,
+        static_cast<double>(this->ExitInto),
+        this->ExitInto == EXIT_CUSTOM ? this->ExitRefractivity : 0 },
       settingsOfRays(*this)));
 }
 

@@ -61,6 +61,10 @@ static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
 static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
   sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
   sameValue(Self::PICTURE, schlieren::PatternKind::Image));
+static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
+  sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
+  sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
+  sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
 static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
   sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
 static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
@@ -212,6 +216,8 @@ schlieren::Scene sceneFrom(
     scene.screenDistance = settings.ScreenDistance;
   }
   scene.focusOffset = settings.FocusOffset;
+  scene.exitInto = static_cast<schlieren::ExitInto>(settings.ExitInto);
+  scene.exitRefractivity = settings.ExitRefractivity;
   scene.filmEstimator = static_cast<schlieren::FilmEstimator>(settings.FilmEstimator);
   scene.noiseFilter = static_cast<schlieren::NoiseFilter>(settings.NoiseFilter);
   scene.noiseFilterRadius = settings.NoiseFilterRadius;

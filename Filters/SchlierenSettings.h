@@ -17,6 +17,8 @@ struct MediumSettings
   bool AutoAmbientRefractivity = true;
   double AmbientRefractivity = 0;
   bool LockAmbient = true;
+  int ExitInto = 0;
+  double ExitRefractivity = 2.7e-4;
   double Wavelength = 632.8;
 
   template <class Visit>
@@ -26,6 +28,8 @@ struct MediumSettings
     use("AutoAmbientRefractivity", this->AutoAmbientRefractivity);
     use("AmbientRefractivity", this->AmbientRefractivity);
     use("LockAmbient", this->LockAmbient);
+    use("ExitInto", this->ExitInto);
+    use("ExitRefractivity", this->ExitRefractivity);
     use("Wavelength", this->Wavelength);
   }
 };

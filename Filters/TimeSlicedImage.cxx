@@ -7,6 +7,8 @@
 
 #include <chrono>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 namespace filters
 {
@@ -115,6 +117,53 @@ std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
     (this->IsDifference ? " less straight ones" : "");
 }
 
+namespace
+{
+
+std::string textOf(double value)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+/// Where steps do not resolve how steeply the index changes.
+std::string driftInWords(const schlieren::Image& image)
+{
+  constexpr double largest = 0.01;
+  if (!(image.momentumDrift > largest))
+  {
+    return "";
+  }
+  const schlieren::Vector& at = image.steepestPlace;
+  return "The rays' momentum and the refractive index differ by up to " +
+    textOf(100 * image.momentumDrift) +
+    " % where rays leave the data (MomentumDrift), and deflections may be wrong by as much: the "
+    "index changes by up to " +
+    textOf(image.steepestChange) + " over one voxel, near (" + textOf(at[0]) + ", " +
+    textOf(at[1]) + ", " + textOf(at[2]) +
+    "), as at a face of glass. Remove what is no fluid with Threshold (and set Outside to Passes), "
+    "set Integrator to Adaptive and Interpolation to Quadratic, or make the jump several voxels "
+    "wide.";
+}
+
+/// Where ExitInto is automatic and not that of all flows of gases.
+std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  return scene.exitInto == schlieren::ExitInto::Auto && image.exitRefractivity != image.ambient
+    ? "n - 1 around the flow is " + textOf(image.ambient) +
+      ", as in a liquid, so light is refracted into air (n - 1 = " +
+      textOf(image.exitRefractivity) +
+      ") where it leaves the data: deflections, screens and patterns are those in air. Set "
+      "ExitInto "
+      "to Surroundings where all of the light's path is in the liquid, or to Custom, or to Air "
+      "without this message."
+    : "";
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& image)
 {
@@ -126,10 +175,19 @@ std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& im
       : "",
     image.raysLost > 0
       ? std::to_string(image.raysLost) + " of " + std::to_string(image.raysTraced) +
-        " rays did not come out towards the film: the medium traps them or turns them back. Is the "
-        "refractivity (array, unit, index model) right?"
-      : "" };
+        " rays did not come out towards the film: the medium traps them or turns them back" +
+        (image.exitRefractivity < image.ambient
+            ? ", or they are totally reflected where they would leave the data (ExitInto)."
+            : ".") +
+        " Is the refractivity (array, unit, index model) right?"
+      : "",
+    driftInWords(image) };
   std::vector<std::string> news;
+  const std::string exit = exitInWords(image, this->Scene);
+  if (!exit.empty() && !std::exchange(this->HasNotedExit, true))
+  {
+    news.push_back(exit);
+  }
   std::int64_t* warnedOf = this->WarnedOf;
   for (const std::string& warning : warnings)
   {

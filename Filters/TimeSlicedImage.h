@@ -43,7 +43,8 @@ public:
   /// In words that fit in a line; see statusInWords.
   std::string GetStatus(const schlieren::Image& image) const;
 
-  /// What the user should know of its rays: once for the same rays, whatever images are made of them.
+  /// What the user should know of its rays: once for the same rays, whatever images are made of them; that light is
+  /// taken to leave a liquid, once.
   std::vector<std::string> GetWarnings(const schlieren::Image& image);
 
 private:
@@ -57,7 +58,8 @@ private:
   schlieren::Scene Scene;
   std::int64_t RaysBefore = 0; // this image
   double RaysPerSecond = 0;    // when rays were traced last
-  std::int64_t WarnedOf[3] = { 0, 0, 0 };
+  std::int64_t WarnedOf[4] = { 0, 0, 0, 0 };
+  bool HasNotedExit = false;
 };
 
 } // namespace filters

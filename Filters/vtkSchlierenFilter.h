@@ -28,9 +28,9 @@
  * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
  * `LightEmitted`, `LightOnFilm` and `LightOutside` (behind the cutoff, in full light of all pixels; the
  * first is the sum of the others), `FringeSpacing` (of finite fringes, data units),
- * `ExposureInterval` (of an image with ExposureTime: begin and end, in the data's time), `AmbientRefractivity` (the
- * value used), `RaysTraced`, `RaysLost` (trapped in the medium or turned back
- * by it), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
+ * `ExposureInterval` (of an image with ExposureTime: begin and end, in the data's time), `AmbientRefractivity` and
+ * `ExitRefractivity` (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
+ * reflected where they would leave), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
  * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
  * changes no direction cosine by more), each left out where it says nothing, and `MomentumDrift` (largest relative error of |p| = n where
  * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight`,
@@ -117,6 +117,14 @@ public:
   {
     INFINITE_FRINGES = 0,
     FINITE_FRINGES = 1
+  };
+
+  enum Exits
+  {
+    EXIT_AUTO = 0,
+    EXIT_SURROUNDINGS = 1,
+    EXIT_AIR = 2,
+    EXIT_CUSTOM = 3
   };
 
   enum LightSources
@@ -260,6 +268,22 @@ public:
   vtkSetMacro(LockAmbient, bool);
   vtkGetMacro(LockAmbient, bool);
   vtkBooleanMacro(LockAmbient, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What light enters where it leaves the data through a plane across the line of sight, the window of a tank, at which
+   * n sin of its angle is kept (Snell), one of Exits: EXIT_AIR (n - 1 = 2.718e-4); EXIT_CUSTOM (ExitRefractivity,
+   * n - 1, more than -1; default: 2.7e-4); EXIT_SURROUNDINGS: there is no window, and angles are those in the data;
+   * or EXIT_AUTO (the default): air where the surroundings are a liquid, n - 1 > 0.1, which a warning says once; a
+   * window into the surroundings where they are a gas, but there is more than 0.1 in the data; else as
+   * EXIT_SURROUNDINGS. Deflections are angles behind the window, as screens and patterns are; light that is totally
+   * reflected is lost.
+   */
+  vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
+  vtkGetMacro(ExitInto, int);
+  vtkSetMacro(ExitRefractivity, double);
+  vtkGetMacro(ExitRefractivity, double);
   void SetLockedAmbient(double ambient);
   double GetLockedAmbient() const;
   ///@}
@@ -659,7 +683,9 @@ public:
   /**
    * How refracted rays take their steps, one of Integrators: LEAPFROG is of second order and looks up
    * one gradient a step, RK4 of fourth order with four, ADAPTIVE of third order with three and steps as
-   * long as AdaptiveTolerance allows, EULER of first order with one (Brownlee et al. 2011).
+   * long as AdaptiveTolerance allows, EULER of first order with one (Brownlee et al. 2011). Where the index changes by
+   * more than a twentieth in a step, as at a face of glass, steps are adaptive, but of EULER; if MomentumDrift is above
+   * 1 % all the same, a warning says so and where that is.
    */
   vtkSetClampMacro(Integrator, int, LEAPFROG, EULER);
   vtkGetMacro(Integrator, int);

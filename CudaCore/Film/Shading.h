@@ -19,7 +19,8 @@ struct Projection
   double distance;    ///< of what the film shows past the exit plane, data units; < 0: before it
   double perDataUnit; ///< pixels, for a data unit on the film
   double pathPerDataUnit;                 ///< optical path of undisturbed light, metres
-  Inclination inclination{ { 0, 0 }, 0 }; ///< of the light
+  Inclination inclination{ { 0, 0 }, 0 }; ///< of the light, in the data
+  double exitRatio = 1;                   ///< see Light; of lengths, these are outside of the data
   double perSourceDistance = 0; ///< 1 / from the source to the film, by data unit; 0: collimated
   bool isOfCamera = false; ///< rays come from the image: their light belongs to where they start
 };
@@ -69,10 +70,19 @@ SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displac
   else
   {
     // Of the undisturbed ray: slopes, and cosines d along u, v and w. Of the bent one: p = d + eps.
-    const double slope[2] = { projection.inclination.at(0, column, tilt[0]),
+    double slope[2] = { projection.inclination.at(0, column, tilt[0]),
       projection.inclination.at(1, row, tilt[1]) };
-    const double cosine = 1 / sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
-    const double d[2] = { slope[0] * cosine, slope[1] * cosine };
+    double cosine = 1 / sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    double d[2] = { slope[0] * cosine, slope[1] * cosine };
+    if (projection.exitRatio != 1) // it is refracted where it leaves the data
+    {
+      d[0] *= projection.exitRatio;
+      d[1] *= projection.exitRatio;
+      const double square = d[0] * d[0] + d[1] * d[1];
+      cosine = sqrt(square < 1 ? 1 - square : 1e-30);
+      slope[0] = d[0] / cosine;
+      slope[1] = d[1] / cosine;
+    }
     const double p[2] = { d[0] + eps[0], d[1] + eps[1] };
     const double sideways = p[0] * p[0] + p[1] * p[1];
     const double forward = sqrt(sideways < 1 ? 1 - sideways : 1e-30);

@@ -6,6 +6,7 @@
 
 #include "Math/Vec3.h"
 
+#include <cmath>
 #include <vector>
 
 namespace schlieren
@@ -26,5 +27,29 @@ struct SlopeBlock
 
 /// Cubes in which nothing bends light are left out.
 using SlopeBlocks = std::vector<SlopeBlock>;
+
+/// Where nu changes most from voxel to voxel.
+struct SteepestPlace
+{
+  double perVoxel = 0;        ///< no change of nu over one voxel is larger
+  Vec3<double> at{ 0, 0, 0 }; ///< index coordinates, to half a block
+};
+
+inline SteepestPlace findSteepest(const SlopeBlocks& blocks)
+{
+  SteepestPlace steepest;
+  for (const SlopeBlock& block : blocks)
+  {
+    const double perVoxel = static_cast<double>(block.edge) / SlopeBlock::voxels *
+      length(static_cast<Vec3<double>>(block.slope));
+    if (perVoxel > steepest.perVoxel)
+    {
+      const double half = 0.5 * static_cast<double>(block.edge);
+      steepest = { perVoxel,
+        static_cast<Vec3<double>>(block.low) + Vec3<double>{ half, half, half } };
+    }
+  }
+  return steepest;
+}
 
 } // namespace schlieren

@@ -220,12 +220,22 @@ private:
   bool areApart_;
 };
 
+/// What is across inclined light of its kick at entry.
+double bendAtEntry(double largestNu, const Light& light)
+{
+  const double cosine = light.smallestCosine();
+  return light.faces.refract
+    ? std::sqrt(std::max(0., 1 - cosine * cosine)) * largestKickAtEntry(largestNu, light)
+    : 0;
+}
+
 /// What bends a ray more and more along w.
 class BendingRay
 {
 public:
-  BendingRay(double largestNu, double cosine)
-    : largest_(1 + largestNu)
+  BendingRay(double largestNu, double cosine, double bendBefore)
+    : bend(bendBefore)
+    , largest_(1 + largestNu)
     , smallest_((1 - largestNu) * cosine)
     , isCollimated_(cosine == 1)
   {
@@ -264,7 +274,7 @@ public:
     return true;
   }
 
-  double displacement = 0, withinMedium = 0, slope = 0, bend = 0;
+  double displacement = 0, withinMedium = 0, slope = 0, bend;
 
 private:
   double leastForward(double q) const
@@ -311,13 +321,15 @@ void widen(DisplacementBound& bound, const BendingRay& ray)
 }
 
 /// In units of the light's length.
-DisplacementBound boundOf(const Columns& columns, double largestNu, double cosine)
+DisplacementBound boundOf(const Columns& columns, double largestNu, const Light& light)
 {
+  const double cosine = light.smallestCosine();
+  const double atEntry = bendAtEntry(largestNu, light);
   DisplacementBound bound{ 0, 0, 0, 0 };
   columns.forEach(
     [&](const float* gradients, const std::vector<float>& depths)
     {
-      BendingRay ray(largestNu, cosine);
+      BendingRay ray(largestNu, cosine, atEntry);
       for (std::size_t layer = 0; layer + 1 < depths.size(); ++layer)
       {
         const double depth =
@@ -335,28 +347,44 @@ DisplacementBound boundOf(const Columns& columns, double largestNu, double cosin
 
 } // namespace
 
+double largestKickAtEntry(double largestNu, const Light& light)
+{
+  if (!light.faces.refract)
+  {
+    return largestNu;
+  }
+  // |sqrt(cosine^2 + 2 nu + nu^2) - cosine|, of nu of both signs.
+  const double cosine = light.smallestCosine();
+  const double square = cosine * cosine;
+  const double kick = largestNu * (2 + largestNu);
+  const double back = std::min(largestNu * std::max(0., 2 - largestNu), square);
+  return std::max(
+    kick / (cosine + std::sqrt(square + kick)), back / (cosine + std::sqrt(square - back)));
+}
+
 template <class Real>
 DisplacementBound boundBySteepest(const Medium<Real>& medium, const Light& light)
 {
   const double steepest = length(scaled(medium.slope, light.indexScale));
   const double bend = (1 + medium.largestNu) * steepest;
-  if (bend == 0)
+  const double cosine = light.smallestCosine();
+  const double atEntry = bendAtEntry(medium.largestNu, light);
+  if (bend == 0 && atEntry == 0)
   {
     return { 0, 0, 0, 0 };
   }
   // The path s after which the ray has advanced by the depth at the latest, for the ray that is inclined most:
-  // (1 - nu) cosine s - bend s^2 / 2.
-  const double cosine = light.smallestCosine();
-  const double forward = (1 - medium.largestNu) * cosine;
+  // ((1 - nu) cosine - bend at entry) s - bend s^2 / 2.
+  const double forward = (1 - medium.largestNu) * cosine - atEntry;
   const double discriminant = forward * forward - 2 * bend * light.depth;
   if (!(forward > 0) || !(discriminant > 0))
   {
     return noBound;
   }
   const double path = 2 * light.depth / (forward + std::sqrt(discriminant));
-  const double displacement = 0.5 * bend * path * path * light.unit / cosine;
-  return { displacement, displacement, bend * path / ((forward - bend * path) * cosine),
-    bend * path };
+  const double displacement = (atEntry + 0.5 * bend * path) * path * light.unit / cosine;
+  const double all = atEntry + bend * path;
+  return { displacement, displacement, all / ((forward - bend * path) * cosine), all };
 }
 
 template <class Real>
@@ -389,7 +417,7 @@ DisplacementBound boundDisplacement(const Medium<Real>& medium, const Light& lig
   for (int attempt = 0; attempt < maxAttempts; ++attempt)
   {
     columns.fill(reach, everywhere);
-    const DisplacementBound found = boundOf(columns, medium.largestNu, cosine);
+    const DisplacementBound found = boundOf(columns, medium.largestNu, light);
     if (!isCollimated || found.displacement <= reach)
     {
       bound = found;

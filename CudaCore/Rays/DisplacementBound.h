@@ -20,6 +20,9 @@ struct DisplacementBound
   double bend;
 };
 
+/// The most of q that light has where it enters the data.
+double largestKickAtEntry(double largestNu, const Light& light);
+
 /// For a ray that meets the medium's largest gradient all along its path through the grid.
 template <class Real>
 DisplacementBound boundBySteepest(const Medium<Real>& medium, const Light& light);

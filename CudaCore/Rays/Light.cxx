@@ -96,6 +96,7 @@ Light lightAlong(const Vec3<double>& w, const Grid& grid, const Frame& frame)
   light.perRow = pixel * scaled(light.indexScale, light.v);
   light.depth = 2 * halfExtent(grid, w) / light.unit;
   light.magnification = 1;
+  light.faces = noFaces;
 
   // From the centre, which is exact in index coordinates however far the origin is from zero.
   const double a = (frame.origin[0] - dot(centre, u)) / light.unit;
@@ -202,19 +203,29 @@ Light collimatedLight(const Grid& grid, const Frame& frame)
   return lightAlong(vec(frame.w), grid, frame);
 }
 
-Light reversedLight(const Grid& grid, const Frame& frame)
+Light reversedLight(const Grid& grid, const Frame& frame, const ExitFaces& faces)
 {
-  return lightAlong(-1.0 * vec(frame.w), grid, frame);
+  Light light = lightAlong(-1.0 * vec(frame.w), grid, frame);
+  light.faces = faces;
+  return light;
 }
 
-Light lightFrom(
-  const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame)
+double distanceInData(double distance, const Frame& frame, double exitRatio)
+{
+  const double within = 0.5 * (frame.exit - frame.entry);
+  return within + exitRatio * (distance - within);
+}
+
+Light lightFrom(const LightSource& source, double film, const Grid& grid, const View& view,
+  const Frame& frame, const ExitFaces& faces)
 {
   const bool isFromPupil = frame.pupil > 0;
   Light light = isFromPupil ? reversedLight(grid, frame) : collimatedLight(grid, frame);
+  light.faces = faces;
   const double halfDepth = 0.5 * light.depth;
-  light.toFilm = light.depth + film / light.unit;
-  double perDistance = source.distance ? light.unit / *source.distance : 0;
+  light.toFilm = light.depth + faces.ratio * film / light.unit;
+  double perDistance =
+    source.distance ? light.unit / distanceInData(*source.distance, frame, faces.ratio) : 0;
   double middle = 0; // of the data, from the image's plane along the light
   if (isFromPupil)
   {
@@ -245,7 +256,7 @@ Light lightFrom(
     light.inclination.atOrigin[i] = -axis[i] * light.inclination.perPixel;
     light.steepest[i] =
       (axis[i] + 0.5 + static_cast<double>(maxMargin(view))) * light.inclination.perPixel +
-      reach / light.magnification;
+      reach / (light.magnification * faces.ratio);
   }
   return light;
 }
@@ -260,6 +271,21 @@ double Light::fastest(const Vec3<double>& scale) const
     most = std::max(most, length(scaled(scale, w - steepest[0] * u + (sign * steepest[1]) * v)));
   }
   return most;
+}
+
+Vector placeOf(const Grid& grid, const Vec3<double>& index)
+{
+  const double along[3] = { grid.spacing[0] * index.x, grid.spacing[1] * index.y,
+    grid.spacing[2] * index.z };
+  Vector place = grid.origin;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      place[row] += grid.direction[3 * row + axis] * along[axis];
+    }
+  }
+  return place;
 }
 
 std::int64_t maxMargin(const View& view)

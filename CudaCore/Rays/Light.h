@@ -38,6 +38,9 @@ struct Inclination
 /// R being the distance of the source, z the film's plane, and t the tilt of the light of one point of an
 /// extended source (Pass). So all light of X meets the film at X (1 + z / R), wherever it comes from.
 /// With a perspective, the image's plane is that of the focal point instead, from which zeta counts then.
+/// Where the data are left into something else, the line is that in the data. There, light seems to come from further
+/// away or nearer than it does, by the ratio of the indices (apparent depth, for small angles): a pupil is where it
+/// seems to be from the data, so that an image lies over them, and R and the film's distance are reckoned so.
 /// Lengths are in units of the smallest grid spacing, so that nothing depends on the data's unit of length.
 struct Light
 {
@@ -59,6 +62,7 @@ struct Light
   double unit;                ///< the unit of length, data units
   double steepest[2];         ///< no slope of this light is larger, along u and v
   double magnification;       ///< 1 + z / R: of what is in the middle of the data, on the film
+  ExitFaces faces;            ///< where it enters and leaves the data
 
   /// Where the light of a point of the image is on the entry plane, in index coordinates.
   SCHLIEREN_HD Vec3<double> start(double column, double row) const
@@ -84,18 +88,24 @@ struct Light
 Light collimatedLight(const Grid& grid, const Frame& frame);
 
 /// The same from the viewer, against w: the rays of a camera. They start on the frame's exit plane.
-Light reversedLight(const Grid& grid, const Frame& frame);
+Light reversedLight(const Grid& grid, const Frame& frame, const ExitFaces& faces = noFaces);
+
+/// From the middle of the data to a source as it seems to be from there. `distance`: to where it is.
+double distanceInData(double distance, const Frame& frame, double exitRatio);
 
 /// The light of a source on the line through the middle of the image; with a perspective it is the pupil, and light
-/// goes against w. `film`: from the plane where light leaves the data to the film, data units.
-Light lightFrom(
-  const LightSource& source, double film, const Grid& grid, const View& view, const Frame& frame);
+/// goes against w. `film`: from the plane where light leaves the data to the film, data units, out there.
+Light lightFrom(const LightSource& source, double film, const Grid& grid, const View& view,
+  const Frame& frame, const ExitFaces& faces = noFaces);
 
 /// The place of pass `pass` in an extended source, as slopes along u and v seen from the middle of the data.
 /// Pass 0 is its centre. Later ones follow the sequence of multiples of the golden ratio and of sqrt(2)
 /// (Kronecker), which fills a disc evenly by area. `knifeEdgeAngle`, degrees: across a slit.
 std::array<double, 2> sourcePoint(
   const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed);
+
+/// Data coordinates of a place in index coordinates.
+Vector placeOf(const Grid& grid, const Vec3<double>& index);
 
 /// Pixels around the image that rays may start from, at most.
 std::int64_t maxMargin(const View& view);

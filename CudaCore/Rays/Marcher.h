@@ -130,10 +130,24 @@ struct March
       park(cruise == 0);
       if constexpr (Path::bends)
       {
-        // Light enters along d, so that |p| = 1 + nu from the start.
-        ray.q = valueApart(ray.start) * light.d;
+        ray.q = atEntry(valueApart(ray.start));
       }
     }
+  }
+
+  /// q of light that enters a medium of nu, so that |p| = 1 + nu from the start: along d, or refracted by a face.
+  SCHLIEREN_HD Vec3<Real> atEntry(const Real& nu) const
+  {
+    if (!task.light.faces.refract)
+    {
+      return nu * light.d;
+    }
+    const Vec3<Number> w = static_cast<Vec3<Number>>(task.light.w);
+    const Real forward = w.x * light.d.x + w.y * light.d.y + w.z * light.d.z;
+    // sqrt(forward^2 + more) - forward, in full relative precision. Less than 0 below the root: total reflection.
+    const Real more = nu * (2 + nu);
+    const Real q = more / (forward + squareRoot(maximum(forward * forward + more, Real{})));
+    return { q * w.x, q * w.y, q * w.z };
   }
 
   SCHLIEREN_HD bool isTree() const
@@ -848,10 +862,10 @@ struct March
     if constexpr (Path::bends)
     {
       // They are in their leaves, but for rounding.
-      const Vec3<Real> atEntry = valueApart(withinLeaf(ray.start)) * light.d;
-      ray.q.x = enters > 0 ? atEntry.x : ray.q.x;
-      ray.q.y = enters > 0 ? atEntry.y : ray.q.y;
-      ray.q.z = enters > 0 ? atEntry.z : ray.q.z;
+      const Vec3<Real> entering = atEntry(valueApart(withinLeaf(ray.start)));
+      ray.q.x = enters > 0 ? entering.x : ray.q.x;
+      ray.q.y = enters > 0 ? entering.y : ray.q.y;
+      ray.q.z = enters > 0 ? entering.z : ray.q.z;
     }
   }
 

@@ -17,14 +17,27 @@ enum class RayFate : std::int32_t
   Left,    ///< crossed the grid
   Blocked, ///< ended in a solid
   Trapped, ///< met the step limit inside the grid
-  Turned   ///< left the grid going back, away from the film
+  Turned   ///< left the grid going back, away from the film, or is totally reflected there
 };
+
+/// The planes across w through which light enters and leaves the data.
+///
+/// Where they refract it, what p has along them is the same on both sides (Snell). With p in units of n_ref and d the
+/// undisturbed light's direction in the data, the direction cosines outside are `ratio` times p.u and p.v, those of
+/// undisturbed light `ratio` times d.u and d.v.
+struct ExitFaces
+{
+  bool refract; ///< else light keeps the direction that it has in the data
+  double
+    ratio; ///< n_ref by the index of what light leaves the data into; 1 where they do not refract
+};
+constexpr ExitFaces noFaces{ false, 1 };
 
 /// What a traced ray hands on; the only thing that optics and film see.
 struct RayExit
 {
-  double deflection[2];         ///< direction cosines along u and v
-  float displacement[2];        ///< on the exit plane, along u and v, data units
+  double deflection[2];  ///< direction cosines along u and v, less those of undisturbed light
+  float displacement[2]; ///< on the exit plane, along u and v, data units
   double opticalPathDifference; ///< metres, up to where the ray leaves the grid
   RayFate fate;
   std::int32_t steps;

@@ -73,7 +73,8 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
     ahead(light.w.y, light.indexScale.y) * task.medium.rowStride +
     ahead(light.w.x, light.indexScale.x);
   const double bend = boundBySteepest(medium, light).bend;
-  const double largestQ = medium.largestNu + (std::isfinite(bend) ? bend : 2);
+  const double largestQ =
+    largestKickAtEntry(medium.largestNu, light) + (std::isfinite(bend) ? bend : 2);
   constexpr double margin = 1.01; // for the integrator's error
   task.largestQ = static_cast<Real>(margin * largestQ);
   const double straightSteps =

@@ -114,6 +114,36 @@ SCHLIEREN_HD Entry enterGrid(const RayTask<Number>& task, const Pass& pass, std:
   return entry;
 }
 
+/// Whether the faces let light of p = d + q out, along u, v and w: it may be reflected totally.
+SCHLIEREN_HD bool leavesThrough(
+  const ExitFaces& faces, const Vec3<double>& d, const Vec3<double>& q)
+{
+  const double u = faces.ratio * (d.x + q.x), v = faces.ratio * (d.y + q.y);
+  return !faces.refract || u * u + v * v < 1;
+}
+
+/// By how much light of p = d + q, to first order in q unless it bends, has turned behind the faces.
+SCHLIEREN_HD void findDeflection(const ExitFaces& faces, const Vec3<double>& d,
+  const Vec3<double>& q, bool bends, double (&deflection)[2])
+{
+  double perMomentum = faces.ratio;
+  double longer = 0;
+  if (!faces.refract)
+  {
+    perMomentum = 1;
+    longer = dot(d, q); // 1 - 1 / |p|
+    if (bends)
+    {
+      const double momentum = length(d + q);
+      const double perBoth = 1 / (momentum * (momentum + 1));
+      perMomentum = (momentum + 1) * perBoth;
+      longer = (2 * longer + dot(q, q)) * perBoth;
+    }
+  }
+  deflection[0] = q.x * perMomentum - d.x * longer;
+  deflection[1] = q.y * perMomentum - d.y * longer;
+}
+
 /// What becomes of a ray whose march is over.
 template <class Number, int Lanes>
 SCHLIEREN_HD RayExit leaveGrid(
@@ -141,25 +171,13 @@ SCHLIEREN_HD RayExit leaveGrid(
     entry.cosine };
   const bool bends = task.kernel.path != PathModel::Straight;
   // p = d + q; of a straight ray to first order in q.
-  double forward = d.z;
-  double perMomentum = 1;
-  double longer = dot(d, q); // 1 - 1 / |p|
-  if (bends)
+  const double forward = bends ? d.z + q.z : d.z;
+  if (!(forward > 0) || !leavesThrough(light.faces, d, q))
   {
-    const Vec3<double> p = d + q;
-    forward = p.z;
-    if (!(forward > 0))
-    {
-      exit.fate = RayFate::Turned;
-      return exit;
-    }
-    const double momentum = length(p);
-    const double perBoth = 1 / (momentum * (momentum + 1));
-    perMomentum = (momentum + 1) * perBoth;
-    longer = (2 * longer + dot(q, q)) * perBoth;
+    exit.fate = RayFate::Turned;
+    return exit;
   }
-  exit.deflection[0] = q.x * perMomentum - d.x * longer;
-  exit.deflection[1] = q.y * perMomentum - d.y * longer;
+  findDeflection(light.faces, d, q, bends, exit.deflection);
   exit.opticalPathDifference =
     (static_cast<double>(batch.path[i]) - static_cast<double>(batch.pathError[i])) *
     task.metresPerUnit;

@@ -21,6 +21,7 @@ TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "R
          "Cutoff": {"Knife Edge", "Shadowgraph", "Circular", "Circular Complement", "Graded Filter",
                     "Color Filter", "Interferogram", "Background Oriented", "Numerical Schlieren"},
          "LockK": {"Off", "Over Time", "Always"},
+         "ExitInto": {"Auto", "Surroundings", "Air", "Custom"},
          "FringeMode": {"Infinite", "Finite"}, "LightSource": {"Collimated", "Diverging"},
          "SourceShape": {"Point", "Slit", "Disc"},
          "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"}, "FilmEstimator": {"Sheet", "Photon"},
@@ -157,6 +158,13 @@ for name, value in (("ViewDirection", [1, 0, -1]), ("ViewUp", [1, 1, 0]), ("Para
     setattr(bench, name, default)
     assert np.array_equal(image_array(bench, "OpticalPathDifference"), reference), name
 
+# What light leaves the data into: angles by its index.
+free = image_array(bench, "Deflection")
+bench.ExitInto, bench.ExitRefractivity = "Custom", 0.5
+assert np.allclose(image_array(bench, "Deflection"), free / 1.5, atol=1e-3 * np.abs(free).max())
+bench.ExitInto = "Auto"
+assert np.array_equal(image_array(bench, "Deflection"), free)
+
 # The focal point: empty means the data's centre.
 centred = output(bench).GetOrigin()
 bench.FocalPoint = [0.25, -0.5, 3]
@@ -205,6 +213,6 @@ near, bench.ScreenDistance = image_array(bench, "Intensity"), 100
 assert image_array(bench, "Intensity").std() > 2 * near.std()
 
 field = output(bench).GetFieldData()
-for name in ("Device", "PathModel", "KScale", "AmbientRefractivity", "RaysTraced", "RaysLost",
+for name in ("Device", "PathModel", "KScale", "AmbientRefractivity", "ExitRefractivity", "RaysTraced", "RaysLost",
              "StepsTaken", "TraceSeconds", "DisplacementBound", "SkippingBound", "MomentumDrift"):
     assert field.HasArray(name), name
