@@ -323,6 +323,7 @@ Resampling boxOf(const Source& source)
 {
   Resampling plan;
   plan.flatAxis = flatAxisOf(source);
+  plan.depth = plan.flatAxis < 0 ? 0 : depthOf(source, plan.flatAxis);
   plan.dimensions = { 2, 2, 2 };
   vtkBoundingBox box;
   for (const Leaf& leaf : source.leaves)
@@ -392,7 +393,7 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   setPoints(plan, structure);
   if (plan.flatAxis >= 0)
   {
-    extrudeGrid(structure, plan.flatAxis);
+    extrudeGrid(structure, plan.flatAxis, plan.depth);
   }
 }
 
@@ -447,7 +448,7 @@ Tally resample(const Resampling& plan, const Source& source, bool doublePrecisio
   }
   if (plan.flatAxis >= 0)
   {
-    extrudeGrid(output, plan.flatAxis);
+    extrudeGrid(output, plan.flatAxis, plan.depth);
     extrudeArrays(output, plan.flatAxis);
   }
   return tally;
