@@ -456,13 +456,15 @@ double depthOf(const Source& source, int flat)
 
 std::string warningOfExtrusion(const Source& source, int flat)
 {
+  if (source.isDepthGiven)
+  {
+    return ""; // whoever has given it knows
+  }
   std::ostringstream text;
   text << std::setprecision(4)
        << (source.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
        << "xyz"[flat] << ": they become " << depthOf(source, flat) << " data units deep, "
-       << (source.isDepthGiven        ? "as given"
-            : source.isOneCellThick ? "as their cells are"
-                                    : "as deep as their shorter side is long")
+       << (source.isOneCellThick ? "as their cells are" : "as their shorter side is long")
        << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
           "flow.";
   return text.str();

@@ -344,6 +344,7 @@ bool vtkRefractiveIndex::ConvertRevolved(
   values->SetNumberOfValues(output->GetNumberOfPoints());
   const auto valid = newMask(output->GetNumberOfPoints());
   const auto outside = newMask(output->GetNumberOfPoints());
+  outside->SetName(transparentName);
   vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
     [&]
     {

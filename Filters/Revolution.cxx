@@ -213,15 +213,19 @@ Candidate bestOf(
   {
     measure(atPoints, origin, candidate);
   }
-  constexpr double smooth = 0.2; // slopes at the axis that are as good as none
-  const bool areBothSmooth = candidates[0].slope < smooth && candidates[1].slope < smooth;
-  // Where both are smooth, nobody revolves a flow that does not change along the radius.
+  // Nobody revolves a flow that does not change along the radius.
   constexpr double little = 0.05;
-  if (areBothSmooth)
+  for (const std::size_t one : { 0, 1 })
   {
-    return candidates[0].change < little * candidates[1].change ? candidates[1] : candidates[0];
+    if (candidates[one].change < little * candidates[1 - one].change)
+    {
+      return candidates[1 - one];
+    }
   }
-  return candidates[1].slope < candidates[0].slope ? candidates[1] : candidates[0];
+  constexpr double smooth = 0.5; // slopes at the axis that are as good as none
+  return candidates[0].slope < smooth || candidates[0].slope <= candidates[1].slope
+    ? candidates[0]
+    : candidates[1];
 }
 
 /// The image on the other side of the axis.
@@ -311,6 +315,22 @@ std::vector<std::array<vtkIdType, 2>> rowAtAxis(
   return row;
 }
 
+/// Twice the area of a polygon in the plane; negative where its corners are in the other order.
+double areaOf(vtkPoints* places, const std::vector<vtkIdType>& corners, const Revolution& revolution)
+{
+  const auto along = static_cast<std::size_t>(revolution.axis),
+             away = static_cast<std::size_t>(revolution.radial);
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    std::array<double, 3> a, b;
+    places->GetPoint(corners[i], a.data());
+    places->GetPoint(corners[(i + 1) % corners.size()], b.data());
+    area += a[along] * b[away] - a[away] * b[along];
+  }
+  return area;
+}
+
 /// A mesh of both sides of the axis, with points on it once.
 void addBothSides(const Leaf& leaf, const Revolution& revolution, double tolerance, Remade& made)
 {
@@ -352,6 +372,7 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, double toleran
   mesh->Allocate(2 * data->GetNumberOfCells());
   vtkNew<vtkIdList> ids, notUsed;
   vtkNew<vtkPoints> notUsedPlaces;
+  double area = 0; // of the first cell
   for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
   {
     if (dimensionOfCell(data, cell) != 2)
@@ -377,6 +398,7 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, double toleran
     {
       const int ofPart = isPlain ? type : VTK_TRIANGLE;
       const std::vector<vtkIdType> corners(ids->GetPointer(begin), ids->GetPointer(begin) + size);
+      area = area != 0 ? area : areaOf(places, corners, revolution);
       mesh->InsertNextCell(ofPart, size, corners.data());
       made.cells->InsertNextId(cell);
       std::vector<vtkIdType> turned(corners.rbegin(), corners.rend());
@@ -392,9 +414,13 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, double toleran
   {
     for (const std::array<vtkIdType, 2>& side : rowAtAxis(data, revolution, tolerance))
     {
-      const vtkIdType corners[4] = { side[0], side[1], others[static_cast<std::size_t>(side[1])],
+      std::vector<vtkIdType> corners{ side[0], side[1], others[static_cast<std::size_t>(side[1])],
         others[static_cast<std::size_t>(side[0])] };
-      mesh->InsertNextCell(VTK_QUAD, 4, corners);
+      if (areaOf(places, corners, revolution) * area < 0)
+      {
+        std::reverse(corners.begin(), corners.end());
+      }
+      mesh->InsertNextCell(VTK_QUAD, 4, corners.data());
       made.cells->InsertNextId(0);
     }
   }

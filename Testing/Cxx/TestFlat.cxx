@@ -65,10 +65,7 @@ void expectOnePlaneDeep(vtkSchlierenFilter* filter, int axis, double tolerance)
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   filter->Update();
   EXPECT_TRUE(complaints->Errors.empty());
-  ASSERT_EQ(complaints->Warnings.size(), 1u);
-  EXPECT_NE(complaints->Warnings[0].find(std::string("2-D, across ") + "xyz"[axis]),
-    std::string::npos)
-    << complaints->Warnings[0];
+  EXPECT_TRUE(complaints->Warnings.empty());
   EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
 
   const GaussianColumn column;
@@ -212,7 +209,8 @@ namespace
 /// A bump in a plane of 40 by 20 mm, across an axis; lengths in units of so many mm.
 vtkSmartPointer<vtkImageData> bump(double unit, int axis, bool ofCells = false)
 {
-  const auto across = static_cast<std::size_t>(axis), first = axis == 0 ? 1u : 0u, second = axis == 2 ? 1u : 2u;
+  const auto across = static_cast<std::size_t>(axis);
+  const std::size_t first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
   auto image = vtkSmartPointer<vtkImageData>::New();
   int points[3] = { 1, 1, 1 };
   double origin[3] = { 0, 0, 0 };
@@ -281,7 +279,7 @@ TEST(Flat, TheUnitOfLengthsDoesNotMatter)
         filter->SetMediumTolerance(1e-3);
         paths.push_back(largestOf(filter, "OpticalPathDifference"));
       }
-      EXPECT_NEAR(paths[0], 1e-4 * 0.02, 2e-8);
+      EXPECT_NEAR(paths[0], 1e-4 * 0.02, 4e-8); // half a pixel from the middle
       EXPECT_NEAR(paths[1] / paths[0], 1, 1e-5);
       EXPECT_NEAR(paths[2] / paths[0], 1, 1e-5);
     }
@@ -329,6 +327,10 @@ TEST(Flat, ThePlaneIsSeenFromInFront)
       auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
       filter->Update();
       seen.push_back(valuesOf(filter, "OpticalPathDifference"));
+      EXPECT_NE(complaints->Warnings.at(0).find(
+                  std::string("2-D, across ") + "xyz"[axis] + ": they become 20 data units deep"),
+        std::string::npos)
+        << complaints->Warnings[0];
       EXPECT_EQ(complaints->Warnings.at(0).find("ViewDirection") != std::string::npos, axis != 2);
       EXPECT_LT(relativeDifference(seen.back(), seen.front()), 1e-3) << axis;
     }

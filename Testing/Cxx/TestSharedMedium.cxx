@@ -357,7 +357,7 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
   for (const auto& [name, from, to] : changes)
   {
     SCOPED_TRACE(name);
-    const auto input = [isFlat = std::string(name).rfind("Symmetry", 0) == 0]
+    const auto input = [&flatImage, isFlat = std::string(name).rfind("Symmetry", 0) == 0]
     { return isFlat ? flatImage() : blobImage(); };
     const Producer producer = producerOf(input());
     const Filter first = filterOf(producer, from), second = filterOf(producer, from);
