@@ -252,6 +252,16 @@ schlieren::Box AmrLevels::bounds() const
   return box;
 }
 
+void setDepth(AmrLevels& levels, double depth)
+{
+  const auto flat = static_cast<std::size_t>(levels.flat);
+  levels.origin[flat] += 0.5 * (levels.levels[0].spacing[flat] - depth);
+  for (AmrLevel& level : levels.levels)
+  {
+    level.spacing[flat] = depth;
+  }
+}
+
 AmrLevels turnedAcrossZ(AmrLevels levels)
 {
   if (levels.flat < 0)
@@ -263,7 +273,7 @@ AmrLevels turnedAcrossZ(AmrLevels levels)
   const std::size_t along = flat == 0 ? 1 : 0, up = flat == 2 ? 1 : 2;
   const auto turn = [&](auto& of) { of = { of[along], of[up], of[flat] }; };
   levels.origin = { levels.origin[along], levels.origin[up],
-    flat == 1 ? -levels.origin[1] - 1 : levels.origin[flat] };
+    flat == 1 ? -levels.origin[1] - levels.levels[0].spacing[1] : levels.origin[flat] };
   for (AmrLevel& level : levels.levels)
   {
     turn(level.spacing);

@@ -68,6 +68,9 @@ std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images);
 /// Nothing where the leaves are no such images, too.
 std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves);
 
+/// Gives flat levels another depth than one unit, about the same plane.
+void setDepth(AmrLevels& levels, double depth);
+
 /// Flat levels in the axes of directionAcross().
 AmrLevels turnedAcrossZ(AmrLevels levels);
 

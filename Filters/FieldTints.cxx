@@ -56,6 +56,10 @@ void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::si
 {
   reader->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
   reader->SetRefractivityScale(1);
+  reader->SetDepth(medium->GetDepth());
+  reader->SetSymmetry(medium->GetSymmetry());
+  reader->SetSymmetryAxis(medium->GetSymmetryAxis());
+  reader->SetSymmetryOrigin(medium->GetSymmetryOrigin());
   reader->AddField(medium->GetFields()[field].c_str());
   if (medium->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS &&
     !medium->GetTransferFunctions().empty())
@@ -149,7 +153,7 @@ std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* 
     FieldValues& field = fields[number];
     try
     {
-      field.source = filters::chooseSource(reader, input);
+      field.source = filters::chooseSource(reader, input, &ofMedium);
       if (ranges.empty())
       {
         std::get<filters::FieldMean>(field.source.model).findRanges(field.source.leaves);

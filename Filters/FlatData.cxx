@@ -28,6 +28,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace filters
@@ -62,18 +66,12 @@ std::array<double, 3> turned(const double x[3], int flat)
   return own;
 }
 
-/// What the points and cells of an extruded dataset were.
-struct Extrusion
-{
-  vtkSmartPointer<vtkPointSet> data;
-  vtkNew<vtkIdList> points, cells;
-};
-
 /// A plane across an axis. All points are moved into it: those that are flat may miss it by rounding.
 struct Plane
 {
   int flat;
   double height; // along z, when it is turned
+  double depth;
 
   void add(vtkDataSet* from, vtkIdType point, double offset, vtkPoints* to) const
   {
@@ -86,7 +84,7 @@ struct Plane
 
 /// Structured data stay so: their faces are found at once.
 void extrudeStructured(
-  vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Extrusion& to)
+  vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
 {
   const auto across =
     static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
@@ -101,7 +99,7 @@ void extrudeStructured(
       for (int i = 0; i < points[0]; ++i)
       {
         std::array<int, 3> at{ i, j, k };
-        const double offset = at[across] - 0.5;
+        const double offset = plane.depth * (at[across] - 0.5);
         at[across] = 0;
         const vtkIdType point = (vtkIdType{ at[2] } * before[1] + at[1]) * before[0] + at[0];
         plane.add(data, point, offset, places);
@@ -120,7 +118,7 @@ void extrudeStructured(
 }
 
 /// Cells other than linear triangles, quadrilaterals and pixels become triangles.
-void extrudeCells(vtkDataSet* data, const Plane& plane, Extrusion& to)
+void extrudeCells(vtkDataSet* data, const Plane& plane, Remade& to)
 {
   const vtkIdType count = data->GetNumberOfPoints();
   // Two layers of points and their numbers; corners of a cell, its type and number.
@@ -135,7 +133,7 @@ void extrudeCells(vtkDataSet* data, const Plane& plane, Extrusion& to)
   {
     for (vtkIdType point = 0; point < count; ++point)
     {
-      plane.add(data, point, offset, places);
+      plane.add(data, point, plane.depth * offset, places);
       to.points->InsertNextId(point);
     }
   }
@@ -190,7 +188,7 @@ vtkSmartPointer<vtkDataArray> chosenValues(vtkDataArray* from, vtkIdList* ids)
 }
 
 /// A surface in the axes of directionAcross(); a prism where it lies in the plane.
-vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat)
+vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat, double depth)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(surface);
@@ -206,7 +204,7 @@ vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat)
     double x[3];
     surface->GetPoint(point, x);
     const std::array<double, 3> own = turned(x, flat);
-    places->InsertNextPoint(own[0], own[1], own[2] - (isPlane ? 1 : 0));
+    places->InsertNextPoint(own[0], own[1], own[2] - (isPlane ? depth : 0));
   }
   result->SetPoints(places);
   if (!isPlane)
@@ -216,7 +214,7 @@ vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat)
   vtkNew<vtkLinearExtrusionFilter> prism;
   prism->SetInputData(result);
   prism->SetExtrusionTypeToVectorExtrusion();
-  prism->SetVector(0, 0, 2);
+  prism->SetVector(0, 0, 2 * depth);
   prism->CappingOn();
   prism->Update();
   return prism->GetOutput();
@@ -237,7 +235,32 @@ std::array<double, 9> directionAcross(int flat)
   }
 }
 
-Source extruded(const Source& source, int flat)
+Leaf Remade::leafOf(const Leaf& from) const
+{
+  Leaf one{ this->data, {}, from.ofCells, from.input };
+  for (vtkDataArray* array : from.arrays)
+  {
+    const auto values = chosenValues(array, from.ofCells ? this->cells : this->points);
+    one.data->GetAttributes(from.ofCells ? vtkDataObject::CELL : vtkDataObject::POINT)
+      ->AddArray(values);
+    one.arrays.push_back(values);
+  }
+  if (vtkUnsignedCharArray* ghosts = from.data->GetCellGhostArray())
+  {
+    one.data->GetCellData()->AddArray(chosenValues(ghosts, this->cells));
+  }
+  for (const char* name : { vtkDataSetAttributes::GhostArrayName(), maskName, transparentName })
+  {
+    vtkDataArray* flags = from.data->GetPointData()->GetArray(name);
+    if (flags && !one.data->GetPointData()->HasArray(name))
+    {
+      one.data->GetPointData()->AddArray(chosenValues(flags, this->points));
+    }
+  }
+  return one;
+}
+
+Source extruded(const Source& source, int flat, double depth)
 {
   Source result = source;
   result.image = nullptr;
@@ -252,10 +275,10 @@ Source extruded(const Source& source, int flat)
   }
   double middle[3];
   box.GetCenter(middle);
-  const Plane plane{ flat, turned(middle, flat)[2] };
+  const Plane plane{ flat, turned(middle, flat)[2], depth };
   for (const Leaf& leaf : source.leaves)
   {
-    Extrusion made;
+    Remade made;
     const std::array<int, 3> points = structureOf(leaf.data);
     if (std::count(points.begin(), points.end(), 1) == 1)
     {
@@ -265,23 +288,7 @@ Source extruded(const Source& source, int flat)
     {
       extrudeCells(leaf.data, plane, made);
     }
-    Leaf one{ made.data, {}, leaf.ofCells, leaf.input };
-    for (vtkDataArray* array : leaf.arrays)
-    {
-      const auto values = chosenValues(array, leaf.ofCells ? made.cells : made.points);
-      one.data->GetAttributes(leaf.ofCells ? vtkDataObject::CELL : vtkDataObject::POINT)
-        ->AddArray(values);
-      one.arrays.push_back(values);
-    }
-    if (vtkUnsignedCharArray* ghosts = leaf.data->GetCellGhostArray())
-    {
-      one.data->GetCellData()->AddArray(chosenValues(ghosts, made.cells));
-    }
-    if (vtkUnsignedCharArray* ghosts = leaf.data->GetPointGhostArray())
-    {
-      one.data->GetPointData()->AddArray(chosenValues(ghosts, made.points));
-    }
-    result.leaves.push_back(std::move(one));
+    result.leaves.push_back(made.leafOf(leaf));
     result.made.emplace_back(made.data);
   }
   return result;
@@ -303,10 +310,11 @@ vtkSmartPointer<vtkDataObject> changedBodies(
   return blocks;
 }
 
-vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat)
+vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, double depth)
 {
   return bodies && flat >= 0
-    ? changedBodies(bodies, [flat](vtkPolyData* surface) { return turnedSurface(surface, flat); })
+    ? changedBodies(bodies,
+        [flat, depth](vtkPolyData* surface) { return turnedSurface(surface, flat, depth); })
     : vtkSmartPointer<vtkDataObject>(bodies);
 }
 
@@ -405,13 +413,71 @@ int flatAxisOf(const Source& source)
   return flat;
 }
 
-std::string warningOfExtrusion(int flat)
+double depthOfImage(vtkImageData* image, int flat, double given)
 {
-  return std::string("The data are 2-D: they are extruded by one data unit along ") + "xyz"[flat] +
-    ", half of it to each side. Deflection and optical path are those of this length.";
+  if (given > 0)
+  {
+    return given;
+  }
+  int extent[6];
+  image->GetExtent(extent);
+  double spacing[3];
+  image->GetSpacing(spacing);
+  double shorter = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (axis != flat)
+    {
+      shorter =
+        std::min(shorter, std::abs(spacing[axis]) * (extent[2 * axis + 1] - extent[2 * axis]));
+    }
+  }
+  return shorter;
 }
 
-void extrudeGrid(vtkImageData* grid, int flat)
+double depthOf(const Source& source, int flat)
+{
+  if (source.image)
+  {
+    return depthOfImage(source.image, flat, source.depth);
+  }
+  if (source.depth > 0)
+  {
+    return source.depth;
+  }
+  vtkBoundingBox box;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (dimensionOf(leaf.data) == 2)
+    {
+      box.AddBounds(leaf.data->GetBounds());
+    }
+  }
+  double shorter = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    shorter = axis == flat ? shorter : std::min(shorter, box.GetLength(axis));
+  }
+  return shorter;
+}
+
+std::string warningOfExtrusion(const Source& source, int flat)
+{
+  if (source.isDepthGiven)
+  {
+    return ""; // whoever has given it knows
+  }
+  std::ostringstream text;
+  text << std::setprecision(4)
+       << (source.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
+       << "xyz"[flat] << ": they become " << depthOf(source, flat) << " data units deep, "
+       << (source.isOneCellThick ? "as their cells are" : "as their shorter side is long")
+       << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
+          "flow.";
+  return text.str();
+}
+
+void extrudeGrid(vtkImageData* grid, int flat, double depth)
 {
   int extent[6];
   grid->GetExtent(extent);
@@ -420,9 +486,9 @@ void extrudeGrid(vtkImageData* grid, int flat)
   double corner[3] = { 0, 0, 0 }, offset[3] = { 0, 0, 0 }, origin[3], spacing[3];
   grid->GetSpacing(spacing);
   grid->GetOrigin(origin);
-  corner[flat] = spacing[flat] * grid->GetExtent()[2 * flat] - 0.5;
+  corner[flat] = spacing[flat] * grid->GetExtent()[2 * flat] - 0.5 * depth;
   grid->GetDirectionMatrix()->MultiplyPoint(corner, offset);
-  spacing[flat] = 1;
+  spacing[flat] = depth;
   grid->SetExtent(extent);
   grid->SetSpacing(spacing);
   grid->SetOrigin(origin[0] + offset[0], origin[1] + offset[1], origin[2] + offset[2]);

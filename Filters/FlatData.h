@@ -4,6 +4,8 @@
 
 #include "RefractivitySource.h"
 
+#include "vtkIdList.h"
+#include "vtkNew.h"
 #include "vtkType.h"
 
 #include <array>
@@ -11,7 +13,7 @@
 
 class vtkPolyData;
 
-/// Two-dimensional data: extruded by one data unit across their plane, half a unit to each side.
+/// Two-dimensional data: extruded across their plane, half of their depth to each side.
 namespace filters
 {
 
@@ -26,8 +28,14 @@ int dimensionOf(vtkDataSet* data);
 /// 3-D cells. Throws where there are neither: lines, points, tilted or curved surfaces.
 int flatAxisOf(const Source& source);
 
+/// How deep flat data become: as the source says, or as the plane's shorter side is long. Throws where that is 0.
+double depthOf(const Source& source, int flat);
+
+/// The same of an image alone. `given`: 0 where the depth is to be chosen.
+double depthOfImage(vtkImageData* image, int flat, double given);
+
 /// What the user should hear of the extrusion.
-std::string warningOfExtrusion(int flat);
+std::string warningOfExtrusion(const Source& source, int flat);
 
 /// The points along each axis of data whose cells are numbered by three indices; 0 of others.
 std::array<int, 3> structureOf(vtkDataSet* data);
@@ -36,18 +44,28 @@ std::array<int, 3> structureOf(vtkDataSet* data);
 /// axes, the order stays.
 std::array<double, 9> directionAcross(int flat);
 
+/// What is made of a leaf, and of which of its points and cells.
+struct Remade
+{
+  vtkSmartPointer<vtkDataSet> data;
+  vtkNew<vtkIdList> points, cells;
+
+  /// As a leaf: with the values and what hides them.
+  Leaf leafOf(const Leaf& from) const;
+};
+
 /// The source with 3-D cells in place of flat ones, in the axes of directionAcross().
-Source extruded(const Source& source, int flat);
+Source extruded(const Source& source, int flat, double depth);
 
 /// What `change` makes of each surface among bodies.
 vtkSmartPointer<vtkDataObject> changedBodies(
   vtkDataObject* bodies, const std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData*)>& change);
 
 /// Bodies in these axes; those that lie in the plane are extruded, too. Null: there are none.
-vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat);
+vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, double depth);
 
-/// Gives a grid of one layer a second one, one unit behind it.
-void extrudeGrid(vtkImageData* grid, int flat);
+/// Gives a grid of one layer a second one, behind it.
+void extrudeGrid(vtkImageData* grid, int flat, double depth);
 
 /// Repeats the values of one layer in the second one.
 void extrudeArrays(vtkImageData* image, int flat);

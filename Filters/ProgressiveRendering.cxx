@@ -288,7 +288,8 @@ schlieren::Image vtkSchlierenFilter::Begin(
                                                  : this->KeptAmbient();
   inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
-  schlieren::Scene scene = sceneFrom(*this, field.grid, inside.RgbImages);
+  schlieren::Scene scene =
+    sceneFrom(facing(*this, inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
   addObjects(scene, this->GradedFilter, this->Medium);
   addBackground(scene, *this, inside.Scene);
   if (inside.FirstInstant && choosesK(*this))

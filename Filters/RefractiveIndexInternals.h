@@ -47,6 +47,9 @@ vtkSMPTools::Config loopsWith(int threads);
 
 std::string noGas(const Source& source);
 
+/// Of 3-D data that are a wedge; else empty.
+std::string noteOnWedge(vtkRefractiveIndex* self, const Source& source);
+
 /// Appends a sentence.
 void addText(std::string& text, const std::string& more);
 

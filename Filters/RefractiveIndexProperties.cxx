@@ -93,6 +93,11 @@ void vtkRefractiveIndex::PrintSettings(ostream& os, vtkIndent indent)
     std::vector<double>(this->SamplingBounds, this->SamplingBounds + 6));
   os << indent << "MaskThreshold: " << this->MaskThreshold << "\n";
   os << indent << "MaskedSide: " << this->MaskedSide << "\n";
+  os << indent << "Depth: " << this->Depth << "\n";
+  os << indent << "Symmetry: " << this->Symmetry << "\n";
+  os << indent << "SymmetryAxis: " << this->SymmetryAxis << "\n";
+  printList(os, indent, "SymmetryOrigin",
+    std::vector<double>(this->SymmetryOrigin, this->SymmetryOrigin + 3));
   os << indent << "Outside: " << this->Outside << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
   os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";

@@ -11,21 +11,31 @@
 #include "GasChoices.h"
 #include "ImageSource.h"
 #include "MeshSearch.h"
+#include "OneLayer.h"
 #include "PiecesSource.h"
 #include "RefractivityOfBodies.h"
+#include "RefractivityOutside.h"
+#include "RefractivityValues.h"
+#include "Revolution.h"
+#include "RevolvedSource.h"
 #include "SamplingBox.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 
 #include "Rays/RayWorker.h"
 #include "Schlieren.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -73,6 +83,19 @@ std::string filters::noGas(const Source& source)
 }
 
 //------------------------------------------------------------------------------
+std::string filters::noteOnWedge(vtkRefractiveIndex* self, const Source& source)
+{
+  std::array<double, 3> origin;
+  std::copy_n(self->GetSymmetryOrigin(), 3, origin.begin());
+  const std::optional<Wedge> wedge = findWedge(source, origin);
+  return wedge ? "The data are a wedge of " + std::to_string(std::lround(wedge->degrees)) +
+      " degrees around the " + "xyz"[wedge->axis] +
+      " axis, as of an axisymmetric flow, and light crosses no more than that; set Symmetry to "
+      "Axisymmetric for all of the flow."
+               : "";
+}
+
+//------------------------------------------------------------------------------
 void filters::addText(std::string& text, const std::string& more)
 {
   text += (text.empty() || more.empty() ? "" : " ") + more;
@@ -83,6 +106,11 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodi
 {
   const Source source = chooseSource(this, input);
   const int* given = this->SamplingDimensions;
+  if (this->Symmetry == AXISYMMETRIC)
+  {
+    revolutionOf(this, source); // throws where it is none
+    return std::all_of(given, given + 3, isZero) && !SamplingBox(this->SamplingBounds).isGiven();
+  }
   if ((source.image && !bodies && !imagesToo) || SamplingBox(this->SamplingBounds).isGiven() ||
     !std::all_of(given, given + 3, isZero))
   {
@@ -143,11 +171,18 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
   vtkDataObject* bodies, std::string& warning, SourceContents contents, StepOfPieces step)
 {
   Source source = chooseSource(this, input);
-  if (source.image)
+  std::optional<Revolution> revolution;
+  if (this->Symmetry == AXISYMMETRIC)
+  {
+    revolution = revolutionOf(this, source);
+  }
+  else if (source.image)
   {
     return this->MakeSourceOfImage(input, bodies, warning, contents, step);
   }
   const int flat = flatAxisOf(source);
+  this->FlatAxis = flat;
+  const double depth = flat < 0 ? 0 : depthOf(source, flat);
   this->Grid.clear();
   this->Search->release();
   Tally tally;
@@ -160,6 +195,19 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     meetsBodies = made->meetsBodies();
     result = made;
   };
+  std::string ofShape; // before it is changed
+  if (revolution)
+  {
+    ofShape = revolution->note;
+  }
+  else if (flat >= 0)
+  {
+    ofShape = warningOfExtrusion(source, flat);
+  }
+  else
+  {
+    ofShape = noteOnWedge(this, source);
+  }
   const WorkProgress progress = progressOf(this);
   const auto make = [&]
   {
@@ -172,12 +220,24 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     {
       fields = fieldValues(this, input, source);
     }
+    if (revolution)
+    {
+      source = mirrored(source, *revolution);
+      for (FieldValues& field : fields)
+      {
+        field.source = mirrored(field.source, *revolution);
+      }
+    }
     progress.reach(0.02);
     const auto outside = static_cast<filters::Outside>(this->Outside);
-    const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat);
+    const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
     if (std::optional<AmrLevels> levels = findLevels(source.leaves))
     {
-      levels = turnedAcrossZ(std::move(*levels));
+      if (flat >= 0)
+      {
+        setDepth(*levels, depth);
+        levels = turnedAcrossZ(std::move(*levels));
+      }
       const auto made = std::make_shared<AmrSource>(
         *levels, source, ownBodies, outside, tally, progress.part(0.02, 1));
       for (FieldValues& field : fields)
@@ -191,10 +251,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     }
     if (flat >= 0)
     {
-      source = extruded(source, flat);
+      source = extruded(source, flat, depth);
       for (FieldValues& field : fields)
       {
-        field.source = extruded(field.source, flat);
+        field.source = extruded(field.source, flat, depth);
       }
     }
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
@@ -254,18 +314,67 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnGases(source));
-  if (flat >= 0)
+  addText(warning, ofShape);
+  if (revolution)
   {
-    addText(warning, warningOfExtrusion(flat));
+    return std::make_shared<RevolvedSource>(result, *revolution);
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::ConvertRevolved(
+  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, std::string& warning)
+{
+  const auto source = this->MakeSource(input, bodies, warning);
+  if (!source)
+  {
+    return false;
+  }
+  const std::string grid = this->Grid;
+  this->ComputeGrid(input, output);
+  this->Grid = grid;
+  int points[3];
+  output->GetDimensions(points);
+  schlieren::Lattice all;
+  output->GetOrigin(all.first.data());
+  output->GetSpacing(all.spacing.data());
+  const vtkIdType layer = vtkIdType{ points[0] } * points[1];
+  vtkNew<vtkDoubleArray> values;
+  values->SetNumberOfValues(output->GetNumberOfPoints());
+  const auto valid = newMask(output->GetNumberOfPoints());
+  const auto outside = newMask(output->GetNumberOfPoints());
+  outside->SetName(transparentName);
+  vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
+    [&]
+    {
+      vtkSMPTools::For(0, points[2],
+        [&](vtkIdType begin, vtkIdType end)
+        {
+          schlieren::Lattice lattice = all;
+          lattice.points = { points[0], points[1], static_cast<int>(end - begin) };
+          lattice.first[2] += static_cast<double>(begin) * all.spacing[2];
+          std::vector<schlieren::Place> places(static_cast<std::size_t>(lattice.size()));
+          source->sample(lattice, values->GetPointer(begin * layer), places.data(), nullptr);
+          for (vtkIdType i = 0; i < layer * (end - begin); ++i)
+          {
+            const schlieren::Place place = places[static_cast<std::size_t>(i)];
+            valid->SetValue(begin * layer + i, place == schlieren::Place::Gas ? 1 : 0);
+            outside->SetValue(begin * layer + i, place == schlieren::Place::Window ? 1 : 0);
+          }
+        });
+    });
+  setArrays(output, { values }, Linear(), valid, this->DoublePrecision);
+  setOutside(outside, output);
+  return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractiveIndex::CanUsePieces()
 {
   const int* given = this->SamplingDimensions;
-  return std::all_of(given, given + 3, isZero) && !SamplingBox::isWanted(this->SamplingBounds);
+  return std::all_of(given, given + 3, isZero) && !SamplingBox::isWanted(this->SamplingBounds) &&
+    this->Symmetry == NO_SYMMETRY; // a plane is small
 }
 
 //------------------------------------------------------------------------------
@@ -356,6 +465,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   StepOfPieces step)
 {
   this->Grid.clear();
+  this->FlatAxis = -1;
   this->Search->release();
   this->LeaveMesh();
   this->SetPieceData(input, nullptr, step);

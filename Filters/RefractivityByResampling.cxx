@@ -324,6 +324,7 @@ Resampling boxOf(const Source& source)
 {
   Resampling plan;
   plan.flatAxis = flatAxisOf(source);
+  plan.depth = plan.flatAxis < 0 ? 0 : depthOf(source, plan.flatAxis);
   plan.dimensions = { 2, 2, 2 };
   vtkBoundingBox box;
   for (const Leaf& leaf : source.leaves)
@@ -393,7 +394,7 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   setPoints(plan, structure);
   if (plan.flatAxis >= 0)
   {
-    extrudeGrid(structure, plan.flatAxis);
+    extrudeGrid(structure, plan.flatAxis, plan.depth);
   }
 }
 
@@ -448,7 +449,7 @@ Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
   }
   if (plan.flatAxis >= 0)
   {
-    extrudeGrid(output, plan.flatAxis);
+    extrudeGrid(output, plan.flatAxis, plan.depth);
     extrudeArrays(output, plan.flatAxis);
   }
   return tally;

@@ -21,6 +21,7 @@ struct Resampling
   std::array<int, 3> dimensions; // 1 along the flat axis
   double bounds[6];
   int flatAxis;     // -1: none
+  double depth;     // along it
   std::string note; // what the user may want to know of the grid
 };
 

@@ -3,6 +3,7 @@
 #include "RefractivityOfAmr.h"
 
 #include "AmrReconstruction.h"
+#include "FlatData.h"
 #include "RefractivityByResampling.h"
 #include "RefractivityValues.h"
 
@@ -184,6 +185,10 @@ std::optional<Amr> planAmr(
   {
     return std::nullopt;
   }
+  if (found->flat >= 0)
+  {
+    setDepth(*found, depthOf(source, found->flat));
+  }
   Amr amr;
   amr.levels = std::move(found->levels);
   const Counts given = requireDimensions(samplingDimensions);
@@ -239,11 +244,11 @@ std::optional<Amr> planAmr(
     const double all = amr.levels[0].cells[axis] * amr.levels[0].spacing[axis];
     const bool isPart = cells[axis] < amr.levels[amr.used].cells[axis];
     const double length = isPart ? cells[axis] * cell : all;
-    amr.spacing[axis] = isFlat ? 1. / (amr.dimensions[axis] - 1) : length / amr.dimensions[axis];
+    amr.spacing[axis] = length / (isFlat ? amr.dimensions[axis] - 1 : amr.dimensions[axis]);
     amr.origin[axis] =
       found->origin[axis] + amr.cells.begin[axis] * cell + (isFlat ? 0 : amr.spacing[axis] / 2);
     bounds[2 * axis] = found->origin[axis];
-    bounds[2 * axis + 1] = found->origin[axis] + (isFlat ? 1 : all);
+    bounds[2 * axis + 1] = found->origin[axis] + all;
   }
   box.within(bounds); // throws where there is nothing
   return amr;

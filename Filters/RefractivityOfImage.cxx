@@ -136,7 +136,7 @@ bool hidesSome(vtkImageData* image)
 
 } // namespace
 
-void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
+void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* structure)
 {
   int extent[6];
   image->GetExtent(extent);
@@ -188,14 +188,14 @@ void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure)
   structure->SetDirectionMatrix(image->GetDirectionMatrix());
   if (flat >= 0)
   {
-    extrudeGrid(structure, flat);
+    extrudeGrid(structure, flat, depthOfImage(image, flat, depth));
   }
 }
 
 Tally convertImage(const Source& source, Numbers numbers, vtkImageData* output)
 {
   const Leaf& leaf = source.leaves[0];
-  gridOfImage(source.image, leaf.ofCells, output);
+  gridOfImage(source.image, leaf.ofCells, source.depth, output);
   vtkSmartPointer<vtkUnsignedCharArray> valid;
   if (hidesSome(source.image))
   {

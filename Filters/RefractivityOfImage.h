@@ -9,8 +9,8 @@ namespace filters
 {
 
 /// Makes `structure` the grid of the image's points, or of the centres of its cells; of a flat image, two
-/// such layers.
-void gridOfImage(vtkImageData* image, bool ofCells, vtkImageData* structure);
+/// such layers, `depth` apart (see depthOfImage()).
+void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* structure);
 
 /// Fills `output` from source.image.
 Tally convertImage(const Source& source, Numbers numbers, vtkImageData* output);

@@ -5,6 +5,7 @@
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "Mask.h"
+#include "OneLayer.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -15,7 +16,9 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -280,9 +283,28 @@ void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSet
   }
 }
 
+/// Makes flat data of what is one layer of cells.
+void flattenLayers(vtkRefractiveIndex* self, Source& source, const Source* like)
+{
+  source.depth = self->GetDepth();
+  source.isDepthGiven = source.depth > 0;
+  if (self->GetSymmetry() == vtkRefractiveIndex::AXISYMMETRIC)
+  {
+    std::array<double, 3> origin;
+    std::copy_n(self->GetSymmetryOrigin(), 3, origin.begin());
+    if (const std::optional<Wedge> wedge = findWedge(source, origin))
+    {
+      flattenWedge(source, *wedge, origin);
+      source.axisOfWedge = wedge->axis;
+      return;
+    }
+  }
+  flattenLayer(source, like);
+}
+
 } // namespace
 
-Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
+Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source* like)
 {
   const std::vector<vtkDataSet*> dataSets = dataSetsOf(input);
   if (dataSets.empty())
@@ -317,6 +339,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input)
   }
   source.label = labelOf(source.leaves[0].arrays, selections);
   applyMask(self, dataSets, source);
+  flattenLayers(self, source, like);
   return source;
 }
 

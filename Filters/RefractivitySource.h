@@ -58,6 +58,10 @@ struct Source
     made;                        // their data that are not the input's: masked, extruded
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
+  double depth = 0;             // of flat data, see depthOf(); 0: to be chosen
+  bool isDepthGiven = false;    // by the user
+  bool isOneCellThick = false;  // what `leaves` have was: see flattenLayer()
+  int axisOfWedge = -1;         // likewise: see flattenWedge(); -1: none
   std::string noteOnGases; // what the user should know once, mostly empty
   std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
 };
@@ -69,7 +73,10 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);
+/// `like`: what was chosen of the same input for other arrays; data that are one layer of cells are then taken as they were
+/// there. May be null.
+Source chooseSource(
+  vtkRefractiveIndex* self, vtkDataObject* input, const Source* like = nullptr);
 
 /// The names of all arrays that may be read of an input.
 std::vector<std::string> arraysOf(vtkRefractiveIndex* self);

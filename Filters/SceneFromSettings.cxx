@@ -163,7 +163,42 @@ std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
   return values;
 }
 
+/// Whether the view is what it is by default, and along a plane.
+bool looksAlong(const ViewSettings& settings, int flatAxis)
+{
+  const ViewSettings byDefault;
+  return settings.FaceFlatData && (flatAxis == 0 || flatAxis == 1) &&
+    std::equal(settings.ViewDirection, settings.ViewDirection + 3, byDefault.ViewDirection);
+}
+
 } // namespace
+
+//------------------------------------------------------------------------------
+SchlierenSettings facing(SchlierenSettings settings, int flatAxis)
+{
+  if (looksAlong(settings, flatAxis))
+  {
+    // So that z is up, and x, or y, to the right.
+    const double across[2][3] = { { -1, 0, 0 }, { 0, 1, 0 } };
+    std::copy_n(across[flatAxis], 3, settings.ViewDirection);
+    const ViewSettings byDefault;
+    if (std::equal(settings.ViewUp, settings.ViewUp + 3, byDefault.ViewUp))
+    {
+      const double z[3] = { 0, 0, 1 };
+      std::copy_n(z, 3, settings.ViewUp);
+    }
+  }
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+std::string noteOnView(const SchlierenSettings& settings, int flatAxis)
+{
+  return looksAlong(settings, flatAxis)
+    ? std::string(" ViewDirection (0, 0, -1) is along their plane: the image is as seen along ") +
+      (flatAxis == 0 ? "(-1, 0, 0)" : "(0, 1, 0)") + ", onto it."
+    : "";
+}
 
 //------------------------------------------------------------------------------
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)

@@ -39,6 +39,12 @@ void addObjects(
 void addBackground(
   schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background);
 
+/// Looks onto the plane of flat data where the view would be along it by default; see vtkSchlierenFilter::SetFaceFlatData().
+/// `flatAxis`: across the plane, or -1.
+SchlierenSettings facing(SchlierenSettings settings, int flatAxis);
+/// What the user should know of that; mostly empty.
+std::string noteOnView(const SchlierenSettings& settings, int flatAxis);
+
 /// Where the image lies.
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);
 

@@ -142,7 +142,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.Refractivity = made;
   if (!made->Warning.empty())
   {
-    vtkWarningMacro(<< made->Warning);
+    vtkWarningMacro(<< made->Warning << noteOnView(*this, made->FlatAxis));
   }
   inside.Input = std::move(description);
   inside.MediumTime = this->Medium->GetMTime();
@@ -232,6 +232,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   made->SourceTime = now.GetMTime();
   made->Mesh = this->Medium->GetMesh();
   made->Grid = this->Medium->GetGrid();
+  made->FlatAxis = this->Medium->GetFlatAxis();
   return made;
 }
 

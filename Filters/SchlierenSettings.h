@@ -38,6 +38,7 @@ struct ViewSettings
 {
   double ViewDirection[3] = { 0, 0, -1 };
   double ViewUp[3] = { 0, 1, 0 };
+  bool FaceFlatData = true;
   bool HasFocalPoint = false;
   double FocalPoint[3] = { 0, 0, 0 };
   double ParallelScale = 0;
@@ -49,6 +50,7 @@ struct ViewSettings
   {
     use("ViewDirection", this->ViewDirection);
     use("ViewUp", this->ViewUp);
+    use("FaceFlatData", this->FaceFlatData);
     use("HasFocalPoint", this->HasFocalPoint);
     use("FocalPoint", this->FocalPoint);
     use("ParallelScale", this->ParallelScale);

@@ -35,6 +35,7 @@ struct MadeRefractivity
   vtkMTimeType SourceTime = 0;
   std::shared_ptr<filters::KeptMesh> Mesh; ///< of Source
   std::string Grid;                        ///< of Image, in words
+  int FlatAxis = -1;                       ///< see vtkRefractiveIndex::GetFlatAxis()
   std::string Warning;                     ///< for whoever uses it
 };
 

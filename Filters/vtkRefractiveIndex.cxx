@@ -9,11 +9,13 @@
 #include "MeshSearch.h"
 #include "PiecesSource.h"
 #include "Ranks.h"
+#include "FlatData.h"
 #include "RefractiveIndexInternals.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
 #include "RefractivityOutside.h"
 #include "RequestGuard.h"
+#include "Revolution.h"
 #include "SamplingBox.h"
 
 #include "vtkFieldData.h"
@@ -59,6 +61,12 @@ void requireMemoryFor(
 const char* const fewerPoints =
   "Give smaller SamplingDimensions (zeros: chosen from the data), or SamplingBounds of a part of "
   "the data.";
+
+/// The coordinate axis across the plane of the data; -1: there is none.
+int planeOf(const Source& source)
+{
+  return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1 : flatAxisOf(source);
+}
 
 void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
 {
@@ -179,9 +187,15 @@ int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
 void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structure)
 {
   const Source source = chooseSource(this, input);
-  if (source.image)
+  this->FlatAxis = planeOf(source);
+  if (this->Symmetry == AXISYMMETRIC)
   {
-    gridOfImage(source.image, source.leaves[0].ofCells, structure);
+    gridOf(revolutionOf(this, source), source, this->SamplingDimensions,
+      SamplingBox(this->SamplingBounds), structure);
+  }
+  else if (source.image)
+  {
+    gridOfImage(source.image, source.leaves[0].ofCells, source.depth, structure);
     SamplingBox(this->SamplingBounds).crop(structure);
   }
   else
@@ -194,7 +208,14 @@ void vtkRefractiveIndex::ComputeGrid(vtkDataObject* input, vtkImageData* structu
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::ComputeBox(vtkDataObject* input, vtkImageData* structure)
 {
-  gridOf(boxOf(chooseSource(this, input)), structure);
+  const Source source = chooseSource(this, input);
+  this->FlatAxis = planeOf(source);
+  if (this->Symmetry == AXISYMMETRIC)
+  {
+    boxOf(revolutionOf(this, source), structure);
+    return;
+  }
+  gridOf(boxOf(source), structure);
 }
 
 //------------------------------------------------------------------------------
@@ -248,9 +269,25 @@ std::string vtkRefractiveIndex::Convert(
                                                 : Numbers::Singles;
   Tally tally;
   std::string note = "the data's own";
+  std::string ofRevolution;
+  this->FlatAxis = planeOf(source);
+  const bool isRevolved = this->Symmetry == AXISYMMETRIC;
+  if (isRevolved)
+  {
+    note = "of the body of revolution";
+    if (!this->ConvertRevolved(input, output, bodies, ofRevolution))
+    {
+      output->Initialize();
+      return "";
+    }
+  }
   vtkSMPTools::LocalScope(threads,
     [&]()
     {
+      if (isRevolved)
+      {
+        return;
+      }
       if (auto* fields = std::get_if<FieldMean>(&source.model))
       {
         fields->findRanges(source.leaves);
@@ -312,8 +349,8 @@ std::string vtkRefractiveIndex::Convert(
   {
     throw std::runtime_error(noGas(source));
   }
-  std::string warning = warningFrom(source.model, tally);
-  if (bodies)
+  std::string warning = isRevolved ? ofRevolution : warningFrom(source.model, tally);
+  if (bodies && !isRevolved)
   {
     addText(warning, placeBodies(bodies, output));
     if (!hasGas())
@@ -333,9 +370,10 @@ std::string vtkRefractiveIndex::Convert(
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
   addText(warning, this->NewNoteOnGases(source));
-  if (const int flat = flatAxisOf(source); flat >= 0)
+  if (!isRevolved)
   {
-    addText(warning, warningOfExtrusion(flat));
+    const int flat = flatAxisOf(source);
+    addText(warning, flat < 0 ? noteOnWedge(this, source) : warningOfExtrusion(source, flat));
   }
   return warning;
 }
@@ -351,7 +389,7 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
   try
   {
     vtkDataObject* input = vtkDataObject::GetData(inInfo);
-    if (vtkImageData::SafeDownCast(input) &&
+    if (this->Symmetry == NO_SYMMETRY && vtkImageData::SafeDownCast(input) &&
       inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()) &&
       inInfo->Has(vtkDataObject::ORIGIN()) && inInfo->Has(vtkDataObject::SPACING()))
     {
@@ -364,7 +402,7 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
       {
         whole->SetDirectionMatrix(inInfo->Get(vtkDataObject::DIRECTION()));
       }
-      gridOfImage(whole, willReadCells(this, input), grid);
+      gridOfImage(whole, willReadCells(this, input), this->Depth, grid);
       SamplingBox(this->SamplingBounds).crop(grid);
     }
     else

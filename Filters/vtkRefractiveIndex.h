@@ -13,7 +13,8 @@
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
  * arrays on the grid of the cells' centres, so that nothing is smoothed. Data in one plane across a
- * coordinate axis are extruded along it, half a unit to each side, with a warning. Blocks of images that hold
+ * coordinate axis, or one cell thick along it, are extruded along it (see Depth), or revolved (see Symmetry), with a
+ * warning. Blocks of images that hold
  * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
  * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
  * resampled to a grid (see SamplingDimensions): each of its points takes the value that the first cell
@@ -400,6 +401,57 @@ public:
   void OutsideBlocksLightOff() { this->SetOutsideBlocksLight(0); }
   ///@}
 
+  ///@{
+  /**
+   * How deep data in one plane, or one cell thick, are, in data units: half of it is on each side of the plane. Deflection and
+   * optical path are in proportion to it. 0 (the default): of data that are one cell thick what their cells are, of a plane
+   * what its shorter side is long. Of no effect with Symmetry.
+   */
+  vtkSetClampMacro(Depth, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Depth, double);
+  ///@}
+
+  /// What 2-D data are a section of.
+  enum Symmetries
+  {
+    NO_SYMMETRY = 0,
+    AXISYMMETRIC = 1
+  };
+  enum SymmetryAxes
+  {
+    AUTO_AXIS = 0,
+    X_AXIS = 1,
+    Y_AXIS = 2,
+    Z_AXIS = 3
+  };
+
+  ///@{
+  /**
+   * What data in one plane, or in a wedge of one cell between two planes through an axis, stand for. NO_SYMMETRY (the
+   * default): a flow that does not depend on the third coordinate. AXISYMMETRIC: a body of revolution; no mesh of it is made.
+   * Of data on both sides of the axis those of the positive one are used. Other data are an error.
+   */
+  vtkSetClampMacro(Symmetry, int, NO_SYMMETRY, AXISYMMETRIC);
+  vtkGetMacro(Symmetry, int);
+  ///@}
+
+  ///@{
+  /**
+   * The direction of the axis of symmetry, one of SymmetryAxes. AUTO_AXIS (the default): that of a wedge; of a plane the one of
+   * its two coordinate axes that the data lie on one side of, touch, and continue smoothly across.
+   */
+  vtkSetClampMacro(SymmetryAxis, int, AUTO_AXIS, Z_AXIS);
+  vtkGetMacro(SymmetryAxis, int);
+  ///@}
+
+  ///@{
+  /**
+   * A point of the axis of symmetry. Default: (0, 0, 0).
+   */
+  vtkSetVector3Macro(SymmetryOrigin, double);
+  vtkGetVector3Macro(SymmetryOrigin, double);
+  ///@}
+
   /// Which values of the array MASK say that there is no gas.
   enum MaskedSides
   {
@@ -474,6 +526,11 @@ public:
    * The same with two points along each axis, for meshes that CanMakeSource(): their box.
    */
   VTK_WRAPEXCLUDE void ComputeBox(vtkDataObject* input, vtkImageData* structure);
+
+  /**
+   * The coordinate axis across the plane of the data that the last of these functions was given; -1: they are in no plane.
+   */
+  VTK_WRAPEXCLUDE int GetFlatAxis() const { return this->FlatAxis; }
 
   /**
    * What the filter does, without a pipeline: fills `output` from `input` and, where not null, `bodies`. Returns what the user
@@ -618,6 +675,10 @@ private:
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
 
+  /// Convert() of data with an axis of symmetry: false where it was aborted.
+  bool ConvertRevolved(
+    vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, std::string& warning);
+
   /// Of a three-dimensional image with bodies.
   std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
     vtkDataObject* bodies, std::string& warning, SourceContents contents, StepOfPieces step);
@@ -664,6 +725,11 @@ private:
   double RefractivityScale = 3e-4;
   int SamplingDimensions[3] = { 0, 0, 0 };
   double SamplingBounds[6] = { 0, 0, 0, 0, 0, 0 };
+  double Depth = 0;
+  int Symmetry = NO_SYMMETRY;
+  int SymmetryAxis = AUTO_AXIS;
+  double SymmetryOrigin[3] = { 0, 0, 0 };
+  int FlatAxis = -1;
   int Outside = OUTSIDE_AUTO;
   int Reconstruction = SMOOTH;
   std::string Grid;
@@ -706,6 +772,14 @@ private:
   vtkForwardPropertyMacro(inner, RefractivityScale, double);                              \
   vtkForwardPropertyMacro(inner, MaskThreshold, double);                                  \
   vtkForwardPropertyMacro(inner, MaskedSide, int);                                        \
+  vtkForwardPropertyMacro(inner, Depth, double);                                          \
+  vtkForwardPropertyMacro(inner, Symmetry, int);                                          \
+  vtkForwardPropertyMacro(inner, SymmetryAxis, int);                                      \
+  vtkForwardVectorMacro(inner, SymmetryOrigin, double, 3);                                \
+  virtual void SetSymmetryOrigin(double x, double y, double z)                            \
+  {                                                                                       \
+    this->inner->SetSymmetryOrigin(x, y, z);                                              \
+  }                                                                                       \
   vtkForwardPropertyMacro(inner, Outside, int);                                           \
   vtkForwardPropertyMacro(inner, OutsideBlocksLight, int);                                \
   vtkForwardPropertyMacro(inner, Reconstruction, int);                                    \

@@ -207,12 +207,14 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
     {
       this->PassToMedium();
       schlieren::Grid grid;
+      int flatAxis = -1;
       vtkDataObject* bodies = this->InputOfImage(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
             this->DescribeInputs(input, bodies), this->Medium, this->ColorByField))
       {
         grid = Internals::fieldOf(*this->Inside->Refractivity).grid;
+        flatAxis = this->Inside->Refractivity->FlatAxis;
       }
       else
       {
@@ -226,8 +228,9 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
           this->Medium->ComputeGrid(input, planned);
         }
         grid = gridFrom(planned);
+        flatAxis = this->Medium->GetFlatAxis();
       }
-      const schlieren::Frame frame = frameFrom(*this, grid);
+      const schlieren::Frame frame = frameFrom(facing(*this, flatAxis), grid);
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
     }

@@ -291,7 +291,7 @@ public:
   ///@{
   /**
    * The direction one looks in, as in vtkCamera; light travels against it. Any length but 0.
-   * Default: (0, 0, -1).
+   * Default: (0, 0, -1); see FaceFlatData.
    */
   vtkSetVector3Macro(ViewDirection, double);
   vtkGetVector3Macro(ViewDirection, double);
@@ -303,6 +303,17 @@ public:
    */
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether 2-D data in a plane along z (and the section that data with Symmetry are) are seen from in front where ViewDirection
+   * is (0, 0, -1), its default, which is along the plane: then along y, or against x, and z is up unless ViewUp says otherwise. Off,
+   * or with any other ViewDirection, the view is as it is set. Default: on.
+   */
+  vtkSetMacro(FaceFlatData, bool);
+  vtkGetMacro(FaceFlatData, bool);
+  vtkBooleanMacro(FaceFlatData, bool);
   ///@}
 
   ///@{

@@ -225,6 +225,7 @@ bool vtkSchlierenActor::LookThrough(const View& view)
   const bool isMoved = !this->HasSeen || !(view == this->Seen);
   this->Seen = view;
   this->HasSeen = true;
+  this->Bench->FaceFlatDataOff();
   this->Bench->SetViewDirection(view.Direction.data());
   this->Bench->SetViewUp(view.Up.data());
   this->Bench->SetFocalPoint(view.FocalPoint.data());

@@ -112,11 +112,14 @@ std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to)
   {
     camera.emplace_back(name, vtkSMPropertyHelper(from, name).GetDoubleArray());
   }
+  // ParaView shows planes in its 2-D mode, which is parallel whatever the projection is, from far away.
+  const int mode = vtkSMPropertyHelper(from, "InteractionMode").GetAsInt();
   const int isParallel = vtkSMPropertyHelper(from, "CameraParallelProjection").GetAsInt();
-  return [camera, isParallel, id = ProxyById(to)]()
+  return [camera, mode, isParallel, id = ProxyById(to)]()
   {
     if (vtkSMProxy* proxy = id.get())
     {
+      vtkSMPropertyHelper(proxy, "InteractionMode").Set(mode);
       vtkSMPropertyHelper(proxy, "CameraParallelProjection").Set(isParallel);
       for (const auto& [name, values] : camera)
       {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two-dimensional data are extruded by one data unit across their plane.
+// Two-dimensional data are extruded across their plane, by Depth.
 #include "Fixtures.h"
 
 #include "vtkAppendFilter.h"
@@ -61,13 +61,11 @@ void expectOnePlaneDeep(vtkSchlierenFilter* filter, int axis, double tolerance)
   filter->SetViewDirection(directions[axis].data());
   filter->SetViewUp(up[0], up[1], up[2]);
   filter->SetParallelScale(0.9);
+  filter->SetDepth(1);
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   filter->Update();
   EXPECT_TRUE(complaints->Errors.empty());
-  ASSERT_EQ(complaints->Warnings.size(), 1u);
-  EXPECT_NE(complaints->Warnings[0].find(std::string("one data unit along ") + "xyz"[axis]),
-    std::string::npos)
-    << complaints->Warnings[0];
+  EXPECT_TRUE(complaints->Warnings.empty());
   EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
 
   const GaussianColumn column;
@@ -87,7 +85,7 @@ void expectOnePlaneDeep(vtkSchlierenFilter* filter, int axis, double tolerance)
 
 } // namespace
 
-TEST(Flat, ImageOfPointsOrCellsIsOneUnitDeep)
+TEST(Flat, ImagesOfPointsOrCellsAreAsDeepAsGiven)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -103,22 +101,25 @@ TEST(Flat, ImageOfPointsOrCellsIsOneUnitDeep)
 TEST(Flat, ImageIsAColumnFromTheSide)
 {
   auto filter = bench(plane(1, 129));
+  filter->SetDepth(1);
+  filter->SetViewDirection(0, 0, 1); // not as by default, which would be from in front
   filter->SetFocalPoint(0, height, 0);
   filter->SetParallelScale(0.49);
   filter->Update();
-  EXPECT_LT(compareWithColumn(filter, GaussianColumn()).deflection, 1e-3);
+  EXPECT_LT(compareWithColumn(filter, GaussianColumn(), { 0, 0, 1 }).deflection, 1e-3);
   EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
   vtkNew<vtkImageData> grid;
   vtkNew<vtkRefractiveIndex> medium;
   medium->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   medium->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  medium->SetDepth(1);
   medium->ComputeGrid(filter->GetInputDataObject(0, 0), grid);
   EXPECT_EQ(grid->GetBounds()[2], height - 0.5);
   EXPECT_EQ(grid->GetBounds()[3], height + 0.5);
 }
 
-TEST(Flat, MeshesAreOneUnitDeep)
+TEST(Flat, MeshesAreAsDeepAsGiven)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -168,6 +169,7 @@ TEST(Flat, SliceOfAShockIsAsDeepAsItIsThick)
     filter->SetInputArrayToProcess(
       vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
     filter->SetDensityScale(1e-3); // so weak that no ray is displaced
+    filter->SetDepth(1);
     filter->Update();
     return valuesOf(filter, "OpticalPathDifference");
   };
@@ -198,5 +200,148 @@ TEST(Flat, HiddenCellsBlock)
     const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
     EXPECT_EQ(blocked[64 * 32 + 8], 1);
     EXPECT_EQ(blocked[64 * 32 + 40], 0);
+  }
+}
+
+namespace
+{
+
+/// A bump in a plane of 40 by 20 mm, across an axis; lengths in units of so many mm.
+vtkSmartPointer<vtkImageData> bump(double unit, int axis, bool ofCells = false)
+{
+  const auto across = static_cast<std::size_t>(axis);
+  const std::size_t first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  int points[3] = { 1, 1, 1 };
+  double origin[3] = { 0, 0, 0 };
+  points[first] = 81;
+  points[second] = 41;
+  origin[first] = -20 / unit;
+  origin[second] = -10 / unit;
+  image->SetDimensions(points);
+  image->SetOrigin(origin);
+  image->SetSpacing(0.5 / unit, 0.5 / unit, 0.5 / unit);
+  const auto field = [=](Vec x)
+  {
+    x[across] = 0;
+    return 1e-4 * std::exp(-dot(x, x) * unit * unit / 16);
+  };
+  ofCells ? addCellArray(image, "N", field) : static_cast<void>(addPointArray(image, "N", field));
+  return image;
+}
+
+/// As structured points, as cells, or as blocks of images.
+std::vector<vtkSmartPointer<vtkDataObject>> asMeshes(vtkImageData* image)
+{
+  vtkNew<vtkImageDataToPointSet> structured;
+  structured->SetInputData(image);
+  structured->Update();
+  vtkNew<vtkAppendFilter> pixels;
+  pixels->SetInputData(image);
+  vtkNew<vtkDataSetTriangleFilter> triangles;
+  triangles->SetInputConnection(pixels->GetOutputPort());
+  triangles->Update();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, image);
+  return { structured->GetOutput(), pixels->GetOutput(), triangles->GetOutput(), blocks };
+}
+
+double largestOf(vtkSchlierenFilter* filter, const char* name)
+{
+  filter->Update();
+  return largest(valuesOf(filter, name));
+}
+
+} // namespace
+
+// Without a Depth, an image does not depend on the unit of lengths, and is as deep as it is high.
+TEST(Flat, TheUnitOfLengthsDoesNotMatter)
+{
+  for (const bool ofCells : { false, true })
+  {
+    std::vector<vtkSmartPointer<vtkDataObject>> inputs = asMeshes(bump(1, 2, ofCells));
+    inputs.emplace_back(bump(1, 2, ofCells));
+    for (std::size_t kind = 0; kind < inputs.size(); ++kind)
+    {
+      SCOPED_TRACE(testing::Message() << kind << (ofCells ? " cells" : " points"));
+      std::vector<double> paths;
+      for (const double unit : { 1., 1000., 25.4 })
+      {
+        auto image = bump(unit, 2, ofCells);
+        const auto meshes = asMeshes(image);
+        auto filter = bench(kind < meshes.size() ? meshes[kind].Get() : image.Get());
+        if (ofCells)
+        {
+          filter->SetInputArrayToProcess(
+            vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+        }
+        filter->SetLengthScale(unit * 1e-3);
+        filter->SetMediumTolerance(1e-3);
+        paths.push_back(largestOf(filter, "OpticalPathDifference"));
+      }
+      EXPECT_NEAR(paths[0], 1e-4 * 0.02, 4e-8); // half a pixel from the middle
+      EXPECT_NEAR(paths[1] / paths[0], 1, 1e-5);
+      EXPECT_NEAR(paths[2] / paths[0], 1, 1e-5);
+    }
+  }
+}
+
+TEST(Flat, OpticalPathsAreInProportionToDepth)
+{
+  auto image = bump(1, 2);
+  std::vector<vtkSmartPointer<vtkDataObject>> inputs = asMeshes(image);
+  inputs.emplace_back(image);
+  for (const auto& input : inputs)
+  {
+    auto filter = bench(input);
+    filter->SetPathModel(vtkSchlierenFilter::STRAIGHT);
+    filter->SetDepth(1);
+    filter->Update();
+    const std::vector<double> once = valuesOf(filter, "OpticalPathDifference");
+    const double bent = largestOf(filter, "Deflection");
+    for (const double depth : { 0.001, 50. })
+    {
+      filter->SetDepth(depth);
+      filter->Update();
+      std::vector<double> paths = valuesOf(filter, "OpticalPathDifference");
+      for (double& path : paths)
+      {
+        path /= depth;
+      }
+      EXPECT_LT(relativeDifference(paths, once), 1e-5) << depth;
+      EXPECT_NEAR(largestOf(filter, "Deflection") / bent / depth, 1, 1e-5) << depth;
+    }
+  }
+}
+
+// By default whatever plane it is, it is seen from in front, with z up; but not where another view is set.
+TEST(Flat, ThePlaneIsSeenFromInFront)
+{
+  for (const bool isMesh : { false, true })
+  {
+    std::vector<std::vector<double>> seen;
+    for (const int axis : { 2, 1, 0 })
+    {
+      auto image = bump(1, axis);
+      auto filter = bench(isMesh ? asMeshes(image)[0].Get() : image.Get());
+      auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+      filter->Update();
+      seen.push_back(valuesOf(filter, "OpticalPathDifference"));
+      EXPECT_NE(complaints->Warnings.at(0).find(
+                  std::string("2-D, across ") + "xyz"[axis] + ": they become 20 data units deep"),
+        std::string::npos)
+        << complaints->Warnings[0];
+      EXPECT_EQ(complaints->Warnings.at(0).find("ViewDirection") != std::string::npos, axis != 2);
+      EXPECT_LT(relativeDifference(seen.back(), seen.front()), 1e-3) << axis;
+    }
+    auto filter = bench(bump(1, 1));
+    filter->FaceFlatDataOff();
+    filter->Update();
+    const auto fromTheSide = valuesOf(filter, "OpticalPathDifference");
+    EXPECT_GT(relativeDifference(fromTheSide, seen[0]), 0.1);
+    filter->FaceFlatDataOn();
+    filter->SetViewDirection(0, 0, -2);
+    filter->Update();
+    EXPECT_EQ(valuesOf(filter, "OpticalPathDifference"), fromTheSide);
   }
 }

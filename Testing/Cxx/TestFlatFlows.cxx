@@ -130,6 +130,14 @@ Errors errorsOf(vtkSchlierenFilter* filter, const F& f, const Counts& counts)
   return { std::sqrt(errors.rms / count) / most, errors.largest / most };
 }
 
+/// What is one unit deep.
+vtkSmartPointer<vtkSchlierenFilter> flatBench(vtkDataObject* input, int pixels = 64)
+{
+  auto filter = bench(input, pixels);
+  filter->SetDepth(1);
+  return filter;
+}
+
 std::string gridOf(vtkSchlierenFilter* filter)
 {
   return filter->GetOutputDataObject(0)
@@ -162,6 +170,7 @@ TEST(FlatFlows, ACylinderInAFarFieldIsSharp)
     const Plane plane{ axis };
     vtkNew<vtkSchlierenFilter> filter;
     filter->SetInputData(cylinderMesh(plane));
+    filter->SetDepth(1);
     filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
     filter->SetInputArrayToProcess(
       vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
@@ -204,7 +213,7 @@ TEST(FlatFlows, OutsideIsAWindowAndTheBodyAWall)
     { vtkRefractiveIndex::OUTSIDE_BLOCKS, 1, 1 }, { vtkRefractiveIndex::OUTSIDE_PASSES, 0, 0 } };
   for (const auto& one : cases)
   {
-    auto filter = bench(mesh, 65);
+    auto filter = flatBench(mesh, 65);
     filter->SetOutside(one.outside);
     plane.look(filter);
     filter->Update();
@@ -218,7 +227,7 @@ TEST(FlatFlows, OutsideIsAWindowAndTheBodyAWall)
 // crosses it longer.
 TEST(FlatFlows, ALayerIsSeenObliquely)
 {
-  auto filter = bench(cylinderMesh({ 2 }), 400);
+  auto filter = flatBench(cylinderMesh({ 2 }), 400);
   filter->SetViewDirection(0.4, 0, -1);
   filter->SetFocalPoint(0, 0, 0);
   filter->SetParallelScale(3);
@@ -260,7 +269,7 @@ TEST(FlatFlows, JitteredTrianglesAreRightToThreeThousandths)
     const auto ofPlace = [&](const Vec& x) { return field(x[0], x[1]); };
     ofCells ? addCellArray(mesh, "N", ofPlace)
             : static_cast<void>(addPointArray(mesh, "N", ofPlace));
-    auto filter = bench(mesh, 128);
+    auto filter = flatBench(mesh, 128);
     if (ofCells)
     {
       filter->SetInputArrayToProcess(
@@ -293,7 +302,7 @@ TEST(FlatFlows, LittleOvershootsBesideAShock)
   }
   mesh->SetPoints(points);
   mesh->GetCellData()->AddArray(image->GetCellData()->GetArray("N"));
-  auto filter = bench(mesh, 256);
+  auto filter = flatBench(mesh, 256);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
   filter->SetAutoAmbientRefractivity(false);
@@ -352,7 +361,7 @@ TEST(FlatFlows, AdaptiveLevelsMatchTheClosedForm)
       image->GetCellData()->AddArray(hidden);
       blocks->SetBlock(static_cast<unsigned>(level), image);
     }
-    auto filter = bench(blocks, 128);
+    auto filter = flatBench(blocks, 128);
     filter->SetInputArrayToProcess(
       vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
     plane.look(filter);
@@ -397,7 +406,7 @@ TEST(FlatFlows, BodiesAreCutByThePlane)
     disc->GetOutput()->SetPoints(turned);
     for (vtkPolyData* bodies : { ball->GetOutput(), disc->GetOutput() })
     {
-      auto filter = bench(mesh, 200);
+      auto filter = flatBench(mesh, 200);
       filter->SetInputData(1, bodies);
       plane.look(filter);
       filter->SetParallelScale(3);
@@ -410,7 +419,7 @@ TEST(FlatFlows, BodiesAreCutByThePlane)
 
 TEST(FlatFlows, SamplingDimensionsMakeAGrid)
 {
-  auto filter = bench(cylinderMesh({ 2 }), 32);
+  auto filter = flatBench(cylinderMesh({ 2 }), 32);
   filter->SetSamplingDimensions(65, 65, 2);
   filter->Update();
   EXPECT_EQ(gridOf(filter).find("65 x 65 x 2 points"), 0u) << gridOf(filter);
@@ -421,7 +430,7 @@ TEST(FlatFlows, MaskedCellsAreBodies)
   const Plane plane{ 0 };
   auto mesh = cylinderMesh(plane);
   addPointArray(mesh, "solid", [](const Vec& x) { return x[1] > 0 && std::abs(x[2]) < 3 ? 1 : 0; });
-  auto filter = bench(mesh, 128);
+  auto filter = flatBench(mesh, 128);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "solid");
   plane.look(filter);
@@ -444,7 +453,7 @@ TEST(FlatFlows, FieldsTintWhereTheyChange)
   auto mesh = cylinderMesh(plane);
   const auto field = [](double a, double b) { return std::exp(-((a - 3) * (a - 3) + b * b)); };
   addPointArray(mesh, "f", [&](const Vec& x) { return field(x[0], x[2]); });
-  auto filter = bench(mesh, 128);
+  auto filter = flatBench(mesh, 128);
   filter->AddField("f");
   for (const double color : { 1., 0., 0. })
   {
@@ -486,7 +495,7 @@ TEST(FlatFlows, FieldsTintWhereTheyChange)
 TEST(FlatFlows, TimeStepsKeepWhatIsKnownOfTheMesh)
 {
   auto mesh = cylinderMesh({ 2 });
-  auto filter = bench(mesh, 64);
+  auto filter = flatBench(mesh, 64);
   filter->SetParallelScale(3);
   filter->SetFocalPoint(0, 0, 0);
   for (const double factor : { 1., 2., 4. })
@@ -496,7 +505,7 @@ TEST(FlatFlows, TimeStepsKeepWhatIsKnownOfTheMesh)
     mesh->Modified();
     filter->Update();
     EXPECT_EQ(filter->GetMeshBuilds(), 1);
-    auto fresh = bench(mesh, 64);
+    auto fresh = flatBench(mesh, 64);
     fresh->SetParallelScale(3);
     fresh->SetFocalPoint(0, 0, 0);
     fresh->Update();

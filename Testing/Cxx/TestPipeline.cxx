@@ -418,9 +418,9 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   filter->Print(text);
   for (const char* name :
     { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions", "SamplingBounds",
-      "Outside", "Reconstruction", "MediumTolerance", "MediumMemory", "DistributedMedium",
+      "Depth", "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "Reconstruction", "MediumTolerance", "MediumMemory", "DistributedMedium",
       "ReadAheadMemory", "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity",
-      "ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff",
+      "ViewDirection", "ViewUp", "FaceFlatData", "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff",
       "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale",
       "KFromOptics", "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter",
       "ColorFilterImage", "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight",

@@ -258,6 +258,15 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     f->AddFieldRange(0);
     f->AddFieldRange(2);
   };
+  const auto revolvedPlane = [](F* f) { f->SetSymmetry(R::AXISYMMETRIC); };
+  const auto flatImage = []
+  {
+    auto image = cube(9);
+    image->SetDimensions(9, 9, 1);
+    image->SetOrigin(0, 0, 0);
+    addPointArray(image, "N", [](const Vec& x) { return 1e-4 * std::exp(-x[0] * x[0]) + 1e-5 * x[1]; });
+    return image;
+  };
   const struct
   {
     const char* name;
@@ -334,6 +343,10 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
       [](F* f) { f->SetMaskThreshold(0.1); } },
     { "MaskedSide", [](F* f) { array(f, R::MASK, "mask"); },
       [](F* f) { f->SetMaskedSide(R::MASKED_BELOW); } },
+    { "Depth", nullptr, [](F* f) { f->SetDepth(0.3); } },
+    { "Symmetry", nullptr, [](F* f) { f->SetSymmetry(R::AXISYMMETRIC); } },
+    { "SymmetryAxis", revolvedPlane, [](F* f) { f->SetSymmetryAxis(R::Y_AXIS); } },
+    { "SymmetryOrigin", revolvedPlane, [](F* f) { f->SetSymmetryOrigin(0, 0.5, 0); } },
     { "Outside", nullptr, [](F* f) { f->SetOutside(R::OUTSIDE_BLOCKS); } },
     { "Reconstruction", nullptr, [](F* f) { f->SetReconstruction(R::LINEAR_IN_CELLS); } },
     { "DoublePrecision", nullptr, [](F* f) { f->SetPrecision(F::DOUBLE); } },
@@ -344,7 +357,9 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
   for (const auto& [name, from, to] : changes)
   {
     SCOPED_TRACE(name);
-    const Producer producer = producerOf(blobImage());
+    const auto input = [&flatImage, isFlat = std::string(name).rfind("Symmetry", 0) == 0]
+    { return isFlat ? flatImage() : blobImage(); };
+    const Producer producer = producerOf(input());
     const Filter first = filterOf(producer, from), second = filterOf(producer, from);
     imageOf(first);
     imageOf(second);
@@ -353,7 +368,7 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     const std::vector<double> beside = imageOf(second);
     EXPECT_EQ(second->GetMediumBuilds(), 1);
 
-    const Filter alone = filterOf(producerOf(blobImage()), from);
+    const Filter alone = filterOf(producerOf(input()), from);
     to(alone);
     EXPECT_EQ(beside, imageOf(alone));
   }

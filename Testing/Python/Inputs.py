@@ -36,12 +36,12 @@ for ghosts in (0, 1):
     ranges.append((image.GetDimensions(), image.GetPointData().GetArray("Refractivity").GetRange()))
 assert ranges[0] == ranges[1], ranges
 
-# A slice is extruded by a unit, on a grid as fine as its triangles.
+# A slice is extruded by its depth, on a grid as fine as its triangles.
 column = gaussian_column(64)
 middle = Slice(column, SliceType="Plane")
 middle.SliceType.Normal = [0, 1, 0]
 middle.Triangulatetheslice = 0
-flat = RefractiveIndex(middle, IndexModel="Refractivity", IndexArray=["POINTS", "N"])
+flat = RefractiveIndex(middle, IndexModel="Refractivity", IndexArray=["POINTS", "N"], Depth=1)
 image = output(flat)
 assert image.GetDimensions() == (64, 2, 64), image.GetDimensions()
 assert image.GetBounds()[2:4] == (-0.5, 0.5), image.GetBounds()

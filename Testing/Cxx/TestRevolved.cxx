@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Planes and wedges become bodies of revolution.
+#include "Fixtures.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkCellType.h"
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkImageDataToPointSet.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkSphereSource.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace
+{
+
+const GaussianColumn column;
+
+/// The column around the y axis, in the plane of x, or z, and y; from a radius on.
+vtkSmartPointer<vtkImageData> section(int radial, bool ofCells = false, double from = 0, double to = 1)
+{
+  constexpr int cells = 80;
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  int points[3] = { 1, 41, 1 };
+  points[radial] = cells + 1;
+  double origin[3] = { 0, -1, 0 };
+  origin[radial] = from;
+  double spacing[3] = { 1, 0.05, 1 };
+  spacing[radial] = (to - from) / cells;
+  image->SetDimensions(points);
+  image->SetOrigin(origin);
+  image->SetSpacing(spacing);
+  ofCells ? addCellArray(image, "N", column) : static_cast<void>(addPointArray(image, "N", column));
+  return image;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> asTriangles(vtkImageData* image)
+{
+  vtkNew<vtkAppendFilter> pixels;
+  pixels->SetInputData(image);
+  vtkNew<vtkDataSetTriangleFilter> triangles;
+  triangles->SetInputConnection(pixels->GetOutputPort());
+  triangles->Update();
+  return triangles->GetOutput();
+}
+
+vtkSmartPointer<vtkSchlierenFilter> revolved(vtkDataObject* input, bool ofCells = false)
+{
+  auto filter = bench(input, 96);
+  if (ofCells)
+  {
+    filter->SetInputArrayToProcess(
+      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  }
+  filter->SetSymmetry(vtkRefractiveIndex::AXISYMMETRIC);
+  filter->SetParallelScale(0.7);
+  filter->SetMediumTolerance(1e-3);
+  return filter;
+}
+
+std::string warningOf(vtkSchlierenFilter* filter)
+{
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty()) << complaints->Errors[0];
+  return complaints->Warnings.empty() ? "" : complaints->Warnings[0];
+}
+
+/// A wedge of 5 degrees around an axis, one cell wide, of points from r = 0 to 1 and -1 to 1 along it.
+vtkSmartPointer<vtkDataSet> wedge(int axis, bool isStructured, bool ofCells)
+{
+  constexpr int away = 81, along = 41;
+  const double half = 2.5 * pi / 180;
+  const auto b = static_cast<std::size_t>((axis + 1) % 3), c = static_cast<std::size_t>((axis + 2) % 3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const auto add = [&](int i, int j, double angle)
+  {
+    const double r = i / (away - 1.);
+    Vec x{};
+    x[static_cast<std::size_t>(axis)] = -1 + j * 0.05;
+    x[b] = r * std::cos(angle);
+    x[c] = r * std::sin(angle);
+    return points->InsertNextPoint(x.data());
+  };
+  vtkSmartPointer<vtkPointSet> result;
+  if (isStructured)
+  {
+    for (const double angle : { -half, half })
+    {
+      for (int j = 0; j < along; ++j)
+      {
+        for (int i = 0; i < away; ++i)
+        {
+          add(i, j, angle);
+        }
+      }
+    }
+    auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+    grid->SetDimensions(away, along, 2);
+    result = grid;
+  }
+  else
+  {
+    vtkIdType ids[2][along][away];
+    for (int j = 0; j < along; ++j)
+    {
+      for (int i = 0; i < away; ++i)
+      {
+        ids[0][j][i] = add(i, j, -half);
+        ids[1][j][i] = i == 0 ? ids[0][j][i] : add(i, j, half);
+      }
+    }
+    auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    for (int j = 0; j + 1 < along; ++j)
+    {
+      for (int i = 0; i + 1 < away; ++i)
+      {
+        if (i == 0)
+        {
+          const vtkIdType corners[6] = { ids[0][j][0], ids[0][j][1], ids[1][j][1], ids[0][j + 1][0],
+            ids[0][j + 1][1], ids[1][j + 1][1] };
+          mesh->InsertNextCell(VTK_WEDGE, 6, corners);
+          continue;
+        }
+        const vtkIdType corners[8] = { ids[0][j][i], ids[0][j][i + 1], ids[0][j + 1][i + 1],
+          ids[0][j + 1][i], ids[1][j][i], ids[1][j][i + 1], ids[1][j + 1][i + 1], ids[1][j + 1][i] };
+        mesh->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
+      }
+    }
+    result = mesh;
+  }
+  result->SetPoints(points);
+  const auto field = [=](const Vec& x)
+  { return column.A * std::exp(-(x[b] * x[b] + x[c] * x[c]) / (column.s * column.s)); };
+  ofCells ? addCellArray(result, "N", field)
+          : static_cast<void>(addPointArray(result, "N", field));
+  return result;
+}
+
+} // namespace
+
+TEST(Revolved, PlanesAreAColumnFromAnySide)
+{
+  for (const int radial : { 0, 2 })
+  {
+    for (const bool ofCells : { false, true })
+    {
+      if (radial == 2 && ofCells)
+      {
+        continue;
+      }
+      const auto image = section(radial, ofCells);
+      vtkNew<vtkImageDataToPointSet> structured;
+      structured->SetInputData(image);
+      structured->Update();
+      const auto triangles = asTriangles(image);
+      for (vtkDataSet* input : { static_cast<vtkDataSet*>(image),
+             static_cast<vtkDataSet*>(structured->GetOutput()), static_cast<vtkDataSet*>(triangles) })
+      {
+        SCOPED_TRACE(testing::Message() << radial << ' ' << input->GetClassName() << ofCells);
+        auto filter = revolved(input, ofCells);
+        const std::string warning = warningOf(filter);
+        EXPECT_NE(warning.find("revolved around the y axis"), std::string::npos) << warning;
+        for (const Vec& direction : { Vec{ 1, 0, 0 }, Vec{ -1, 0, -2 } })
+        {
+          if (direction[2] == 0 && input != image)
+          {
+            continue;
+          }
+          filter->SetViewDirection(direction[0], direction[1], direction[2]);
+          filter->Update();
+          const ColumnErrors errors = compareWithColumn(filter, column, direction);
+          EXPECT_LT(errors.opticalPath, 1e-3);
+          EXPECT_LT(errors.deflection, ofCells ? 8e-3 : 4e-3);
+        }
+        EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
+      }
+    }
+  }
+}
+
+// Points half a spacing from the axis, data on the negative side, on both sides, and elsewhere.
+TEST(Revolved, PlanesMayLieOtherwise)
+{
+  const struct
+  {
+    double from, to, origin;
+  } cases[] = { { 0.00625, 1.00625, 0 }, { -1, 0, 0 }, { -1, 1, 0 } };
+  for (const auto& one : cases)
+  {
+    auto filter = revolved(section(0, false, one.from, one.to));
+    filter->SetSymmetryAxis(vtkRefractiveIndex::Y_AXIS);
+    const std::string warning = warningOf(filter);
+    EXPECT_EQ(warning.find("both sides") != std::string::npos, one.from * one.to < 0) << warning;
+    const ColumnErrors errors = compareWithColumn(filter, column);
+    EXPECT_LT(errors.opticalPath, 1e-3) << one.from;
+    EXPECT_LT(errors.deflection, 4e-3) << one.from;
+  }
+  auto moved = section(0);
+  moved->SetOrigin(5, -1, 3);
+  auto filter = revolved(moved);
+  filter->SetSymmetryAxis(vtkRefractiveIndex::Y_AXIS);
+  filter->SetSymmetryOrigin(5, 0, 3);
+  filter->SetFocalPoint(5, 0, 3);
+  filter->Update();
+  auto centred = revolved(section(0));
+  centred->SetFocalPoint(0, 0, 0);
+  centred->Update();
+  EXPECT_LT(relativeDifference(valuesOf(filter, "OpticalPathDifference"),
+              valuesOf(centred, "OpticalPathDifference")),
+    1e-4);
+}
+
+// Of OpenFOAM, and of solvers with structured grids.
+TEST(Revolved, WedgesAreAColumn)
+{
+  const Vec directions[3] = { { 0, 0, -1 }, { 0, 0, -1 }, { 0, 1, 0 } };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const bool isStructured : { false, true })
+    {
+      for (const bool ofCells : { false, true })
+      {
+        if (isStructured == (axis == 0) || (axis == 2 && ofCells))
+        {
+          continue;
+        }
+        SCOPED_TRACE(testing::Message() << axis << isStructured << ofCells);
+        auto filter = revolved(wedge(axis, isStructured, ofCells), ofCells);
+        const Vec& to = directions[axis];
+        const Vec up = axis == 0 ? Vec{ 1, 0, 0 } : axis == 1 ? Vec{ 0, 1, 0 } : Vec{ 0, 0, 1 };
+        filter->SetViewDirection(to[0], to[1], to[2]);
+        filter->SetViewUp(up[0], up[1], up[2]);
+        filter->FaceFlatDataOff();
+        const std::string warning = warningOf(filter);
+        EXPECT_NE(
+          warning.find(std::string("revolved around the ") + "xyz"[axis]), std::string::npos)
+          << warning;
+        const ColumnErrors errors = compareWithColumn(filter, column); // the axis is up, as y was
+        // The middles of cells are a thousandth nearer to the axis than those of their faces.
+        EXPECT_LT(errors.opticalPath, ofCells ? 2.5e-3 : 1e-3);
+        EXPECT_LT(errors.deflection, ofCells ? 8e-3 : 4e-3);
+      }
+    }
+  }
+}
+
+TEST(Revolved, ARawWedgeIsReported)
+{
+  auto filter = revolved(wedge(0, false, false));
+  filter->SetSymmetry(vtkRefractiveIndex::NO_SYMMETRY);
+  const std::string warning = warningOf(filter);
+  EXPECT_NE(warning.find("wedge of 5 degrees around the x axis"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("Symmetry"), std::string::npos);
+}
+
+// A ball that the mesh leaves out is solid, and its shadow round.
+TEST(Revolved, BodiesOnTheAxisAreSolid)
+{
+  constexpr double radius = 0.4;
+  vtkNew<vtkStructuredGrid> mesh;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  constexpr int around = 91, outward = 41;
+  for (int j = 0; j < outward; ++j)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      const double r = radius + (1 - radius) * j / (outward - 1), angle = pi * i / (around - 1);
+      points->InsertNextPoint(r * std::cos(angle), i + 1 == around ? 0 : r * std::sin(angle), 0);
+    }
+  }
+  mesh->SetDimensions(around, outward, 1);
+  mesh->SetPoints(points);
+  addPointArray(mesh, "N", [](const Vec& x) { return 1e-6 * x[0]; });
+  auto filter = revolved(mesh);
+  for (const Vec& direction : { Vec{ 0, 0, -1 }, Vec{ -1, 0, 0 }, Vec{ 1, 1, 1 } })
+  {
+    filter->SetViewDirection(direction[0], direction[1], direction[2]);
+    filter->Update();
+    auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+    double shadow = 0;
+    for (const double blocked : valuesOf(filter, "BlockedFraction"))
+    {
+      shadow += blocked * image->GetSpacing()[0] * image->GetSpacing()[1];
+    }
+    EXPECT_NEAR(shadow / (pi * radius * radius), 1, 0.01);
+  }
+}
+
+TEST(Revolved, SamplingDimensionsMakeAGrid)
+{
+  auto filter = revolved(section(0));
+  filter->SetSamplingDimensions(101, 11, 101);
+  filter->Update();
+  EXPECT_LT(compareWithColumn(filter, column).opticalPath, 2e-3);
+  vtkNew<vtkRefractiveIndex> grid;
+  grid->SetInputData(section(0));
+  grid->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  grid->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  grid->SetSymmetry(vtkRefractiveIndex::AXISYMMETRIC);
+  grid->Update();
+  EXPECT_NEAR(grid->GetOutput()->GetBounds()[4], -1, 1e-12);
+  EXPECT_NEAR(grid->GetOutput()->GetPointData()->GetArray("Refractivity")->GetRange()[1], column.A,
+    2e-3 * column.A);
+}
+
+TEST(Revolved, MistakesAreReported)
+{
+  const auto solid = cube(5);
+  addPointArray(solid, "N", column);
+  auto filter = revolved(solid);
+  expectOneMessage(
+    filter.Get(), [](vtkSchlierenFilter*) {}, { "Symmetry", "3-D" },
+    [](vtkSchlierenFilter* f) { f->SetSymmetry(vtkRefractiveIndex::NO_SYMMETRY); });
+  auto across = revolved(section(0));
+  expectOneMessage(
+    across.Get(),
+    [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::Z_AXIS); },
+    { "SymmetryAxis is Z", "across" },
+    [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::Y_AXIS); });
+}
