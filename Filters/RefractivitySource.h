@@ -49,6 +49,7 @@ struct Source
   Model model;
   std::string noteOnGases; // what the user should know once, mostly empty
   std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
+  bool isComputed = false; // the refractivity was computed before
 };
 
 /// Thrown where no dataset has the arrays that are needed; others, on other ranks, may have them.
@@ -57,6 +58,9 @@ class ArraysMissing : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+
+/// The datasets within an input that have points.
+std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input);
 
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input);
 
