@@ -37,7 +37,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E4
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
-from bench import (check_light, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
+from bench import (bounds_of, check_light, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
                    output_of)
 from frame import Frame  # noqa: E402
 from messages import Messages, say  # noqa: E402
@@ -314,12 +314,12 @@ def layout(frame, rows):
     return COLUMNS * column + margin, head + rows * row + 24, corner
 
 
-def compose(groups, frame, array, options, facts):
+def compose(groups, frame, used, options, facts):
     width, height, corner = layout(frame, len(groups))
     sheet = Sheet(width, height)
     room = width - 56
     looking = ", ".join(f"{part + 0.0:.3g}" for part in frame.direction)
-    sheet.text(28, 16, f"{os.path.basename(options.file)}: {array[1]}", 26, room=room)
+    sheet.text(28, 16, f"{os.path.basename(options.file)}: {used}", 26, room=room)
     sheet.text(28, 50, f"Looking along ({looking}). Each image is "
                f"{format_length(frame.right - frame.left, options)} wide; depth of the data: "
                f"{format_length(frame.depth, options)}.", 15, sheet.DIM, room=room)
@@ -349,12 +349,12 @@ def main(options):
     load_plugin(options, messages)
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
-        reader, array = open_flow(options, scratch, messages)
-        frame = Frame(reader.GetDataInformation().GetBounds(), options)
+        reader, array, used = open_flow(options, scratch, messages)
+        frame = Frame(bounds_of(reader, array, options), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         take = Photographer(new_bench(reader, array, frame, options), messages)
         groups = take_tiles(take, frame, options, scratch)
-        compose(groups, frame, array, options, groups[0][1][0].shot.facts).write(options.output)
+        compose(groups, frame, used, options, groups[0][1][0].shot.facts).write(options.output)
     say(f"{take.shots} images in {time.monotonic() - begin:.0f} s")
     say(f"The sheet: {os.path.abspath(options.output)}")
     return groups, frame

@@ -8,6 +8,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,7 +105,7 @@ private:
   const TimeExposure& Exposure;
   const FilterRanks::Part Part;
   const double MaxCells;
-  std::vector<std::string> Arrays;
+  std::function<std::vector<std::string>()> Arrays; // see FilterRanks::Inputs
   std::optional<FilterRanks::Meeting> Meeting;
   std::size_t Step = 0;
   bool IsThere = true;                                         // the data of Step

@@ -391,6 +391,12 @@ int flatAxisOf(const Source& source)
   }
   const std::string problem = "The input has no 3-D cells with the " + source.label +
     ", so there is no volume for light to cross";
+  if (dimension == 0)
+  {
+    throw std::runtime_error(problem +
+      ": it has nothing but points, such as particles. Make a volume of them with Point Volume "
+      "Interpolator, SPH Volume Interpolator or Gaussian Resampling.");
+  }
   if (dimension < 2)
   {
     throw std::runtime_error(problem + ". Use 3-D data, or 2-D data in one plane.");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GasChoices.h"
 
+#include "ArrayChoice.h"
 #include "vtkRefractiveIndex.h"
 
 #include <algorithm>
@@ -51,14 +52,15 @@ std::string noteOn(const schlieren::Gas& gas, double wavelength)
 /// The names of the gases that the index model uses, as they were chosen.
 std::vector<std::string> namesUsed(vtkRefractiveIndex* self)
 {
+  const MediumChoice choice = choiceOf(self);
   std::vector<std::string> names;
-  if (self->GetIndexModel() == vtkRefractiveIndex::GLADSTONE_DALE)
+  if (choice.indexModel == vtkRefractiveIndex::GLADSTONE_DALE)
   {
     names = { self->GetGas() };
   }
-  else if (self->GetIndexModel() == vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE)
+  else if (choice.indexModel == vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE)
   {
-    names = self->GetMixtureGases();
+    names = choice.mixtureGases;
     names.push_back(self->GetBackgroundGas());
   }
   return names;
@@ -104,14 +106,14 @@ double wavelengthOfGases(vtkRefractiveIndex* self)
 bool usesWavelength(vtkRefractiveIndex* self)
 {
   const std::vector<std::string> names = namesUsed(self);
-  return self->GetIndexModel() == vtkRefractiveIndex::CIDDOR ||
+  return choiceOf(self).indexModel == vtkRefractiveIndex::CIDDOR ||
     !std::all_of(names.begin(), names.end(), isCustom);
 }
 
 //------------------------------------------------------------------------------
 std::function<double(double)> dispersionOfGases(vtkRefractiveIndex* self, double reference)
 {
-  if (self->GetIndexModel() == vtkRefractiveIndex::CIDDOR)
+  if (choiceOf(self).indexModel == vtkRefractiveIndex::CIDDOR)
   {
     const auto at = [co2 = self->GetCO2()](double wavelength)
     { return schlieren::MoistAir::at(wavelength, co2).dry; };

@@ -3,6 +3,7 @@
 #include "PieceWorker.h"
 
 #include "AmrPiece.h"
+#include "ArrayChoice.h"
 #include "BetweenTimeSteps.h"
 #include "FieldFromImage.h"
 #include "FieldTints.h"
@@ -144,6 +145,12 @@ void PieceWorker::Respond(std::uint32_t kind, Reader& request, std::vector<char>
       }
       break;
     }
+    case GiveArrays:
+      putArrays(flowArraysOf(dataSetsOf(this->Data), true), answer);
+      break;
+    case TakeArrays:
+      this->Self->GetKnownArrays()->SetOfRanks(getArrays(request));
+      break;
     case Outline:
       this->GiveOutline(request, answer);
       break;

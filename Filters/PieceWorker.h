@@ -34,6 +34,8 @@ public:
   enum Kind : std::uint32_t
   {
     Instant = 200, // between two time steps
+    GiveArrays,    // that the rank has
+    TakeArrays,    // of all ranks
     Outline,       // the surfaces of its meshes, the extents of its grids, the places of its blocks
     Levels,        // of the blocks of all ranks
     GiveBlocks,    // its blocks of some images, which it has no more

@@ -87,8 +87,9 @@ public:
   struct Inputs
   {
     vtkDataObject* data = nullptr;
-    vtkDataObject* bodies = nullptr;   // may be null
-    std::vector<std::string> arrays{}; // of points or cells, that it needs of the data
+    vtkDataObject* bodies = nullptr; // may be null
+    /// The names of those of points or cells that it needs of the data, when these are to be sent; null: none.
+    std::function<std::vector<std::string>()> arrays{};
   };
 
   /// The ranks while rank 0 makes something, from the constructor to the destructor.

@@ -33,10 +33,15 @@ std::string absenceOf(std::size_t rank, std::size_t ranks, const std::string& be
     "See what that rank has reported, or use one process.";
 }
 
+std::vector<std::string> namesOf(const FilterRanks::Inputs& inputs)
+{
+  return inputs.arrays ? inputs.arrays() : std::vector<std::string>();
+}
+
 /// What this rank sends of an input.
 std::vector<char> packed(int input, const FilterRanks::Inputs& own)
 {
-  return input == 0 ? packedData(own.data, own.arrays) : packedData(own.bodies, {});
+  return input == 0 ? packedData(own.data, namesOf(own)) : packedData(own.bodies, {});
 }
 
 bool hasAll(const std::vector<std::string>& names, const std::vector<std::string>& wanted)
@@ -151,7 +156,7 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
 {
   FilterRanks& of = this->Of;
   Inputs all = *this->Own;
-  const auto& arrays = this->Own->arrays;
+  const std::vector<std::string> arrays = namesOf(*this->Own);
   const bool lacksArrays = of.Gathered[0] && !hasAll(of.Arrays, arrays);
   if (of.Inside && (!(of.Compared == of.Now && of.MostCells == maxCells) || lacksArrays))
   {

@@ -69,8 +69,8 @@ FilterRanks::Meeting::StepAhead FilterRanks::Meeting::MeetReaders(
         gathered[static_cast<std::size_t>(input)] =
           collect(input, withArrays, ofRanks, this->Of.Inside->Readers);
       }
-      this->Of.Ahead =
-        AheadOf{ { this->Of.Now.changes, time }, maxCells, std::move(gathered), withArrays.arrays };
+      this->Of.Ahead = AheadOf{ { this->Of.Now.changes, time }, maxCells, std::move(gathered),
+        withArrays.arrays ? withArrays.arrays() : std::vector<std::string>() };
       place = Place::OnRank0;
     }
     catch (const std::exception&) // the request for that step will say it

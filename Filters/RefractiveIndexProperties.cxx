@@ -55,6 +55,7 @@ void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   this->PrintSettings(os, indent);
+  os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
   os << indent << "Grid: " << this->Grid << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }

@@ -4,15 +4,18 @@
 #include "RefractiveIndexInternals.h"
 
 #include "AmrSource.h"
+#include "ArrayChoice.h"
 #include "ChannelRanks.h"
 #include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "FlatData.h"
 #include "GasChoices.h"
 #include "ImageSource.h"
+#include "InputDescription.h"
 #include "MeshSearch.h"
 #include "OneLayer.h"
 #include "PiecesSource.h"
+#include "Ranks.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
@@ -35,6 +38,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -313,6 +317,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
   {
     addText(warning, bodiesAreOutside);
   }
+  addText(warning, this->NewNoteOnValues(source));
   addText(warning, this->NewNoteOnGases(source));
   addText(warning, ofShape);
   if (revolution)
@@ -403,6 +408,38 @@ bool vtkRefractiveIndex::UsesSource(const schlieren::MediumSource* source)
 {
   const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
   return !ofRanks || ofRanks->usesRanks(*this->Pieces[THIS_STEP]);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::ShareArrays(vtkDataObject* own)
+{
+  if (!hasOtherRanks() || !isOpen(this))
+  {
+    return;
+  }
+  ChannelRanks& pieces = *this->Pieces[THIS_STEP];
+  try
+  {
+    std::vector<std::vector<char>> requests(pieces.Count(), pieceRequest(PieceWorker::GiveArrays));
+    requests[0].clear();
+    std::vector<FlowArray> all = flowArraysOf(dataSetsOf(own), true);
+    const auto answers = pieces.Request(std::move(requests));
+    std::deque<Reader> readers = readersOf(answers);
+    for (Reader& reader : readers)
+    {
+      addArrays(all, getArrays(reader));
+    }
+    std::vector<char> message = pieceRequest(PieceWorker::TakeArrays);
+    putArrays(all, message);
+    requests.assign(pieces.Count(), message);
+    requests[0].clear();
+    pieces.Request(std::move(requests));
+    this->Known->SetOfRanks(std::move(all));
+  }
+  catch (const std::runtime_error&)
+  {
+    // A rank has not come, which whoever gathers the data reports.
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -506,6 +543,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   {
     addText(warning, bodiesAreOutside);
   }
+  addText(warning, this->NewNoteOnValues(source));
   addText(warning, this->NewNoteOnGases(source));
   return made;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityModels.h"
 
+#include "ArrayChoice.h"
 #include "GasChoices.h"
 
 #include "vtkDataObject.h"
@@ -70,26 +71,27 @@ void requireOneEach(const char* name, std::size_t count, std::size_t species)
   }
 }
 
-Linear gladstoneDale(vtkRefractiveIndex* self)
+Linear gladstoneDale(vtkRefractiveIndex* self, const MediumChoice& choice)
 {
   const schlieren::Gas* gas = gasFrom("Gas", self->GetGas());
   const double constant =
     gas ? gas->constantAt(wavelengthOfGases(self)) : self->GetGladstoneDaleConstant();
   requireFinite("GladstoneDaleConstant", constant);
-  requireFinite("DensityScale", self->GetDensityScale());
-  return { constant * self->GetDensityScale(), 0 };
+  requireFinite("DensityScale", choice.densityScale);
+  return { constant * choice.densityScale, 0 };
 }
 
 /// What the species and the background are made of where they were chosen by name, null elsewhere; the
 /// background is the last.
-std::vector<const schlieren::Gas*> gasesOfMixture(vtkRefractiveIndex* self)
+std::vector<const schlieren::Gas*> gasesOfMixture(
+  vtkRefractiveIndex* self, const MediumChoice& choice)
 {
-  const std::size_t species = self->GetMixtureArrays().size();
+  const std::size_t species = choice.mixtureArrays.size();
   std::vector<const schlieren::Gas*> gases;
-  if (!self->GetMixtureGases().empty())
+  if (!choice.mixtureGases.empty())
   {
-    requireOneEach("MixtureGases", self->GetMixtureGases().size(), species);
-    for (const std::string& name : self->GetMixtureGases())
+    requireOneEach("MixtureGases", choice.mixtureGases.size(), species);
+    for (const std::string& name : choice.mixtureGases)
     {
       gases.push_back(gasFrom("MixtureGases", name));
     }
@@ -99,24 +101,25 @@ std::vector<const schlieren::Gas*> gasesOfMixture(vtkRefractiveIndex* self)
   return gases;
 }
 
-GasMixture gasMixture(vtkRefractiveIndex* self)
+GasMixture gasMixture(vtkRefractiveIndex* self, const MediumChoice& choice)
 {
   const std::vector<double>& constants = self->GetMixtureConstants();
   const std::vector<double>& molarMasses = self->GetMixtureMolarMasses();
-  const std::size_t species = self->GetMixtureArrays().size();
+  const std::size_t species = choice.mixtureArrays.size();
   if (species == 0)
   {
     throw std::runtime_error(
-      "MixtureArrays is empty, so there is no mixture. Name the arrays of "
+      "MixtureArrays is empty, so there is no mixture, and no array is known by its name as a "
+      "fraction of a gas. Name the arrays of "
       "the fractions, or set IndexModel to Gladstone-Dale for a single gas.");
   }
-  requireFinite("DensityScale", self->GetDensityScale());
-  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(self);
+  requireFinite("DensityScale", choice.densityScale);
+  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(self, choice);
   const bool allNamed = std::find(gases.begin(), gases.end() - 1, nullptr) == gases.end() - 1;
 
   GasMixture model;
-  model.densityScale = self->GetDensityScale();
-  model.ofVolumes = self->GetFractionType() == vtkRefractiveIndex::VOLUME;
+  model.densityScale = choice.densityScale;
+  model.ofVolumes = choice.fractionType == vtkRefractiveIndex::VOLUME;
   if (!allNamed)
   {
     requireOneEach("MixtureConstants", constants.size(), species);
@@ -158,11 +161,11 @@ GasMixture gasMixture(vtkRefractiveIndex* self)
   return model;
 }
 
-CiddorAir ciddorAir(vtkRefractiveIndex* self)
+CiddorAir ciddorAir(vtkRefractiveIndex* self, const MediumChoice& choice)
 {
-  requireFinite("TemperatureScale", self->GetTemperatureScale());
-  requireFinite("PressureScale", self->GetPressureScale());
-  const bool hasHumidity = self->HasHumidityArray();
+  requireFinite("TemperatureScale", choice.temperatureScale);
+  requireFinite("PressureScale", choice.pressureScale);
+  const bool hasHumidity = choice.hasHumidity();
   const double humidity = self->GetRelativeHumidity();
   if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
   {
@@ -180,8 +183,8 @@ CiddorAir ciddorAir(vtkRefractiveIndex* self)
     throw std::runtime_error("Wavelength is " + textOf(self->GetWavelength()) +
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
-  return { schlieren::MoistAir::at(wavelength, self->GetCO2()), self->GetTemperatureScale(),
-    self->GetPressureScale(), hasHumidity, humidity };
+  return { schlieren::MoistAir::at(wavelength, self->GetCO2()), choice.temperatureScale,
+    choice.pressureScale, hasHumidity, humidity };
 }
 
 } // namespace
@@ -271,14 +274,15 @@ FieldMean fieldMeanFrom(vtkRefractiveIndex* self)
 //------------------------------------------------------------------------------
 Model modelFrom(vtkRefractiveIndex* self)
 {
-  switch (self->GetIndexModel())
+  const MediumChoice choice = choiceOf(self);
+  switch (choice.indexModel)
   {
     case vtkRefractiveIndex::GLADSTONE_DALE:
-      return gladstoneDale(self);
+      return gladstoneDale(self, choice);
     case vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE:
-      return gasMixture(self);
+      return gasMixture(self, choice);
     case vtkRefractiveIndex::CIDDOR:
-      return ciddorAir(self);
+      return ciddorAir(self, choice);
     case vtkRefractiveIndex::TRANSFER_FUNCTIONS:
       return fieldMeanFrom(self);
     case vtkRefractiveIndex::REFRACTIVE_INDEX:
@@ -311,27 +315,25 @@ Selection selectionFrom(vtkRefractiveIndex* self, int index, const char* propert
 std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
 {
   using Index = vtkRefractiveIndex;
+  const MediumChoice choice = choiceOf(self);
   std::vector<Selection> selections;
-  const auto add = [&](int index, const char* property)
-  { selections.push_back(selectionFrom(self, index, property)); };
-  switch (self->GetIndexModel())
+  switch (choice.indexModel)
   {
     case Index::GLADSTONE_DALE:
-      add(Index::DENSITY, "Density");
+      selections = { choice.arrays[Index::DENSITY] };
       break;
     case Index::GLADSTONE_DALE_MIXTURE:
-      add(Index::DENSITY, "Density");
-      for (const std::string& name : self->GetMixtureArrays())
+      selections = { choice.arrays[Index::DENSITY] };
+      for (const std::string& name : choice.mixtureArrays)
       {
         selections.push_back({ "MixtureArrays", name, -1, selections[0].cellsFirst });
       }
       break;
     case Index::CIDDOR:
-      add(Index::TEMPERATURE, "Temperature");
-      add(Index::PRESSURE, "Pressure");
-      if (self->HasHumidityArray())
+      selections = { choice.arrays[Index::TEMPERATURE], choice.arrays[Index::PRESSURE] };
+      if (choice.hasHumidity())
       {
-        add(Index::HUMIDITY, "Humidity");
+        selections.push_back(choice.arrays[Index::HUMIDITY]);
       }
       break;
     case Index::TRANSFER_FUNCTIONS:
@@ -345,7 +347,7 @@ std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
       }
       break;
     default:
-      add(Index::INDEX_ARRAY, "IndexArray");
+      selections = { choice.arrays[Index::INDEX_ARRAY] };
       break;
   }
   return selections;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivitySource.h"
 
+#include "ArrayChoice.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "Mask.h"
@@ -9,11 +10,13 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkPointData.h"
 #include "vtkRefractiveIndex.h"
 #include "vtkSmartPointer.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <array>
@@ -44,19 +47,30 @@ vtkDataArray* find(vtkDataSetAttributes* attributes, const Selection& selection)
     : nullptr;
 }
 
-/// The datasets within the input that have points.
-std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
+/// Throws where the input is of a type that has no points or cells.
+void requireSpace(vtkDataObject* input)
 {
-  std::vector<vtkDataSet*> dataSets;
   for (vtkDataObject* leaf : leavesOf(input))
   {
-    vtkDataSet* data = vtkDataSet::SafeDownCast(leaf);
-    if (data && data->GetNumberOfPoints() > 0)
+    if (vtkHyperTreeGrid::SafeDownCast(leaf))
     {
-      dataSets.push_back(data);
+      throw std::runtime_error(
+        "The input is a hyper-tree grid, whose cells light cannot be sent through as they are. "
+        "Make cells of it with the filter Hyper Tree Grid To Unstructured Grid.");
+    }
+    if (vtkTable::SafeDownCast(leaf))
+    {
+      throw std::runtime_error(
+        "The input is a table, so it is not known where its values are. Make a grid of it with "
+        "the filter Table To Structured Grid, or points with Table To Points and a volume of "
+        "these with Point Volume Interpolator.");
+    }
+    if (!vtkDataSet::SafeDownCast(leaf))
+    {
+      throw std::runtime_error("The input is a " + std::string(leaf->GetClassName()) +
+        ", which has no cells for light to cross. Use data that fill a volume, or a plane.");
     }
   }
-  return dataSets;
 }
 
 /// Those of the selected arrays that points or cells have; null for others.
@@ -131,42 +145,20 @@ std::vector<Leaf> leavesWith(
   return leaves;
 }
 
-/// "point arrays p, rho; cell arrays T", or "none".
+/// "point arrays p (1 to 2), rho (0 to 1); cell arrays T (300 to 310)", or "none".
 std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
 {
-  std::string text;
-  for (const bool ofCells : { false, true })
-  {
-    std::set<std::string> names;
-    for (vtkDataSet* data : dataSets)
-    {
-      vtkDataSetAttributes* attributes = attributesOf(data, ofCells);
-      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-      {
-        vtkDataArray* array = attributes->GetArray(i);
-        if (array && array->GetName() && array->GetNumberOfComponents() == 1)
-        {
-          names.insert(array->GetName());
-        }
-      }
-    }
-    names.erase(vtkDataSetAttributes::GhostArrayName());
-    names.erase(maskName);
-    std::string separator = text.empty() ? "" : "; ";
-    separator += ofCells ? "cell arrays " : "point arrays ";
-    for (const std::string& name : names)
-    {
-      text += separator + name;
-      separator = ", ";
-    }
-  }
-  return text.empty() ? "none" : text;
+  std::vector<FlowArray> arrays = flowArraysOf(dataSets, true);
+  std::sort(arrays.begin(), arrays.end(),
+    [](const FlowArray& a, const FlowArray& b) { return a.name < b.name; });
+  return arraysInWords(arrays);
 }
 
 /// What to say where no dataset has all arrays: the first that none of them has, or else that they do not
 /// come together.
-[[noreturn]] void throwNotFound(
-  const std::vector<Selection>& selections, const std::vector<vtkDataSet*>& dataSets)
+/// `note`: what was not understood where no array is chosen.
+[[noreturn]] void throwNotFound(const std::vector<Selection>& selections,
+  const std::vector<vtkDataSet*>& dataSets, const std::string& note = "")
 {
   const auto missing = std::find_if(selections.begin(), selections.end(),
     [&](const Selection& selection) { return leavesWith({ selection }, dataSets).empty(); });
@@ -178,7 +170,7 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   const Selection& selection = *missing;
   const std::string& property = selection.property;
   const std::string names = namesOfArrays(dataSets);
-  if (names == "none")
+  if (names.empty())
   {
     throw ArraysMissing("The input has no arrays with one component, so there is nothing to "
                         "take " +
@@ -186,7 +178,8 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   }
   if (selection.name.empty() && selection.attribute < 0)
   {
-    throw ArraysMissing("No array is chosen for " + property + ". Choose one of: " + names + "." +
+    throw ArraysMissing("No array is chosen for " + property + ", and none is known by its name. " +
+      note + "Choose one of: " + names + "." +
       (property == "Density"
           ? " A temperature gives no density without a pressure; with both, compute one or use "
             "IndexModel Ciddor (Documentation/density.md)."
@@ -234,8 +227,9 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
 vtkDataArray* computedBefore(
   vtkRefractiveIndex* self, vtkImageData* image, const Selection& selection)
 {
-  if (!image || self->GetIndexModel() == vtkRefractiveIndex::REFRACTIVE_INDEX ||
-    (self->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS && !self->GetFields().empty()))
+  const int model = choiceOf(self).indexModel;
+  if (!image || model == vtkRefractiveIndex::REFRACTIVE_INDEX ||
+    (model == vtkRefractiveIndex::TRANSFER_FUNCTIONS && !self->GetFields().empty()))
   {
     return nullptr;
   }
@@ -304,15 +298,31 @@ void flattenLayers(vtkRefractiveIndex* self, Source& source, const Source* like)
 
 } // namespace
 
+std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
+{
+  std::vector<vtkDataSet*> dataSets;
+  for (vtkDataObject* leaf : leavesOf(input))
+  {
+    vtkDataSet* data = vtkDataSet::SafeDownCast(leaf);
+    if (data && data->GetNumberOfPoints() > 0)
+    {
+      dataSets.push_back(data);
+    }
+  }
+  return dataSets;
+}
+
 Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source* like)
 {
   const std::vector<vtkDataSet*> dataSets = dataSetsOf(input);
   if (dataSets.empty())
   {
+    requireSpace(input);
     throw std::runtime_error(
       "The input is empty: it has no points. Check that its source was read or "
       "updated and that no filter has removed everything.");
   }
+  noteArrays(self, dataSets);
   std::vector<Selection> selections = selectionsFrom(self);
 
   Source source;
@@ -320,6 +330,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source
   if (vtkDataArray* computed = computedBefore(self, source.image, selections[0]))
   {
     selections.resize(1);
+    source.isComputed = true;
     source.leaves = { { source.image, { computed }, false, source.image } };
   }
   else
@@ -331,7 +342,7 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source
 
   if (source.leaves.empty())
   {
-    throwNotFound(selections, dataSets);
+    throwNotFound(selections, dataSets, choiceOf(self).note);
   }
   for (const Leaf& leaf : source.leaves)
   {
@@ -361,7 +372,14 @@ std::string choicesOfArrays(vtkRefractiveIndex* self)
   {
     selections.push_back(selectionFrom(self, vtkRefractiveIndex::MASK, "Mask"));
   }
-  std::string text;
+  const MediumChoice choice = choiceOf(self);
+  std::string text = std::to_string(choice.indexModel) + " " + std::to_string(choice.densityScale) +
+    " " + std::to_string(choice.temperatureScale) + " " + std::to_string(choice.pressureScale) +
+    " " + std::to_string(choice.fractionType) + "\n";
+  for (const std::string& gas : choice.mixtureGases)
+  {
+    text += gas + "\n";
+  }
   for (const Selection& selection : selections)
   {
     text += selection.property + ": '" + selection.name + "' " +

@@ -64,6 +64,7 @@ struct Source
   int axisOfWedge = -1;         // likewise: see flattenWedge(); -1: none
   std::string noteOnGases; // what the user should know once, mostly empty
   std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
+  bool isComputed = false; // the refractivity was computed before
 };
 
 /// Thrown where no dataset has the arrays that are needed; others, on other ranks, may have them.
@@ -72,6 +73,9 @@ class ArraysMissing : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+
+/// The datasets within an input that have points.
+std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input);
 
 /// `like`: what was chosen of the same input for other arrays; data that are one layer of cells are then taken as they were
 /// there. May be null.

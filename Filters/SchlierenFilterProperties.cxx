@@ -67,6 +67,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PictureCount: " << this->PictureCount << "\n";
   os << indent << "Status: " << this->Status << "\n";
   os << indent << "FollowedView: " << this->FollowedView << "\n";
+  os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
   os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
@@ -284,6 +285,13 @@ void vtkSchlierenFilter::SetPrecision(int precision)
     this->Inside->PrecisionTime = this->Medium->GetMTime();
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSchlierenFilter::GetArraysUsed()
+{
+  this->PassToMedium();
+  return this->Medium->GetArraysUsed();
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
+#include "ArrayChoice.h"
+#include "AtTheEnd.h"
 #include "AvailableMemory.h"
 #include "ChannelRanks.h"
 #include "Guarded.h"
@@ -84,6 +86,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Mesh(std::make_shared<KeptMesh>())
   , Search(std::make_shared<MeshSearch>())
   , Guard(std::make_shared<RequestGuard>())
+  , Known(std::make_shared<KnownArrays>())
   , Ranks(std::make_shared<FilterRanks>())
   , MeshOfPieces(std::make_shared<PiecesMesh>())
 {
@@ -93,6 +96,8 @@ vtkRefractiveIndex::vtkRefractiveIndex()
     ofStep = std::make_shared<ChannelRanks>(this, kept);
   }
   this->SetNumberOfInputPorts(2);
+  // Of vtkImageAlgorithm: the active scalars, whatever these are.
+  this->GetInputArrayInformation(DENSITY)->Remove(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
 }
 
 //------------------------------------------------------------------------------
@@ -173,9 +178,8 @@ vtkTypeBool vtkRefractiveIndex::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  // Any, so that one message says what is wrong with tables and others: VTK says it several times.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   if (port == BODIES)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -247,6 +251,22 @@ std::string vtkRefractiveIndex::NewNoteOnGases(const Source& source)
   }
   this->ToldOfGases = source.noteOnGases;
   return source.noteOnGases;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkRefractiveIndex::NewNoteOnValues(const Source& source)
+{
+  const Implausible found = implausibleIn(this, source);
+  const bool isNew = !found.kind.empty() && found.kind != this->ToldOfValues;
+  this->ToldOfValues = found.kind;
+  return isNew ? found.text : "";
+}
+
+//------------------------------------------------------------------------------
+const char* vtkRefractiveIndex::GetArraysUsed()
+{
+  this->ArraysUsed = choiceOf(this).message;
+  return this->ArraysUsed.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -369,6 +389,7 @@ std::string vtkRefractiveIndex::Convert(
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
+  addText(warning, this->NewNoteOnValues(source));
   addText(warning, this->NewNoteOnGases(source));
   if (!isRevolved)
   {
@@ -457,16 +478,23 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   }
   FilterRanks::Meeting meeting(*this->Ranks,
     FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
-      vtkDataObject::GetData(inputVector[BODIES]), filters::arraysOf(this) });
+      vtkDataObject::GetData(inputVector[BODIES]), [this] { return filters::arraysOf(this); } });
+  vtkDataObject* own = vtkDataObject::GetData(inputVector[0]);
   if (!isRank0())
   {
-    meeting.Serve(this->NumberOfThreads);
+    this->SetPieceData(own);
+    meeting.Serve(this->NumberOfThreads,
+      [this](const std::vector<char>& message) { return this->RespondForPiece(message); });
+    this->SetPieceData(nullptr);
     return 1;
   }
+  this->SetPieceChannels(meeting.GetChannels());
+  const AtTheEnd forgetChannels([this] { this->SetPieceChannels({}); });
 
   const auto makeGrid = [&]
   {
     this->Guard->ThrowEarlier();
+    this->ShareArrays(own);
     const FilterRanks::Inputs inputs = meeting.Gather();
     this->SetAbortExecute(0); // it stays set after an abort
     const std::string warning = this->Convert(inputs.data, output, inputs.bodies);

@@ -66,6 +66,7 @@ namespace filters
 {
 class FilterRanks;
 class RequestGuard;
+class KnownArrays;
 struct GridPlan;
 struct KeptMesh;
 struct MeshSearch;
@@ -91,6 +92,10 @@ public:
   /// How the refractivity N is found. The numbers are part of the interface.
   enum IndexModels
   {
+    /// What the arrays are for: with a density (chosen, or known by its name) GLADSTONE_DALE, or GLADSTONE_DALE_MIXTURE where
+    /// there are fractions of known gases and Gas and GladstoneDaleConstant are as they were; else REFRACTIVITY,
+    /// REFRACTIVE_INDEX or CIDDOR
+    AUTO = -1,
     GLADSTONE_DALE = 0,   ///< N = K rho (Gladstone & Dale 1863); array 0 is the density rho
     REFRACTIVE_INDEX = 1, ///< N = n - 1; array 1 is n
     REFRACTIVITY = 2,     ///< array 1 is N
@@ -122,19 +127,22 @@ public:
 
   ///@{
   /**
-   * How the refractivity is found from the arrays, one of IndexModels. Default: GLADSTONE_DALE.
+   * How the refractivity is found from the arrays, one of IndexModels. Default: AUTO.
    * The arrays are chosen with SetInputArrayToProcess, see InputArrays; names that are not found with
-   * the association given (by the first array of a model) are looked for with the other one.
+   * the association given (by the first array of a model) are looked for with the other one. An array that is not
+   * chosen is that whose name says that it is what the model needs, see flowDefaults(); GetArraysUsed() names it. Where
+   * no name does, that is an error, which lists the arrays.
    */
-  vtkSetClampMacro(IndexModel, int, GLADSTONE_DALE, TRANSFER_FUNCTIONS);
+  vtkSetClampMacro(IndexModel, int, AUTO, TRANSFER_FUNCTIONS);
   vtkGetMacro(IndexModel, int);
   ///@}
 
   ///@{
   /**
-   * Gladstone-Dale constant K in m^3/kg. Default: 2.26e-4 (air, visible light).
+   * Gladstone-Dale constant K in m^3/kg. Default: DefaultGladstoneDaleConstant (air, visible light).
    * Gladstone & Dale 1863, Phil. Trans. R. Soc. 153, 317.
    */
+  static constexpr double DefaultGladstoneDaleConstant = 2.26e-4;
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
   ///@}
@@ -156,7 +164,8 @@ public:
 
   ///@{
   /**
-   * Factor that turns the density array into kg/m^3. Default: 1.
+   * Factor that turns the density array into kg/m^3; 0 (the default): that of the unit in the array's name, as in
+   * "Density [g/cm3]" or "rho_gcc", or 1 where it has none.
    */
   vtkSetMacro(DensityScale, double);
   vtkGetMacro(DensityScale, double);
@@ -244,7 +253,7 @@ public:
 
   ///@{
   /**
-   * Factors that turn the arrays of temperature and pressure into K and Pa. Default: 1.
+   * Factors that turn the arrays of temperature and pressure into K and Pa; 0 (the default): as of DensityScale.
    */
   vtkSetMacro(TemperatureScale, double);
   vtkGetMacro(TemperatureScale, double);
@@ -355,6 +364,25 @@ public:
    * chosen from the sizes of the cells". Empty before the first and after a failed one.
    */
   const char* GetGrid() const { return this->Grid.c_str(); }
+
+  /**
+   * The arrays that are used, with the factors of their units, and the fractions of a mixture: for example "Density: 'rho'.".
+   */
+  const char* GetArraysUsed();
+
+  /**
+   * The arrays of the last input, of which those are chosen that are not given.
+   */
+  VTK_WRAPEXCLUDE std::shared_ptr<filters::KnownArrays> GetKnownArrays() const
+  {
+    return this->Known;
+  }
+
+  /**
+   * Where several ranks have the data and an array is to be chosen: all learn of all arrays, so that all choose the same. On rank
+   * 0, while the channels to the others are set, see SetPieceChannels(). `own`: what rank 0 has.
+   */
+  VTK_WRAPEXCLUDE void ShareArrays(vtkDataObject* own);
 
   /// What becomes of light at places that no cell covers.
   enum OutsideModes
@@ -695,15 +723,22 @@ private:
   std::string NewNoteOnGases(const filters::Source& source);
 
   std::shared_ptr<filters::RequestGuard> Guard;
+  /// What is implausible, once for all time steps for which the same is.
+  std::string ToldOfValues;
+  std::string NewNoteOnValues(const filters::Source& source);
+
+  std::shared_ptr<filters::KnownArrays> Known;
+  std::string ArraysUsed;
+
   std::shared_ptr<filters::FilterRanks> Ranks;
   std::shared_ptr<filters::ChannelRanks> Pieces[2]; // by StepOfPieces
   bool HasPieces = false;
   std::shared_ptr<filters::PiecesMesh> MeshOfPieces; // of the last source of pieces
 
-  int IndexModel = GLADSTONE_DALE;
+  int IndexModel = AUTO;
   std::string Gas = "Custom";
-  double GladstoneDaleConstant = 2.26e-4;
-  double DensityScale = 1;
+  double GladstoneDaleConstant = DefaultGladstoneDaleConstant;
+  double DensityScale = 0;
   std::vector<std::string> MixtureArrays;
   std::vector<std::string> MixtureGases;
   std::vector<double> MixtureConstants;
@@ -712,8 +747,8 @@ private:
   double BackgroundConstant = 2.26e-4;
   double BackgroundMolarMass = 0.0289647;
   int FractionType = MASS;
-  double TemperatureScale = 1;
-  double PressureScale = 1;
+  double TemperatureScale = 0;
+  double PressureScale = 0;
   double RelativeHumidity = 0;
   double MaskThreshold = 0.5;
   int MaskedSide = MASKED_ABOVE;

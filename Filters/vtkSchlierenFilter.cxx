@@ -100,6 +100,9 @@ vtkSchlierenFilter::vtkSchlierenFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
+  // Of vtkImageAlgorithm: the active scalars, whatever these are.
+  this->GetInputArrayInformation(vtkRefractiveIndex::DENSITY)
+    ->Remove(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
   this->vtkSchlierenFilter::SetQuality(INTERACTIVE);
   this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
 }
@@ -157,9 +160,8 @@ vtkTypeBool vtkSchlierenFilter::ProcessRequest(
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Of bodies, too, so that Convert can say what is wrong with other types than vtkPolyData.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  // Any, so that one message says what is wrong with tables and others: VTK says it several times.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   if (port == vtkRefractiveIndex::BODIES)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -328,7 +330,7 @@ int vtkSchlierenFilter::RequestData(
   // What this rank has of the inputs.
   FilterRanks::Inputs own{ vtkDataObject::GetData(inputVector[0]),
     vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]),
-    filters::arraysOf(this->Medium) };
+    [this] { return filters::arraysOf(this->Medium); } };
   TimeStep* step = nullptr;
   const auto arrive = [&]()
   {
@@ -436,6 +438,7 @@ int vtkSchlierenFilter::RequestData(
   const auto makeImage = [&]
   {
     inside.Guard.ThrowEarlier();
+    this->Medium->ShareArrays(own.data);
     const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(maxCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;

@@ -222,6 +222,11 @@ public:
   vtkRefractiveIndexForwardMacro(Medium);
   virtual double GetGladstoneDaleConstantUsed();
   const char* GetGrid() const;
+
+  /**
+   * The arrays that are used, see vtkRefractiveIndex.
+   */
+  const char* GetArraysUsed();
   ///@}
 
   ///@{

@@ -14,12 +14,20 @@
 inline std::vector<FlowArray> arraysOf(vtkPVDataInformation* data)
 {
   std::vector<FlowArray> arrays;
+  if (!data)
+  {
+    return arrays; // a proxy may be made without an input
+  }
   for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
   {
     vtkPVDataSetAttributesInformation* info = data->GetAttributeInformation(association);
     for (int i = 0; i < info->GetNumberOfArrays(); ++i)
     {
       vtkPVArrayInformation* array = info->GetArrayInformation(i);
+      if (!array || !array->GetName())
+      {
+        continue;
+      }
       const double* range = array->GetComponentFiniteRange(0);
       arrays.push_back(
         { array->GetName(), association, array->GetNumberOfComponents(), { range[0], range[1] } });

@@ -100,6 +100,12 @@ void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
   }
   for (const auto& [property, scale] : defaults.scales)
   {
+    // The filter knows the unit in a name, also when another array is chosen.
+    const std::string quantity = property.substr(0, property.find("Scale"));
+    if (scaleByUnit(quantity, defaults.arrayOf(quantity)) != 0)
+    {
+      continue;
+    }
     vtkSMPropertyHelper(filter, property.c_str()).Set(scale);
   }
   if (!defaults.fractions.empty())

@@ -32,7 +32,7 @@ namespace
 
 /// The array's value where its refractivity is that of the surroundings; NaN where that takes several
 /// arrays to know.
-double ambientValue(vtkSMProxy* model)
+double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
 {
   vtkPVArrayInformation* array =
     vtkSMSourceProxy::SafeDownCast(model)->GetDataInformation(0)->GetArrayInformation(
@@ -41,14 +41,19 @@ double ambientValue(vtkSMProxy* model)
   {
     const double* ambient = array->GetComponentFiniteRange(0);
     const char* gas = vtkSMPropertyHelper(model, "Gas").GetAsString();
-    switch (vtkSMPropertyHelper(model, "IndexModel").GetAsInt())
+    const int given = vtkSMPropertyHelper(model, "IndexModel").GetAsInt();
+    const double scale = vtkSMPropertyHelper(model, "DensityScale").GetAsDouble();
+    const double byUnit = scaleByUnit("Density", defaults.arrayOf("Density"));
+    switch (given < 0 ? defaults.indexModel : given)
     {
       case FlowDefaults::GladstoneDale:
         if (!gas || !*gas || std::strcmp(gas, "Custom") == 0)
         {
           return ambient[0] /
             (vtkSMPropertyHelper(model, "GladstoneDaleConstant").GetAsDouble() *
-              vtkSMPropertyHelper(model, "DensityScale").GetAsDouble());
+              (scale != 0       ? scale
+                  : byUnit != 0 ? byUnit
+                                : 1));
         }
         break;
       case FlowDefaults::RefractiveIndex:
@@ -135,7 +140,7 @@ void showAsVolume(
     vtkSMProxy* opacity = vtkSMPropertyHelper(shown, "ScalarOpacityFunction").GetAsProxy();
     if (opacity)
     {
-      setOpacity(opacity, range, withinRange(ambientValue(bench), range));
+      setOpacity(opacity, range, withinRange(ambientValue(bench, defaults), range));
     }
   }
   vtkSMRepresentationProxy::SetRepresentationType(shown, "Volume");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the window chooses for a flow, by the names, units and ranges of its arrays.
+// What is chosen for a flow, by the names, units and ranges of its arrays.
 #include "FlowDefaults.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,14 @@ double densityScaleOf(const std::string& name)
 TEST(FlowDefaults, DensityByItsName)
 {
   for (const char* name : { "rho", "Density", "RHO", "rhoMean", "density_mean", "air density",
-         "Rho", "rho [kg/m^3]", "Density (kg m^-3)", "rho_avg" })
+         "Rho", "rho [kg/m^3]", "Density (kg m^-3)", "rho_avg", "dens", "DENS", "SV_DENSITY",
+         "Density_avg", "thermo:rho", "rho.air", "MassDensity", "Mass_density",
+         "TimeAveragedDensity", "mean_density", "density_kg_m3", "rho_kgm3", "Density[kg/m^3]",
+         "Density (kg/m\xc2\xb3)", "Density [ kg m^-3 ]", "masse volumique", "conserved_density",
+         "rho_mixture", "primitive_rho", "gasDensity", "Density_0", "density_gas", "FluidDensity",
+         "rho1", "ro", "prim_density", "StaticDensity", "alpha_rho1", "Mean of Density (kg/m^3)",
+         "density (gas)", "<greek>r</greek>", "\xcf\x81", "rho [kg m<sup>-3</sup>]",
+         "rho_kg_per_m3", "Density {kg/m**3}" })
   {
     EXPECT_EQ(densityScaleOf(name), 1) << name;
   }
@@ -47,7 +54,9 @@ TEST(FlowDefaults, DensityByItsName)
 TEST(FlowDefaults, OtherNamesAreNoDensity)
 {
   for (const char* name : { "rhoU", "rhoE", "Number Density", "grad rho", "energy density", "throw",
-         "rhodamine", "rho rms", "total" })
+         "rhodamine", "rho rms", "total", "Avg_Density_Grad", "DensityGradient", "RhoRT", "rhoInf",
+         "rhoPrime2Mean", "rho_He", "rho.water", "electron density", "rho [K]", "density (hPa)",
+         "alpha1", "Material Id", "cellID", "ids", "Mass", "scalars", "node_value", "log_rho" })
   {
     EXPECT_EQ(densityScaleOf(name), 0) << name;
   }
@@ -60,6 +69,21 @@ TEST(FlowDefaults, DensityUnits)
   EXPECT_EQ(densityScaleOf("rho (g/cm^3)"), 1000);
   EXPECT_EQ(densityScaleOf("rho [g/l]"), 1);
   EXPECT_EQ(densityScaleOf("rho [g/m3]"), 1e-3);
+  for (const char* name : { "rho_gcc", "density_g_cm3", "Density [g cm^-3]", "rho (gm/cc)",
+         "RHO [g/cm**3]", "rho [kg/dm3]", "rho [t/m\xc2\xb3]", "rho [Mg/m3]", "rhoMean [g/ml]" })
+  {
+    EXPECT_NEAR(densityScaleOf(name), 1000, 1e-9) << name;
+  }
+  EXPECT_NEAR(densityScaleOf("rho [lbm/ft^3]"), 16.018463, 1e-5);
+  EXPECT_NEAR(densityScaleOf("rho [slug/ft3]"), 515.3788, 1e-3);
+  EXPECT_NEAR(densityScaleOf("rho [tonne/mm^3]"), 1e12, 1);
+  EXPECT_NEAR(densityScaleOf("rho [mg/cm3]"), 1, 1e-12);
+  EXPECT_EQ(scaleByUnit("Density", "rho"), 0);
+  EXPECT_EQ(scaleByUnit("Pressure", "p_hPa"), 100);
+  EXPECT_EQ(scaleByUnit("Pressure", "Pressure (kPa)"), 1000);
+  EXPECT_EQ(scaleByUnit("Temperature", "T [K]"), 1);
+  EXPECT_NEAR(scaleByUnit("Temperature", "T [degR]"), 5. / 9, 1e-15);
+  EXPECT_EQ(scaleByUnit("Temperature", "T [degC]"), 0);
   const FlowDefaults unknown = flowDefaults({ scalar("rho [stone/acre]", 1, 2) });
   EXPECT_TRUE(unknown.scales.empty());
   EXPECT_NE(unknown.message.find("unit of 'rho [stone/acre]' is not known"), std::string::npos);
@@ -174,13 +198,11 @@ TEST(FlowDefaults, TemperatureOrPressureAloneIsNoDensity)
       std::string::npos)
       << chosen.message;
     EXPECT_NE(chosen.message.find("Documentation/density.md"), std::string::npos);
-    // The only other array is a guess.
-    EXPECT_EQ(
-      flowDefaults({ array, scalar("Mach", 0, 2) }).arrays, (Arrays{ { "Density", "Mach" } }))
-      << array.name;
+    EXPECT_TRUE(isNoDensity(array)) << array.name;
+    // The only other array is no density because of that.
+    EXPECT_TRUE(flowDefaults({ array, scalar("Mach", 0, 2) }).arrays.empty()) << array.name;
   }
-  EXPECT_EQ(flowDefaults({ scalar("water dens", 990, 1000) }).arrays,
-    (Arrays{ { "Density", "water dens" } }));
+  EXPECT_FALSE(isNoDensity(scalar("water dens", 990, 1000)));
 }
 
 TEST(FlowDefaults, RefractiveIndexByNameAndRange)
@@ -204,15 +226,75 @@ TEST(FlowDefaults, WhatTheFilterMadeIsTakenAsItIs)
   EXPECT_EQ(chosen.arrays, (Arrays{ { "IndexArray", "Refractivity" } }));
 }
 
-TEST(FlowDefaults, AGuessIsReported)
+TEST(FlowDefaults, NothingIsGuessedAndAllThatThereIsIsNamed)
 {
-  const FlowDefaults chosen = flowDefaults(
-    { velocity, scalar("vtkGhostType", 0, 1), scalar("Mach", 0, 2), scalar("k", 0, 1) });
-  EXPECT_EQ(chosen.arrays, (Arrays{ { "Density", "Mach" } }));
-  EXPECT_NE(chosen.message.find("'Mach' is taken as the density"), std::string::npos);
+  const FlowDefaults chosen = flowDefaults({ velocity, scalar("vtkGhostType", 0, 1),
+    scalar("Mach", 0, 2), scalar("k", 0, 1, FlowArray::Cells) });
+  EXPECT_TRUE(chosen.arrays.empty());
   EXPECT_FALSE(chosen.isSure);
+  EXPECT_NE(chosen.message.find("There are point arrays Mach (0 to 2); cell arrays k (0 to 1)."),
+    std::string::npos)
+    << chosen.message;
   EXPECT_TRUE(flowDefaults({ scalar("rho", 1, 2) }).isSure);
   EXPECT_FALSE(flowDefaults({ scalar("rho [stone/acre]", 1, 2) }).isSure);
+}
+
+// Of solvers' own files: the density is the one that is named so, wherever it stands.
+TEST(FlowDefaults, SetsOfArraysThatSolversWrite)
+{
+  const auto cells = [](const char* name, double low, double high)
+  { return scalar(name, low, high, FlowArray::Cells); };
+  const std::pair<std::vector<FlowArray>, const char*> sets[] = {
+    { { scalar("Material Id", 2, 3), scalar("rho", 6, 13) }, "rho" },
+    { { scalar("RhoRT", 101324.9, 101325.1), scalar("density", .2, 1.1),
+        scalar("temp", 298, 1580) },
+      "density" },
+    { { cells("density", .2, .5), scalar("node_value", 0, 3) }, "density" },
+    { { cells("cellID", 0, 4095), cells("p", 9e4, 1.2e5), cells("rho", 1, 1.4),
+        cells("T", 280, 320) },
+      "rho" },
+    { { scalar("Avg_Density_Grad", -1, 1), scalar("Density", .5, 1.3), scalar("Mach", 0, 2) },
+      "Density" },
+    { { scalar("alpha1", 0, 1), scalar("alpha_rho1", 0, 1), scalar("pres", 9e4, 2e5),
+        scalar("rho", .1, 1.2) },
+      "rho" },
+    { { scalar("grad_T", 0, 1e3), scalar("rho", 1, 1.2) }, "rho" },
+    { { scalar("rhoMean", 1, 1.2), scalar("rho", 1, 1.2) }, "rho" },
+    { { scalar("T", 280, 300), scalar("p", 9e4, 1e5), cells("rho", 1, 1.2) }, "rho" },
+    { { scalar("Y(H)", 0, 1e-5), scalar("Y(O2)", .1, .23) }, "" },
+    { { scalar("ids", 1, 1249) }, "" },
+    // Of parts none is the density.
+    { { scalar("alpha_rho1", 0, 1), scalar("alpha_rho2", 0, 1000) }, "" },
+    { { scalar("rho.air", 1, 1.2), scalar("rho.water", 998, 999) }, "" },
+    { { scalar("Density_0", 0, 1), scalar("Density_1", 0, 1) }, "" },
+  };
+  for (const auto& [arrays, density] : sets)
+  {
+    EXPECT_EQ(flowDefaults(arrays).arrayOf("Density"), density) << arrays[0].name;
+  }
+  EXPECT_NE(flowDefaults({ scalar("alpha_rho1", 0, 1), scalar("alpha_rho2", 0, 1000) })
+              .message.find("'alpha_rho1', 'alpha_rho2' are of single species or phases"),
+    std::string::npos);
+  // Combustion: the fractions of known gases, too.
+  const FlowDefaults flame = flowDefaults({ scalar("density", .2, 1.1), scalar("temp", 298, 1580),
+    scalar("Y(H2)", 0, .1), scalar("Y(O2)", 0, .23), scalar("Y(OH)", 0, .01) });
+  EXPECT_EQ(flame.indexModel, FlowDefaults::Mixture);
+  EXPECT_EQ(flame.fractions, (Strings{ "Y(H2)", "Y(O2)" }));
+  EXPECT_EQ(flame.gases, (Strings{ "H2", "O2" }));
+}
+
+TEST(FlowDefaults, ArraysOfAModelThatIsGiven)
+{
+  const std::vector<FlowArray> all = { scalar("p", 9e4, 1e5), scalar("T", 280, 300),
+    scalar("RH", 0, 0.8), scalar("rho", 1, 1.2), scalar("ior", 1, 1.0003),
+    scalar("Refractivity", 0, 3e-4) };
+  const FlowDefaults air = flowDefaults(all, FlowDefaults::Ciddor);
+  EXPECT_EQ(
+    air.arrays, (Arrays{ { "Temperature", "T" }, { "Pressure", "p" }, { "Humidity", "RH" } }));
+  EXPECT_EQ(flowDefaults(all, FlowDefaults::GladstoneDale).arrayOf("Density"), "rho");
+  EXPECT_EQ(flowDefaults(all, FlowDefaults::RefractiveIndex).arrayOf("IndexArray"), "ior");
+  EXPECT_EQ(flowDefaults(all, FlowDefaults::Refractivity).arrayOf("IndexArray"), "Refractivity");
+  EXPECT_TRUE(flowDefaults({ scalar("f", 0, 1) }, FlowDefaults::Ciddor).arrays.empty());
 }
 
 TEST(FlowDefaults, NothingToChooseFrom)
@@ -241,6 +323,78 @@ TEST(FlowDefaults, MasksByTheirNames)
   // Nothing is masked; not a mask; and a mask is no density.
   EXPECT_EQ(flowDefaults({ density, scalar("solid", 0, 0) }).mask, "");
   EXPECT_EQ(flowDefaults({ density, scalar("solid stress", 0, 1) }).mask, "");
-  const FlowDefaults guess = flowDefaults({ scalar("solid", 0, 1), scalar("f", 1, 2) });
-  EXPECT_EQ(guess.arrays, (Arrays{ { "Density", "f" } }));
+  EXPECT_TRUE(isNoDensity(scalar("solid", 0, 1)));
+}
+
+namespace
+{
+
+/// What is said of a density of this range.
+std::string kindOf(
+  const char* name, double low, double high, double scale = 1, bool isGiven = false)
+{
+  FlowInUse flow;
+  flow.arrays = { scalar(name, low, high) };
+  flow.scales = { scale };
+  flow.isScaleGiven = isGiven;
+  return implausible(flow).kind;
+}
+
+std::string kindOfAir(const FlowArray& temperature, const FlowArray& pressure, double pascals = 1)
+{
+  FlowInUse flow;
+  flow.indexModel = FlowDefaults::Ciddor;
+  flow.arrays = { temperature, pressure };
+  flow.scales = { 1, pascals };
+  return implausible(flow).kind;
+}
+
+} // namespace
+
+TEST(Implausible, Densities)
+{
+  EXPECT_EQ(kindOf("rho", 0.1, 8), "");
+  EXPECT_EQ(kindOf("rho", 0, 1.2), "");   // a jet into a vacuum
+  EXPECT_EQ(kindOf("rho", 0.5, 100), ""); // an engine
+  EXPECT_EQ(kindOf("rho", 1, 1), "constant");
+  EXPECT_EQ(kindOf("rho", 0, 0), "zero");
+  EXPECT_EQ(kindOf("rho", -0.7, 0.3), "negative");
+  EXPECT_EQ(kindOf("rho", -1e-5, 1.2), "");       // a solver's undershoot
+  EXPECT_EQ(kindOf("Density", 20, 620), "dense"); // of FDS: a temperature
+  EXPECT_EQ(kindOf("Density", 20, 40), "dense");
+  EXPECT_EQ(kindOf("density", 2e-4, 1.2e-3), "thin"); // in g/cm3
+  EXPECT_EQ(kindOf("density", 2e-4, 1.2e-3, 1000, true), "");
+  EXPECT_EQ(kindOf("density", 2e-4, 1.2e-3, 1, true), ""); // the user says so
+  EXPECT_EQ(kindOf("grad_T", 0, 1), "no density");
+  EXPECT_EQ(kindOf("rho [stone/acre]", 1, 2), "unit");
+}
+
+TEST(Implausible, LiquidsOfWhichTheUserGivesTheIndexOrTheConstant)
+{
+  FlowInUse water;
+  water.arrays = { scalar("rho", 990, 1000) };
+  water.scales = { 1 };
+  EXPECT_EQ(implausible(water).kind, "dense");
+  water.isGas = false;
+  EXPECT_EQ(implausible(water).kind, "");
+  water.indexModel = FlowDefaults::RefractiveIndex;
+  water.arrays = { scalar("n", 1.33, 1.33) };
+  EXPECT_EQ(implausible(water).kind, "");
+}
+
+TEST(Implausible, MoistAir)
+{
+  const FlowArray kelvins = scalar("T", 280, 320), pascals = scalar("p", 9e4, 1.1e5);
+  EXPECT_EQ(kindOfAir(kelvins, pascals), "");
+  EXPECT_EQ(kindOfAir(scalar("T", 15, 80), pascals), "Celsius");
+  EXPECT_EQ(kindOfAir(scalar("T", 20, 1500), pascals), "Celsius");
+  EXPECT_EQ(kindOfAir(scalar("T", -20, 1500), pascals), "Celsius");
+  EXPECT_EQ(kindOfAir(scalar("T", 0, 320), pascals), "");  // 0 in bodies
+  EXPECT_EQ(kindOfAir(scalar("T", 50, 320), pascals), ""); // of a hypersonic tunnel
+  EXPECT_EQ(kindOfAir(scalar("T [degC]", 280, 320), pascals), "Celsius");
+  EXPECT_EQ(kindOfAir(kelvins, scalar("p", -20, 30)), "gauge");
+  EXPECT_EQ(kindOfAir(kelvins, scalar("p_gauge", 10, 30)), "gauge");
+  EXPECT_EQ(kindOfAir(kelvins, scalar("p", 700, 1013)), "pressure");
+  EXPECT_EQ(kindOfAir(kelvins, scalar("p", 700, 1013), 100), "");
+  EXPECT_EQ(kindOfAir(kelvins, scalar("p", 0.9, 1.1)), "pressure");
 }

@@ -442,8 +442,6 @@ std::vector<Mistake> mistakes()
       backToOne },
     { "Vectors", false, [](Index* f) { addSecond(f, "U"); },
       { "'U' has 3 components", "MixtureArrays" }, backToOne },
-    { "NoArrays", false, [](Index* f) { f->ClearMixtureArrays(); },
-      { "MixtureArrays is empty", "Gladstone-Dale" }, backToOne },
     { "NoConstants", false, [](Index* f) { f->ClearMixtureConstants(); },
       { "MixtureArrays and MixtureConstants differ in length (1 and 0)" }, backToOne },
     { "TooManyConstants", false, [](Index* f) { f->AddMixtureConstant(1e-4); },
@@ -474,9 +472,6 @@ std::vector<Mistake> mistakes()
         f->SetBackgroundMolarMass(notANumber);
       },
       { "BackgroundMolarMass", "finite" }, [](Index* f) { f->SetBackgroundMolarMass(airMass); } },
-    { "NoTemperature", true, [](Index* f) { choose(f, Index::TEMPERATURE, ""); },
-      { "No array is chosen for Temperature", "p" },
-      [](Index* f) { choose(f, Index::TEMPERATURE, "T"); } },
     { "NoSuchPressure", true, [](Index* f) { choose(f, Index::PRESSURE, "P"); },
       { "no array 'P'", "Pressure", "T" }, [](Index* f) { choose(f, Index::PRESSURE, "p"); } },
     { "NoSuchHumidity", true, [](Index* f) { choose(f, Index::HUMIDITY, "dew"); },

@@ -25,7 +25,7 @@ SetActiveSource(warm)
 user.press("OneImage")
 user.check_message("'warm': There is no density, nor a temperature together with a pressure, so nothing gives the "
                    "refractive index. Load or compute one (Documentation/density.md says how), or choose an "
-                   "array yourself in the filter of the menu Filters > Schlieren.")
+                   "array yourself. There are point arrays T (287.353 to 526.829).")
 user.python(MESH + """
 table = Histogram(Input=mesh, registrationName="table")
 table.UpdatePipeline()

@@ -59,7 +59,7 @@ user.play(f"""
 import sys
 sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[32, 32])
 bench.GladstoneDaleConstant = 1e-6
@@ -82,7 +82,7 @@ def shown(state):
 
 
 def scripted(**properties):
-    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
     return image_array(Schlieren(Input=flow, ImageSize=[32, 32], GladstoneDaleConstant=1e-6, **properties),
                    "Intensity")

@@ -26,7 +26,7 @@ saved = {}
 
 def scripted(**properties):
     """A filter that a script has set up."""
-    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
     bench = Schlieren(Input=flow, **SETTINGS, **properties)
     bench.UpdatePipeline()
@@ -157,7 +157,7 @@ sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
 from paraview import smtrace
 import json
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", AutoKScale=0, KScale={K}, **{SETTINGS})
 Show(bench, GetActiveViewOrCreate("RenderView"))

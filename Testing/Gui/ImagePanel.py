@@ -98,7 +98,7 @@ user.save_state("background.pvsm")
 
 user.play(f"""
 from paraview.simple import *
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[32, 32])
 bench.GladstoneDaleConstant = 1e-6
@@ -124,7 +124,7 @@ def bench_of(state):
 
 def scripted(**properties):
     """The image of a filter that a script has set up."""
-    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
     bench = Schlieren(Input=flow, ImageSize=[32, 32], GladstoneDaleConstant=1e-6, **properties)
     return image_array(bench, properties.get("Array", "Color"))
@@ -176,7 +176,7 @@ assert np.array_equal(decoded(bench_of("background").BackgroundImage), COLORS)
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
 simple.ResetSession()
-flow = simple.Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 simple.SetActiveSource(Schlieren(Input=flow, registrationName="bench", ImageSize=[32, 32]))
 exec(script, {})  # pylint: disable=exec-used

@@ -15,7 +15,7 @@ SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6}
 
 
 def scripted(**properties):
-    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
     return Schlieren(Input=flow, **SETTINGS, **properties)
 
@@ -68,7 +68,7 @@ user.play(f"""
 import sys
 sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", **{SETTINGS})
 Show(bench, GetActiveViewOrCreate("RenderView"))

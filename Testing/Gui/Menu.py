@@ -31,7 +31,7 @@ user.check("Sensitivity/Note", "text", "k = 2000: full scale is a deflection of 
 user.play(INSIDE + """
 from paraview.simple import *
 Sphere(Radius=3, registrationName="ball").UpdatePipeline()
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 SetActiveSource(flow)
 """, seconds=100)
@@ -39,5 +39,5 @@ SetActiveSource(flow)
 simple.ResetSession()
 simple.LoadState(os.path.join(FOLDER, "menu.pvsm"))
 bench = simple.FindSource("Schlieren1")
-assert bench.Bodies is None and bench.Density == ["POINTS", "RTData"]
+assert bench.Bodies is None and bench.Density == ["POINTS", "rho"]
 assert np.ptp(image_array(bench, "Intensity")) > 0

@@ -102,7 +102,7 @@ user.play(f"""
 import sys
 sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=2 * [{PIXELS}], Cutoff="Color Filter",
                   AutoKScale=0, KScale={K}, GladstoneDaleConstant=2e-6)

@@ -83,7 +83,7 @@ if is_remote:
     prefix = DISMISS + connect(port)
 try:
     user.play(prefix + """
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 view = GetActiveViewOrCreate("RenderView")
 view.OrientationAxesVisibility = view.CenterAxesVisibility = 0

@@ -17,7 +17,7 @@ SHOWN = {"StepSize": ("DoubleRangeWidget", "value"), "SamplesPerPixel": ("LineEd
          "PathModel": ("ComboBox", "currentText"), "Integrator": ("ComboBox", "currentText"),
          "Interpolation": ("ComboBox", "currentText"), "Precision": ("ComboBox", "currentText")}
 
-source = simple.Wavelet()
+source = simple.Calculator(Input=simple.Wavelet(), ResultArrayName="rho", Function="RTData")
 source.UpdatePipeline()
 bench = Schlieren(source)
 PRESETS = {}
@@ -89,7 +89,7 @@ for model, integrator, shown in (("Auto", "Leapfrog", ("PathTolerance", "Integra
 
 user.play(f"""
 from paraview.simple import *
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=[16, 16])
 
@@ -122,7 +122,7 @@ for state, kept in (("draft", ("Draft",)), ("undone", ("Draft",)), ("custom", ("
 with open(TRACE, encoding="utf-8") as file:
     script = file.read()
 simple.ResetSession()
-flow = simple.Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 simple.SetActiveSource(Schlieren(Input=flow, registrationName="bench", ImageSize=[16, 16]))
 exec(script, {})  # pylint: disable=exec-used

@@ -106,7 +106,7 @@ del bench, shadows, flow
 pause(0.2)
 report("all deleted")
 
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench, shadows = make(flow, "bench", shown), make(flow, "shadows", other)
 begin()
@@ -136,7 +136,7 @@ del bench, shadows, flow
 pause(0.2)
 report("drawn flow deleted")
 
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 Show(flow, turned)
 ResetCamera(turned)

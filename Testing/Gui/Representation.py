@@ -94,7 +94,7 @@ user.play("""
 import inside_window
 from inside_window import information
 from paraview.simple import *
-flow = Wavelet(registrationName="flow", WholeExtent=3 * [-30, 30])
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-30, 30]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 display = Show(flow)
 view = GetActiveView()
 view.CameraParallelProjection = 1
@@ -108,7 +108,7 @@ def note(*_):
 view.SMProxy.AddObserver("EndEvent", note)
 """)
 
-wavelet = simple.Wavelet(WholeExtent=3 * [-30, 30])
+wavelet = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-30, 30]), ResultArrayName="rho", Function="RTData")
 wavelet.UpdatePipeline()
 
 
@@ -116,7 +116,7 @@ def drawn(name):
     """What was drawn in this step, as the reductions of the images, after a check of the last one."""
     kept = np.load(os.path.join(FOLDER, name + ".npz"))
     bench = Schlieren(
-        Input=wavelet, Density=["POINTS", "RTData"], **{name: kept[name].item() for name in SETTINGS}, ImageSize=kept["size"].tolist(), ViewUp=kept["up"].tolist(),
+        Input=wavelet, Density=["POINTS", "rho"], **{name: kept[name].item() for name in SETTINGS}, ImageSize=kept["size"].tolist(), ViewUp=kept["up"].tolist(),
         ViewDirection=(kept["focus"] - kept["position"]).tolist(), FocalPoint=kept["focus"].tolist(),
         ParallelScale=float(kept["scale"]))
     difference = np.abs(image_array(bench, "Intensity").ravel() - kept["intensity"])

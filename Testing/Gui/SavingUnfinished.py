@@ -86,7 +86,7 @@ for frame, values in enumerate(frames):
     assert np.array_equal(values, image(f"reference{frame}.png")), frame
 assert not np.array_equal(frames[0], frames[1]) and not np.array_equal(frames[1], frames[2])
 
-flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
 flow.UpdatePipeline()
 expected = image_array(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Draft",
                              SamplesPerPixel=400, KnifeEdgeAngle=30, ParallelScale=13), "Intensity")

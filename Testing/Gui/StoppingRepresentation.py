@@ -48,7 +48,7 @@ with open({REPORT!r}, "w") as file:
 """)
 user.play("""
 from paraview.simple import *
-flow = Tetrahedralize(Input=Wavelet(WholeExtent=3 * [-8, 8]), registrationName="flow")
+flow = Tetrahedralize(Input=Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData"), registrationName="flow")
 display = Show(flow)
 display.SetRepresentationType("Outline")
 ResetCamera()

@@ -14,7 +14,7 @@ SCENE = f"""
 import os, sys
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Gui"))
 from paraview.simple import *
-flow = Wavelet(WholeExtent=3 * [-8, 8], registrationName="flow")
+flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 turned = GetActiveViewOrCreate("RenderView")
 Show(flow, turned).SetRepresentationType("Outline")
@@ -41,7 +41,7 @@ SetActiveSource(benches["bench"])
 
 def scripted(simple, schlieren, kept, name="bench"):
     """A script's own filter with the view of one whose image was saved."""
-    flow = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
     return schlieren(Input=flow, ImageSize=[SIZE, SIZE], GladstoneDaleConstant=1e-6, Quality="Draft",
                      Cutoff={"bench": "Knife Edge", "shadows": "Shadowgraph"}[name],

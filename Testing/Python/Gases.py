@@ -46,7 +46,12 @@ assert is_near(refractivity(s)[positive], by_volume[positive])
 s.FractionType = "Mass"
 s.MixtureArrays = []
 s.MixtureConstants = []
+assert refractivity(s).max() > 0, "The fraction is known by its name"
+s.UpdatePropertyInformation()
+assert s.GetProperty("ArraysUsed").GetData() == "Density: 'rho'; fractions: 'Y_He'.", s.GetProperty("ArraysUsed").GetData()
+s.MixtureGases = ["nothing"]
 assert is_empty(s)
+s.MixtureGases = []
 s.MixtureArrays = ["Y_He", "RH"]
 s.MixtureConstants = [HELIUM, 2e-4]
 s.BackgroundConstant = 1e-4
@@ -56,9 +61,9 @@ assert is_near(refractivity(s)[positive], mixed[positive])
 # Moist air. Dry at 20 C and 1 atm: NIST's calculator, 633 nm.
 s = RefractiveIndex(flow)
 s.IndexModel = "Ciddor"
-assert list(s.Humidity)[-1] in ("", "None"), list(s.Humidity)
-s.Temperature = ["POINTS", "T"]
-s.Pressure = ["POINTS", "p"]
+assert [list(array) for array in (s.Temperature, s.Pressure, s.Humidity)] == [
+    ["POINTS", "T"], ["POINTS", "p"], ["POINTS", "RH"]]
+s.Humidity = ["POINTS", "None"]
 dry = refractivity(s)
 assert np.abs(dry / (2.718e-4 * 293.15 / 101325 * arrays["p"] / arrays["T"]) - 1).max() < 1e-3
 s.RelativeHumidity = 1
@@ -80,7 +85,7 @@ assert np.array_equal(refractivity(s), dry)
 for model, choices in (
         ("Gladstone-Dale Mixture", {"Density": ["POINTS", "rho"], "MixtureArrays": ["Y_He"],
                                     "MixtureConstants": [HELIUM]}),
-        ("Ciddor", {"Temperature": ["POINTS", "T"], "Pressure": ["POINTS", "p"]})):
+        ("Ciddor", {"Humidity": ["POINTS", "None"]})):
     images = []
     for proxy in (RefractiveIndex(flow), Schlieren(flow)):
         proxy.IndexModel = model

@@ -15,7 +15,7 @@ import property_tables
 
 source = gaussian_column(32)
 
-TEXTS = {"IndexModel": {"Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
+TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
          "Cutoff": {"Knife Edge", "Shadowgraph", "Circular", "Circular Complement", "Graded Filter",

@@ -52,11 +52,11 @@ def flows():
     yield "image", simple.XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.vti")]), {}
     yield "rectilinear", rectilinear(os.path.abspath("ball.vtr")), {}
     yield "structured", simple.XMLStructuredGridReader(FileName=[os.path.join(DATA, "deltawing.vts")]), {"MediumTolerance": 0}
-    yield "unstructured", simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=3 * [-8, 8])), {}
+    yield "unstructured", simple.Tetrahedralize(Input=simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")), {}
     yield "AMR", simple.AMRGaussianPulseSource(), {"Density": ["CELLS", "Gaussian-Pulse"]}
-    wavelet = simple.Wavelet(WholeExtent=3 * [-8, 8])
+    wavelet = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     yield "multi-block", simple.GroupDatasets(Input=[wavelet, simple.Transform(Input=wavelet)]), {}
-    flat = simple.Wavelet(WholeExtent=[-20, 20, -20, 20, 0, 0])
+    flat = simple.Calculator(Input=simple.Wavelet(WholeExtent=[-20, 20, -20, 20, 0, 0]), ResultArrayName="rho", Function="RTData")
     yield "flat", flat, {}
     yield "flat mesh", simple.Tetrahedralize(Input=flat), {}
 

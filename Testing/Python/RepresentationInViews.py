@@ -30,7 +30,7 @@ def agrees(shown, display, view):
 
 
 # A surface hides what is behind it, whether it is before the flow, in it or behind it, and else all is as without.
-wavelet = simple.Wavelet(WholeExtent=3 * [-8, 8])
+wavelet = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
 wavelet.UpdatePipeline()
 view = new_view()
 display = show(wavelet, view)
@@ -66,7 +66,7 @@ places = [[-4, 2, 6], [3, -3, 0], [4, 4, -6]]
 balls = [simple.Sphere(Center=place, Radius=1.5, ThetaResolution=64, PhiResolution=64) for place in places]
 bodies = simple.AppendGeometry(Input=balls)
 # A mesh, whose walls are where the surfaces are, not as fine as samples.
-mesh = simple.Transform(Input=simple.Wavelet(WholeExtent=3 * [-24, 24]))
+mesh = simple.Transform(Input=simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-24, 24]), ResultArrayName="rho", Function="RTData"))
 mesh.Transform.Scale = 3 * [1 / 3]
 mesh.UpdatePipeline()
 simple.Hide(wavelet, view)

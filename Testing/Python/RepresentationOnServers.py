@@ -28,7 +28,7 @@ def without_mpi():
 def draw(path, is_remote=False):
     from paraview import simple
     simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=is_remote, ns=vars(simple))
-    flow = simple.Wavelet(WholeExtent=3 * [-10, 10])
+    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-10, 10]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
     view = simple.CreateRenderView(ViewSize=[120, 90], OrientationAxesVisibility=0, CameraParallelProjection=1)
     display = simple.Show(flow, view)

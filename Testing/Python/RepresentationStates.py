@@ -68,7 +68,7 @@ check_kept()
 simple.ResetSession()
 
 # A body is black where light meets it, as in the filter's image, and as large as it is, give or take half a voxel.
-wavelet = simple.Wavelet(WholeExtent=3 * [-16, 16])
+wavelet = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-16, 16]), ResultArrayName="rho", Function="RTData")
 wavelet.UpdatePipeline()
 ball = simple.Sphere(Center=[2, 1, 0], Radius=8, ThetaResolution=64, PhiResolution=64)
 ball.UpdatePipeline()
@@ -106,7 +106,7 @@ def messages():
 
 if os.path.exists("messages.txt"):
     os.remove("messages.txt")
-other = simple.Wavelet(WholeExtent=3 * [-16, 16], XFreq=20)
+other = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-16, 16], XFreq=20), ResultArrayName="rho", Function="RTData")
 other.UpdatePipeline()
 second = simple.Show(other, view)
 pixels_of(view, SIZE)

@@ -47,7 +47,7 @@ for flow in (wavelet, mesh):
     bench.DensityScale = 2
     image_array(bench, "Intensity")
     assert builds(*benches) == [1, 0, 1], builds(*benches)
-    bench.DensityScale = 1
+    bench.DensityScale = 0
     image_array(bench, "Intensity")
     assert builds(*benches) == [1, 0, 1], builds(*benches)
 

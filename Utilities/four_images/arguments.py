@@ -12,12 +12,9 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 JET = os.path.join(ROOT, "Testing", "Data", "ladenburg_jet_3d.vti")
 
-MODELS = {
-    # index model: the property that takes the array, and the names an array of that kind often has
-    "Gladstone-Dale": ("Density", ("rho", "density", "dens", "d")),
-    "Refractive Index": ("IndexArray", ("n", "refractiveindex", "refractive_index", "ior")),
-    "Refractivity": ("IndexArray", ("refractivity", "n-1")),
-}
+# Index models, and the property that takes the array.
+MODELS = {"Auto": "Density", "Gladstone-Dale": "Density", "Refractive Index": "IndexArray",
+          "Refractivity": "IndexArray"}
 
 # Sight lines by name: the direction of sight and what is up in the image.
 VIEWS = {
@@ -107,27 +104,30 @@ examples:
   %(prog)s plume.vti --set Interpolation=Linear --set SamplesPerPixel=1""")
     add = parser.add_argument
     add("file", nargs="?", metavar="FILE",
-        help="a 3-D data set, in any format that ParaView reads; of a PLOT3D pair, the grid file")
+        help="a data set, in any format that ParaView reads; of a PLOT3D pair, the grid file; the "
+             "folder of an OpenFOAM case or an AMReX plotfile")
     add("--q", metavar="FILE",
         help="the solution file of a PLOT3D pair, where its name does not follow from the grid's")
     add("--time", type=float, metavar="T", help="the time to read; default: the last one")
     add("--array", metavar="NAME",
         help="point or cell array that holds the density, n or n - 1, as --model says; default: "
-             "one that is named so")
+             "what the filter chooses by names")
     add("--formula", metavar="F",
         help="instead: computes it from the arrays as ParaView's Calculator does, for example "
              "'p/(287.05*T)'")
-    add("--model", choices=MODELS, default="Gladstone-Dale",
-        help="what the array holds; default: a density (Gladstone-Dale: n - 1 = K x density)")
+    add("--model", choices=MODELS, default="Auto",
+        help="what the array holds; default: of --array and --formula, a density (Gladstone-Dale: "
+             "n - 1 = K x density), else what its name says")
     add("--constant", type=positive, default=2.26e-4, metavar="K",
         help="Gladstone-Dale constant in m^3/kg; default: %(default)s, air in visible light")
-    add("--density-scale", type=positive, default=1, metavar="S",
-        help="kg/m^3 for a density of 1; default: 1")
+    add("--density-scale", type=positive, default=0, metavar="S",
+        help="kg/m^3 for a density of 1; default: by the unit in the array's name, or 1")
     add("--length-scale", type=positive, default=1, metavar="S",
         help="metres for a length of 1; default: 1")
-    add("--view", type=view_direction, default="z", metavar="x|y|z|X,Y,Z",
+    add("--view", type=view_direction, metavar="x|y|z|X,Y,Z",
         help="the axis to look along: x and z point at the viewer, y away from the viewer, a minus "
-             "sign turns that round (--view=-x); or the direction of sight; default: z")
+             "sign turns that round (--view=-x); or the direction of sight; default: z, of 2-D data "
+             "across their plane")
     add("--up", type=vector, metavar="X,Y,Z", help="what is up in the image")
     add("--center", type=vector, metavar="X,Y,Z",
         help="the point in the middle of the image; default: the data's")
@@ -151,10 +151,11 @@ examples:
     for path in filter(None, (options.file, options.q)):
         if not os.path.exists(path):
             raise DemoError(f"There is no file '{path}'.")
-        if os.path.isdir(path) or not os.access(path, os.R_OK):
-            raise DemoError(f"'{path}' is a folder or may not be read by you.")
+        if not os.access(path, os.R_OK):
+            raise DemoError(f"'{path}' may not be read by you.")
     if options.output is None:
-        options.output = os.path.splitext(os.path.basename(options.file))[0] + ending
+        name = os.path.basename(os.path.abspath(options.file))
+        options.output = os.path.splitext(name)[0] + ending
     folder = os.path.dirname(os.path.abspath(options.output))
     if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
         raise DemoError(f"Cannot write '{options.output}': '{folder}' is no folder that you may "
@@ -162,6 +163,7 @@ examples:
     if not options.output.lower().endswith(".png"):
         raise DemoError(f"Cannot write '{options.output}': the image is a PNG, name it *.png.")
     if options.up:
+        options.view = options.view or VIEWS["z"]
         cross = [options.view[0][(i + 1) % 3] * options.up[(i + 2) % 3]
                  - options.view[0][(i + 2) % 3] * options.up[(i + 1) % 3] for i in range(3)]
         if math.hypot(*cross) < 1e-6 * math.hypot(*options.up) or not any(options.up):

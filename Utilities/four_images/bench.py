@@ -4,12 +4,13 @@
 
 import os
 
+import numpy as np
 import paraview.simple as pv
 from paraview import servermanager
 
-from arguments import MODELS, DemoError
+from arguments import MODELS, VIEWS, DemoError
 from messages import say
-from reading import choose_array, evaluate, read
+from reading import choose_array, evaluate, listing, read
 
 
 def load_plugin(options, messages):
@@ -24,20 +25,49 @@ def load_plugin(options, messages):
 
 
 def open_flow(options, scratch, messages):
-    """A source, and its array for the index of refraction."""
+    """A source; its array for the index of refraction, or None where the filter chooses; and that in words."""
     reader = read(options, scratch, messages)
     if options.formula:
-        return evaluate(reader, options, messages)
+        reader, array = evaluate(reader, options, messages)
+        return reader, array, options.formula
     array = choose_array(reader, options)
-    if not options.array:
-        say(f"Using the array '{array[1]}'")
-    return reader, array
+    if array:
+        return reader, array, array[1]
+    proxy = pv.RefractiveIndex(Input=reader)
+    configure(proxy, None, options)
+    proxy.UpdatePipelineInformation()  # it looks at the arrays
+    proxy.UpdatePropertyInformation()
+    used = proxy.GetProperty("ArraysUsed").GetData()
+    pv.Delete(proxy)
+    if not used:
+        raise DemoError(f"No array of '{options.file}' is named like what gives an index of refraction: choose one "
+                        f"with --array, or compute it with --formula. Its arrays: {listing(reader)}.")
+    say(f"Using {used}")
+    return reader, None, used.rstrip(".")
+
+
+def bounds_of(reader, array, options):
+    """Those of the data; of 2-D data, of what the filter makes of them."""
+    bounds = list(reader.GetDataInformation().GetBounds())
+    extent = np.array(bounds[1::2]) - bounds[0::2]
+    flat = int(extent.argmin())
+    if extent[flat] > 1e-9 * extent.max():
+        return bounds
+    if not options.view:
+        options.view = VIEWS["xyz"[flat]] if flat != 1 else VIEWS["-y"]
+    medium = pv.RefractiveIndex(Input=reader)
+    configure(medium, array, options)
+    medium.UpdatePipeline()
+    made = list(medium.GetDataInformation().GetBounds())
+    pv.Delete(medium)
+    return made if made[0] < made[1] else bounds
 
 
 def configure(proxy, array, options):
     """What RefractiveIndex and Schlieren have in common: what the index of refraction is."""
     proxy.IndexModel = options.model
-    setattr(proxy, MODELS[options.model][0], list(array))
+    if array:
+        setattr(proxy, MODELS[options.model], list(array))
     proxy.GladstoneDaleConstant = options.constant
     proxy.DensityScale = options.density_scale
     for name, value in options.settings:
@@ -69,6 +99,8 @@ def output_of(proxy, what, messages, port=0):
     image = servermanager.Fetch(proxy, idx=port)
     if image is None or image.GetNumberOfPoints() == 0:
         raise DemoError(f"The {what} failed. {messages.last_error()}")
+    for warning in messages.warnings():
+        say(warning)
     return image
 
 

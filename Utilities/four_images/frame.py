@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from arguments import DemoError
+from arguments import VIEWS, DemoError
 
 
 class Frame:
@@ -17,10 +17,11 @@ class Frame:
         extent = high - low
         if extent.min() <= 1e-9 * extent.max():
             raise DemoError(f"'{options.file}' has no thickness along "
-                            f"{'xyz'[int(extent.argmin())]}: light needs a volume to pass through. "
-                            "Extrude it first.")
-        self.direction = np.array(options.view[0], dtype=float)
-        up = np.array(options.view[1], dtype=float)
+                            f"{'xyz'[int(extent.argmin())]}: light needs a volume to pass through, or a plane "
+                            "across an axis.")
+        direction, up = options.view or VIEWS["z"]
+        self.direction = np.array(direction, dtype=float)
+        up = np.array(up, dtype=float)
         self.u = np.cross(self.direction, up)
         self.u /= np.linalg.norm(self.u)
         self.v = np.cross(self.u, self.direction)

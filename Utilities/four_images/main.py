@@ -24,7 +24,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E4
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
 
-from bench import (check_light, configure, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
+from bench import (bounds_of, check_light, configure, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
                    output_of)
 from frame import Frame  # noqa: E402
 from messages import Messages, Progress, say  # noqa: E402
@@ -131,8 +131,8 @@ def main(options):
     messages = Messages()
     load_plugin(options, messages)
     with tempfile.TemporaryDirectory() as scratch:
-        reader, array = open_flow(options, scratch, messages)
-        frame = Frame(reader.GetDataInformation().GetBounds(), options)
+        reader, array, used = open_flow(options, scratch, messages)
+        frame = Frame(bounds_of(reader, array, options), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         images = bench_images(reader, array, frame, options, messages)
         begin = time.monotonic()
@@ -140,7 +140,7 @@ def main(options):
         medium = refractivity(reader, array, clear, options, messages)
         volume = volume_rendering(medium, frame)
         say(f"Volume rendering: {time.monotonic() - begin:.1f} s")
-        compose(volume, medium, images, frame, array, options).write(options.output)
+        compose(volume, medium, images, frame, used, options).write(options.output)
     say(f"The image: {os.path.abspath(options.output)}")
 
 

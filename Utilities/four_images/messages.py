@@ -25,7 +25,8 @@ class Messages:
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
         self.window = vtkStringOutputWindow()
         vtkOutputWindow.SetInstance(self.window)
-        self.seen = 0
+        self.seen = self.warned = 0
+        self.said = set()
 
     def last_error(self):
         """The newest error since the last call, without VTK's file name and address; or nothing."""
@@ -34,6 +35,15 @@ class Messages:
         errors = re.findall(r"ERROR: In .*?\n.*?\(0x[0-9a-f]+\): (.*?)\n\n", new + "\n\n",
                             re.DOTALL)
         return " ".join(errors[0].split()) if errors else ""
+
+    def warnings(self):
+        """The warnings since the last call that have not been said yet."""
+        text = self.window.GetOutput()
+        new, self.warned = text[self.warned:], len(text)
+        found = re.findall(r"Warning: In .*?\n.*?\(0x[0-9a-f]+\): (.*?)\n\n", new + "\n\n", re.DOTALL)
+        fresh = [line for line in dict.fromkeys(" ".join(text.split()) for text in found) if line not in self.said]
+        self.said.update(fresh)
+        return fresh
 
 
 class Progress:

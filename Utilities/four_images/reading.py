@@ -9,7 +9,7 @@ import struct
 
 import paraview.simple as pv
 
-from arguments import MODELS, DemoError
+from arguments import DemoError
 from messages import say
 
 
@@ -67,14 +67,74 @@ def inline_appended_data(source, target):
     return True
 
 
+def inline_all(source, folder):
+    """Copies a VTK XML file and those that it names, such as the parts of a .pvtu, into a folder, without appended
+    data. Returns the copy, or None where nothing has such data."""
+    with open(source, "rb") as stream:
+        text = stream.read()
+    target = os.path.join(folder, os.path.basename(source))
+    if b"<AppendedData" in text:
+        return target if inline_appended_data(source, target) else None
+    changed = False
+    for number, name in enumerate(dict.fromkeys(re.findall(rb'\b(?:file|Source)="([^"]+)"', text))):
+        part = os.path.join(os.path.dirname(source), os.fsdecode(name))
+        if not os.path.isfile(part):
+            continue
+        own = os.path.join(folder, f"{os.path.basename(target)}_{number}")
+        os.makedirs(own)
+        copy = inline_all(part, own)
+        changed = changed or copy is not None
+        text = text.replace(b'"%s"' % name, b'"%s"' % os.fsencode(copy or os.path.abspath(part)))
+    if not changed:
+        return None
+    with open(target, "wb") as stream:
+        stream.write(text)
+    return target
+
+
+def file_of_folder(path):
+    """What to open of a folder: of OpenFOAM's cases a file, of AMReX's plotfiles the folder itself."""
+    control = os.path.join(path, "system", "controlDict")
+    if os.path.isfile(control):
+        return control
+    with_foam = sorted(name for name in os.listdir(path) if name.lower().endswith(".foam"))
+    return os.path.join(path, with_foam[0]) if with_foam else path
+
+
+def is_amrex(path):
+    header = os.path.join(path, "Header")
+    if not os.path.isfile(header):
+        return False
+    with open(header, "rb") as stream:
+        return stream.read(10) == b"HyperCLaw-"
+
+
+def is_decomposed(path):
+    """Whether an OpenFOAM case has its fields in the folders of processes alone."""
+    folder = os.path.dirname(path)
+    folder = os.path.dirname(folder) if os.path.basename(folder) == "system" else folder
+    names = os.listdir(folder or ".")
+    has_mesh = os.path.isdir(os.path.join(folder, "constant", "polyMesh"))
+    has_fields = any(re.fullmatch(r"\d*\.?\d+(e[+-]?\d+)?", name) and float(name) > 0 for name in names)
+    return any(re.fullmatch(r"processors?\d+.*", name) for name in names) and not (has_mesh and has_fields)
+
+
 def open_file(path, q):
-    """A reader proxy, all of its arrays switched on."""
+    """A reader proxy, all of its arrays switched on; None where ParaView has none."""
     if q:
         reader = pv.PLOT3DReader(FileName=path, QFileName=q, FunctionFileName="")
         reader.Functions = [100]  # density
         return reader
+    is_foam = path.lower().endswith(".foam") or os.path.basename(path) == "controlDict"
     try:
-        reader = pv.OpenDataFile(path)
+        if is_foam:
+            reader = pv.OpenFOAMReader(FileName=path)
+            if is_decomposed(path):
+                reader.CaseType = "Decomposed Case"
+        elif is_amrex(path):
+            reader = pv.AMReXBoxLibGridReader(FileNames=[path])
+        else:
+            reader = pv.OpenDataFile(path)
     except RuntimeError:
         reader = None
     if reader is None:
@@ -100,6 +160,8 @@ def update(reader, moment):
 
 def read(options, scratch, messages):
     path = os.path.abspath(options.file)
+    if os.path.isdir(path):
+        path = file_of_folder(path)
     q = options.q or plot3d_solution(path)
     if q:
         say(f"Reading {path} (PLOT3D, solution in {os.path.basename(q)})")
@@ -113,10 +175,8 @@ def read(options, scratch, messages):
         raise DemoError(f"ParaView has no reader for '{options.file}'.{hint}")
     moment = update(reader, options.time)
     if empty(reader):
-        copy = os.path.join(scratch, os.path.basename(path))
-        with open(path, "rb") as stream:
-            xml = b"<VTKFile" in stream.read(1000)
-        if xml and inline_appended_data(path, copy):
+        copy = inline_all(path, scratch) if is_vtk_xml(path) else None
+        if copy:
             say("This system's XML library cannot read appended data: reading a re-encoded copy")
             messages.last_error()
             pv.Delete(reader)
@@ -127,6 +187,13 @@ def read(options, scratch, messages):
     if moment is not None:
         say(f"Time {moment:g}")
     return reader
+
+
+def is_vtk_xml(path):
+    if not os.path.isfile(path):
+        return False
+    with open(path, "rb") as stream:
+        return b"<VTKFile" in stream.read(1000)
 
 
 def empty(source):
@@ -146,25 +213,19 @@ def arrays_of(source):
     return found
 
 
+def listing(source):
+    return ", ".join(dict.fromkeys(name for _, name in arrays_of(source))) or "none with one component"
+
+
 def choose_array(source, options):
-    arrays = arrays_of(source)
-    listing = ", ".join(dict.fromkeys(name for _, name in arrays)) or "none with one component"
-    if options.array:
-        for association, name in arrays:
-            if name == options.array:
-                return association, name
-        raise DemoError(f"There is no array '{options.array}' in '{options.file}'. "
-                        f"Its arrays: {listing}.")
-    _, names = MODELS[options.model]
-    for wanted in names:
-        for association, name in arrays:
-            if name.lower() == wanted:
-                return association, name
-    for association, name in arrays:
-        if any(len(wanted) > 2 and wanted in name.lower() for wanted in names):
+    """The array that the user has named; None: the filter chooses."""
+    if not options.array:
+        return None
+    for association, name in arrays_of(source):
+        if name == options.array:
             return association, name
-    raise DemoError(f"No array of '{options.file}' is named like a {names[1]}: choose one with "
-                    f"--array, or compute it with --formula. Its arrays: {listing}.")
+    raise DemoError(f"There is no array '{options.array}' in '{options.file}'. "
+                    f"Its arrays: {listing(source)}.")
 
 
 def evaluate(source, options, messages):
@@ -179,6 +240,5 @@ def evaluate(source, options, messages):
         if (association, options.formula) in arrays_of(calculator):
             return calculator, (association, options.formula)
         pv.Delete(calculator)
-    listing = ", ".join(dict.fromkeys(name for _, name in arrays)) or "none with one component"
     raise DemoError(f"The formula '{options.formula}' gives no values. {messages.last_error()} "
-                    f"The arrays of '{options.file}': {listing}.")
+                    f"The arrays of '{options.file}': {listing(source)}.")

@@ -129,7 +129,7 @@ def layout(frame):
     return 2 * column + 24, head + 2 * row + foot, corners, column
 
 
-def compose(volume, medium, images, frame, array, options):
+def compose(volume, medium, images, frame, used, options):
     (vertical, facts), (horizontal, _), (shadow, _) = images
     k = facts["KScale"]
     _, low, clear, high = medium
@@ -152,12 +152,13 @@ def compose(volume, medium, images, frame, array, options):
     width, height, corners, column = layout(frame)
     sheet = Sheet(width, height)
     room = width - 48
-    law = {"Gladstone-Dale": f"n - 1 = {options.constant:g} m³/kg x density",
-           "Refractive Index": "The array is n",
-           "Refractivity": "The array is n - 1"}[options.model]
-    if options.model == "Gladstone-Dale" and options.density_scale != 1:
+    is_density = options.model == "Gladstone-Dale" or (
+        options.model == "Auto" and (options.array or options.formula or used.startswith("Density")))
+    law = f"n - 1 = {options.constant:g} m³/kg x density" if is_density and "fractions" not in used else \
+        {"Refractive Index": "The array is n", "Refractivity": "The array is n - 1"}.get(options.model, "n - 1 of these")
+    if is_density and options.density_scale > 0:
         law += f" ({options.density_scale:g} kg/m³ for 1)"
-    sheet.text(24, 14, f"{os.path.basename(options.file)}: {array[1]}", 26, room=room)
+    sheet.text(24, 14, f"{os.path.basename(options.file)}: {used}", 26, room=room)
     looking = ", ".join(f"{part + 0.0:.3g}" for part in frame.direction)
     sheet.text(24, 44, f"Looking along ({looking}) through {format_length(frame.depth, options)}.  "
                f"{law}.", 15, sheet.DIM, room=room)

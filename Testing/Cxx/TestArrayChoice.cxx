@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What filters take where the user has left arrays, units and the index model open, and what they say of implausible values.
+#include "Fixtures.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <tuple>
+
+namespace
+{
+
+using Filter = vtkSchlierenFilter;
+using Medium = vtkRefractiveIndex;
+
+/// Between `low` and `high`.
+ScalarField bump(double low, double high)
+{
+  return [low, high](const Vec& x) { return low + (high - low) * std::exp(-dot(x, x) / 0.2); };
+}
+
+/// A filter of which nothing but the input is set.
+vtkSmartPointer<Filter> filterOf(vtkDataObject* input)
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  filter->SetInputDataObject(input);
+  filter->SetImageSize(24, 24);
+  return filter;
+}
+
+void choose(Filter* filter, int index, const char* name,
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS)
+{
+  filter->SetInputArrayToProcess(index, 0, 0, association, name);
+}
+
+/// What is said in one update.
+std::vector<std::string> warningsOf(Filter* filter)
+{
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty()) << complaints->Errors[0];
+  return complaints->Warnings;
+}
+
+void expectSameImage(Filter* left, Filter* given)
+{
+  EXPECT_EQ(warningsOf(left), std::vector<std::string>());
+  given->Update();
+  const auto of = valuesOf(given, "OpticalPathDifference");
+  EXPECT_GT(largest(of), 0);
+  EXPECT_EQ(valuesOf(left, "OpticalPathDifference"), of);
+}
+
+/// One array of each kind that is no density before the one that is.
+vtkSmartPointer<vtkImageData> flowWithRho()
+{
+  auto flow = cube(17);
+  addPointArray(flow, "Material Id", bump(1, 3));
+  addPointArray(flow, "grad_T", bump(0, 1e3));
+  addPointArray(flow, "alpha1", bump(0, 1));
+  addPointArray(flow, "T", bump(280, 300));
+  addPointArray(flow, "rho", bump(1, 1.3));
+  flow->GetPointData()->SetActiveScalars("grad_T");
+  return flow;
+}
+
+} // namespace
+
+TEST(ArrayChoice, TheDensityAmongOthers)
+{
+  auto flow = flowWithRho();
+  auto given = filterOf(flow);
+  choose(given, Medium::DENSITY, "rho");
+  auto left = filterOf(flow);
+  expectSameImage(left, given);
+  EXPECT_STREQ(left->GetArraysUsed(), "Density: 'rho'.");
+
+  // In cells, while points have others.
+  auto cells = cube(17);
+  addPointArray(cells, "node_value", bump(0, 3));
+  addCellArray(cells, "density", bump(1, 1.3));
+  auto ofCells = filterOf(cells);
+  choose(ofCells, Medium::DENSITY, "density", vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  expectSameImage(filterOf(cells), ofCells);
+}
+
+TEST(ArrayChoice, WhatIsChosenWins)
+{
+  auto flow = flowWithRho();
+  addPointArray(flow, "p", bump(9e4, 1e5));
+  addPointArray(flow, "D", bump(1, 1.2));
+  auto filter = filterOf(flow);
+  choose(filter, Medium::DENSITY, "D");
+  EXPECT_EQ(warningsOf(filter), std::vector<std::string>());
+  EXPECT_STREQ(filter->GetArraysUsed(), "Density: 'D'.");
+  choose(filter, Medium::DENSITY, "rho");
+  filter->SetIndexModel(Medium::CIDDOR);
+  filter->Update();
+  EXPECT_STREQ(filter->GetArraysUsed(), "Temperature: 'T'; Pressure: 'p'.");
+  choose(filter, Medium::TEMPERATURE, "D");
+  EXPECT_STREQ(filter->GetArraysUsed(), "Temperature: 'D'; Pressure: 'p'.");
+}
+
+TEST(ArrayChoice, TheUnitInANameCountsUnlessAScaleIsGiven)
+{
+  for (const char* name : { "Density [g/cm3]", "rho_gcc" })
+  {
+    auto flow = cube(17);
+    addPointArray(flow, name, bump(1.2e-3, 1.3e-3));
+    auto inSI = cube(17);
+    addPointArray(inSI, "rho", bump(1.2, 1.3));
+    auto given = filterOf(flow);
+    choose(given, Medium::DENSITY, name);
+    given->SetDensityScale(1000);
+    auto left = filterOf(flow);
+    expectSameImage(left, given);
+    EXPECT_EQ(left->GetArraysUsed(), "Density: '" + std::string(name) + "' times 1000.");
+    auto half = filterOf(flow);
+    choose(half, Medium::DENSITY, name);
+    expectSameImage(half, given);
+    auto reference = filterOf(inSI);
+    reference->Update();
+    EXPECT_LT(relativeDifference(valuesOf(left, "OpticalPathDifference"),
+                valuesOf(reference, "OpticalPathDifference")),
+      1e-5);
+    given->SetDensityScale(1);
+    given->Update();
+    EXPECT_NEAR(largest(valuesOf(given, "OpticalPathDifference")) /
+        largest(valuesOf(left, "OpticalPathDifference")),
+      1e-3, 1e-6);
+  }
+}
+
+TEST(ArrayChoice, MoistAirAndMixtures)
+{
+  auto air = cube(17);
+  addPointArray(air, "p", bump(900, 1000)); // hPa, as weather models write it
+  addPointArray(air, "T", bump(280, 300));
+  auto given = filterOf(air);
+  given->SetIndexModel(Medium::CIDDOR);
+  choose(given, Medium::TEMPERATURE, "T");
+  choose(given, Medium::PRESSURE, "p");
+  given->SetPressureScale(100);
+  expectSameImage(filterOf(air), given);
+
+  auto flame = cube(17);
+  addPointArray(flame, "density", bump(0.2, 1.1));
+  addPointArray(flame, "Y(H2)", bump(0, 0.1));
+  auto mixture = filterOf(flame);
+  mixture->SetIndexModel(Medium::GLADSTONE_DALE_MIXTURE);
+  choose(mixture, Medium::DENSITY, "density");
+  mixture->AddMixtureArray("Y(H2)");
+  mixture->AddMixtureGas("H2");
+  auto left = filterOf(flame);
+  expectSameImage(left, mixture);
+  EXPECT_STREQ(left->GetArraysUsed(), "Density: 'density'; fractions: 'Y(H2)'.");
+  // One gas by the user's choice.
+  left->SetGas("helium");
+  EXPECT_STREQ(left->GetArraysUsed(), "Density: 'density'.");
+}
+
+TEST(ArrayChoice, TheGridFilterTakesTheSame)
+{
+  auto flow = flowWithRho();
+  vtkNew<Medium> medium;
+  medium->SetInputData(flow);
+  medium->Update();
+  EXPECT_STREQ(medium->GetArraysUsed(), "Density: 'rho'.");
+  double range[2];
+  vtkImageData::SafeDownCast(medium->GetOutput())
+    ->GetPointData()
+    ->GetArray("Refractivity")
+    ->GetRange(range);
+  EXPECT_NEAR(range[1], 1.3 * 2.26e-4, 1e-9);
+}
+
+TEST(ArrayChoice, WhereNothingIsKnownOneMessageSaysWhatThereIs)
+{
+  auto flow = cube(9);
+  addPointArray(flow, "ids", bump(1, 1249));
+  addCellArray(flow, "Y(O2)", bump(0.1, 0.23));
+  expectOneMessage(
+    filterOf(flow).Get(), [](Filter*) {},
+    { "No array is chosen for Density, and none is known by its name", "ids (",
+      "cell arrays Y(O2) (" },
+    [](Filter* filter) { choose(filter, Medium::DENSITY, "ids"); });
+}
+
+TEST(ArrayChoice, WhatAModelNeedsAndNobodyKnowsIsAMistake)
+{
+  auto flow = cube(9);
+  addPointArray(flow, "rho", bump(1, 1.2));
+  addPointArray(flow, "p", bump(9e4, 1e5));
+  const auto correct = [](Filter* filter) { filter->SetIndexModel(Medium::AUTO); };
+  expectOneMessage(
+    filterOf(flow).Get(), [](Filter* filter) { filter->SetIndexModel(Medium::CIDDOR); },
+    { "No array is chosen for Temperature", "p (" }, correct);
+  expectOneMessage(
+    filterOf(flow).Get(),
+    [](Filter* filter) { filter->SetIndexModel(Medium::GLADSTONE_DALE_MIXTURE); },
+    { "MixtureArrays is empty", "Gladstone-Dale" }, correct);
+}
+
+TEST(ArrayChoice, TablesParticlesAndHyperTrees)
+{
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> places;
+  for (int i = 0; i < 4; ++i)
+  {
+    places->InsertNextPoint(i, i % 2, i / 2);
+  }
+  points->SetPoints(places);
+  addPointArray(points, "rho", bump(1, 2));
+  auto flow = flowWithRho();
+  const auto correct = [&](Filter* filter) { filter->SetInputDataObject(flow); };
+  const std::pair<vtkSmartPointer<vtkDataObject>, std::vector<std::string>> inputs[] = {
+    { vtkSmartPointer<vtkTable>::New(),
+      { "table", "Table To Structured Grid", "Table To Points" } },
+    { vtkSmartPointer<vtkHyperTreeGrid>::New(), { "Hyper Tree Grid To Unstructured Grid" } },
+    { points, { "nothing but points", "Point Volume Interpolator", "SPH Volume Interpolator" } },
+  };
+  for (const auto& [input, words] : inputs)
+  {
+    const auto make = [data = input](Filter* filter) { filter->SetInputDataObject(data); };
+    expectOneMessage(filterOf(flow).Get(), make, words, correct);
+  }
+}
+
+TEST(ArrayChoice, ImplausibleValuesAreSaidOnce)
+{
+  const std::tuple<const char*, double, double, const char*> cases[] = { { "rho", 1, 1,
+                                                                           "is 1 everywhere" },
+    { "rho", 0, 0, "is 0 everywhere" }, { "rho", -0.7, 0.3, "negative" },
+    { "Density", 20, 620, "more than that of gases" }, { "density", 2e-4, 1.2e-3, "g/cm" } };
+  for (const auto& [name, low, high, words] : cases)
+  {
+    auto flow = cube(9);
+    addPointArray(flow, name, bump(low, high));
+    auto filter = filterOf(flow);
+    const std::vector<std::string> warnings = warningsOf(filter);
+    ASSERT_EQ(warnings.size(), 1u) << words;
+    EXPECT_NE(warnings[0].find(words), std::string::npos) << warnings[0];
+    filter->SetOutside(Medium::OUTSIDE_PASSES); // the same is said once
+    EXPECT_EQ(warningsOf(filter), std::vector<std::string>()) << words;
+  }
+}
+
+TEST(ArrayChoice, CelsiusAndGaugePressuresAreSaid)
+{
+  auto flow = cube(9);
+  addPointArray(flow, "T", bump(280, 300));
+  addPointArray(flow, "Tc", bump(15, 80));
+  addPointArray(flow, "p", bump(9e4, 1e5));
+  addPointArray(flow, "p_gauge", bump(10, 30));
+  for (const auto& [temperature, pressure, words] :
+    { std::make_tuple("Tc", "p", "degrees Celsius"), std::make_tuple("T", "p_gauge", "absolute") })
+  {
+    auto filter = filterOf(flow);
+    filter->SetIndexModel(Medium::CIDDOR);
+    choose(filter, Medium::TEMPERATURE, temperature);
+    choose(filter, Medium::PRESSURE, pressure);
+    const std::vector<std::string> warnings = warningsOf(filter);
+    ASSERT_GE(warnings.size(), 1u) << words;
+    EXPECT_NE(warnings[0].find(words), std::string::npos) << warnings[0];
+    EXPECT_EQ(warnings.size(), 1u) << warnings[1];
+  }
+}
