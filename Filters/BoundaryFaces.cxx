@@ -232,9 +232,15 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<
   return kept;
 }
 
-/// Of pairs of faces, those of one dataset that do not have the same points, only such at the same places.
+enum class Cuts
+{
+  WithinDatasets,
+  BetweenThemToo
+};
+
+/// Of pairs of faces, those that do not have the same points, only such at the same places.
 CutFaces cutsOf(
-  const Faces& faces, const std::vector<std::int32_t>& before, std::vector<Pair>& pairs)
+  const Faces& faces, const std::vector<std::int32_t>& before, std::vector<Pair>& pairs, Cuts which)
 {
   CutFaces cuts;
   const auto isCut = [&](const Pair& pair)
@@ -265,7 +271,7 @@ CutFaces cutsOf(
         }
         cut.contributions.push_back(*of[side]);
       }
-      if (of[0]->leaf != of[1]->leaf)
+      if (which == Cuts::WithinDatasets && of[0]->leaf != of[1]->leaf)
       {
         return false;
       }
@@ -437,7 +443,7 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesO
   std::vector<unsigned char> areSheets;
   if (valuesOf)
   {
-    cuts = cutsOf(faces, before, pairs);
+    cuts = cutsOf(faces, before, pairs, Cuts::WithinDatasets);
     areSheets = findSheets(cuts, valuesOf(cuts));
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
@@ -452,6 +458,16 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesO
   result.cuts = std::move(cuts);
   result.areSheets = std::move(areSheets);
   return result;
+}
+
+CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress)
+{
+  Faces faces = facesOf(leaves, progress);
+  const double rounding = relativeRounding(faces.points);
+  const std::vector<std::int32_t> before = mergePoints(faces, rounding);
+  std::vector<Pair> pairs;
+  withoutPairs(faces, rounding, pairs);
+  return cutsOf(faces, before, pairs, Cuts::BetweenThemToo);
 }
 
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,

@@ -69,6 +69,10 @@ BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest&
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume,
   Sheets sheets = Sheets::Found);
 
+/// Faces that visible cells have on both sides, each side with points of its own: of one leaf, or of two, which `leaf` of the
+/// contributions says.
+CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress);
+
 /// The values of what CutFaces::contributions says.
 using ValuesOfCuts = std::function<std::vector<double>(const CutFaces& cuts)>;
 

@@ -3,12 +3,15 @@
 #include "CellMeans.h"
 
 #include "CellShape.h"
+#include "RefractivityValues.h"
 
+#include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -331,6 +334,29 @@ void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
         sums.lowest = std::min(sums.lowest, away);
         sums.highest = std::max(sums.highest, away);
       });
+  }
+}
+
+void bringToPoints(vtkDataSet* data, bool areKept)
+{
+  const vtkSmartPointer<vtkDoubleArray> ofCells =
+    vtkDoubleArray::SafeDownCast(data->GetCellData()->GetScalars());
+  const MeshArrays mesh(data);
+  auto visible = newMask(data->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
+  {
+    visible->SetValue(cell, mesh.isVisible(cell) ? 1 : 0);
+  }
+  std::vector<CellsAround> around;
+  setMeansAroundPoints(mesh, ofCells, visible,
+    vtkDoubleArray::SafeDownCast(data->GetPointData()->GetScalars()), areKept ? &around : nullptr);
+  if (areKept)
+  {
+    data->GetPointData()->AddArray(arrayOf(around));
+  }
+  else
+  {
+    data->GetCellData()->RemoveArray(ofCells->GetName());
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkDataSet;
 class vtkDoubleArray;
 class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
@@ -36,6 +37,10 @@ CellMoments momentsOfPolyhedron(vtkUnstructuredGrid* mesh, vtkIdType cell);
 /// `mesh` has its values from, which is filled here; fills `around`, where that is not null, for all points.
 void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
   vtkUnsignedCharArray* valid, vtkDoubleArray* ofPoints, std::vector<CellsAround>* around);
+
+/// The same of a dataset with double scalars in its cells, those that are not hidden, and at its points. `areKept`: the
+/// cells' values, and `around` as an array of the points; else the dataset has the means only.
+void bringToPoints(vtkDataSet* data, bool areKept);
 
 /// As an array of a dataset, for MeshArrays to find.
 constexpr const char* cellsAroundName = "CellsAround";

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -39,19 +41,48 @@ std::vector<double> mergingTolerances(
   return tolerances;
 }
 
+namespace
+{
+
+/// A point, by how far it lies along a direction.
+using Placed = std::pair<double, std::int32_t>;
+
+/// Points of which the largest tolerance is less than twice the smallest, sorted.
+struct Class
+{
+  double most = 0; // of the tolerances
+  std::vector<Placed> points;
+};
+
+/// So that a point with a large tolerance is not compared with all of the many that crowd a fine region.
+std::vector<Class> classesOf(
+  const std::vector<Point>& points, const std::vector<double>& tolerances, const Point& along)
+{
+  std::map<int, Class> classes;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double tolerance = tolerances[i];
+    Class& of = classes[tolerance > 0 ? std::ilogb(tolerance) : std::numeric_limits<int>::min()];
+    of.most = std::max(of.most, tolerance);
+    of.points.emplace_back(dot(along, points[i]), static_cast<std::int32_t>(i));
+  }
+  std::vector<Class> result;
+  for (auto& one : classes)
+  {
+    std::sort(one.second.points.begin(), one.second.points.end());
+    result.push_back(std::move(one.second));
+  }
+  return result;
+}
+
+} // namespace
+
 std::vector<std::int32_t> coincidentPoints(
   const std::vector<Point>& points, const std::vector<double>& tolerances)
 {
-  // Sorted along a direction across which the points of no plausible mesh lie in planes, so that few others are
-  // in between.
+  // A direction across which the points of no plausible mesh lie in planes, so that few others are in between.
   const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
-  std::vector<std::pair<double, std::int32_t>> sorted;
-  sorted.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    sorted.emplace_back(dot(along, points[i]), static_cast<std::int32_t>(i));
-  }
-  std::sort(sorted.begin(), sorted.end());
+  const std::vector<Class> classes = classesOf(points, tolerances, along);
   std::vector<std::int32_t> numbers(points.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   const auto rootOf = [&](std::int32_t i)
@@ -62,17 +93,32 @@ std::vector<std::int32_t> coincidentPoints(
     }
     return i;
   };
-  for (auto one = sorted.begin(); one != sorted.end(); ++one)
+  const auto compare = [&](const Placed& one, const Placed& other)
   {
-    const auto i = static_cast<std::size_t>(one->second);
-    for (auto other = one + 1; other != sorted.end() && other->first - one->first <= tolerances[i];
-         ++other)
+    const auto i = static_cast<std::size_t>(one.second), j = static_cast<std::size_t>(other.second);
+    if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
     {
-      const auto j = static_cast<std::size_t>(other->second);
-      if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
+      const auto [low, high] = std::minmax({ rootOf(one.second), rootOf(other.second) });
+      numbers[static_cast<std::size_t>(high)] = low;
+    }
+  };
+  for (auto fine = classes.begin(); fine != classes.end(); ++fine)
+  {
+    for (auto coarse = fine; coarse != classes.end(); ++coarse)
+    {
+      auto first = coarse->points.begin();
+      const auto end = coarse->points.end();
+      for (auto one = fine->points.begin(); one != fine->points.end(); ++one)
       {
-        const auto [low, high] = std::minmax({ rootOf(one->second), rootOf(other->second) });
-        numbers[static_cast<std::size_t>(high)] = low;
+        while (first != end && first->first < one->first - fine->most)
+        {
+          ++first;
+        }
+        for (auto other = fine == coarse ? one + 1 : first;
+             other != end && other->first <= one->first + fine->most; ++other)
+        {
+          compare(*one, *other);
+        }
       }
     }
   }

@@ -15,7 +15,7 @@ namespace filters
 std::vector<double> mergingTolerances(
   const std::vector<Point>& points, const std::vector<double>& sizes, double rounding);
 
-/// Which points of a surface are one, given how far apart they may be. Numbers of the points that stay.
+/// Which points are one, given how far apart they may be. Numbers of the points that stay.
 std::vector<std::int32_t> coincidentPoints(
   const std::vector<Point>& points, const std::vector<double>& tolerances);
 

@@ -15,7 +15,7 @@
 #include "InputDescription.h"
 #include "MeshKey.h"
 #include "RefractiveIndexInternals.h"
-#include "RefractivityByResampling.h"
+#include "PreparedLeaves.h"
 #include "RefractivityOfImage.h"
 
 #include "vtkImageData.h"
@@ -524,22 +524,31 @@ std::unique_ptr<const DataPiece> PieceWorker::PieceOfMeshes(
     if (!source.leaves.empty())
     {
       const CellValues cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
-      for (const Leaf& leaf : source.leaves)
+      const std::vector<FieldValues> fields = this->FieldsOf(data, source, ranges.ofFields);
+      // One by one: parts of a dataset have the same number on all ranks.
+      for (std::size_t leaf = 0; leaf < source.leaves.size(); ++leaf)
       {
-        Source one = source;
-        one.leaves = { leaf };
-        const auto part = std::find(parts.begin(), parts.end(), leaf.input);
-        for (const auto& prepared : preparedLeaves(one, cellValues, tally))
+        std::shared_ptr<const SharedPoints> shared;
+        const auto prepare = [&](const Source& from, Tally& to)
+        {
+          Source one = from;
+          one.leaves = { from.leaves[leaf] };
+          return preparedLeaves(one, cellValues, to, shared);
+        };
+        const auto part = std::find(parts.begin(), parts.end(), source.leaves[leaf].input);
+        for (const auto& prepared : prepare(source, tally))
         {
           leaves.push_back(prepared);
           datasetsOfLeaves.push_back(datasets.at(static_cast<std::size_t>(part - parts.begin())));
         }
-      }
-      const std::vector<FieldValues> fields = this->FieldsOf(data, source, ranges.ofFields);
-      for (std::size_t number = 0; number < fields.size(); ++number)
-      {
-        Tally notReported;
-        leavesOfFields[number] = preparedLeaves(fields[number].source, cellValues, notReported);
+        for (std::size_t number = 0; number < fields.size(); ++number)
+        {
+          Tally notReported;
+          for (const auto& prepared : prepare(fields[number].source, notReported))
+          {
+            leavesOfFields[number].push_back(prepared);
+          }
+        }
       }
     }
   }

@@ -15,6 +15,7 @@
 #include "MeshSearch.h"
 #include "OneLayer.h"
 #include "PiecesSource.h"
+#include "PreparedLeaves.h"
 #include "Ranks.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOutside.h"
@@ -263,7 +264,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     }
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
     const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
-    const auto leaves = preparedLeaves(source, cellValues, tally);
+    std::shared_ptr<const SharedPoints> shared;
+    const auto leaves = preparedLeaves(source, cellValues, tally, shared);
     progress.reach(0.1);
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
@@ -293,7 +295,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     for (std::size_t number = 0; number < fields.size(); ++number)
     {
       Tally notReported;
-      made->addField(preparedLeaves(fields[number].source, cellValues, notReported),
+      made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
     made->setHelpers(this->Pieces[step]);

@@ -3,27 +3,23 @@
 #include "RefractivityByResampling.h"
 
 #include "AvailableMemory.h"
-#include "CellMeans.h"
 #include "CellTypes.h"
 #include "FlatData.h"
-#include "Polyhedra.h"
+#include "PreparedLeaves.h"
 #include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
-#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,18 +37,6 @@ constexpr double maxVoxelsPerPoint = 32;       // so that a few tiny cells do no
 constexpr double fewestVoxels = 64. * 64 * 64; // of flat data: 64 * 64
 constexpr vtkIdType maxCellsMeasured = 100000; // of a leaf, evenly spread
 constexpr double maxPointsRequested = 2048. * 2048 * 2048;
-
-bool hasCells(vtkDataSet* data, int dimension)
-{
-  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
-  {
-    if (dimensionOfCell(data, i) == dimension)
-    {
-      return true;
-    }
-  }
-  return false;
-}
 
 /// Into how many parts a cell's points divide its edges: 1 but for cells of higher order.
 int orderOf(vtkDataSet* data, vtkIdType cell)
@@ -207,76 +191,6 @@ std::string fractionOfFinerCells(const std::array<int, 3>& dimensions,
   return text;
 }
 
-vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
-{
-  auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
-  copy->CopyStructure(data);
-  return copy;
-}
-
-/// A leaf that holds nothing but N at its points (NaN where invalid), its other cells hidden. Values of cells become
-/// their means around each point.
-vtkSmartPointer<vtkDataSet> prepare(
-  const Leaf& leaf, int dimension, const Model& model, CellValues cellValues, Tally& tally)
-{
-  vtkDataSet* data = leaf.data;
-  const vtkIdType cells = data->GetNumberOfCells();
-  auto valid = newMask(cells);
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  vtkSMPTools::For(0, cells,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
-        valid->SetValue(i, isHidden || dimensionOfCell(data, i) != dimension ? 0 : 1);
-      }
-    });
-
-  auto prepared = withoutArrays(data);
-  if (leaf.ofCells)
-  {
-    const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);
-    vtkNew<vtkDoubleArray> ofPoints;
-    ofPoints->SetName(arrayName);
-    setTuples(ofPoints, data->GetNumberOfPoints());
-    prepared->GetPointData()->SetScalars(ofPoints);
-    std::vector<CellsAround> around;
-    setMeansAroundPoints(MeshArrays(prepared), ofCells, valid, ofPoints,
-      cellValues == CellValues::Known ? &around : nullptr);
-    if (cellValues == CellValues::Known)
-    {
-      prepared->GetPointData()->AddArray(arrayOf(around));
-      prepared->GetCellData()->SetScalars(ofCells);
-    }
-  }
-  else
-  {
-    auto validPoints = newMask(data->GetNumberOfPoints());
-    hidePoints(data, validPoints);
-    prepared->GetPointData()->SetScalars(convert<vtkDoubleArray>(
-      leaf.arrays, model, validPoints, std::numeric_limits<double>::quiet_NaN(), tally));
-  }
-
-  vtkNew<vtkUnsignedCharArray> hidden;
-  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
-  hidden->SetNumberOfValues(cells);
-  vtkSMPTools::For(0, cells,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        const int copy =
-          ghosts ? ghosts->GetValue(i) & static_cast<int>(vtkDataSetAttributes::DUPLICATECELL) : 0;
-        const int hides =
-          valid->GetValue(i) ? 0 : static_cast<int>(vtkDataSetAttributes::HIDDENCELL);
-        hidden->SetValue(i, static_cast<unsigned char>(copy | hides));
-      }
-    });
-  prepared->GetCellData()->AddArray(hidden);
-  return withoutPolyhedra(prepared);
-}
-
 /// Makes `structure` the grid of the plan before it is extruded.
 void setPoints(const Resampling& plan, vtkImageData* structure)
 {
@@ -398,27 +312,13 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   }
 }
 
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
-  const Source& source, CellValues cellValues, Tally& tally)
-{
-  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
-  std::vector<vtkSmartPointer<vtkDataSet>> prepared;
-  for (const Leaf& leaf : source.leaves)
-  {
-    if (hasCells(leaf.data, dimension))
-    {
-      prepared.push_back(prepare(leaf, dimension, source.model, cellValues, tally));
-    }
-  }
-  return prepared;
-}
-
 Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
   bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
 {
   Tally tally;
+  std::shared_ptr<const SharedPoints> shared;
   const std::vector<vtkSmartPointer<vtkDataSet>> prepared =
-    preparedLeaves(source, CellValues::Averaged, tally);
+    preparedLeaves(source, CellValues::Averaged, tally, shared);
   const std::vector<vtkDataSet*> leaves(prepared.begin(), prepared.end());
   setPoints(plan, output);
   vtkNew<vtkDoubleArray> values;

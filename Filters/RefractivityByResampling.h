@@ -44,18 +44,6 @@ Resampling boxOf(const Source& source);
 /// Makes `structure` the grid of the plan.
 void gridOf(const Resampling& plan, vtkImageData* structure);
 
-/// What becomes of values of cells: means around each point, and no more, or also what these are means of.
-enum class CellValues
-{
-  Averaged,
-  Known // see CellsAround
-};
-
-/// The leaves that have cells of as many dimensions as the source has, with nothing but N at their points (NaN where
-/// invalid), and other cells hidden.
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(
-  const Source& source, CellValues cellValues, Tally& tally);
-
 /// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
 /// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight. Where `progress` says to stop,
 /// the output has no arrays.

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PreparedLeaves.h"
+
+#include "CellMeans.h"
+#include "FlatData.h"
+#include "MeshArrays.h"
+#include "Polyhedra.h"
+#include "RefractivityValues.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSMPTools.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <limits>
+
+namespace filters
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
+{
+  auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  copy->CopyStructure(data);
+  return copy;
+}
+
+/// A leaf that holds nothing but N at its points (NaN where invalid) or in its cells, its other cells hidden.
+vtkSmartPointer<vtkDataSet> withValues(
+  const Leaf& leaf, int dimension, const Model& model, Tally& tally)
+{
+  vtkDataSet* data = leaf.data;
+  const vtkIdType cells = data->GetNumberOfCells();
+  auto valid = newMask(cells);
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  vtkSMPTools::For(0, cells,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
+        valid->SetValue(i, isHidden || dimensionOfCell(data, i) != dimension ? 0 : 1);
+      }
+    });
+
+  auto prepared = withoutArrays(data);
+  if (leaf.ofCells)
+  {
+    const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);
+    ofCells->SetName(arrayName);
+    prepared->GetCellData()->SetScalars(ofCells);
+    vtkNew<vtkDoubleArray> ofPoints; // as yet without values
+    ofPoints->SetName(arrayName);
+    setTuples(ofPoints, data->GetNumberOfPoints());
+    ofPoints->Fill(0);
+    prepared->GetPointData()->SetScalars(ofPoints);
+  }
+  else
+  {
+    auto validPoints = newMask(data->GetNumberOfPoints());
+    hidePoints(data, validPoints);
+    prepared->GetPointData()->SetScalars(convert<vtkDoubleArray>(
+      leaf.arrays, model, validPoints, std::numeric_limits<double>::quiet_NaN(), tally));
+  }
+
+  vtkNew<vtkUnsignedCharArray> hidden;
+  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+  hidden->SetNumberOfValues(cells);
+  vtkSMPTools::For(0, cells,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const int copy =
+          ghosts ? ghosts->GetValue(i) & static_cast<int>(vtkDataSetAttributes::DUPLICATECELL) : 0;
+        const int hides =
+          valid->GetValue(i) ? 0 : static_cast<int>(vtkDataSetAttributes::HIDDENCELL);
+        hidden->SetValue(i, static_cast<unsigned char>(copy | hides));
+      }
+    });
+  prepared->GetCellData()->AddArray(hidden);
+  return prepared;
+}
+
+} // namespace
+
+bool hasCells(vtkDataSet* data, int dimension)
+{
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    if (dimensionOfCell(data, i) == dimension)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
+  Tally& tally, std::shared_ptr<const SharedPoints>& shared)
+{
+  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
+  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (hasCells(leaf.data, dimension))
+    {
+      leaves.push_back(withValues(leaf, dimension, source.model, tally));
+    }
+  }
+  if (!shared)
+  {
+    shared = std::make_shared<SharedPoints>(leaves, dimension);
+  }
+  leaves = shared->joined(leaves);
+  for (vtkSmartPointer<vtkDataSet>& leaf : leaves)
+  {
+    if (leaf->GetCellData()->GetScalars())
+    {
+      bringToPoints(leaf, cellValues == CellValues::Known);
+    }
+    leaf = withoutPolyhedra(leaf);
+  }
+  return leaves;
+}
+
+} // namespace filters
