@@ -330,8 +330,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::ConvertRevolved(
-  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, std::string& warning)
+bool vtkRefractiveIndex::ConvertRevolved(vtkDataObject* input, vtkImageData* output,
+  vtkDataObject* bodies, Numbers numbers, std::string& warning)
 {
   const auto source = this->MakeSource(input, bodies, warning);
   if (!source)
@@ -371,7 +371,7 @@ bool vtkRefractiveIndex::ConvertRevolved(
           }
         });
     });
-  setArrays(output, { values }, Linear(), valid, this->DoublePrecision);
+  setArrays(output, { values }, Linear(), valid, numbers);
   setOutside(outside, output);
   return true;
 }

@@ -295,7 +295,7 @@ std::string vtkRefractiveIndex::Convert(
   if (isRevolved)
   {
     note = "of the body of revolution";
-    if (!this->ConvertRevolved(input, output, bodies, ofRevolution))
+    if (!this->ConvertRevolved(input, output, bodies, numbers, ofRevolution))
     {
       output->Initialize();
       return "";

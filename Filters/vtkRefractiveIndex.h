@@ -73,6 +73,7 @@ struct MeshSearch;
 class ChannelRanks;
 struct PiecesMesh;
 struct Source;
+enum class Numbers;
 } // namespace filters
 
 class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
@@ -704,8 +705,8 @@ private:
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
 
   /// Convert() of data with an axis of symmetry: false where it was aborted.
-  bool ConvertRevolved(
-    vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, std::string& warning);
+  bool ConvertRevolved(vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies,
+    filters::Numbers numbers, std::string& warning);
 
   /// Of a three-dimensional image with bodies.
   std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
