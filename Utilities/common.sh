@@ -52,7 +52,7 @@ install_dependencies()
       "${SCHLIEREN_CMAKE[@]}" -DSCHLIEREN_CORE_ONLY=ON); then
       say "Building the tracer meanwhile"
       # ninja itself, which ends its compilers when it is told to end.
-      nice -n 5 ninja -C "$build" -j "$SCHLIEREN_JOBS" SchlierenCore >"$build/tracer.log" 2>&1 </dev/null &
+      ninja -C "$build" -j "$SCHLIEREN_JOBS" SchlierenCore >"$build/tracer.log" 2>&1 </dev/null &
       tracer=$!
       # shellcheck disable=SC2064 # this process, not one that is started later
       trap "kill $tracer 2>/dev/null || true" EXIT
