@@ -131,6 +131,16 @@ TEST(Cutoffs, CircularOnesAreDarkOrBrightWhereLightIsBent)
   EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 0);
 }
 
+TEST(Cutoffs, NumericalSchlierenAreDarkExponentially)
+{
+  auto filter = benchOf(bending(epsX, epsY), Filter::NUMERICAL_SCHLIEREN, 10000);
+  EXPECT_NEAR(intensityOf(filter), std::exp(-5 * 10000 * eps), 1e-3);
+  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 1);
+  filter->SetAutoKScale(true);
+  EXPECT_NEAR(intensityOf(filter), std::exp(-5.), 1e-3);
+  EXPECT_NEAR(fieldValue(filter, "KScale") * eps, 1, 1e-3);
+}
+
 TEST(Cutoffs, AGradedFilterIsItsCurve)
 {
   auto filter = benchOf(bending(epsX, epsY), Filter::GRADED_FILTER, 5000);

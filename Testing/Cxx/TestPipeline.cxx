@@ -404,7 +404,8 @@ TEST(Pipeline, ChainWithRefractiveIndexIsTheSame)
     for (const char* name :
       { "Intensity", "Deflection", "OpticalPathDifference", "BlockedFraction" })
     {
-      EXPECT_EQ(valuesOf(chained, name), valuesOf(direct, name)) << name;
+      // Between them N is in single precision; in the filter alone what it differs by from its surroundings is.
+      EXPECT_LT(relativeDifference(valuesOf(chained, name), valuesOf(direct, name)), 2e-5) << name;
     }
     complaints->Delete();
   }

@@ -7,6 +7,7 @@
 #include "Surfaces.h"
 
 #include "vtkAppendFilter.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <cmath>
 #include <functional>
@@ -102,11 +103,10 @@ TEST(WeakSignals, AreRightInABoxAndWhereTheSurroundingsAreGiven)
 
 TEST(WeakSignals, AreRightBesideAStrongFlow)
 {
-  // Hot gas, around which there is a little less sound to see.
-  auto filter = benchOfSound(soundOnPoints(
-    [](const Vec& x) { return sound(x) - 1e-4 * std::exp(-std::pow((x[1] - 0.02) / 0.002, 2)); }));
-  filter->SetFocalPoint(length / 2, 0.004, depth / 2);
-  EXPECT_LT(errorOf(filter), 1e-3);
+  // Hot gas at one end.
+  EXPECT_LT(errorOf(benchOfSound(soundOnPoints([](const Vec& x)
+              { return sound(x) - 1e-4 * (1 + std::tanh((x[0] / length - 0.96) / 0.005)); }))),
+    1e-3);
 }
 
 TEST(WeakSignals, AreRightOfARefractivityThatWasMadeBefore)
@@ -133,7 +133,8 @@ TEST(WeakSignals, AreRightWithBodiesAndOfResampledMeshes)
   auto filter = benchOfSound(soundOnPoints());
   filter->SetInputDataObject(
     1, box({ 0.002, 0.002, 0.01 }, { length / 2, 0.018, depth / 2 })); // out of sight
-  EXPECT_LT(errorOf(filter), 1e-3);
+  filter->SetMediumTolerance(1e-4);
+  EXPECT_LT(errorOf(filter), 2e-3);
 
   vtkNew<vtkAppendFilter> append;
   append->AddInputData(soundOnPoints());
@@ -146,18 +147,24 @@ TEST(WeakSignals, AreRightWithBodiesAndOfResampledMeshes)
 TEST(WeakSignals, AreRightOnLevels)
 {
   vtkNew<vtkOverlappingAMR> amr;
-  initialize(amr, std::vector<unsigned int>{ 1 });
+  initialize(amr, { 2 });
   const double origin[3] = { 0, 0, 0 };
   amr->SetOrigin(origin);
   amr->SetGridDescription(xyzGrid);
-  vtkNew<vtkUniformGrid> block;
-  block->SetDimensions(321, 5, 5);
-  block->SetSpacing(length / 320, 0.005, depth / 4);
-  addCellArray(block, "N", sound);
-  vtkAMRBox box(origin, block->GetDimensions(), block->GetSpacing(), origin);
-  amr->SetSpacing(0, block->GetSpacing());
-  amr->SetAMRBox(0, 0, box);
-  amr->SetDataSet(0, 0, block);
+  constexpr int cells[3] = { 160, 4, 4 };
+  const double spacing[3] = { length / 320, 0.005, depth / 4 };
+  amr->SetSpacing(0, spacing);
+  for (unsigned int number = 0; number < 2; ++number)
+  {
+    vtkNew<vtkUniformGrid> block;
+    block->SetDimensions(cells[0] + 1, cells[1] + 1, cells[2] + 1);
+    block->SetSpacing(spacing);
+    block->SetOrigin(number * length / 2, 0, 0);
+    addCellArray(block, "N", sound);
+    amr->SetAMRBox(
+      0, number, vtkAMRBox(block->GetOrigin(), block->GetDimensions(), spacing, origin));
+    amr->SetDataSet(0, number, block);
+  }
   for (const int given : { 0, 1 })
   {
     auto filter = benchOfSound(amr);

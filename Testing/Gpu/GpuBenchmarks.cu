@@ -117,6 +117,8 @@ const char* name(Cutoff cutoff)
       return "Circular";
     case Cutoff::CircularComplement:
       return "Complement";
+    case Cutoff::NumericalSchlieren:
+      return "Numerical";
     case Cutoff::GradedFilter:
       return "Graded";
     case Cutoff::ColorFilter:
@@ -337,7 +339,8 @@ void measureCutoffs(
     std::printf("%s\n", estimator == FilmEstimator::Sheet ? "by sheet" : "by photon");
     for (const Cutoff cutoff :
       { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement,
-        Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram, Cutoff::Background })
+        Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram, Cutoff::Background,
+        Cutoff::NumericalSchlieren })
     {
       Scene scene = sceneOf(viewDirection);
       scene.filmEstimator = estimator;
