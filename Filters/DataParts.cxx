@@ -285,6 +285,32 @@ bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& 
   return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
 }
 
+/// Whether the points of a part lie where those with the same indices of the whole do. Readers may give each rank a grid whose
+/// indices begin at 0.
+bool liesIn(vtkDataSet* part, vtkDataSet* whole)
+{
+  const std::array<int, 6> of = extentOf(part, false), all = extentOf(whole, false);
+  vtkIdType next = 0;
+  for (int k = of[4]; k <= of[5]; ++k)
+  {
+    for (int j = of[2]; j <= of[3]; ++j)
+    {
+      for (int i = of[0]; i <= of[1]; ++i)
+      {
+        const int index[3] = { i, j, k };
+        double own[3], ofWhole[3];
+        part->GetPoint(next++, own);
+        whole->GetPoint(vtkStructuredData::ComputePointIdForExtent(all.data(), index), ofWhole);
+        if (!std::equal(own, own + 3, ofWhole))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
 } // namespace
 
 bool isGrid(vtkDataSet* data)
@@ -484,6 +510,11 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
   {
     structured->SetExtent(extent.data());
     structured->SetPoints(joinedPoints(parts, extent));
+  }
+  if (!vtkImageData::SafeDownCast(whole) &&
+    !std::all_of(parts.begin(), parts.end(), [&](vtkDataSet* part) { return liesIn(part, whole); }))
+  {
+    return nullptr;
   }
   copyAttributes(parts, false, whole);
   copyAttributes(parts, true, whole);

@@ -130,7 +130,10 @@ std::array<MeshSampler::Range, 3> MeshSampler::pointsWithin(vtkDataSet* data, vt
       continue;
     }
     const auto guess = [&](double at)
-    { return static_cast<int>(std::clamp((at - x[0]) / this->Spacing[axis], 0., count - 1.)); };
+    {
+      const double place = (at - x[0]) / this->Spacing[axis];
+      return place > 0 ? static_cast<int>(std::min(place, count - 1.)) : 0; // 0 of NaN, too
+    };
     int first = guess(low), last = guess(high);
     while (first > 0 && x[static_cast<std::size_t>(first - 1)] >= low)
     {

@@ -36,6 +36,9 @@ namespace
 /// face by face are closed.
 constexpr double mergingVoxels = 1e-4;
 
+/// Further away from the data, in voxels, VTK cannot merge points: it would crash.
+constexpr double mostVoxels = 1e9;
+
 /// The surfaces with points.
 std::vector<vtkPolyData*> surfacesOf(vtkDataObject* bodies)
 {
@@ -87,12 +90,39 @@ vtkSmartPointer<vtkPolyData> onGrid(vtkPolyData* triangles, vtkImageData* grid)
   {
     double x[3];
     grid->TransformPhysicalPointToContinuousIndex(triangles->GetPoint(i), x);
+    const bool isFinite = std::all_of(x, x + 3, [](double index) { return std::isfinite(index); });
+    if (!isFinite) // no triangle has it, or the grid has no size
+    {
+      std::fill_n(x, 3, 0.);
+    }
     points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
   }
   auto moved = vtkSmartPointer<vtkPolyData>::New();
   moved->SetPoints(points);
   moved->SetPolys(triangles->GetPolys());
   return moved;
+}
+
+/// Whether bodies lie beside the grid. Throws where they reach much further than that.
+bool isBeside(vtkPolyData* moved, const std::array<int, 3>& dimensions)
+{
+  double bounds[6];
+  moved->GetBounds(bounds);
+  double most = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (bounds[2 * axis] > dimensions[axis] || bounds[2 * axis + 1] < -1)
+    {
+      return true;
+    }
+    most = std::max({ most, -bounds[2 * axis], bounds[2 * axis + 1] });
+  }
+  if (most > mostVoxels)
+  {
+    throw std::runtime_error("The Bodies reach more than 10^9 voxels beyond the data. Do both have "
+                             "the same unit of length?");
+  }
+  return false;
 }
 
 /// A coordinate in voxels, to 1/4096. Walls often go through points of the grid, but for rounding, which
@@ -183,7 +213,20 @@ vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies)
 std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
 {
   const auto triangles = trianglesOfBodies(bodies);
-  const auto labelled = labelParts(onGrid(triangles, output));
+  const auto moved = onGrid(triangles, output);
+  std::array<int, 3> dimensions;
+  output->GetDimensions(dimensions.data());
+  if (isBeside(moved, dimensions))
+  {
+    return bodiesAreOutside;
+  }
+  if (moved->GetLength() < 10 * mergingVoxels) // VTK crashes where all points are one
+  {
+    return "The Bodies are smaller than a thousandth of a voxel, so they stop no light. Do both "
+           "have "
+           "the same unit of length?";
+  }
+  const auto labelled = labelParts(moved);
   std::vector<std::array<double, 3>> points(
     static_cast<std::size_t>(labelled->GetNumberOfPoints()));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -192,8 +235,6 @@ std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
     std::transform(points[i].begin(), points[i].end(), points[i].begin(), rounded);
   }
 
-  std::array<int, 3> dimensions;
-  output->GetDimensions(dimensions.data());
   vtkPointData* arrays = output->GetPointData();
   std::vector<vtkDataArray*> cleared = { arrays->GetArray(arrayName), arrays->GetArray(maskName) };
   if (vtkDataArray* transparent = arrays->GetArray(transparentName))

@@ -568,7 +568,45 @@ TEST(Bodies, OutsideOfTheDataIsWarnedOf)
     EXPECT_FALSE(isEmpty(filter));
     ASSERT_EQ(complaints->Warnings.size(), 1u);
     EXPECT_NE(complaints->Warnings[0].find("outside the data"), std::string::npos);
+    vtkNew<vtkRefractiveIndex> index; // on a grid
+    index->SetInputDataObject(filter->GetInputDataObject(0, 0));
+    index->SetInputDataObject(1, filter->GetInputDataObject(1, 0));
+    index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+    index->SetInputArrayToProcess(
+      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+    auto ofIndex = vtkSmartPointer<Complaints>::Take(new Complaints(index));
+    index->Update();
+    ASSERT_EQ(ofIndex->Warnings.size(), 1u);
+    EXPECT_NE(ofIndex->Warnings[0].find("outside the data"), std::string::npos);
   }
+}
+
+TEST(Bodies, ThoseMuchSmallerThanAVoxelAreWarnedOf)
+{
+  vtkNew<vtkRefractiveIndex> index;
+  index->SetInputDataObject(uniform(11));
+  index->SetInputDataObject(1, sphere(1e-9));
+  index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  index->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(index));
+  index->Update();
+  EXPECT_GT(index->GetOutput()->GetNumberOfPoints(), 0);
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("unit of length"), std::string::npos);
+}
+
+TEST(Bodies, ThoseMuchLargerThanTheDataAreAMistake)
+{
+  vtkNew<vtkRefractiveIndex> index;
+  index->SetInputDataObject(uniform(11));
+  index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  index->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  expectOneMessage(
+    index.Get(), [](vtkRefractiveIndex* f) { f->SetInputDataObject(1, sphere(1e30)); },
+    { "Bodies", "unit of length" },
+    [](vtkRefractiveIndex* f) { f->SetInputDataObject(1, sphere(0.4)); });
 }
 
 // Faces twice, faces of no area, three faces at an edge, random triangles: no crash, and light is blocked.

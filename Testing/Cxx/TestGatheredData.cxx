@@ -313,6 +313,28 @@ TEST(GatheredData, GridsThatAreNoPartsOfOneStayBlocks)
   EXPECT_TRUE(vtkMultiBlockDataSet::SafeDownCast(gatheredOf({ low, elsewhere })));
 }
 
+// As some readers do where ranks read a part of a block each.
+TEST(GatheredData, GridsThatAreNumberedAlikeStayBlocks)
+{
+  for (const auto& gridOf : { rectilinearOf, curvilinearOf })
+  {
+    const auto low = gridOf(layers(1, 4)), high = gridOf(layers(4, 9));
+    if (auto* grid = vtkRectilinearGrid::SafeDownCast(high))
+    {
+      grid->SetExtent(layers(1, 6).data());
+    }
+    else
+    {
+      vtkStructuredGrid::SafeDownCast(high)->SetExtent(layers(1, 6).data());
+    }
+    const auto gathered = gatheredOf({ low, high });
+    auto* all = vtkMultiBlockDataSet::SafeDownCast(gathered);
+    ASSERT_TRUE(all) << low->GetClassName();
+    expectSame(vtkDataSet::SafeDownCast(all->GetBlock(0)), low);
+    expectSame(vtkDataSet::SafeDownCast(all->GetBlock(1)), high);
+  }
+}
+
 TEST(GatheredData, SurfacesAreOneSurface)
 {
   vtkNew<vtkSphereSource> sphere;

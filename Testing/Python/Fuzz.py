@@ -32,7 +32,7 @@ TEXTS = ("", "None", "rho", "p", "air", "N2", "1e-3", "data:image/png;base64,AAA
 
 # Of properties with which an image may take as long as one likes: values with which it takes a moment.
 QUICK = {"ImageSize": ([16, 16], [16, 16], [33, 7], [1, 1], [0, 16], [16, -3], [2**31 - 1, 2**31 - 1]),
-         "SamplesPerPixel": (1, 1, 2, 5, 0, -1), "ExposureSamples": (1, 2, 3, 0, -1), "MediumMemory": (1, 8, 32),
+         "SamplesPerPixel": (1, 1, 2, 5, 0, -1), "ExposureSamples": (1, 2, 3, 0, -1), "MediumMemory": (1, 2, 8),
          "SamplingDimensions": ([0, 0, 0], [9, 9, 9], [2, 3, 4], [1, 1, 1], [-1, 2, 3], [30, 0, 0], [3000, 3000, 3000],
                                 [2**31 - 1] * 3),
          "NumberOfThreads": (0, 1, 2, 3, -1), "HistogramSize": (0, 1, 16, 256, 2049, -1),
@@ -161,8 +161,8 @@ def good_again(image, expected, what):
         assert (array is None) == (other is None), f"{what}: no image with good values"
         if array:
             assert array.GetNumberOfTuples() == other.GetNumberOfTuples(), what
-            assert np.allclose(vtk_to_numpy(array), vtk_to_numpy(other), rtol=1e-5, atol=1e-9), \
-                f"{what}: not the image of a new filter"
+            difference = np.abs(vtk_to_numpy(array) - vtk_to_numpy(other)).max(initial=0)
+            assert difference <= 1e-6, f"{what}: not the image of a new filter, {name} differs by {difference}"
 
 
 def case_of_filters(rng, rank=None):
@@ -183,7 +183,8 @@ def case_of_filters(rng, rank=None):
 
     def own_data():
         data = fuzz_data.any_data(rng, has_names=rng.random() < .95)
-        return data.NewInstance() if rank and rng.random() < .5 else data
+        is_empty = rng.random() < .5  # the same on all ranks, as all that is random
+        return data.NewInstance() if rank and is_empty else data
 
     def set_up(other):
         for item in items:
@@ -191,6 +192,7 @@ def case_of_filters(rng, rank=None):
                 other.reset(rng, item)
         if not is_grid:
             other.algorithm.SetImageSize(16, 16)
+            other.algorithm.SetMediumMemory(4)
     set_up(properties)
     give(0, own_data())
     for step in range(rng.choice((1, 2, 4))):
@@ -252,11 +254,12 @@ def change_proxy(rng, proxy, item):
     proxy.SMProxy.UpdateVTKObjects()
 
 
-def reset_proxy(proxy, items):
+def reset_proxy(proxy, new, items):
     for item in items:
-        if item.element.tag != "ProxyProperty":
-            proxy.SMProxy.GetProperty(item.name).ResetToXMLDefaults()
-    proxy.GetProperty("Density").SetData(["POINTS", "rho"])
+        own, other = (of.SMProxy.GetProperty(item.name) for of in (proxy, new))
+        own.Copy(other)
+        if item.element.tag != "ProxyProperty" and own.GetRepeatable() and other.GetNumberOfElements() == 0:  # not copied
+            own.SetNumberOfElements(0)
     proxy.SMProxy.UpdateVTKObjects()
 
 
@@ -270,6 +273,7 @@ def case_of_proxies(rng):
     proxy = make(Input=producer_of(fuzz_data.any_data(rng)))
     if not is_grid:
         proxy.ImageSize = [16, 16]
+        proxy.MediumMemory = 4
     algorithm = proxy.GetClientSideObject()
     errors = Errors(algorithm)
     for step in range(rng.choice((1, 2, 4))):
@@ -285,15 +289,16 @@ def case_of_proxies(rng):
             check_image(algorithm.GetOutputDataObject(port), has_failed, f"step {step}")
     good = producer_of(fuzz_data.good_image())
     proxy.Input = good
-    reset_proxy(proxy, items)
-    new = make(Input=good)
+    new = make(Input=good, Density=["POINTS", "rho"])
+    if not is_grid:
+        new.ImageSize = [16, 16]
+        new.MediumMemory = 4
+    reset_proxy(proxy, new, items)
     for other in (proxy, new):
-        other.Density = ["POINTS", "rho"]
-        if not is_grid:
-            other.ImageSize = [16, 16]
-            other.Quality = "Draft"
         other.UpdatePipeline()
-    good_again(algorithm.GetOutputDataObject(0), new.GetClientSideObject().GetOutputDataObject(0), "afterwards")
+    differing = [item.name for item in items if item.element.tag != "ProxyProperty"
+                 and str(proxy.GetPropertyValue(item.name)) != str(new.GetPropertyValue(item.name))]
+    good_again(algorithm.GetOutputDataObject(0), new.GetClientSideObject().GetOutputDataObject(0), f"afterwards ({differing})")
 
 
 def case_of_views(rng):
@@ -314,6 +319,7 @@ def case_of_views(rng):
     except RuntimeError:  # not offered for such data
         return
     bench = display.SchlierenBench
+    bench.MediumMemory = 4
     for _ in range(rng.choice((1, 2, 4))):
         for item in rng.sample(items, rng.choice((0, 1, 2, 4))):
             change_proxy(rng, bench, item)
@@ -365,7 +371,8 @@ def run_case(kind, number):
         code = 1
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(code)
+    if code or kind != "ranks":  # MPI has to be left in its own way
+        os._exit(code)
 
 
 def wait_for(pid):
@@ -415,21 +422,24 @@ def run_kind(kind, first, count, seconds, shows):
     else:
         prepare(kind)
         run = in_own_process
-    failed = []
+    failed, slowest = [], (0., first)
     begin, number = processor_seconds(), first
     while (count is None or number < first + count) and processor_seconds() - begin < seconds:
         with tempfile.TemporaryFile() as output:
+            before = processor_seconds()
             code = run(kind, number, output)
+            slowest = max(slowest, (processor_seconds() - before, number))
             output.seek(0)
             text = output.read().decode(errors="replace")
         if code:
             failed.append(f"{kind} {number}")
             why = f"signal {signal.Signals(-code).name}" if code < 0 else "a hang" if code == 124 else f"exit code {code}"
-            print(f"{kind} {number}: {why}\n" + "\n".join(text.splitlines()[-25:]), flush=True)
+            print(f"{kind} {number}: {why}\n" + "\n".join(text.splitlines()[-60:]), flush=True)
         elif shows:
             print(text, flush=True)
         number += 1
-    print(f"{kind}: {number - first} cases from {first}, {len(failed)} failed", flush=True)
+    print(f"{kind}: {number - first} cases from {first}, {len(failed)} failed, {processor_seconds() - begin:.0f} s of the "
+          f"processor, {slowest[0]:.1f} s of them for {slowest[1]}", flush=True)
     return failed
 
 
@@ -437,6 +447,7 @@ def main(arguments):
     if arguments[:1] == ["case"]:
         prepare(arguments[1])
         run_case(arguments[1], int(arguments[2]))
+        return
     first = int(os.environ.get("SCHLIEREN_FUZZ_FIRST", "0"))
     seconds = float(os.environ.get("SCHLIEREN_FUZZ_SECONDS", "60"))
     if arguments and arguments[0] in KINDS:
