@@ -114,6 +114,18 @@ std::vector<Mistake> mistakes()
     { "negative source", "SourceWidth", [](Field&, Scene& s) { s.source.width = -1; } },
     { "endless source", "SourceLength", [](Field&, Scene& s) { s.source.length = HUGE_VAL; } },
     { "screen in the flow", "ScreenDistance", [](Field&, Scene& s) { s.screenDistance = -2; } },
+    { "nothing outside", "ExitRefractivity",
+      [](Field&, Scene& s)
+      {
+        s.exitInto = ExitInto::Custom;
+        s.exitRefractivity = -1;
+      } },
+    { "anything outside", "ExitRefractivity",
+      [=](Field&, Scene& s)
+      {
+        s.exitInto = ExitInto::Custom;
+        s.exitRefractivity = nan;
+      } },
     { "no samples", "SamplesPerPixel", [](Field&, Scene& s) { s.samplesPerPixel = 0; } },
     { "no error allowed", "AdaptiveTolerance", [](Field&, Scene& s) { s.adaptiveTolerance = 0; } },
     { "any error allowed", "AdaptiveTolerance", [](Field&, Scene& s) { s.adaptiveTolerance = 2; } },
