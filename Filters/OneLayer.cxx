@@ -565,11 +565,15 @@ void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3
       ? Front
       : Back;
   };
+  // What is known at points is known there; the middles of cells are in the middle plane, which is nearer to the axis.
+  const double nearer = angles && source.leaves[0].ofCells
+    ? std::cos(0.5 * turn((*angles)[0], (*angles)[1]))
+    : 1;
   planes.onPlane = [=](const Place& place)
   {
     Place on = origin;
     on[axis] = place[axis];
-    on[away] += Polar(place, axis, origin).distance;
+    on[away] += nearer * Polar(place, axis, origin).distance;
     return on;
   };
   if (!angles || !flatten(source, planes, true))

@@ -62,8 +62,8 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// `like`: what was chosen of the same input for other arrays; data that are one layer of cells are then taken as they were
-/// there. May be null.
+/// `like`: what was chosen of the same input for other arrays; data that are one layer of cells become flat only if they have
+/// there. Null: if they can.
 Source chooseSource(
   vtkRefractiveIndex* self, vtkDataObject* input, const Source* like = nullptr);
 
