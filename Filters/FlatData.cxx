@@ -83,8 +83,7 @@ struct Plane
 };
 
 /// Structured data stay so: their faces are found at once.
-void extrudeStructured(
-  vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
+void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
 {
   const auto across =
     static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
@@ -313,8 +312,8 @@ vtkSmartPointer<vtkDataObject> changedBodies(
 vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, double depth)
 {
   return bodies && flat >= 0
-    ? changedBodies(bodies,
-        [flat, depth](vtkPolyData* surface) { return turnedSurface(surface, flat, depth); })
+    ? changedBodies(
+        bodies, [flat, depth](vtkPolyData* surface) { return turnedSurface(surface, flat, depth); })
     : vtkSmartPointer<vtkDataObject>(bodies);
 }
 
@@ -474,12 +473,13 @@ std::string warningOfExtrusion(const Source& source, int flat)
     return ""; // whoever has given it knows
   }
   std::ostringstream text;
-  text << std::setprecision(4)
-       << (source.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
-       << "xyz"[flat] << ": they become " << depthOf(source, flat) << " data units deep, "
-       << (source.isOneCellThick ? "as their cells are" : "as their shorter side is long")
-       << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
-          "flow.";
+  text
+    << std::setprecision(4)
+    << (source.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
+    << "xyz"[flat] << ": they become " << depthOf(source, flat) << " data units deep, "
+    << (source.isOneCellThick ? "as their cells are" : "as their shorter side is long")
+    << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
+       "flow.";
   return text.str();
 }
 

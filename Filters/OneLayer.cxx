@@ -146,8 +146,8 @@ vtkSmartPointer<vtkDataSet> planeOfImage(vtkImageData* image, int across)
 }
 
 /// The structured leaf's layer in front, and pairs.
-void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across, const Planes& planes,
-  Remade& made, std::vector<Pair>& pairs)
+void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across,
+  const Planes& planes, Remade& made, std::vector<Pair>& pairs)
 {
   const auto axis = static_cast<std::size_t>(across);
   const std::array<int, 3> before = points;
@@ -235,7 +235,8 @@ public:
       if (this->Of[static_cast<std::size_t>(other)] == Back)
       {
         const Place there = planes.onPlane(placeOf(this->Data, other));
-        const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(place.data(), there.data()));
+        const double distance =
+          std::sqrt(vtkMath::Distance2BetweenPoints(place.data(), there.data()));
         found = distance < least ? other : found;
         least = std::min(least, distance);
       }
@@ -253,7 +254,8 @@ private:
   }
   bool isInFront(const std::vector<vtkIdType>& face) const
   {
-    const auto sideOf = [this](vtkIdType point) { return this->Of[static_cast<std::size_t>(point)]; };
+    const auto sideOf = [this](vtkIdType point)
+    { return this->Of[static_cast<std::size_t>(point)]; };
     return face.size() > 2 &&
       std::all_of(face.begin(), face.end(), [&](vtkIdType i) { return sideOf(i) <= Both; }) &&
       std::any_of(face.begin(), face.end(), [&](vtkIdType i) { return sideOf(i) == Front; });
@@ -301,8 +303,8 @@ private:
 };
 
 /// False where the cells are no layer.
-bool flattenCells(
-  const Leaf& leaf, const Sides& sides, const Planes& planes, Remade& made, std::vector<Pair>& pairs)
+bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Remade& made,
+  std::vector<Pair>& pairs)
 {
   vtkDataSet* data = leaf.data;
   Layer layer(data, sides);
@@ -551,7 +553,8 @@ std::optional<Wedge> findWedge(const Source& source, const std::array<double, 3>
 
 void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3>& origin)
 {
-  const auto axis = static_cast<std::size_t>(wedge.axis), across = static_cast<std::size_t>(wedge.across);
+  const auto axis = static_cast<std::size_t>(wedge.axis),
+             across = static_cast<std::size_t>(wedge.across);
   const std::size_t away = 3 - axis - across;
   const double size = sizeOf(source);
   const auto angles = anglesOf(source, axis, origin, size);
@@ -565,16 +568,20 @@ void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3
       ? Front
       : Back;
   };
+  // What is known at points is known there; the middles of cells are in the middle plane, which is nearer to the axis.
+  const double nearer =
+    angles && source.leaves[0].ofCells ? std::cos(0.5 * turn((*angles)[0], (*angles)[1])) : 1;
   planes.onPlane = [=](const Place& place)
   {
     Place on = origin;
     on[axis] = place[axis];
-    on[away] += Polar(place, axis, origin).distance;
+    on[away] += nearer * Polar(place, axis, origin).distance;
     return on;
   };
   if (!angles || !flatten(source, planes, true))
   {
-    throw std::runtime_error("Symmetry is Axisymmetric, and the input lies between two planes through the " +
+    throw std::runtime_error(
+      "Symmetry is Axisymmetric, and the input lies between two planes through the " +
       std::string(1, "xyz"[axis]) +
       " axis, but it is more than one layer of cells. Use a plane (Slice) of it.");
   }

@@ -38,6 +38,9 @@ namespace filters
 namespace
 {
 
+/// A piece that is one layer of cells may be of data that are several.
+const Source asTheyAre;
+
 bool hasPoints(vtkDataObject* data)
 {
   const std::vector<vtkDataObject*> leaves = leavesOf(data);
@@ -289,7 +292,7 @@ void PieceWorker::GiveOutline(Reader& request, std::vector<char>& answer)
     try
     {
       // Says what is wrong with the data while all arrays are there.
-      const Source source = chooseSource(this->Self, this->Data);
+      const Source source = chooseSource(this->Self, this->Data, &asTheyAre);
       if (const auto* mean = std::get_if<FieldMean>(&source.model))
       {
         ranges = mean->rangesIn(source.leaves);
@@ -604,7 +607,7 @@ std::vector<FieldValues> PieceWorker::FieldsOf(
 /// With the ranges of all ranks.
 Source PieceWorker::SourceOf(vtkDataObject* data, const std::vector<FieldMean::Range>& ranges) const
 {
-  Source source = chooseSource(this->Self, data);
+  Source source = chooseSource(this->Self, data, &asTheyAre);
   if (auto* mean = std::get_if<FieldMean>(&source.model))
   {
     mean->setRanges(ranges);

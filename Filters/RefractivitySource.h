@@ -58,13 +58,13 @@ struct Source
     made;                        // their data that are not the input's: masked, extruded
   vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
   Model model;
-  double depth = 0;             // of flat data, see depthOf(); 0: to be chosen
-  bool isDepthGiven = false;    // by the user
-  bool isOneCellThick = false;  // what `leaves` have was: see flattenLayer()
-  int axisOfWedge = -1;         // likewise: see flattenWedge(); -1: none
-  std::string noteOnGases; // what the user should know once, mostly empty
-  std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
-  bool isComputed = false; // the refractivity was computed before
+  double depth = 0;            // of flat data, see depthOf(); 0: to be chosen
+  bool isDepthGiven = false;   // by the user
+  bool isOneCellThick = false; // what `leaves` have was: see flattenLayer()
+  int axisOfWedge = -1;        // likewise: see flattenWedge(); -1: none
+  std::string noteOnGases;     // what the user should know once, mostly empty
+  std::string label;           // for messages: "array 'rho'" or "arrays 'T', 'p'"
+  bool isComputed = false;     // the refractivity was computed before
 };
 
 /// Thrown where no dataset has the arrays that are needed; others, on other ranks, may have them.
@@ -77,10 +77,9 @@ public:
 /// The datasets within an input that have points.
 std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input);
 
-/// `like`: what was chosen of the same input for other arrays; data that are one layer of cells are then taken as they were
-/// there. May be null.
-Source chooseSource(
-  vtkRefractiveIndex* self, vtkDataObject* input, const Source* like = nullptr);
+/// `like`: what was chosen of the same input for other arrays; data that are one layer of cells become flat only if they have
+/// there. Null: if they can.
+Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source* like = nullptr);
 
 /// The names of all arrays that may be read of an input.
 std::vector<std::string> arraysOf(vtkRefractiveIndex* self);

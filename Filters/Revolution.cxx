@@ -55,11 +55,15 @@ struct Candidate
 {
   int axis, radial;
   double low, high; // distances from it; of data on its other side less than 0
-  double slope = 0; // of the first array across the axis, near it, by what it is anywhere: 0 where the axis is right
+  double slope =
+    0; // of the first array across the axis, near it, by what it is anywhere: 0 where the axis is right
   double change = 0; // of the array along the radius
 
   double radius() const { return std::max(std::abs(this->low), std::abs(this->high)); }
-  bool touches(double tolerance) const { return this->low <= tolerance && this->high >= -tolerance; }
+  bool touches(double tolerance) const
+  {
+    return this->low <= tolerance && this->high >= -tolerance;
+  }
 };
 
 /// Finds the slopes of the first array at the axis: from cells within the nearest few, in the first layers about it.
@@ -195,14 +199,14 @@ std::vector<Candidate> candidatesFor(
   return candidates;
 }
 
-Candidate bestOf(
-  std::vector<Candidate> candidates, const Source& source, const std::array<double, 3>& origin, double tolerance)
+Candidate bestOf(std::vector<Candidate> candidates, const Source& source,
+  const std::array<double, 3>& origin, double tolerance)
 {
   const auto touching = [&](const Candidate& one) { return one.touches(tolerance); };
   if (std::any_of(candidates.begin(), candidates.end(), touching))
   {
-    candidates.erase(
-      std::remove_if(candidates.begin(), candidates.end(), std::not_fn(touching)), candidates.end());
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), std::not_fn(touching)),
+      candidates.end());
   }
   if (candidates.size() < 2)
   {
@@ -223,13 +227,13 @@ Candidate bestOf(
     }
   }
   constexpr double smooth = 0.5; // slopes at the axis that are as good as none
-  return candidates[0].slope < smooth || candidates[0].slope <= candidates[1].slope
-    ? candidates[0]
-    : candidates[1];
+  return candidates[0].slope < smooth || candidates[0].slope <= candidates[1].slope ? candidates[0]
+                                                                                    : candidates[1];
 }
 
 /// The image on the other side of the axis.
-vtkSmartPointer<vtkImageData> turnedOver(vtkImageData* image, const Revolution& revolution, Remade& made)
+vtkSmartPointer<vtkImageData> turnedOver(
+  vtkImageData* image, const Revolution& revolution, Remade& made)
 {
   const int radial = revolution.radial;
   int points[3], cells[3];
@@ -244,8 +248,7 @@ vtkSmartPointer<vtkImageData> turnedOver(vtkImageData* image, const Revolution& 
   image->GetBounds(bounds);
   auto other = vtkSmartPointer<vtkImageData>::New();
   double corner[3] = { bounds[0], bounds[2], bounds[4] };
-  corner[radial] =
-    2 * revolution.origin[static_cast<std::size_t>(radial)] - bounds[2 * radial + 1];
+  corner[radial] = 2 * revolution.origin[static_cast<std::size_t>(radial)] - bounds[2 * radial + 1];
   other->SetDimensions(points);
   other->SetOrigin(corner);
   other->SetSpacing(spacing);
@@ -316,7 +319,8 @@ std::vector<std::array<vtkIdType, 2>> rowAtAxis(
 }
 
 /// Twice the area of a polygon in the plane; negative where its corners are in the other order.
-double areaOf(vtkPoints* places, const std::vector<vtkIdType>& corners, const Revolution& revolution)
+double areaOf(
+  vtkPoints* places, const std::vector<vtkIdType>& corners, const Revolution& revolution)
 {
   const auto along = static_cast<std::size_t>(revolution.axis),
              away = static_cast<std::size_t>(revolution.radial);
@@ -448,19 +452,21 @@ Revolution revolutionOf(vtkRefractiveIndex* self, const Source& source)
   std::copy_n(self->GetSymmetryOrigin(), 3, origin.begin());
   if (!std::all_of(origin.begin(), origin.end(), [](double x) { return std::isfinite(x); }))
   {
-    throw std::runtime_error("SymmetryOrigin holds a number that is not finite. Give a point of the axis.");
+    throw std::runtime_error(
+      "SymmetryOrigin holds a number that is not finite. Give a point of the axis.");
   }
   const int flat = flatAxisOf(source);
   if (flat < 0)
   {
-    throw std::runtime_error(
-      "Symmetry is Axisymmetric, but the input is 3-D: neither a plane through the axis nor a wedge of "
-      "one cell. Set Symmetry to None, or take a plane (Slice) of it.");
+    throw std::runtime_error("Symmetry is Axisymmetric, but the input is 3-D: neither a plane "
+                             "through the axis nor a wedge of "
+                             "one cell. Set Symmetry to None, or take a plane (Slice) of it.");
   }
   if (source.image && !source.image->GetDirectionMatrix()->IsIdentity())
   {
-    throw std::runtime_error("Symmetry is Axisymmetric, but the image has axes of its own. Use an image "
-                             "along x, y and z.");
+    throw std::runtime_error(
+      "Symmetry is Axisymmetric, but the image has axes of its own. Use an image "
+      "along x, y and z.");
   }
   if (given == flat)
   {
@@ -475,7 +481,8 @@ Revolution revolutionOf(vtkRefractiveIndex* self, const Source& source)
   {
     const int radial = 3 - chosen - flat;
     const double from = origin[static_cast<std::size_t>(radial)];
-    found = Candidate{ chosen, radial, box.GetBound(2 * radial) - from, box.GetBound(2 * radial + 1) - from };
+    found = Candidate{ chosen, radial, box.GetBound(2 * radial) - from,
+      box.GetBound(2 * radial + 1) - from };
   }
   else
   {
@@ -483,7 +490,8 @@ Revolution revolutionOf(vtkRefractiveIndex* self, const Source& source)
     if (candidates.empty())
     {
       throw std::runtime_error(
-        "Symmetry is Axisymmetric, but the plane of the data lies on both sides of each coordinate axis. "
+        "Symmetry is Axisymmetric, but the plane of the data lies on both sides of each coordinate "
+        "axis. "
         "Set SymmetryAxis to the axis, and SymmetryOrigin to a point of it.");
     }
     found = bestOf(candidates, source, origin, tolerance);
@@ -493,11 +501,12 @@ Revolution revolutionOf(vtkRefractiveIndex* self, const Source& source)
     box.GetBound(2 * found->axis + 1), isPositive ? found->high : -found->low,
     !isPositive || found->low >= -tolerance, "" };
   std::ostringstream text;
-  text << std::setprecision(4) << "The data are revolved around the " << "xyz"[found->axis]
-       << " axis (Symmetry)";
+  text << std::setprecision(4) << "The data are revolved around the "
+       << "xyz"[found->axis] << " axis (Symmetry)";
   if (origin[static_cast<std::size_t>(found->radial)] != 0)
   {
-    text << " at " << "xyz"[found->radial] << " = " << origin[static_cast<std::size_t>(found->radial)];
+    text << " at "
+         << "xyz"[found->radial] << " = " << origin[static_cast<std::size_t>(found->radial)];
   }
   text << ", up to a radius of " << revolution.radius << " data units.";
   if (chosen < 0)

@@ -59,8 +59,9 @@ struct RevolvedSource::Rows
       return four[1] +
         0.5 * t *
         (four[2] - four[0] +
-          t * (2 * four[0] - 5 * four[1] + 4 * four[2] - four[3] +
-                t * (3 * (four[1] - four[2]) + four[3] - four[0])));
+          t *
+            (2 * four[0] - 5 * four[1] + 4 * four[2] - four[3] +
+              t * (3 * (four[1] - four[2]) + four[3] - four[0])));
     }
     // Beside a wall: between those that there are, or as the nearest one.
     if (std::isfinite(four[1]) && std::isfinite(four[2]))
@@ -97,7 +98,9 @@ RevolvedSource::RevolvedSource(
   std::shared_ptr<const schlieren::MediumSource> section, const Revolution& revolution)
   : Section(std::move(section))
   , Of(revolution)
-  , Along(revolution.axis < revolution.radial ? 0 : 1) // see directionAcross(): the others stay in order
+  , Along(revolution.axis < revolution.radial
+        ? 0
+        : 1) // see directionAcross(): the others stay in order
   , Away(1 - this->Along)
   , BoundsOfSection(this->Section->bounds())
 {
@@ -182,8 +185,7 @@ RevolvedSource::Rows RevolvedSource::rowsFor(const schlieren::Lattice& lattice, 
   else
   {
     rows.distances.resize(size);
-    this->Section->sample(
-      ofSection, rows.values.data(), rows.places.data(), rows.distances.data());
+    this->Section->sample(ofSection, rows.values.data(), rows.places.data(), rows.distances.data());
   }
   return rows;
 }
@@ -209,8 +211,7 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
     }
   }
   const double spacing = std::min(lattice.spacing[b], lattice.spacing[c]);
-  const Rows ofValues =
-    this->rowsFor(lattice, spacing / rowsPerVoxel, nearest, farthest, true);
+  const Rows ofValues = this->rowsFor(lattice, spacing / rowsPerVoxel, nearest, farthest, true);
   // Distances count in spacings of the lattice.
   const Rows ofPlaces = this->rowsFor(lattice, spacing, nearest, farthest, false);
   const std::array<std::size_t, 3> strides{ 1, static_cast<std::size_t>(lattice.points[0]),
@@ -225,11 +226,11 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
       const auto [row, t] = ofPlaces.before(r);
       for (std::size_t i = 0; i < ofPlaces.columns; ++i)
       {
-        const std::size_t point =
-          i * strides[axis] + static_cast<std::size_t>(j) * strides[b] + static_cast<std::size_t>(k) * strides[c];
+        const std::size_t point = i * strides[axis] + static_cast<std::size_t>(j) * strides[b] +
+          static_cast<std::size_t>(k) * strides[c];
         const std::size_t before = ofPlaces.at(i, row), after = ofPlaces.at(i, row + 1);
-        float distance = static_cast<float>(
-          (1 - t) * ofPlaces.distances[before] + t * ofPlaces.distances[after]);
+        float distance =
+          static_cast<float>((1 - t) * ofPlaces.distances[before] + t * ofPlaces.distances[after]);
         schlieren::Place place = ofPlaces.places[t < 0.5 ? before : after];
         double value = 0;
         if (distance > 0)
@@ -239,10 +240,11 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
         }
         if (place != schlieren::Place::Gas || !(distance > 0))
         {
-          const schlieren::Place ofBefore = ofPlaces.places[before], ofAfter = ofPlaces.places[after];
-          const bool isBefore = ofBefore != schlieren::Place::Gas &&
-            (t < 0.5 || ofAfter == schlieren::Place::Gas);
-          place = isBefore ? ofBefore
+          const schlieren::Place ofBefore = ofPlaces.places[before],
+                                 ofAfter = ofPlaces.places[after];
+          const bool isBefore =
+            ofBefore != schlieren::Place::Gas && (t < 0.5 || ofAfter == schlieren::Place::Gas);
+          place = isBefore                     ? ofBefore
             : ofAfter != schlieren::Place::Gas ? ofAfter
                                                : schlieren::Place::Window;
           distance = -std::max(std::abs(distance), 1.f / 4096);
@@ -260,9 +262,8 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
         }
         for (std::size_t field = 0; field < fields; ++field)
         {
-          values[field * size + point] = place == schlieren::Place::Gas
-            ? ofValues.valueAt(field + 1, i, r)
-            : notANumber;
+          values[field * size + point] =
+            place == schlieren::Place::Gas ? ofValues.valueAt(field + 1, i, r) : notANumber;
         }
       }
     }

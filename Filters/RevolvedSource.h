@@ -19,7 +19,8 @@ namespace filters
 class RevolvedSource : public schlieren::MediumSource
 {
 public:
-  RevolvedSource(std::shared_ptr<const schlieren::MediumSource> section, const Revolution& revolution);
+  RevolvedSource(
+    std::shared_ptr<const schlieren::MediumSource> section, const Revolution& revolution);
 
   schlieren::Box bounds() const override { return this->Of.box(); }
   double ambient() const override { return this->Section->ambient(); }

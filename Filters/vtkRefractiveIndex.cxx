@@ -6,12 +6,12 @@
 #include "AtTheEnd.h"
 #include "AvailableMemory.h"
 #include "ChannelRanks.h"
+#include "FlatData.h"
 #include "Guarded.h"
 #include "InputDescription.h"
 #include "MeshSearch.h"
 #include "PiecesSource.h"
 #include "Ranks.h"
-#include "FlatData.h"
 #include "RefractiveIndexInternals.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
@@ -67,7 +67,8 @@ const char* const fewerPoints =
 /// The coordinate axis across the plane of the data; -1: there is none.
 int planeOf(const Source& source)
 {
-  return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1 : flatAxisOf(source);
+  return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1
+                                                                           : flatAxisOf(source);
 }
 
 void tellGrid(vtkImageData* grid, vtkInformation* outInfo)

@@ -23,13 +23,11 @@ Vec placed(int axis, double a, double b, double across)
   return axis == 0 ? Vec{ across, a, b } : axis == 1 ? Vec{ a, across, b } : Vec{ a, b, across };
 }
 
-double fieldAt(double a, double b)
-{
-  return 1e-5 * std::exp(-((a - 1) * (a - 1) + b * b));
-}
+double fieldAt(double a, double b) { return 1e-5 * std::exp(-((a - 1) * (a - 1) + b * b)); }
 
 /// A body-fitted mesh of so many layers of points; across the plane, the field changes by `slope`.
-vtkSmartPointer<vtkStructuredGrid> ring(int axis, int layers, bool ofCells = false, double slope = 0)
+vtkSmartPointer<vtkStructuredGrid> ring(
+  int axis, int layers, bool ofCells = false, double slope = 0)
 {
   auto mesh = vtkSmartPointer<vtkStructuredGrid>::New();
   vtkNew<vtkPoints> points;
@@ -58,7 +56,9 @@ vtkSmartPointer<vtkStructuredGrid> ring(int axis, int layers, bool ofCells = fal
     addCellArray(mesh, "N",
       [axis](const Vec& x)
       {
-        return axis == 0 ? fieldAt(x[1], x[2]) : axis == 1 ? fieldAt(x[0], x[2]) : fieldAt(x[0], x[1]);
+        return axis == 0 ? fieldAt(x[1], x[2])
+          : axis == 1    ? fieldAt(x[0], x[2])
+                         : fieldAt(x[0], x[1]);
       });
     mesh->GetPointData()->Initialize();
   }
@@ -142,7 +142,8 @@ TEST(OneLayer, IsSeenAsItsPlane)
       const auto layer = ring(axis, 2, ofCells);
       const Seen structured = seen(layer, ofCells);
       expectSame(structured, plane);
-      EXPECT_NE(structured.warning.find(" 0.1 data units"), std::string::npos) << structured.warning;
+      EXPECT_NE(structured.warning.find(" 0.1 data units"), std::string::npos)
+        << structured.warning;
       expectSame(seen(asCells(layer), ofCells), plane);
       Seen deeper = seen(layer, ofCells, 3);
       for (double& path : deeper.path)

@@ -419,11 +419,12 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   filter->Print(text);
   for (const char* name :
     { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions", "SamplingBounds",
-      "Depth", "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "Reconstruction", "MediumTolerance", "MediumMemory", "DistributedMedium",
-      "ReadAheadMemory", "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity",
-      "ViewDirection", "ViewUp", "FaceFlatData", "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff",
-      "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale",
-      "KFromOptics", "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter",
+      "Depth", "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "Reconstruction",
+      "MediumTolerance", "MediumMemory", "DistributedMedium", "ReadAheadMemory", "LengthScale",
+      "AutoAmbientRefractivity", "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData",
+      "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle",
+      "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics",
+      "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter",
       "ColorFilterImage", "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight",
       "ScreenDistance", "FocusOffset", "LightSource", "SourceDistance", "SourceShape",
       "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod", "BackgroundAngle",

@@ -264,7 +264,8 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     auto image = cube(9);
     image->SetDimensions(9, 9, 1);
     image->SetOrigin(0, 0, 0);
-    addPointArray(image, "N", [](const Vec& x) { return 1e-4 * std::exp(-x[0] * x[0]) + 1e-5 * x[1]; });
+    addPointArray(
+      image, "N", [](const Vec& x) { return 1e-4 * std::exp(-x[0] * x[0]) + 1e-5 * x[1]; });
     return image;
   };
   const struct
