@@ -8,20 +8,22 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
-#include <cstring>
 #include <string>
 
 namespace
 {
 
+// Of a property that selects an array.
+constexpr unsigned int elements = 5, associationElement = 3, nameElement = 4;
+
 /// The density is for those flows alone whose index follows of it: then others' choice is left to the filter.
-FlowDefaults defaultsFor(const char* property, const std::vector<FlowArray>& arrays)
+FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArray>& arrays)
 {
-  if (std::strcmp(property, "Density") == 0)
+  if (property == "Density")
   {
     return flowDefaults(arrays);
   }
-  if (std::strcmp(property, "IndexArray") != 0)
+  if (property != "IndexArray")
   {
     return flowDefaults(arrays, FlowDefaults::Ciddor);
   }
@@ -42,22 +44,22 @@ void vtkSMSchlierenArrayDomain::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  const int isSet = this->Superclass::SetDefaultValues(property, useUnchecked);
+  // Without an input there is no information, which the superclass does not expect where it has a string for no array.
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  const std::string name = property->GetXMLName();
   vtkSMPropertyHelper selection(property);
   selection.SetUseUnchecked(useUnchecked);
-  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
-  if (!input || selection.GetNumberOfElements() != 5)
+  if (!input || name == "Mask" || selection.GetNumberOfElements() != elements)
   {
-    return isSet;
+    return 0; // as the XML has it
   }
-  const FlowDefaults defaults = defaultsFor(property->GetXMLName(), arraysOf(input));
-  std::string array = defaults.arrayOf(property->GetXMLName());
-  if (array.empty() && std::strcmp(property->GetXMLName(), "Humidity") == 0)
+  const FlowDefaults defaults = defaultsFor(name, arraysOf(input));
+  std::string array = defaults.arrayOf(name);
+  if (array.empty() && this->GetNoneString())
   {
-    array = "None"; // as the XML has it
+    array = this->GetNoneString();
   }
-  constexpr unsigned int association = 3, name = 4;
-  selection.Set(association, std::to_string(defaults.association).c_str());
-  selection.Set(name, array.c_str());
+  selection.Set(associationElement, std::to_string(defaults.association).c_str());
+  selection.Set(nameElement, array.c_str());
   return 1;
 }
