@@ -8,6 +8,7 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
+#include <algorithm>
 #include <string>
 
 namespace
@@ -54,12 +55,39 @@ int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool us
     return 0; // as the XML has it
   }
   const FlowDefaults defaults = defaultsFor(name, arraysOf(input));
-  std::string array = defaults.arrayOf(name);
-  if (array.empty() && this->GetNoneString())
+  this->Chosen = defaults.arrayOf(name);
+  if (this->Chosen.empty())
   {
-    array = this->GetNoneString();
+    return 0; // what has not been set, ParaView may ask for again
   }
   selection.Set(associationElement, std::to_string(defaults.association).c_str());
-  selection.Set(nameElement, array.c_str());
+  selection.Set(nameElement, this->Chosen.c_str());
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMSchlierenArrayDomain::Update(vtkSMProperty* requestingProperty)
+{
+  this->Superclass::Update(requestingProperty);
+  vtkSMProperty* property = this->GetProperty();
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  if (this->Chosen.empty() || !property || !input)
+  {
+    return;
+  }
+  vtkSMPropertyHelper selection(property);
+  const std::vector<FlowArray> arrays = arraysOf(input);
+  const bool isThere = std::any_of(arrays.begin(), arrays.end(),
+    [this](const FlowArray& array) { return array.name == this->Chosen; });
+  const bool isByItself = selection.GetNumberOfElements() == elements &&
+    this->Chosen == selection.GetAsString(nameElement);
+  if (isByItself && !isThere && !arrays.empty())
+  {
+    // Scripts get the active source as their input first.
+    if (!this->SetDefaultValues(property, false))
+    {
+      const char* none = this->GetNoneString();
+      selection.Set(nameElement, none ? none : "");
+    }
+  }
 }
