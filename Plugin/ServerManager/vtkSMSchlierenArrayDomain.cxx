@@ -8,20 +8,23 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
-#include <cstring>
+#include <algorithm>
 #include <string>
 
 namespace
 {
 
+// Of a property that selects an array.
+constexpr unsigned int elements = 5, associationElement = 3, nameElement = 4;
+
 /// The density is for those flows alone whose index follows of it: then others' choice is left to the filter.
-FlowDefaults defaultsFor(const char* property, const std::vector<FlowArray>& arrays)
+FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArray>& arrays)
 {
-  if (std::strcmp(property, "Density") == 0)
+  if (property == "Density")
   {
     return flowDefaults(arrays);
   }
-  if (std::strcmp(property, "IndexArray") != 0)
+  if (property != "IndexArray")
   {
     return flowDefaults(arrays, FlowDefaults::Ciddor);
   }
@@ -42,22 +45,49 @@ void vtkSMSchlierenArrayDomain::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  const int isSet = this->Superclass::SetDefaultValues(property, useUnchecked);
+  // Without an input there is no information, which the superclass does not expect where it has a string for no array.
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  const std::string name = property->GetXMLName();
   vtkSMPropertyHelper selection(property);
   selection.SetUseUnchecked(useUnchecked);
-  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
-  if (!input || selection.GetNumberOfElements() != 5)
+  if (!input || name == "Mask" || selection.GetNumberOfElements() != elements)
   {
-    return isSet;
+    return 0; // as the XML has it
   }
-  const FlowDefaults defaults = defaultsFor(property->GetXMLName(), arraysOf(input));
-  std::string array = defaults.arrayOf(property->GetXMLName());
-  if (array.empty() && std::strcmp(property->GetXMLName(), "Humidity") == 0)
+  const FlowDefaults defaults = defaultsFor(name, arraysOf(input));
+  this->Chosen = defaults.arrayOf(name);
+  if (this->Chosen.empty())
   {
-    array = "None"; // as the XML has it
+    return 0; // what has not been set, ParaView may ask for again
   }
-  constexpr unsigned int association = 3, name = 4;
-  selection.Set(association, std::to_string(defaults.association).c_str());
-  selection.Set(name, array.c_str());
+  selection.Set(associationElement, std::to_string(defaults.association).c_str());
+  selection.Set(nameElement, this->Chosen.c_str());
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMSchlierenArrayDomain::Update(vtkSMProperty* requestingProperty)
+{
+  this->Superclass::Update(requestingProperty);
+  vtkSMProperty* property = this->GetProperty();
+  vtkPVDataInformation* input = this->GetInputDataInformation("Input");
+  if (this->Chosen.empty() || !property || !input)
+  {
+    return;
+  }
+  vtkSMPropertyHelper selection(property);
+  const std::vector<FlowArray> arrays = arraysOf(input);
+  const bool isThere = std::any_of(arrays.begin(), arrays.end(),
+    [this](const FlowArray& array) { return array.name == this->Chosen; });
+  const bool isByItself = selection.GetNumberOfElements() == elements &&
+    this->Chosen == selection.GetAsString(nameElement);
+  if (isByItself && !isThere && !arrays.empty())
+  {
+    // Scripts get the active source as their input first.
+    if (!this->SetDefaultValues(property, false))
+    {
+      const char* none = this->GetNoneString();
+      selection.Set(nameElement, none ? none : "");
+    }
+  }
 }

@@ -14,6 +14,8 @@
 #include "vtkSMArrayListDomain.h"
 #include "vtkSchlierenServerManagerModule.h" // for export macro
 
+#include <string> // for Chosen
+
 class VTKSCHLIERENSERVERMANAGER_EXPORT vtkSMSchlierenArrayDomain : public vtkSMArrayListDomain
 {
 public:
@@ -23,11 +25,16 @@ public:
 
   int SetDefaultValues(vtkSMProperty* property, bool useUnchecked) override;
 
+  /// Chooses again where the input has become another one that has not the array that was chosen here.
+  void Update(vtkSMProperty* requestingProperty) override;
+
 protected:
   vtkSMSchlierenArrayDomain() = default;
   ~vtkSMSchlierenArrayDomain() override = default;
 
 private:
+  std::string Chosen; ///< by SetDefaultValues(); empty: none
+
   vtkSMSchlierenArrayDomain(const vtkSMSchlierenArrayDomain&) = delete;
   void operator=(const vtkSMSchlierenArrayDomain&) = delete;
 };

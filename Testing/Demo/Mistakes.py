@@ -42,7 +42,7 @@ fails("line.vti", "--array", "RTData", saying=("line.vti", "no thickness along")
 os.makedirs("plt00000", exist_ok=True)
 with open(os.path.join("plt00000", "Header"), "w", encoding="ascii") as stream:
     stream.write("HyperCLaw-V1.1\n")
-fails("plt00000", saying=("finds no data in 'plt00000'",))
+fails("plt00000", saying=("plotfile", "plt00000' is not complete"))
 fails("..", saying=("no reader for '..'",))
 with open("broken.vti", "w") as stream:
     stream.write('<VTKFile type="ImageData" version="0.1"><ImageData>')

@@ -59,6 +59,17 @@ for arrays, density in (
         assert not is_empty(proxy)
         assert used(proxy) == f"Density: '{density[1]}'.", used(proxy)
 
+# Not those of the active source, of which ParaView thinks first; of a second filter, too.
+one, other = flow(("rho", 1, 1.2)), flow(("dens", 1, 1.2))
+for _ in range(2):
+    simple.SetActiveSource(one)
+    assert list(Schlieren(Input=other).Density) == ["POINTS", "dens"]
+changed = Schlieren(Input=one)
+changed.Input = other
+assert list(changed.Density) == ["POINTS", "dens"]
+changed.Input = flow(("f", 1, 1.2))
+assert not changed.Density[1], list(changed.Density)
+
 # None is chosen where none is known.
 for arrays in ((("ids", 1, 1249),), (("Y(H)", 0, 1e-5), ("Y(O2)", .1, .23)), (("scalars", -1, 1),)):
     bench = Schlieren(Input=flow(*arrays))
@@ -79,6 +90,7 @@ medium = RefractiveIndex(Input=air)
 medium.UpdatePipeline()
 assert used(medium) == "Temperature: 'T'; Pressure: 'p'.", used(medium)
 given = RefractiveIndex(Input=air, IndexModel="Ciddor")
-assert list(given.Temperature) == ["POINTS", "T"] and list(given.Pressure) == ["POINTS", "p"]
+assert [list(array) for array in (given.Temperature, given.Pressure)] == [["POINTS", "T"], ["POINTS", "p"]], (
+    list(given.Temperature), list(given.Pressure))
 ranges = [output(proxy).GetPointData().GetArray("Refractivity").GetRange() for proxy in (medium, given)]
 assert ranges[0] == ranges[1] and 2e-4 < ranges[0][0] < ranges[0][1] < 3e-4, ranges

@@ -105,8 +105,15 @@ def is_amrex(path):
     header = os.path.join(path, "Header")
     if not os.path.isfile(header):
         return False
-    with open(header, "rb") as stream:
-        return stream.read(10) == b"HyperCLaw-"
+    with open(header, encoding="ascii", errors="replace") as stream:
+        lines = stream.read().splitlines()
+    if not lines or not lines[0].startswith("HyperCLaw-"):
+        return False
+    # ParaView's reader ends ParaView where there is less than it expects.
+    count = int(lines[1]) if len(lines) > 1 and lines[1].strip().isdigit() else 0
+    if count == 0 or len(lines) < count + 10 or not os.path.isdir(os.path.join(path, "Level_0")):
+        raise DemoError(f"The AMReX plotfile '{path}' is not complete: copy all of its folder.")
+    return True
 
 
 def is_decomposed(path):
