@@ -6,6 +6,7 @@
 #include "Medium/Brick.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,6 +20,7 @@ namespace
 {
 
 constexpr int latticeEdge = 48;
+constexpr int denseEdge = 192; // where light is looked for that no wall stops
 
 /// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
 constexpr double maxOfSums = 2;
@@ -400,13 +402,20 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   constexpr int ofLattice = latticeEdge * latticeEdge;
   const std::int64_t rays = ofLattice + static_cast<std::int64_t>(places.size());
   std::vector<Bend> bends(static_cast<std::size_t>(rays));
+  const auto rayOfLattice = [&](std::int64_t n, std::int64_t edge)
+  {
+    const auto along = [&](int side, std::int64_t number)
+    {
+      return low[side] +
+        (high[side] - low[side]) * (static_cast<double>(number) + 0.5) / static_cast<double>(edge);
+    };
+    return rayAt(grid, column, along(0, n % edge), along(1, n / edge));
+  };
   const auto rayOf = [&](std::int64_t n) -> std::optional<StraightRay>
   {
     if (n < ofLattice)
     {
-      return rayAt(grid, column,
-        low[0] + (high[0] - low[0]) * (static_cast<double>(n % latticeEdge) + 0.5) / latticeEdge,
-        low[1] + (high[1] - low[1]) * (static_cast<double>(n / latticeEdge) + 0.5) / latticeEdge);
+      return rayOfLattice(n, latticeEdge);
     }
     const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
     const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
@@ -432,6 +441,11 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         }
       });
   };
+  const auto areAllStopped = [&]
+  {
+    return std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
+  };
+  bool isLightStopped = false; // as far as is known
   if (elsewhere)
   {
     // First which segments there are, as if nothing stopped a ray; then what they add up to.
@@ -467,29 +481,40 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     visitScheme(medium.layout.interpolation,
       [&](auto scheme)
       {
-        forRays(
-          [&](std::int64_t, const StraightRay& ray)
-          {
-            return trace(medium, column, ray,
-              [&](const LeafSegment& segment, std::vector<float>& gathered)
-              {
-                return sumUpWith<decltype(scheme)>(medium.layout, medium.samples,
-                  medium.gasDistances, segment,
-                  [&](const Vec3<Real>& here, double step)
+        const auto traceHere = [&](const StraightRay& ray)
+        {
+          return trace(medium, column, ray,
+            [&](const LeafSegment& segment, std::vector<float>& gathered)
+            {
+              return sumUpWith<decltype(scheme)>(medium.layout, medium.samples,
+                medium.gasDistances, segment,
+                [&](const Vec3<Real>& here, double step)
+                {
+                  if (!gathered.empty())
                   {
-                    if (!gathered.empty())
-                    {
-                      gatherGradients(medium.gradients, segment.leaf, here,
-                        static_cast<Real>(step / medium.layout.unit), gathered.data());
-                    }
-                  });
-              });
+                    gatherGradients(medium.gradients, segment.leaf, here,
+                      static_cast<Real>(step / medium.layout.unit), gathered.data());
+                  }
+                });
+            });
+        };
+        forRays([&](std::int64_t, const StraightRay& ray) { return traceHere(ray); });
+        // Between rays that are all stopped there may be a gap.
+        std::atomic<bool> isAnyLeft = !areAllStopped();
+        parallelFor(std::int64_t{ denseEdge } * denseEdge, 64, threads,
+          [&](std::int64_t begin, std::int64_t end)
+          {
+            for (std::int64_t n = begin; n < end && !isAnyLeft; ++n)
+            {
+              isAnyLeft = isAnyLeft || !traceHere(rayOfLattice(n, denseEdge)).isBlocked;
+            }
           });
+        isLightStopped = !isAnyLeft;
       });
   }
-  const bool areAllBlocked =
-    std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
+  const bool areAllBlocked = areAllStopped();
   RayFindings findings;
+  findings.isLightStopped = isLightStopped;
   findings.deflection = least.deflection;
   findings.opticalPath = least.opticalPath;
   std::vector<double> gathered;

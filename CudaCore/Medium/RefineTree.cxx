@@ -147,6 +147,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   work_.gathered = findings.gathered;
   work_.error = findings.error;
   work_.errorOfGathered = findings.errorOfGathered;
+  work_.isLightStopped = findings.isLightStopped;
   const auto nodeOf = [this](std::int32_t leaf)
   { return static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)]); };
   for (const std::int32_t leaf : findings.coarse)
