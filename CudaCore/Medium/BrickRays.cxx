@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/BrickRays.h"
 
+#include "Medium/StoppedLight.h"
+
 #include "Device/Parallel.h"
 #include "Medium/Brick.h"
 
@@ -20,7 +22,7 @@ namespace
 {
 
 constexpr int latticeEdge = 48;
-constexpr int denseEdge = 192; // where light is looked for that no wall stops
+constexpr std::int64_t denseEdge = 192; // of a lattice of rays, where light is looked for that no wall stops
 
 /// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
 constexpr double maxOfSums = 2;
@@ -383,6 +385,58 @@ LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_
 }
 
 template <class Real>
+bool isLightStopped(const LeavesView<Real>& medium, const Column& column, int threads)
+{
+  double low[2], high[2];
+  for (int side = 0; side < 2; ++side)
+  {
+    const Range ofBox = rangeOfBox(medium.grid, column, side);
+    low[side] = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
+    high[side] = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
+    if (!(low[side] < high[side]))
+    {
+      return false;
+    }
+  }
+  std::atomic<bool> isAnyLeft = false;
+  visitScheme(medium.layout.interpolation,
+    [&](auto scheme)
+    {
+      const auto isStopped = [&](std::int64_t n)
+      {
+        const auto along = [&](int side, std::int64_t number)
+        {
+          return low[side] +
+            (high[side] - low[side]) * (static_cast<double>(number) + 0.5) / static_cast<double>(denseEdge);
+        };
+        const StraightRay ray =
+          rayAt(medium.grid, column, along(0, n % denseEdge), along(1, n / denseEdge));
+        return trace(medium, column, ray,
+          [&](const LeafSegment& segment, const std::vector<float>&)
+          {
+            return sumUpWith<decltype(scheme)>(medium.layout, medium.samples, medium.gasDistances,
+              segment, [](const Vec3<Real>&, double) {});
+          })
+          .isBlocked;
+      };
+      constexpr std::int64_t rays = denseEdge * denseEdge;
+      constexpr std::int64_t step = 16381; // a prime: the first rays are all over the view
+      parallelFor(rays, 16, threads,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t n = begin; n < end && !isAnyLeft; ++n)
+          {
+            isAnyLeft = isAnyLeft || !isStopped(n * step % rays);
+          }
+        });
+    });
+  return !isAnyLeft;
+}
+
+template bool isLightStopped(const LeavesView<float>&, const Column&, int);
+template bool isLightStopped(const LeavesView<double>&, const Column&, int);
+
+template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads,
   const SumsElsewhere& elsewhere)
@@ -402,20 +456,13 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   constexpr int ofLattice = latticeEdge * latticeEdge;
   const std::int64_t rays = ofLattice + static_cast<std::int64_t>(places.size());
   std::vector<Bend> bends(static_cast<std::size_t>(rays));
-  const auto rayOfLattice = [&](std::int64_t n, std::int64_t edge)
-  {
-    const auto along = [&](int side, std::int64_t number)
-    {
-      return low[side] +
-        (high[side] - low[side]) * (static_cast<double>(number) + 0.5) / static_cast<double>(edge);
-    };
-    return rayAt(grid, column, along(0, n % edge), along(1, n / edge));
-  };
   const auto rayOf = [&](std::int64_t n) -> std::optional<StraightRay>
   {
     if (n < ofLattice)
     {
-      return rayOfLattice(n, latticeEdge);
+      return rayAt(grid, column,
+        low[0] + (high[0] - low[0]) * (static_cast<double>(n % latticeEdge) + 0.5) / latticeEdge,
+        low[1] + (high[1] - low[1]) * (static_cast<double>(n / latticeEdge) + 0.5) / latticeEdge);
     }
     const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
     const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
@@ -441,11 +488,6 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         }
       });
   };
-  const auto areAllStopped = [&]
-  {
-    return std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
-  };
-  bool isLightStopped = false; // as far as is known
   if (elsewhere)
   {
     // First which segments there are, as if nothing stopped a ray; then what they add up to.
@@ -481,40 +523,29 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     visitScheme(medium.layout.interpolation,
       [&](auto scheme)
       {
-        const auto traceHere = [&](const StraightRay& ray)
-        {
-          return trace(medium, column, ray,
-            [&](const LeafSegment& segment, std::vector<float>& gathered)
-            {
-              return sumUpWith<decltype(scheme)>(medium.layout, medium.samples,
-                medium.gasDistances, segment,
-                [&](const Vec3<Real>& here, double step)
-                {
-                  if (!gathered.empty())
-                  {
-                    gatherGradients(medium.gradients, segment.leaf, here,
-                      static_cast<Real>(step / medium.layout.unit), gathered.data());
-                  }
-                });
-            });
-        };
-        forRays([&](std::int64_t, const StraightRay& ray) { return traceHere(ray); });
-        // Between rays that are all stopped there may be a gap.
-        std::atomic<bool> isAnyLeft = !areAllStopped();
-        parallelFor(std::int64_t{ denseEdge } * denseEdge, 64, threads,
-          [&](std::int64_t begin, std::int64_t end)
+        forRays(
+          [&](std::int64_t, const StraightRay& ray)
           {
-            for (std::int64_t n = begin; n < end && !isAnyLeft; ++n)
-            {
-              isAnyLeft = isAnyLeft || !traceHere(rayOfLattice(n, denseEdge)).isBlocked;
-            }
+            return trace(medium, column, ray,
+              [&](const LeafSegment& segment, std::vector<float>& gathered)
+              {
+                return sumUpWith<decltype(scheme)>(medium.layout, medium.samples,
+                  medium.gasDistances, segment,
+                  [&](const Vec3<Real>& here, double step)
+                  {
+                    if (!gathered.empty())
+                    {
+                      gatherGradients(medium.gradients, segment.leaf, here,
+                        static_cast<Real>(step / medium.layout.unit), gathered.data());
+                    }
+                  });
+              });
           });
-        isLightStopped = !isAnyLeft;
       });
   }
-  const bool areAllBlocked = areAllStopped();
+  const bool areAllBlocked =
+    std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
   RayFindings findings;
-  findings.isLightStopped = isLightStopped;
   findings.deflection = least.deflection;
   findings.opticalPath = least.opticalPath;
   std::vector<double> gathered;

@@ -107,7 +107,6 @@ struct RayFindings
 {
   double deflection = 0;  ///< the largest
   double opticalPath = 0; ///< the largest; nu times data units
-  bool isLightStopped = false; ///< walls stop all rays, also those of a denser lattice
   /// Of all fields, by the rays of the lattice: what 99 % do not exceed; or, where less have gathered anything, the most.
   double gathered = 0;
   /// The largest errors of a deflection and of what is gathered: along a ray, those of the leaves and what leaves with one

@@ -161,7 +161,6 @@ private:
     double largest = 0;                    ///< deflection
     double gathered = 0;                   ///< of fields, for full colour
     double error = 0, errorOfGathered = 0; ///< along rays, see RayFindings
-    bool isLightStopped = false;           ///< likewise
     int rounds = 0;                        ///< begun
     double progress = 0;                   ///< reported
     double leastUrgent =

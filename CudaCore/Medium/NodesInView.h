@@ -99,7 +99,7 @@ public:
   /// How badly a leaf needs to be divided; 0: not at all.
   double urgencyOf(const Node& node, const FieldFacts& ofFields) const
   {
-    if (work_.isLightStopped && isFineForBlack(node.place))
+    if (isLightStopped_ && isFineForBlack(node.place))
     {
       return 0;
     }
@@ -127,6 +127,9 @@ public:
     }
     return urgency;
   }
+
+  /// Walls stop all light, as far as the tree shows: an image that is black needs no more than to be sure of that.
+  void setLightStopped(bool is) { isLightStopped_ = is; }
 
   /// Whether voxels are so small that walls that stop all light are known to do so.
   bool isFineForBlack(const NodePlace& place) const
@@ -298,6 +301,7 @@ private:
   const MediumTree& tree_;
   const Work& work_;
   const Column& column_;
+  bool isLightStopped_ = false;
 };
 
 } // namespace schlieren
