@@ -448,9 +448,7 @@ void LatticeSampling::separate(const Index& low)
       crossing[a][b] = last < 0 ? -1 : 0.5 * (first + last);
       if (last < 0)
       {
-        // By value: std::replace would read its numbers from the array that it changes.
-        const int one = std::max(sides[a], sides[b]), other = std::min(sides[a], sides[b]);
-        std::replace(sides.begin(), sides.end(), one, other);
+        joinSides(sides, a, b);
       }
     }
   }

@@ -5,12 +5,23 @@
 #include "LatticeDistances.h"
 #include "Triangles.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace filters
 {
+
+/// Gives the sides that two corners of a voxel are on one number, the lower one.
+inline void joinSides(std::array<int, 8>& sides, std::size_t a, std::size_t b)
+{
+  // By value: std::replace reads both while it changes the array.
+  const int high = std::max(sides[a], sides[b]), low = std::min(sides[a], sides[b]);
+  std::replace(sides.begin(), sides.end(), high, low);
+}
 
 /// What the points of one lattice are, and how far from where the gas ends; see GasBoundary::sample().
 class LatticeSampling

@@ -67,6 +67,8 @@ MeshCell::Shape MeshCell::shapeOf(int type)
     case VTK_TRIQUADRATIC_HEXAHEDRON:
     case VTK_LAGRANGE_QUADRILATERAL:
     case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_QUADRILATERAL:
+    case VTK_BEZIER_HEXAHEDRON:
       return Shape::Box;
     case VTK_TRIANGLE:
     case VTK_TETRA:
@@ -75,12 +77,15 @@ MeshCell::Shape MeshCell::shapeOf(int type)
     case VTK_BIQUADRATIC_TRIANGLE:
     case VTK_LAGRANGE_TRIANGLE:
     case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TRIANGLE:
+    case VTK_BEZIER_TETRAHEDRON:
       return Shape::Simplex;
     case VTK_WEDGE:
     case VTK_QUADRATIC_WEDGE:
     case VTK_QUADRATIC_LINEAR_WEDGE:
     case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
     case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
       return Shape::Wedge;
     default:
       return Shape::Other;
@@ -105,11 +110,11 @@ void MeshCell::set(vtkDataSet* data, vtkIdType cell)
     case VTK_TETRA:
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
-      this->IsLagrangeProduct = false;
+      this->IsProduct = false;
       break; // their functions are static
     default:
       data->GetCell(cell, this->Cell);
-      this->IsLagrangeProduct = this->Product.set(this->Cell);
+      this->IsProduct = this->Product.set(this->Cell, this->Type);
   }
   const auto count = static_cast<std::size_t>(this->Count);
   this->Weights.resize(std::max<std::size_t>(count, 8));
@@ -205,7 +210,7 @@ void MeshCell::startInTheMiddle()
 /// Where Place is, and the derivative by each of its coordinates.
 void MeshCell::evaluate(Vector& x, Vector columns[3])
 {
-  if (this->IsLagrangeProduct)
+  if (this->IsProduct)
   {
     this->Product.evaluate(this->Place, this->Points, x, columns);
     return;
@@ -370,7 +375,7 @@ double MeshCell::valueAt(const double x[3], const double coordinates[3], const d
         double nearest[3], again[3], distance = 0;
         this->Cell->EvaluatePosition(x, nearest, part, again, distance, weights);
       }
-      else if (this->IsLagrangeProduct)
+      else if (this->IsProduct)
       {
         this->Product.weights(p, weights);
       }

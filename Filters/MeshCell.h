@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LagrangeProduct.h"
+#include "BasisProduct.h"
 #include "Vectors.h"
 
 #include "vtkGenericCell.h"
@@ -60,8 +60,8 @@ private:
   vtkIdType Count = 0;
   int Type = 0;
   int FlatAxis;
-  bool IsLagrangeProduct = false;
-  LagrangeProduct Product;
+  bool IsProduct = false;
+  BasisProduct Product;
   Shape Form = Shape::Other;
 
   // For find().

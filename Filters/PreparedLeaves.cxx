@@ -50,6 +50,9 @@ vtkSmartPointer<vtkDataSet> withValues(
     });
 
   auto prepared = withoutArrays(data);
+  // What the shape of curved cells depends on.
+  prepared->GetPointData()->SetRationalWeights(data->GetPointData()->GetRationalWeights());
+  prepared->GetCellData()->SetHigherOrderDegrees(data->GetCellData()->GetHigherOrderDegrees());
   if (leaf.ofCells)
   {
     const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);

@@ -49,7 +49,7 @@ constexpr double fewOfAll = 0.25;
 
 /// How much values may jump between cells that have their points for themselves before the cells' means say more than the
 /// means at the points: squares, summed up over the mesh, of those of the differences within cells.
-constexpr double largeJumps = 0.5;
+constexpr double largeJumps = 0.05;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -496,6 +496,58 @@ std::uint64_t hashOfPoints(
   return sum;
 }
 
+/// What the shape of curved cells depends on, where the first dataset has it: of others that have it, too.
+void copyShapes(const std::vector<std::size_t>& group,
+  const std::vector<std::vector<std::int32_t>>& numbers,
+  const std::vector<std::vector<unsigned char>>& isLeftOut, const Leaves& leaves,
+  vtkUnstructuredGrid* mesh)
+{
+  const auto newLike = [](vtkDataArray* array, vtkIdType count)
+  {
+    auto made = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    made->SetName(array->GetName());
+    made->SetNumberOfComponents(array->GetNumberOfComponents());
+    made->SetNumberOfTuples(count);
+    made->Fill(1);
+    return made;
+  };
+  vtkDataArray* weights = leaves[group[0]]->GetPointData()->GetRationalWeights();
+  vtkDataArray* degrees = leaves[group[0]]->GetCellData()->GetHigherOrderDegrees();
+  vtkSmartPointer<vtkDataArray> ofPoints, ofCells;
+  if (weights)
+  {
+    ofPoints = newLike(weights, mesh->GetNumberOfPoints());
+    mesh->GetPointData()->SetRationalWeights(ofPoints);
+  }
+  if (degrees)
+  {
+    ofCells = newLike(degrees, mesh->GetNumberOfCells());
+    mesh->GetCellData()->SetHigherOrderDegrees(ofCells);
+  }
+  vtkIdType next = 0;
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    vtkDataSet* leaf = leaves[group[i]];
+    vtkDataArray* pointsOfLeaf = leaf->GetPointData()->GetRationalWeights();
+    vtkDataArray* cellsOfLeaf = leaf->GetCellData()->GetHigherOrderDegrees();
+    for (std::size_t point = 0; ofPoints && pointsOfLeaf && point < numbers[i].size(); ++point)
+    {
+      ofPoints->SetTuple(numbers[i][point], static_cast<vtkIdType>(point), pointsOfLeaf);
+    }
+    for (vtkIdType cell = 0; cell < leaf->GetNumberOfCells(); ++cell)
+    {
+      if (isLeftOut[i].empty() || !isLeftOut[i][static_cast<std::size_t>(cell)])
+      {
+        if (ofCells && cellsOfLeaf)
+        {
+          ofCells->SetTuple(next, cell, cellsOfLeaf);
+        }
+        ++next;
+      }
+    }
+  }
+}
+
 } // namespace
 
 SharedPoints::SharedPoints(const Leaves& leaves, int dimension)
@@ -804,6 +856,7 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
       between += std::isfinite(jump) ? jump * jump : 0;
     }
   }
+  copyShapes(group.leaves, group.numbers, group.isLeftOut, leaves, mesh);
   mesh->GetPointData()->SetScalars(ofPoints);
   mesh->GetCellData()->AddArray(ghosts);
   if (areAllOfCells || between > largeJumps * within)

@@ -171,7 +171,7 @@ std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& im
     image.raysTraced > 0 && image.raysBlocked == image.raysTraced
       ? "All light that meets the data is blocked, so the image is black there: every ray meets "
         "a place that is solid (NaN, masked, blanked, a body) or that no cell covers. Look along "
-        "another ViewDirection, or let light pass where no cell is with OutsideBlocksLight off."
+        "another ViewDirection, or let light pass where no cell is with Outside set to Passes."
       : "",
     image.raysLost > 0
       ? std::to_string(image.raysLost) + " of " + std::to_string(image.raysTraced) +

@@ -4,37 +4,38 @@
 // Cells of higher order: what is interpolated in them, and which of their faces bound a mesh.
 #include "CellMeshes.h"
 
-#include "LagrangeProduct.h"
+#include "BasisProduct.h"
 #include "MeshFaces.h"
 
 #include "vtkCellData.h"
 
 #include <random>
 
+using filters::BasisProduct;
 using filters::Faces;
-using filters::LagrangeProduct;
 
 namespace
 {
 
-/// One Lagrange cell of these orders; its points do not matter.
-Mesh lagrangeCell(int type, std::array<int, 3> orders)
+/// One cell with so many points, which do not matter. `orders`: of those that may differ from axis to axis; 0: of others.
+Mesh curvedCell(int type, int count, std::array<int, 3> orders = { 0, 0, 0 })
 {
   auto mesh = Mesh::New();
   vtkNew<vtkPoints> points;
   vtkNew<vtkIdList> ids;
-  const int count =
-    (orders[0] + 1) * (orders[1] + 1) * (type == VTK_LAGRANGE_HEXAHEDRON ? orders[2] + 1 : 1);
   for (int i = 0; i < count; ++i)
   {
     ids->InsertNextId(points->InsertNextPoint(0, 0, 0));
   }
   mesh->SetPoints(points);
   mesh->InsertNextCell(type, ids);
-  vtkNew<vtkDoubleArray> degrees;
-  degrees->SetNumberOfComponents(3);
-  degrees->InsertNextTuple3(orders[0], orders[1], orders[2]);
-  mesh->GetCellData()->SetHigherOrderDegrees(degrees);
+  if (orders[0] > 0)
+  {
+    vtkNew<vtkDoubleArray> degrees;
+    degrees->SetNumberOfComponents(3);
+    degrees->InsertNextTuple3(orders[0], orders[1], orders[2]);
+    mesh->GetCellData()->SetHigherOrderDegrees(degrees);
+  }
   return mesh;
 }
 
@@ -78,71 +79,105 @@ double toCube(const Vec& x)
 
 } // namespace
 
-// Against VTK's functions, of orders that differ from axis to axis, inside of cells and outside.
-TEST(CurvedCells, LagrangeProductsAreThoseOfVtk)
+// Values against VTK's functions, slopes against differences of these; inside of cells and outside.
+TEST(CurvedCells, ProductsAreThoseOfVtk)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-0.3, 1.3);
-  for (const std::array<int, 3>& orders : std::vector<std::array<int, 3>>{
-         { 1, 1, 1 }, { 2, 2, 2 }, { 3, 3, 3 }, { 2, 4, 3 }, { 1, 5, 2 }, { 7, 7, 7 } })
+  struct Kind
   {
-    for (const int type : { VTK_LAGRANGE_HEXAHEDRON, VTK_LAGRANGE_QUADRILATERAL })
+    int type, points;
+    std::array<int, 3> orders;
+    bool isRational;
+  };
+  constexpr std::array<int, 3> usual = { 0, 0, 0 };
+  for (const Kind& kind : std::vector<Kind>{ { VTK_LAGRANGE_HEXAHEDRON, 8, { 1, 1, 1 }, false },
+         { VTK_LAGRANGE_HEXAHEDRON, 60, { 2, 4, 3 }, false },
+         { VTK_LAGRANGE_HEXAHEDRON, 512, { 7, 7, 7 }, false },
+         { VTK_LAGRANGE_QUADRILATERAL, 15, { 2, 4, 1 }, false },
+         { VTK_LAGRANGE_TETRAHEDRON, 10, usual, false },
+         { VTK_LAGRANGE_TETRAHEDRON, 35, usual, false }, { VTK_LAGRANGE_TRIANGLE, 10, usual, false },
+         { VTK_LAGRANGE_WEDGE, 18, { 2, 2, 2 }, false },
+         { VTK_LAGRANGE_WEDGE, 40, { 3, 3, 3 }, false }, { VTK_QUADRATIC_TETRA, 10, usual, false },
+         { VTK_TRIQUADRATIC_HEXAHEDRON, 27, usual, false },
+         { VTK_BEZIER_HEXAHEDRON, 27, { 2, 2, 2 }, false },
+         { VTK_BEZIER_HEXAHEDRON, 27, { 2, 2, 2 }, true },
+         { VTK_BEZIER_TETRAHEDRON, 20, usual, false }, { VTK_BEZIER_TETRAHEDRON, 20, usual, true },
+         { VTK_BEZIER_WEDGE, 18, { 2, 2, 2 }, false }, { VTK_BEZIER_WEDGE, 40, { 3, 3, 3 }, true } })
+  {
+    SCOPED_TRACE(std::to_string(kind.type) + " " + std::to_string(kind.points));
+    const Mesh mesh = curvedCell(kind.type, kind.points, kind.orders);
+    if (kind.isRational)
     {
-      const Mesh mesh = lagrangeCell(type, orders);
-      vtkNew<vtkGenericCell> cell;
-      mesh->GetCell(0, cell);
-      const auto count = static_cast<std::size_t>(cell->GetNumberOfPoints());
-      const std::size_t dimension = type == VTK_LAGRANGE_HEXAHEDRON ? 3 : 2;
-      std::vector<Vec> points(count);
-      for (Vec& point : points)
+      vtkNew<vtkDoubleArray> weights;
+      for (int i = 0; i < kind.points; ++i)
       {
-        point = { any(random), any(random), any(random) };
+        weights->InsertNextValue(1.3 + any(random));
       }
-      LagrangeProduct product;
-      ASSERT_TRUE(product.set(cell));
-      for (int n = 0; n < 20; ++n)
+      mesh->GetPointData()->SetRationalWeights(weights);
+    }
+    vtkNew<vtkGenericCell> cell;
+    mesh->GetCell(0, cell);
+    const auto count = static_cast<std::size_t>(kind.points);
+    const std::size_t dimension = static_cast<std::size_t>(cell->GetCellDimension());
+    std::vector<Vec> points(count);
+    for (Vec& point : points)
+    {
+      point = { any(random), any(random), any(random) };
+    }
+    BasisProduct product;
+    ASSERT_TRUE(product.set(cell, kind.type));
+    for (int n = 0; n < 10; ++n)
+    {
+      const double place[3] = { any(random), any(random), dimension == 3 ? any(random) : 0 };
+      std::vector<double> weights(count), ours(count);
+      cell->InterpolateFunctions(place, weights.data());
+      product.weights(place, ours.data());
+      Vec sum, derivatives[3];
+      product.evaluate(place, points, sum, derivatives);
+      double scale = 0;
+      Vec expected{ 0, 0, 0 };
+      for (std::size_t i = 0; i < count; ++i)
       {
-        const double place[3] = { any(random), any(random), dimension == 3 ? any(random) : 0 };
-        std::vector<double> weights(count), slopes(3 * count), ours(count);
-        cell->InterpolateFunctions(place, weights.data());
-        cell->InterpolateDerivs(place, slopes.data());
-        product.weights(place, ours.data());
-        Vec sum, derivatives[3];
-        product.evaluate(place, points, sum, derivatives);
+        ASSERT_NEAR(ours[i], weights[i], 1e-11 * (1 + std::abs(weights[i])));
+        scale += std::abs(weights[i]);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          double expected = 0, scale = 0;
-          for (std::size_t i = 0; i < count; ++i)
-          {
-            ASSERT_NEAR(ours[i], weights[i], 1e-12 * (1 + std::abs(weights[i])));
-            expected += weights[i] * points[i][axis];
-            scale += std::abs(weights[i]);
-          }
-          EXPECT_NEAR(sum[axis], expected, 1e-13 * scale);
-          for (std::size_t along = 0; along < dimension; ++along)
-          {
-            double slope = 0, size = 0;
-            for (std::size_t i = 0; i < count; ++i)
-            {
-              slope += slopes[i * dimension + along] * points[i][axis];
-              size += std::abs(slopes[i * dimension + along]);
-            }
-            EXPECT_NEAR(derivatives[along][axis], slope, 1e-12 * size);
-          }
+          expected[axis] += weights[i] * points[i][axis];
+        }
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_NEAR(sum[axis], expected[axis], 1e-11 * scale);
+      }
+      constexpr double step = 1e-4;
+      for (std::size_t along = 0; along < dimension; ++along)
+      {
+        Vec ends[2], notUsed[3];
+        for (const int side : { 0, 1 })
+        {
+          double beside[3] = { place[0], place[1], place[2] };
+          beside[along] += side == 0 ? -step : step;
+          product.evaluate(beside, points, ends[side], notUsed);
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const double slope = (ends[1][axis] - ends[0][axis]) / (2 * step);
+          EXPECT_NEAR(derivatives[along][axis], slope, 1e-5 * scale * (1 + std::abs(slope)));
         }
       }
     }
   }
 }
 
-TEST(CurvedCells, OtherCellsAreNoLagrangeProducts)
+TEST(CurvedCells, OtherCellsAreNoProducts)
 {
   vtkNew<vtkGenericCell> cell;
-  LagrangeProduct product;
-  for (const int type : { VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_LAGRANGE_TETRAHEDRON })
+  BasisProduct product;
+  for (const int type : { VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_WEDGE })
   {
     cell->SetCellType(type);
-    EXPECT_FALSE(product.set(cell)) << type;
+    EXPECT_FALSE(product.set(cell, type)) << type;
   }
 }
 

@@ -153,7 +153,7 @@ TEST(Solids, AWallAcrossAllLightIsSaid)
   EXPECT_EQ(largest(valuesOf(filter, "Intensity")), 0);
   ASSERT_EQ(complaints->Warnings.size(), 1u);
   EXPECT_NE(complaints->Warnings[0].find("All light"), std::string::npos);
-  EXPECT_NE(complaints->Warnings[0].find("OutsideBlocksLight"), std::string::npos);
+  EXPECT_NE(complaints->Warnings[0].find("Outside set to Passes"), std::string::npos);
   EXPECT_TRUE(complaints->Errors.empty());
 
   filter->SetKnifeEdgeAngle(90); // the same light: once is enough
