@@ -316,7 +316,7 @@ std::string vtkRefractiveIndex::Convert(
       if (source.image)
       {
         this->Search->release();
-        gridOfImage(source.image, source.leaves[0].ofCells, output);
+        gridOfImage(source.image, source.leaves[0].ofCells, source.depth, output);
         requireMemoryFor(output, this->DoublePrecision, 0, "Use a coarser input.");
         tally = convertImage(source, numbers, output);
         SamplingBox(this->SamplingBounds).crop(output);
