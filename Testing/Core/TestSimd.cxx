@@ -181,7 +181,7 @@ TEST(Simd, ThePapersMethodsHavePacksOfFour)
   EXPECT_EQ(packs(refracted, Integrator::Euler, Interpolation::Quadratic), Simd::Four);
   EXPECT_EQ(packs(refracted, Integrator::Leapfrog, Interpolation::Central), Simd::Four);
   EXPECT_EQ(packs(straight, Integrator::Leapfrog, Interpolation::Central), Simd::Four);
-  EXPECT_EQ(packs(straight, Integrator::Euler, Interpolation::Cubic), Simd::Avx2); // which is not asked
+  EXPECT_EQ(packs(straight, Integrator::Euler, Interpolation::Cubic), Simd::Avx2);
   EXPECT_EQ(packs(refracted, Integrator::Adaptive, Interpolation::Linear), Simd::Avx2);
   EXPECT_EQ(
     packsFor({ refracted, Integrator::Euler, Interpolation::Linear }, Simd::None), Simd::None);
