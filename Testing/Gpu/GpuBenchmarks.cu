@@ -337,10 +337,9 @@ void measureCutoffs(
   for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
   {
     std::printf("%s\n", estimator == FilmEstimator::Sheet ? "by sheet" : "by photon");
-    for (const Cutoff cutoff :
-      { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement,
-        Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram, Cutoff::Background,
-        Cutoff::NumericalSchlieren })
+    for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
+           Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter,
+           Cutoff::Interferogram, Cutoff::Background, Cutoff::NumericalSchlieren })
     {
       Scene scene = sceneOf(viewDirection);
       scene.filmEstimator = estimator;

@@ -43,7 +43,9 @@ direct = Schlieren(source)
 direct.Density = ["POINTS", "rho"]
 one_ray_per_pixel(direct)
 for name in ("Intensity", "Deflection", "OpticalPathDifference", "Displacement", "BlockedFraction"):
-    assert np.array_equal(image_array(chained, name), image_array(direct, name)), name
+    # The array between them is in single precision.
+    of_chain, of_one = image_array(chained, name), image_array(direct, name)
+    assert np.abs(of_chain - of_one).max() <= 2e-5 * np.abs(of_one).max(), name
 
 # Resampled, when the source is not an image.
 points = AppendDatasets(source)
