@@ -45,8 +45,9 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr int firstTag = 21300; // a number that nobody else uses
 
-/// How long a rank waits for others that will come, however long they read: longer than any reader takes.
-constexpr double secondsForReaders = 24 * 3600;
+/// How long a rank waits for others that will come, as they have said, once they have read. Not for ever: what fails upstream of
+/// them may go unnoticed.
+constexpr double secondsForReaders = 600;
 /// And for those that may not come: they read about as much as it has, or nothing.
 constexpr double secondsForInputs = 10;
 constexpr double partsOfOwnTime = 10;
