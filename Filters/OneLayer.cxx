@@ -200,106 +200,125 @@ constexpr Face facesOfWedge[] = { { { 0, 1, 2, -1 } }, { { 3, 5, 4, -1 } }, { { 
 class Layer
 {
 public:
-  Layer(vtkDataSet* data, const Sides& sides)
+  Layer(vtkDataSet* data, const Sides& sides, const Planes& planes)
     : Data(data)
     , Of(sides)
+    , Nearest(10 * planes.tolerance)
+    , Places(sides.size())
   {
+    for (std::size_t point = 0; point < sides.size(); ++point)
+    {
+      this->Places[point] = planes.onPlane(placeOf(data, static_cast<vtkIdType>(point)));
+    }
   }
 
-  /// The corners of the cell's face in front, in order; empty: there is none.
-  std::vector<vtkIdType> front(vtkIdType cell)
+  const Place& placeAt(vtkIdType point) const
+  {
+    return this->Places[static_cast<std::size_t>(point)];
+  }
+
+  /// Finds the corners of the cell's face in front, in order; until the next call. Empty: there is none.
+  std::vector<vtkIdType>& front(vtkIdType cell)
   {
     this->Data->GetCellPoints(cell, this->Ids);
     switch (this->Data->GetCellType(cell))
     {
       case VTK_HEXAHEDRON:
-        return this->frontOf(facesOfHexahedron, 6);
+        this->findFront(facesOfHexahedron, 6);
+        break;
       case VTK_VOXEL:
-        return this->frontOf(facesOfVoxel, 6);
+        this->findFront(facesOfVoxel, 6);
+        break;
       case VTK_WEDGE:
-        return this->frontOf(facesOfWedge, 5);
+        this->findFront(facesOfWedge, 5);
+        break;
       default:
-        return this->frontOfOther(this->Data->GetCell(cell));
+        this->findFront(this->Data->GetCell(cell));
     }
+    return this->Corners;
   }
 
-  /// Behind a point of the last cell.
-  vtkIdType behind(vtkIdType point, const Planes& planes) const
+  /// Behind a point of the last cell; -1: none is.
+  vtkIdType behind(vtkIdType point) const
   {
-    const Place place = planes.onPlane(placeOf(this->Data, point));
     vtkIdType found = -1;
-    double least = std::numeric_limits<double>::infinity();
+    double least = this->Nearest * this->Nearest;
     for (vtkIdType i = 0; i < this->Ids->GetNumberOfIds(); ++i)
     {
       const vtkIdType other = this->Ids->GetId(i);
-      if (this->Of[static_cast<std::size_t>(other)] == Back)
+      if (this->sideOf(other) == Back)
       {
-        const Place there = planes.onPlane(placeOf(this->Data, other));
         const double distance =
-          std::sqrt(vtkMath::Distance2BetweenPoints(place.data(), there.data()));
-        found = distance < least ? other : found;
+          vtkMath::Distance2BetweenPoints(this->placeAt(point).data(), this->placeAt(other).data());
+        found = distance <= least ? other : found;
         least = std::min(least, distance);
       }
     }
-    return least <= 10 * planes.tolerance ? found : -1;
+    return found;
   }
 
+  bool isOnAxis(vtkIdType point) const { return this->sideOf(point) == Both; }
+
 private:
-  void add(std::vector<vtkIdType>& face, vtkIdType point) const
+  signed char sideOf(vtkIdType point) const { return this->Of[static_cast<std::size_t>(point)]; }
+  void add(vtkIdType point)
   {
-    if (std::find(face.begin(), face.end(), point) == face.end()) // one that is collapsed
+    const auto end = this->Corners.end();
+    if (std::find(this->Corners.begin(), end, point) == end) // else a side is collapsed
     {
-      face.push_back(point);
+      this->Corners.push_back(point);
     }
   }
-  bool isInFront(const std::vector<vtkIdType>& face) const
+  bool areInFront() const
   {
-    const auto sideOf = [this](vtkIdType point)
-    { return this->Of[static_cast<std::size_t>(point)]; };
-    return face.size() > 2 &&
-      std::all_of(face.begin(), face.end(), [&](vtkIdType i) { return sideOf(i) <= Both; }) &&
-      std::any_of(face.begin(), face.end(), [&](vtkIdType i) { return sideOf(i) == Front; });
+    const auto begin = this->Corners.begin(), end = this->Corners.end();
+    return this->Corners.size() > 2 &&
+      std::all_of(begin, end, [this](vtkIdType i) { return this->sideOf(i) <= Both; }) &&
+      std::any_of(begin, end, [this](vtkIdType i) { return this->sideOf(i) == Front; });
   }
-  std::vector<vtkIdType> frontOf(const Face* faces, int count) const
+  void findFront(const Face* faces, int count)
   {
     for (int i = 0; i < count; ++i)
     {
-      std::vector<vtkIdType> face;
+      this->Corners.clear();
       for (const int corner : faces[i].corners)
       {
         if (corner >= 0)
         {
-          this->add(face, this->Ids->GetId(corner));
+          this->add(this->Ids->GetId(corner));
         }
       }
-      if (this->isInFront(face))
+      if (this->areInFront())
       {
-        return face;
+        return;
       }
     }
-    return {};
+    this->Corners.clear();
   }
-  std::vector<vtkIdType> frontOfOther(vtkCell* cell) const
+  void findFront(vtkCell* cell)
   {
     for (int i = 0; i < cell->GetNumberOfFaces(); ++i)
     {
-      std::vector<vtkIdType> face;
+      this->Corners.clear();
       vtkIdList* ids = cell->GetFace(i)->GetPointIds();
       for (vtkIdType corner = 0; corner < ids->GetNumberOfIds(); ++corner)
       {
-        this->add(face, ids->GetId(corner));
+        this->add(ids->GetId(corner));
       }
-      if (this->isInFront(face))
+      if (this->areInFront())
       {
-        return face;
+        return;
       }
     }
-    return {};
+    this->Corners.clear();
   }
 
   vtkDataSet* Data;
   const Sides& Of;
+  double Nearest;            // how near a point and the one behind it are on the plane
+  std::vector<Place> Places; // on it
   vtkNew<vtkIdList> Ids;
+  std::vector<vtkIdType> Corners;
 };
 
 /// False where the cells are no layer.
@@ -307,7 +326,7 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
   std::vector<Pair>& pairs)
 {
   vtkDataSet* data = leaf.data;
-  Layer layer(data, sides);
+  Layer layer(data, sides, planes);
   std::vector<vtkIdType> numbers(sides.size(), -1);
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
@@ -320,7 +339,7 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
     {
       continue;
     }
-    std::vector<vtkIdType> face = layer.front(cell);
+    std::vector<vtkIdType>& face = layer.front(cell);
     if (face.empty())
     {
       return false;
@@ -330,14 +349,13 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
       vtkIdType& number = numbers[static_cast<std::size_t>(corner)];
       if (number < 0)
       {
-        const bool isOnAxis = sides[static_cast<std::size_t>(corner)] == Both;
-        const vtkIdType other = isOnAxis ? corner : layer.behind(corner, planes);
+        const vtkIdType other = layer.isOnAxis(corner) ? corner : layer.behind(corner);
         if (other < 0)
         {
           return false;
         }
         pairs.emplace_back(corner, other);
-        number = places->InsertNextPoint(planes.onPlane(placeOf(data, corner)).data());
+        number = places->InsertNextPoint(layer.placeAt(corner).data());
         made.points->InsertNextId(corner);
       }
       corner = number;

@@ -109,7 +109,11 @@ void filters::addText(std::string& text, const std::string& more)
 //------------------------------------------------------------------------------
 bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
 {
-  const Source source = chooseSource(this, input);
+  // Whether cells are one layer is of no effect here but in images, of which it is found at once, and with Symmetry.
+  static const Source asTheyAre;
+  const bool matters =
+    this->Symmetry == AXISYMMETRIC || vtkImageData::SafeDownCast(input) != nullptr;
+  const Source source = chooseSource(this, input, matters ? nullptr : &asTheyAre);
   const int* given = this->SamplingDimensions;
   if (this->Symmetry == AXISYMMETRIC)
   {

@@ -171,6 +171,7 @@ void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
   this->FailedTime = 0;
   if (bench)
   {
+    bench->FaceFlatDataOff(); // the camera looks where it looks
     constexpr float beforeAllOthers = 100;
     for (const unsigned long event :
       { vtkCommand::StartEvent, vtkCommand::ProgressEvent, vtkCommand::EndEvent })
@@ -225,7 +226,6 @@ bool vtkSchlierenActor::LookThrough(const View& view)
   const bool isMoved = !this->HasSeen || !(view == this->Seen);
   this->Seen = view;
   this->HasSeen = true;
-  this->Bench->FaceFlatDataOff();
   this->Bench->SetViewDirection(view.Direction.data());
   this->Bench->SetViewUp(view.Up.data());
   this->Bench->SetFocalPoint(view.FocalPoint.data());

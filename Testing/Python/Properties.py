@@ -18,6 +18,7 @@ source = gaussian_column(32)
 TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Ciddor", "Refractive Index",
                         "Refractivity", "Transfer Functions"},
          "FractionType": {"Mass", "Volume"},
+         "Symmetry": {"None", "Axisymmetric"}, "SymmetryAxis": {"Auto", "X", "Y", "Z"},
          "Cutoff": {"Knife Edge", "Shadowgraph", "Circular", "Circular Complement", "Graded Filter",
                     "Color Filter", "Interferogram", "Background Oriented", "Numerical Schlieren"},
          "LockK": {"Off", "Over Time", "Always"},

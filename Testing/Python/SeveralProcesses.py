@@ -83,6 +83,11 @@ def read_files():
                          NumberOfThreads=1)  # so that other ranks help to make the medium
         for kind in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
             found[f"{name}: {kind}"] = image_array(seen, kind)
+    # A wedge becomes a body of revolution on rank 0, whatever its size.
+    revolved = Schlieren(Input=foam, Density=["CELLS", "T"], ImageSize=[32, 32], Symmetry="Axisymmetric", GatherLimit=0,
+                         MediumTolerance=0.1)
+    for kind in ("Intensity", "OpticalPathDifference", "BlockedFraction"):
+        found[f"revolved: {kind}"] = image_array(revolved, kind)
     return found
 
 
