@@ -18,11 +18,9 @@
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -552,9 +550,9 @@ void copyShapes(const std::vector<std::size_t>& group,
 
 SharedPoints::SharedPoints(const Leaves& leaves, int dimension)
 {
-  const bool isAlone = leaves.size() == 1 &&
-    (vtkImageData::SafeDownCast(leaves[0]) || vtkRectilinearGrid::SafeDownCast(leaves[0]));
-  if (leaves.empty() || isAlone)
+  const auto isGrid = [](const std::array<int, 3>& points)
+  { return std::min({ points[0], points[1], points[2] }) > 1; };
+  if (leaves.empty() || (leaves.size() == 1 && isGrid(structureOf(leaves[0]))))
   {
     return;
   }

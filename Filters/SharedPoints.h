@@ -22,7 +22,8 @@ namespace filters
  *
  * Walls without thickness within a dataset stay: points on both sides of faces that are sheets (see SheetFaces.h) are
  * apart. They are looked for between cells that much of the dataset connects by points that they share. In discontinuous
- * elements values jump from cell to cell wherever the field is steep, which is no wall.
+ * elements values jump from cell to cell wherever the field is steep, which is no wall. A grid alone (the seam of an O-grid)
+ * stays as it is, as do its parts on several ranks.
  */
 class SharedPoints
 {

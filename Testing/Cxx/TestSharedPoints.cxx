@@ -251,7 +251,7 @@ TEST(SharedPoints, BlocksOfImagesHaveNoSeams)
     addPointArray(block, "N", column);
     blocks->SetBlock(static_cast<unsigned>(side), block);
   }
-  EXPECT_LT(errorOf(straightBench(blocks, false), byColumn(2)), 0.03);
+  EXPECT_LT(errorOf(straightBench(blocks, false), byColumn(2)), 0.055); // 0.12 with a seam
 }
 
 // What is continuous is as with shared points; where values jump, what is left is hardly worse.
