@@ -37,8 +37,9 @@ private:
   {
     int dimension = 0; // 0: no factor
     int order = 0;
-    std::vector<std::array<int, 4>> nodes;    // barycentric coordinates, times the order; the first is what is left
-    std::vector<double> basis;                // of each node
+    std::vector<std::array<int, 4>>
+      nodes; // barycentric coordinates, times the order; the first is what is left
+    std::vector<double> basis;                 // of each node
     std::array<std::vector<double>, 3> slopes; // by each of its coordinates
   };
 
@@ -53,8 +54,9 @@ private:
   bool IsUsable = false, IsBezier = false;
   std::vector<double> Places; // parametric coordinates of the cell's points
   std::array<Factor, 3> Factors;
-  std::vector<std::size_t> Points; // their numbers in the cell: the first factor's nodes one after the other, ...
-  std::vector<double> Rational;    // weights of the points; empty: they are equal
+  std::vector<std::size_t>
+    Points; // their numbers in the cell: the first factor's nodes one after the other, ...
+  std::vector<double> Rational; // weights of the points; empty: they are equal
   std::vector<Vector> Weighted, WeightsAlone;
 };
 

@@ -14,8 +14,8 @@
 #include "GatheredData.h"
 #include "InputDescription.h"
 #include "MeshKey.h"
-#include "RefractiveIndexInternals.h"
 #include "PreparedLeaves.h"
+#include "RefractiveIndexInternals.h"
 #include "RefractivityOfImage.h"
 
 #include "vtkImageData.h"

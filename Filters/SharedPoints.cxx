@@ -18,11 +18,9 @@
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -180,7 +178,8 @@ bool hasHiddenCells(const MeshArrays& mesh)
   return false;
 }
 
-void addCandidates(const Leaves& leaves, std::size_t number, const MeshArrays& mesh, Candidates& all)
+void addCandidates(
+  const Leaves& leaves, std::size_t number, const MeshArrays& mesh, Candidates& all)
 {
   const auto add = [&](vtkIdType point, double size)
   {
@@ -205,8 +204,8 @@ void addCandidates(const Leaves& leaves, std::size_t number, const MeshArrays& m
         for (vtkIdType i = 0; i < n[0]; i += isOuterRow ? 1 : n[0] - 1)
         {
           double size = infinity;
-          mesh.forCellsAround(point + i,
-            [&](vtkIdType cell) { size = std::min(size, smallestEdge(mesh, cell)); });
+          mesh.forCellsAround(
+            point + i, [&](vtkIdType cell) { size = std::min(size, smallestEdge(mesh, cell)); });
           add(point + i, size);
         }
         point += n[0];
@@ -311,8 +310,7 @@ bool hasCurvedCells(const MeshArrays& mesh)
 {
   const std::vector<int> types = mesh.types();
   return std::any_of(types.begin(), types.end(),
-    [](int type)
-    { return !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); });
+    [](int type) { return !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); });
 }
 
 /// Values at points where the dataset has them in cells: what smooth fields would have there, as known from one side.
@@ -345,8 +343,7 @@ public:
     , Numbers(candidates.size())
   {
     const std::vector<std::int32_t> coincident = coincidentPoints(candidates.places,
-      mergingTolerances(
-        candidates.places, candidates.sizes, relativeRounding(candidates.places)));
+      mergingTolerances(candidates.places, candidates.sizes, relativeRounding(candidates.places)));
     this->Coincident.assign(coincident.begin(), coincident.end());
     this->findPointsApart(leaves, meshes, dimension);
     for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -372,14 +369,12 @@ private:
     const auto first = std::lower_bound(this->All.leaves.begin(), this->All.leaves.end(), leaf);
     const auto last = std::upper_bound(first, this->All.leaves.end(), leaf);
     const auto begin = this->All.points.begin();
-    return static_cast<std::size_t>(
-      std::lower_bound(begin + (first - this->All.leaves.begin()),
-        begin + (last - this->All.leaves.begin()), point) -
+    return static_cast<std::size_t>(std::lower_bound(begin + (first - this->All.leaves.begin()),
+                                      begin + (last - this->All.leaves.begin()), point) -
       begin);
   }
 
-  void findPointsApart(
-    const Leaves& leaves, const std::vector<MeshArrays>& meshes, int dimension)
+  void findPointsApart(const Leaves& leaves, const std::vector<MeshArrays>& meshes, int dimension)
   {
     // Leaves that have two points at one place, between cells that may have a wall between them.
     std::vector<std::vector<unsigned char>> may(leaves.size());
@@ -423,8 +418,7 @@ private:
     }
   }
 
-  void findSheetPoints(
-    const Leaves& leaves, const std::vector<std::vector<unsigned char>>& may)
+  void findSheetPoints(const Leaves& leaves, const std::vector<std::vector<unsigned char>>& may)
   {
     std::vector<vtkDataSet*> pointers(leaves.begin(), leaves.end());
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
@@ -552,9 +546,10 @@ void copyShapes(const std::vector<std::size_t>& group,
 
 SharedPoints::SharedPoints(const Leaves& leaves, int dimension)
 {
-  const bool isAlone = leaves.size() == 1 &&
-    (vtkImageData::SafeDownCast(leaves[0]) || vtkRectilinearGrid::SafeDownCast(leaves[0]));
-  if (leaves.empty() || isAlone)
+  const auto isGrid = [](const std::array<int, 3>& points) {
+    return std::min({ points[0], points[1], points[2] }) > 1;
+  };
+  if (leaves.empty() || (leaves.size() == 1 && isGrid(structureOf(leaves[0]))))
   {
     return;
   }
@@ -732,7 +727,8 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
         });
       if (mesh.type(cell) == VTK_POLYHEDRON)
       {
-        polyhedra->GetFaceStream(cell, ids); // faces, and for each its points' number and the points
+        polyhedra->GetFaceStream(
+          cell, ids); // faces, and for each its points' number and the points
         vtkIdType next = 1;
         for (vtkIdType face = 0; face < ids->GetId(0); ++face)
         {
@@ -842,8 +838,7 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
   ofPoints->SetNumberOfValues(group.points);
   for (std::size_t i = 0; i < points; ++i)
   {
-    ofPoints->SetValue(
-      static_cast<vtkIdType>(i), counts[i] > 0 ? sums[i] / counts[i] : others[i]);
+    ofPoints->SetValue(static_cast<vtkIdType>(i), counts[i] > 0 ? sums[i] / counts[i] : others[i]);
   }
   double between = 0; // of the differences from cell to cell
   for (std::size_t i = 0; i < group.leaves.size() && group.areAllApart && !areAllOfCells; ++i)
@@ -851,7 +846,8 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
     const MeshArrays from(leaves[group.leaves[i]]);
     for (vtkIdType point = 0; point < from.points(); ++point)
     {
-      const auto number = static_cast<std::size_t>(group.numbers[i][static_cast<std::size_t>(point)]);
+      const auto number =
+        static_cast<std::size_t>(group.numbers[i][static_cast<std::size_t>(point)]);
       const double jump = from.values()[point] - sums[number] / counts[number];
       between += std::isfinite(jump) ? jump * jump : 0;
     }

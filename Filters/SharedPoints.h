@@ -22,7 +22,8 @@ namespace filters
  *
  * Walls without thickness within a dataset stay: points on both sides of faces that are sheets (see SheetFaces.h) are
  * apart. They are looked for between cells that much of the dataset connects by points that they share. In discontinuous
- * elements values jump from cell to cell wherever the field is steep, which is no wall.
+ * elements values jump from cell to cell wherever the field is steep, which is no wall. A grid alone (the seam of an O-grid)
+ * stays as it is, as do its parts on several ranks.
  */
 class SharedPoints
 {
@@ -42,10 +43,10 @@ private:
   struct Group
   {
     std::vector<std::size_t> leaves;
-    std::vector<std::vector<std::int32_t>> numbers;     // of each leaf's points, in the mesh
-    std::vector<std::vector<unsigned char>> isLeftOut;  // of each leaf's cells; empty: none
+    std::vector<std::vector<std::int32_t>> numbers;    // of each leaf's points, in the mesh
+    std::vector<std::vector<unsigned char>> isLeftOut; // of each leaf's cells; empty: none
     vtkIdType points = 0, cells = 0;
-    bool areAllApart = false; // each cell has its points for itself
+    bool areAllApart = false;                  // each cell has its points for itself
     vtkSmartPointer<vtkUnstructuredGrid> mesh; // without values
   };
 

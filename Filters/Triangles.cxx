@@ -121,7 +121,8 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
 
 int TriangleTree::nearest(const Point& place) const
 {
-  constexpr double tie = 1 + 1e-6; // of the squares
+  // Of the squares, for rounding: more would make a place a tie whose nearest faces are far away and others a little farther.
+  constexpr double tie = 1 + 1e-12;
   if (this->Nodes.empty())
   {
     return -1;

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/BrickRays.h"
 
-#include "Medium/StoppedLight.h"
-
 #include "Device/Parallel.h"
 #include "Medium/Brick.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -22,7 +19,6 @@ namespace
 {
 
 constexpr int latticeEdge = 48;
-constexpr std::int64_t denseEdge = 192; // of a lattice of rays, where light is looked for that no wall stops
 
 /// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
 constexpr double maxOfSums = 2;
@@ -383,58 +379,6 @@ LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_
   sums.gathered = std::accumulate(gathered.begin(), gathered.end(), 0.);
   return sums;
 }
-
-template <class Real>
-bool isLightStopped(const LeavesView<Real>& medium, const Column& column, int threads)
-{
-  double low[2], high[2];
-  for (int side = 0; side < 2; ++side)
-  {
-    const Range ofBox = rangeOfBox(medium.grid, column, side);
-    low[side] = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
-    high[side] = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
-    if (!(low[side] < high[side]))
-    {
-      return false;
-    }
-  }
-  std::atomic<bool> isAnyLeft = false;
-  visitScheme(medium.layout.interpolation,
-    [&](auto scheme)
-    {
-      const auto isStopped = [&](std::int64_t n)
-      {
-        const auto along = [&](int side, std::int64_t number)
-        {
-          return low[side] +
-            (high[side] - low[side]) * (static_cast<double>(number) + 0.5) / static_cast<double>(denseEdge);
-        };
-        const StraightRay ray =
-          rayAt(medium.grid, column, along(0, n % denseEdge), along(1, n / denseEdge));
-        return trace(medium, column, ray,
-          [&](const LeafSegment& segment, const std::vector<float>&)
-          {
-            return sumUpWith<decltype(scheme)>(medium.layout, medium.samples, medium.gasDistances,
-              segment, [](const Vec3<Real>&, double) {});
-          })
-          .isBlocked;
-      };
-      constexpr std::int64_t rays = denseEdge * denseEdge;
-      constexpr std::int64_t step = 16381; // a prime: the first rays are all over the view
-      parallelFor(rays, 16, threads,
-        [&](std::int64_t begin, std::int64_t end)
-        {
-          for (std::int64_t n = begin; n < end && !isAnyLeft; ++n)
-          {
-            isAnyLeft = isAnyLeft || !isStopped(n * step % rays);
-          }
-        });
-    });
-  return !isAnyLeft;
-}
-
-template bool isLightStopped(const LeavesView<float>&, const Column&, int);
-template bool isLightStopped(const LeavesView<double>&, const Column&, int);
 
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,

@@ -99,10 +99,6 @@ public:
   /// How badly a leaf needs to be divided; 0: not at all.
   double urgencyOf(const Node& node, const FieldFacts& ofFields) const
   {
-    if (isLightStopped_ && isFineForBlack(node.place))
-    {
-      return 0;
-    }
     const double error = errorOf(node.place, node.facts);
     const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
     const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
@@ -126,18 +122,6 @@ public:
       urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
     }
     return urgency;
-  }
-
-  /// Walls stop all light, as far as the tree shows: an image that is black needs no more than to be sure of that.
-  void setLightStopped(bool is) { isLightStopped_ = is; }
-
-  /// Whether voxels are so small that walls that stop all light are known to do so.
-  bool isFineForBlack(const NodePlace& place) const
-  {
-    constexpr double pixelsOfVoxel = 8;
-    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
-    return *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
-      pixelsOfVoxel * pixelAt(place);
   }
 
   /// Whether walls are where they should be, but for such a part of a pixel. Voxels must not be much larger than
@@ -301,7 +285,6 @@ private:
   const MediumTree& tree_;
   const Work& work_;
   const Column& column_;
-  bool isLightStopped_ = false;
 };
 
 } // namespace schlieren

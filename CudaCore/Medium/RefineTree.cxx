@@ -8,7 +8,6 @@
 #include "Medium/BrickChanges.h"
 #include "Medium/BrickErrors.h"
 #include "Medium/BrickMakers.h"
-#include "Medium/StoppedLight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +55,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
     work_.column = column;
     work_.isFinished = false;
   }
-  View view(*this);
+  const View view(*this);
   bool hasChanged = false;
   bool continues = true;
   while (continues)
@@ -72,12 +71,6 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
         numberLeaves();
         measure(view, found); // what is negligible leaf by leaf may not be so along a ray
       }
-      const std::vector<float> nothing(leafNodes_.size(), 0.f);
-      // Of other ranks' samples it is not known.
-      view.setLightStopped(!settings_.owners && isLightStopped<Real>(
-        { grid_, finder(), leaves_.data(), nothing.data(), nothing.data(), samples().data(),
-          gasDistances().data(), {}, nullptr, nullptr, layout() },
-        work_.column, settings_.threads));
       hasChanged = plan(view) || hasChanged;
       work_.isFinished = work_.tasks.empty();
     }

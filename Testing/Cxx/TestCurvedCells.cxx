@@ -91,19 +91,20 @@ TEST(CurvedCells, ProductsAreThoseOfVtk)
     bool isRational;
   };
   constexpr std::array<int, 3> usual = { 0, 0, 0 };
-  for (const Kind& kind : std::vector<Kind>{ { VTK_LAGRANGE_HEXAHEDRON, 8, { 1, 1, 1 }, false },
-         { VTK_LAGRANGE_HEXAHEDRON, 60, { 2, 4, 3 }, false },
-         { VTK_LAGRANGE_HEXAHEDRON, 512, { 7, 7, 7 }, false },
-         { VTK_LAGRANGE_QUADRILATERAL, 15, { 2, 4, 1 }, false },
-         { VTK_LAGRANGE_TETRAHEDRON, 10, usual, false },
-         { VTK_LAGRANGE_TETRAHEDRON, 35, usual, false }, { VTK_LAGRANGE_TRIANGLE, 10, usual, false },
-         { VTK_LAGRANGE_WEDGE, 18, { 2, 2, 2 }, false },
-         { VTK_LAGRANGE_WEDGE, 40, { 3, 3, 3 }, false }, { VTK_QUADRATIC_TETRA, 10, usual, false },
-         { VTK_TRIQUADRATIC_HEXAHEDRON, 27, usual, false },
-         { VTK_BEZIER_HEXAHEDRON, 27, { 2, 2, 2 }, false },
-         { VTK_BEZIER_HEXAHEDRON, 27, { 2, 2, 2 }, true },
-         { VTK_BEZIER_TETRAHEDRON, 20, usual, false }, { VTK_BEZIER_TETRAHEDRON, 20, usual, true },
-         { VTK_BEZIER_WEDGE, 18, { 2, 2, 2 }, false }, { VTK_BEZIER_WEDGE, 40, { 3, 3, 3 }, true } })
+  for (const Kind& kind :
+    std::vector<Kind>{ { VTK_LAGRANGE_HEXAHEDRON, 8, { 1, 1, 1 }, false },
+      { VTK_LAGRANGE_HEXAHEDRON, 60, { 2, 4, 3 }, false },
+      { VTK_LAGRANGE_HEXAHEDRON, 512, { 7, 7, 7 }, false },
+      { VTK_LAGRANGE_QUADRILATERAL, 15, { 2, 4, 1 }, false },
+      { VTK_LAGRANGE_TETRAHEDRON, 10, usual, false },
+      { VTK_LAGRANGE_TETRAHEDRON, 35, usual, false }, { VTK_LAGRANGE_TRIANGLE, 10, usual, false },
+      { VTK_LAGRANGE_WEDGE, 18, { 2, 2, 2 }, false },
+      { VTK_LAGRANGE_WEDGE, 40, { 3, 3, 3 }, false }, { VTK_QUADRATIC_TETRA, 10, usual, false },
+      { VTK_TRIQUADRATIC_HEXAHEDRON, 27, usual, false },
+      { VTK_BEZIER_HEXAHEDRON, 27, { 2, 2, 2 }, false },
+      { VTK_BEZIER_HEXAHEDRON, 27, { 2, 2, 2 }, true },
+      { VTK_BEZIER_TETRAHEDRON, 20, usual, false }, { VTK_BEZIER_TETRAHEDRON, 20, usual, true },
+      { VTK_BEZIER_WEDGE, 18, { 2, 2, 2 }, false }, { VTK_BEZIER_WEDGE, 40, { 3, 3, 3 }, true } })
   {
     SCOPED_TRACE(std::to_string(kind.type) + " " + std::to_string(kind.points));
     const Mesh mesh = curvedCell(kind.type, kind.points, kind.orders);
