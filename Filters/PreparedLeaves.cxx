@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreparedLeaves.h"
 
+#include "AvailableMemory.h"
 #include "CellMeans.h"
 #include "FlatData.h"
 #include "MeshArrays.h"
