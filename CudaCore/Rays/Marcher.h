@@ -146,7 +146,8 @@ struct March
     const Real forward = w.x * light.d.x + w.y * light.d.y + w.z * light.d.z;
     // sqrt(forward^2 + more) - forward, in full relative precision. Less than 0 below the root: total reflection.
     const Real more = nu * (2 + nu);
-    const Real q = more / (forward + squareRoot(maximum(forward * forward + more, Real{})));
+    const Real entering = more / (forward + squareRoot(maximum(forward * forward + more, Real{})));
+    const Real q = cruise > 0 ? entering : Real{}; // rays that are not under way have no direction
     return { q * w.x, q * w.y, q * w.z };
   }
 
