@@ -599,7 +599,7 @@ else:
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(on(1), parts, "one.npz")
     distributed_before = {}
-    assert isSanitized or len(one) == 72 + 21 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
+    assert isSanitized or len(one) == 72 + 24 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
     for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "shared", "distributed"] if not isSanitized else [])),
                          (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else []),
                          (8, ["gathered"] if not isSanitized else [])):
