@@ -58,7 +58,7 @@ int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool us
   this->Chosen = defaults.arrayOf(name);
   if (this->Chosen.empty())
   {
-    return 0; // what has not been set, ParaView may ask for again
+    return 0; // what has not been set, ParaView may request again
   }
   selection.Set(associationElement, std::to_string(defaults.association).c_str());
   selection.Set(nameElement, this->Chosen.c_str());
