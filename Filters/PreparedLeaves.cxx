@@ -10,6 +10,7 @@
 #include "RefractivityValues.h"
 
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -107,20 +108,30 @@ bool hasCells(vtkDataSet* data, int dimension)
 }
 
 std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
-  Tally& tally, std::shared_ptr<const SharedPoints>& shared)
+  Tally& tally, std::shared_ptr<const SharedPoints>& shared,
+  const std::vector<const Source*>& others)
 {
   const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;
-  for (const Leaf& leaf : source.leaves)
+  std::vector<std::vector<bool>> kinds; // of each leaf, which of the others it has
+  for (std::size_t number = 0; number < source.leaves.size(); ++number)
   {
-    if (hasCells(leaf.data, dimension))
+    const Leaf& leaf = source.leaves[number];
+    if (!hasCells(leaf.data, dimension))
     {
-      leaves.push_back(withValues(leaf, dimension, source.model, tally));
+      continue;
+    }
+    leaves.push_back(withValues(leaf, dimension, source.model, tally));
+    for (std::size_t i = 0; i < others.size(); ++i)
+    {
+      kinds.resize(leaves.size());
+      // What stands for an array that is missing has no name.
+      kinds.back().push_back(others[i]->leaves[number].arrays[0]->GetName() != nullptr);
     }
   }
   if (!shared)
   {
-    shared = std::make_shared<SharedPoints>(leaves, dimension);
+    shared = std::make_shared<SharedPoints>(leaves, dimension, kinds);
   }
   leaves = shared->joined(leaves);
   for (vtkSmartPointer<vtkDataSet>& leaf : leaves)

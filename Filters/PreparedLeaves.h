@@ -27,8 +27,10 @@ bool hasCells(vtkDataSet* data, int dimension);
 
 /// Meshes of those leaves that have cells of as many dimensions as the source has, with nothing but N at their points (NaN
 /// where invalid), and other cells hidden. Leaves that share points have become one. `shared`: which points these are; it
-/// is found where it is null, and to be used for other values of the same leaves.
+/// is found where it is null, and to be used for other values of the same leaves. `others`: which will come; where a leaf
+/// lacks some of them, it shares no points with those that have them.
 std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
-  Tally& tally, std::shared_ptr<const SharedPoints>& shared);
+  Tally& tally, std::shared_ptr<const SharedPoints>& shared,
+  const std::vector<const Source*>& others = {});
 
 } // namespace filters

@@ -40,6 +40,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -269,7 +270,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     const bool isSmooth = this->Reconstruction != LINEAR_IN_CELLS;
     const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
     std::shared_ptr<const SharedPoints> shared;
-    const auto leaves = preparedLeaves(source, cellValues, tally, shared);
+    std::vector<const Source*> others;
+    std::transform(fields.begin(), fields.end(), std::back_inserter(others),
+      [](const FieldValues& field) { return &field.source; });
+    const auto leaves = preparedLeaves(source, cellValues, tally, shared, others);
     progress.reach(0.1);
     const auto reconstruction =
       isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;

@@ -28,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -338,13 +339,14 @@ class Joiner
 {
 public:
   Joiner(const Leaves& leaves, const std::vector<MeshArrays>& meshes, int dimension,
-    const Candidates& candidates)
+    const Candidates& candidates, const std::vector<std::vector<bool>>& kinds)
     : All(candidates)
     , Numbers(candidates.size())
   {
     const std::vector<std::int32_t> coincident = coincidentPoints(candidates.places,
       mergingTolerances(candidates.places, candidates.sizes, relativeRounding(candidates.places)));
     this->Coincident.assign(coincident.begin(), coincident.end());
+    this->divideBy(kinds);
     this->findPointsApart(leaves, meshes, dimension);
     for (std::size_t i = 0; i < candidates.size(); ++i)
     {
@@ -358,6 +360,21 @@ public:
   Classes& numbers() { return this->Numbers; }
 
 private:
+  /// What coincides, kind by kind.
+  void divideBy(const std::vector<std::vector<bool>>& kinds)
+  {
+    if (kinds.empty())
+    {
+      return;
+    }
+    std::map<std::pair<std::size_t, std::vector<bool>>, std::size_t> firsts;
+    for (std::size_t i = 0; i < this->Coincident.size(); ++i)
+    {
+      this->Coincident[i] =
+        firsts.try_emplace({ this->Coincident[i], kinds[this->All.leaves[i]] }, i).first->second;
+    }
+  }
+
   bool hasPointApart(std::size_t i) const
   {
     return !this->IsApart.empty() && this->IsApart[this->Coincident[i]] != 0;
@@ -460,7 +477,7 @@ private:
           this->IsApart[this->Coincident[sideOf(i, 0)]] = 1;
           this->IsApart[this->Coincident[sideOf(i, 1)]] = 1;
         }
-        else
+        else if (this->Coincident[sideOf(i, 0)] == this->Coincident[sideOf(i, 1)])
         {
           this->Numbers.join(sideOf(i, 0), sideOf(i, 1));
         }
@@ -544,7 +561,8 @@ void copyShapes(const std::vector<std::size_t>& group,
 
 } // namespace
 
-SharedPoints::SharedPoints(const Leaves& leaves, int dimension)
+SharedPoints::SharedPoints(
+  const Leaves& leaves, int dimension, const std::vector<std::vector<bool>>& kinds)
 {
   const auto isGrid = [](const std::array<int, 3>& points) {
     return std::min({ points[0], points[1], points[2] }) > 1;
@@ -565,7 +583,7 @@ SharedPoints::SharedPoints(const Leaves& leaves, int dimension)
   {
     return; // there is no room for numbers
   }
-  Joiner joiner(leaves, meshes, dimension, candidates);
+  Joiner joiner(leaves, meshes, dimension, candidates, kinds);
   Classes groups(leaves.size());
   std::vector<unsigned char> hasAny(leaves.size(), 0);
   for (std::size_t i = 0; i < candidates.size(); ++i)

@@ -29,8 +29,10 @@ class SharedPoints
 {
 public:
   /// Of datasets with values in the cells' scalars, or else in those of the points, cells without gas being hidden.
-  /// `dimension`: of the cells that count.
-  SharedPoints(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, int dimension);
+  /// `dimension`: of the cells that count. `kinds`: of the datasets, of which those of different kinds share no points;
+  /// empty: all may.
+  SharedPoints(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, int dimension,
+    const std::vector<std::vector<bool>>& kinds = {});
 
   /// Those datasets as they are that share no points; of others one mesh for all that hang together. Points that are one
   /// have the mean of their values. Where each cell has its points for itself and the values jump, they become the cells'
