@@ -259,23 +259,22 @@ TEST(SharedPoints, BlocksOfImagesHaveNoSeams)
 // What is continuous is as with shared points; where values jump, what is left is hardly worse.
 TEST(SharedPoints, DiscontinuousElementsAreAsGoodAsOthers)
 {
-  const auto grid = gridOf({ -1, -1, -0.5 }, { 1, 1, 0.5 }, { 16, 16, 4 });
+  const auto grid = gridOf({ -1, -1, -0.5 }, { 1, 1, 0.5 }, { 28, 28, 2 });
   const auto expected = byColumn(1);
   const auto atCorner = [](const std::vector<Vec>& corners, std::size_t corner)
   { return column(corners[corner]); };
-  for (vtkDataSet* cells :
-    { static_cast<vtkDataSet*>(meshFrom(grid)), static_cast<vtkDataSet*>(tetrahedraOf(grid)) })
+  for (const vtkSmartPointer<vtkDataSet>& mesh :
+    std::vector<vtkSmartPointer<vtkDataSet>>{ meshFrom(grid), tetrahedraOf(grid) })
   {
-    const vtkSmartPointer<vtkDataSet> mesh = cells;
     addPointArray(mesh, "N", column);
     const double shared = errorOf(straightBench(mesh, false), expected);
-    EXPECT_LT(shared, 0.05);
+    EXPECT_LT(shared, 0.04);
     const double own = errorOf(straightBench(withOwnPoints(mesh, atCorner), false), expected);
     EXPECT_NEAR(own, shared, 0.02 * shared);
     for (const double part : { 0., 0.5 })
     {
       const Mesh jumping = withOwnPoints(mesh, limited(column, part));
-      EXPECT_LT(errorOf(straightBench(jumping, false), expected), 1.5 * shared + 0.01) << part;
+      EXPECT_LT(errorOf(straightBench(jumping, false), expected), 1.5 * shared + 0.02) << part;
     }
   }
 }
@@ -283,7 +282,7 @@ TEST(SharedPoints, DiscontinuousElementsAreAsGoodAsOthers)
 // Across one or two cells; a code holds it there. Light passes, and is bent as much as the field says.
 TEST(SharedPoints, ShocksInDiscontinuousElementsAreNoWalls)
 {
-  const auto grid = gridOf({ -1, -0.2, -1 }, { 1, 0.2, 1 }, { 30, 3, 30 });
+  const auto grid = gridOf({ -1, -1, -1 }, { 1, 1, 1 }, { 30, 3, 30 });
   constexpr double thickness = 0.05; // of a shock from 10 to 90 %: 2.2 of these, 1.6 cells
   const ScalarField field = [](const Vec& x)
   { return peak * (2 + std::tanh((x[2] + 0.5 * x[0]) / thickness)); };
@@ -310,6 +309,7 @@ TEST(SharedPoints, SheetsStayWalls)
   setJump(
     mesh, [](const Vec& x) { return std::abs(x[0]) < 0.45 && std::abs(x[1]) < 0.45 ? 0.3 : 0; });
   auto filter = bench(mesh, pixels);
+  filter->SetPathModel(vtkSchlierenFilter::STRAIGHT);
   filter->Update();
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   vtkDataArray* blocked = arrayOf(filter, "BlockedFraction");
@@ -318,7 +318,7 @@ TEST(SharedPoints, SheetsStayWalls)
     Vec x;
     image->GetPoint(i, x.data());
     const double reach = std::max(std::abs(x[0]), std::abs(x[1]));
-    if (reach < 0.35 || reach > 0.45)
+    if (reach < 0.35 || reach > 0.55)
     {
       EXPECT_EQ(blocked->GetComponent(i, 0), reach < 0.35 ? 1 : 0) << x[0] << " " << x[1];
     }
