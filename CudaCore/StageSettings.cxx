@@ -24,7 +24,7 @@ RaySettings settingsOf(const Scene& scene, double lengthScale, const Displacemen
   settings.kernel.interpolation = scene.interpolation;
   if (settings.kernel.path == PathModel::Refracted)
   {
-    const bool isTooSteep = steepest * scene.stepSize > largestChangeInStep;
+    const bool isTooSteep = steepest * std::min(scene.stepSize, 1.) > largestChangeInStep;
     settings.kernel.integrator =
       isTooSteep && scene.integrator != Integrator::Euler ? Integrator::Adaptive : scene.integrator;
   }

@@ -105,8 +105,8 @@ struct RaysKey
   }
 };
 
-/// The most that nu may change in a step of Integrator::Leapfrog or Rk4, which keep |p| = 1 + nu to a few thousandths
-/// then.
+/// The most that nu may change in a step of Integrator::Leapfrog or Rk4 of one voxel or less, which keep |p| = 1 + nu to a
+/// few thousandths then.
 constexpr double largestChangeInStep = 0.05;
 
 /// How a scene's rays are to be traced where no ray is displaced further than `bound`, and nu changes by no more than

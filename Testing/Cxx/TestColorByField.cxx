@@ -450,7 +450,7 @@ TEST(ColorByField, Mistakes)
     { "ColorByField", "Fields is empty" }, off);
   expectOneMessage(
     tinted(flow()).Get(), [](auto* self) { self->AddField("none"); },
-    { "no array 'none'", "Fields", "A, B" }, off);
+    { "no array 'none'", "Fields", "A (4 to 6), B" }, off);
   expectOneMessage(
     tinted(flow()).Get(), [](auto* self) { self->AddFieldColor(1); },
     { "FieldColors holds 7 values for 2 fields" }, [](auto* self) { self->ClearFieldColors(); });

@@ -34,6 +34,7 @@ std::array<double, 4> bordersOf(vtkImageData* image)
 }
 
 /// Means over squares of `edge` pixels.
+/// Of the components that valuesOf() has.
 std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge)
 {
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
@@ -44,7 +45,7 @@ std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge
   {
     for (int column = 0; column < size[0]; column += edge)
     {
-      for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+      for (int component = 0; component < std::min(2, array->GetNumberOfComponents()); ++component)
       {
         double sum = 0;
         for (int pixel = 0; pixel < edge * edge; ++pixel)

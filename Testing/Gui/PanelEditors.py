@@ -84,7 +84,7 @@ for reset in (True, False):
     user.check(ROW + "/Constant0", "text", "0.0001961")
     if reset:
         user.reset()
-        user.check("IndexModel/ComboBox", "currentText", "Gladstone-Dale")
+        user.check("IndexModel/ComboBox", "currentText", "Auto")
 user.choose("BackgroundGas/ComboBox", "air")
 user.apply()
 user.save_state("mixture.pvsm")
@@ -193,7 +193,7 @@ assert values(grid, "Fields") == ["temperature"] and values(grid, "FieldRanges")
 assert functions(grid) == [LINE], functions(grid)
 
 bench = bench_of("gas.pvsm")
-assert bench.Gas == "helium" and bench.IndexModel == "Gladstone-Dale"
+assert bench.Gas == "helium" and bench.IndexModel == "Auto"
 shown = image_array(bench, "OpticalPathDifference")
 assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(Gas="He"))
 

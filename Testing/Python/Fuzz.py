@@ -4,12 +4,12 @@
 finite numbers or an error and an empty output; a filter that has been given anything makes, with good data and the
 defaults, what a new one makes.
 
-    pvpython Fuzz.py                      # for a minute of processor time: all kinds, from the first case on
+    pvpython Fuzz.py                      # the first cases of all kinds, about a minute of processor time
     pvpython Fuzz.py KIND FIRST [COUNT]   # these cases of a kind, with their output
 
 Kinds: filters (objects of VTK), proxies (of ParaView), views (the representation), ranks (two of MPI). A case is a number,
-the seed of all that is random in it, and runs in a process of its own. SCHLIEREN_FUZZ_SECONDS: another time than 60;
-SCHLIEREN_FUZZ_FIRST: another first case than 0.
+the seed of all that is random in it, and runs in a process of its own. SCHLIEREN_FUZZ_SECONDS: as many cases as take that
+long instead; SCHLIEREN_FUZZ_FIRST: another first case than 0.
 """
 
 import os
@@ -23,7 +23,7 @@ import tempfile
 import time
 import traceback
 
-KINDS = {"filters": .5, "proxies": .25, "views": .2, "ranks": .05}  # and their shares of the time
+KINDS = {"filters": (60, .5), "proxies": (25, .25), "views": (6, .2), "ranks": (1, .05)}  # cases, and shares of a time that is given
 SECONDS_OF_CASE = 120  # of the processor; the longest take some 10
 BYTES_OF_CASE = 8 << 30  # of addresses
 EXTREMES = (float("nan"), float("inf"), -float("inf"), 0., -1., 1e-300, 1e300, 2., .5, 1e-6, 1e6, 90.)
@@ -377,7 +377,7 @@ def run_case(kind, number):
 
 def wait_for(pid):
     """The exit code of a process; of one that waits for ever, that of a timeout."""
-    end = time.monotonic() + 20 * SECONDS_OF_CASE
+    end = time.monotonic() + 3 * SECONDS_OF_CASE
     while time.monotonic() < end:
         done, status = os.waitpid(pid, os.WNOHANG)
         if done:
@@ -407,7 +407,7 @@ def on_two_ranks(kind, number, output):
                "--sym", os.path.abspath(__file__), "case", kind, str(number)]
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     try:
-        return subprocess.run(command, env=inherited, stdout=output, stderr=output, timeout=20 * SECONDS_OF_CASE,
+        return subprocess.run(command, env=inherited, stdout=output, stderr=output, timeout=3 * SECONDS_OF_CASE,
                               check=False).returncode
     except subprocess.TimeoutExpired:
         return 124
@@ -449,15 +449,21 @@ def main(arguments):
         run_case(arguments[1], int(arguments[2]))
         return
     first = int(os.environ.get("SCHLIEREN_FUZZ_FIRST", "0"))
-    seconds = float(os.environ.get("SCHLIEREN_FUZZ_SECONDS", "60"))
+    seconds = os.environ.get("SCHLIEREN_FUZZ_SECONDS")
     if arguments and arguments[0] in KINDS:
-        first = int(arguments[1]) if len(arguments) > 1 else first
-        count = int(arguments[2]) if len(arguments) > 2 else 1 if len(arguments) > 1 else None
-        failed = run_kind(arguments[0], first, count, float("inf") if count else seconds, count is not None)
+        kind, shows = arguments[0], len(arguments) > 1
+        if shows:
+            count, limit = int(arguments[2]) if len(arguments) > 2 else 1, float("inf")
+            first = int(arguments[1])
+        elif seconds:
+            count, limit = None, float(seconds)
+        else:
+            count, limit = KINDS[kind][0], float("inf")
+        failed = run_kind(kind, first, count, limit, shows)
     else:  # each kind by a process of its own, which has no threads and no connection that its cases would share
         failed = []
-        for kind, share in KINDS.items():
-            environment = os.environ | {"SCHLIEREN_FUZZ_SECONDS": str(share * seconds)}
+        for kind, (_, share) in KINDS.items():
+            environment = os.environ | ({"SCHLIEREN_FUZZ_SECONDS": str(share * float(seconds))} if seconds else {})
             done = subprocess.run([os.readlink("/proc/self/exe"), os.path.abspath(__file__), kind], env=environment, check=False)
             failed += [kind] if done.returncode else []
     sys.stdout.flush()

@@ -95,4 +95,5 @@ for model, choices in (
         bench = proxy if proxy.GetXMLName() == "Schlieren" else Schlieren(proxy)
         bench.ImageSize = [32, 32]
         images.append(image_array(bench, "OpticalPathDifference"))
-    assert np.ptp(images[0]) > 0 and np.array_equal(*images), model
+    # Of the former's output, the digits of single precision.
+    assert np.abs(images[0] - images[1]).max() < 1e-4 * np.ptp(images[0]), model
