@@ -33,8 +33,7 @@ std::array<double, 4> bordersOf(vtkImageData* image)
     origin[1] - 0.5 * spacing[1], origin[1] + (size[1] - 0.5) * spacing[1] };
 }
 
-/// Means over squares of `edge` pixels.
-/// Of the components that valuesOf() has.
+/// Means over squares of `edge` pixels, of the components that valuesOf() has.
 std::vector<double> boxAverages(vtkAlgorithm* filter, const char* name, int edge)
 {
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
