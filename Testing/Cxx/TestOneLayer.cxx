@@ -99,6 +99,9 @@ vtkSmartPointer<vtkUnstructuredGrid> asOtherCells(vtkDataSet* mesh, int type)
   return cells;
 }
 
+/// Where the ring closes, a mesh of cells is joined; a structured grid is not.
+constexpr double ofSeam = 3e-3;
+
 struct Seen
 {
   std::vector<double> path, blocked;
@@ -121,9 +124,9 @@ Seen seen(vtkDataObject* input, bool ofCells = false, double depth = 0)
     complaints->Warnings.empty() ? "" : complaints->Warnings[0] };
 }
 
-void expectSame(const Seen& a, const Seen& b)
+void expectSame(const Seen& a, const Seen& b, double tolerance = 1e-5)
 {
-  EXPECT_LT(relativeDifference(a.path, b.path), 1e-5);
+  EXPECT_LT(relativeDifference(a.path, b.path), tolerance);
   EXPECT_LT(relativeDifference(a.blocked, b.blocked), 1e-4);
   EXPECT_NE(a.warning.find("one cell thick"), std::string::npos) << a.warning;
 }
@@ -144,7 +147,7 @@ TEST(OneLayer, IsSeenAsItsPlane)
       expectSame(structured, plane);
       EXPECT_NE(structured.warning.find(" 0.1 data units"), std::string::npos)
         << structured.warning;
-      expectSame(seen(asCells(layer), ofCells), plane);
+      expectSame(seen(asCells(layer), ofCells), plane, ofSeam);
       Seen deeper = seen(layer, ofCells, 3);
       for (double& path : deeper.path)
       {
@@ -159,7 +162,7 @@ TEST(OneLayer, OfWedgesAndPolyhedraIsSeenAsItsPlane)
 {
   const Seen plane = seen(ring(2, 1), false, thickness);
   const auto layer = ring(2, 2);
-  expectSame(seen(asOtherCells(layer, VTK_POLYHEDRON)), plane);
+  expectSame(seen(asOtherCells(layer, VTK_POLYHEDRON)), plane, ofSeam);
   const Seen wedges = seen(asOtherCells(layer, VTK_WEDGE));
   EXPECT_LT(relativeDifference(wedges.path, plane.path), 0.01); // triangles
   EXPECT_NE(wedges.warning.find("one cell thick"), std::string::npos);

@@ -294,7 +294,8 @@ TEST(Solids, WhatIsOutsideIsHandedOn)
   chained->SetInputConnection(index->GetOutputPort());
   chained->SetViewDirection(0.3, 0.4, -1);
   chained->Update();
-  EXPECT_EQ(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity"));
+  // Of the former's output, the digits of single precision.
+  EXPECT_LT(relativeDifference(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity")), 1e-4);
   EXPECT_EQ(valuesOf(chained, "BlockedFraction"), valuesOf(direct, "BlockedFraction"));
 }
 

@@ -87,7 +87,9 @@ TEST(WeakSignals, AreRightOnGrids)
 
   auto plane = grid(321, 1);
   addPointArray(plane, "N", sound);
-  EXPECT_LT(errorOf(benchOfSound(plane), 1), 1e-3);
+  filter = benchOfSound(plane);
+  filter->SetDepth(1);
+  EXPECT_LT(errorOf(filter, 1), 1e-3);
 }
 
 TEST(WeakSignals, AreRightInABoxAndWhereTheSurroundingsAreGiven)
