@@ -44,8 +44,7 @@ enum Kind : std::uint32_t
   ReadStep,   // to others: a time step that they read while they trace rays
   StepIsRead, // to rank 0, an answer to ReadStep, on the connection of readers
   StepEnds,   // to others, likewise: 1 where they keep it
-  Fails,      // in place of Hello, and to others: what is upstream has failed
-  Comes       // to all that it meets: it will, after what is upstream has run
+  Fails       // in place of Hello, and to others: what is upstream has failed
 };
 
 struct HelloMessage
@@ -63,12 +62,6 @@ struct FailsMessage
   std::int32_t changes = 0; // the version of the inputs
   double timeStep = 0;
   char name[64] = {}; // the class of what has failed
-};
-struct ComesMessage
-{
-  std::uint32_t kind = Comes;
-  std::int32_t changes = 0; // the version of the inputs
-  double timeStep = 0;
 };
 struct ReadStepMessage
 {
@@ -271,8 +264,6 @@ public:
   std::optional<HelloMessage> Greeting, Guest;
   // The last time that the other rank's filter has not run.
   std::optional<FailsMessage> Failure;
-  // What the other rank will come with.
-  std::optional<ComesMessage> Coming;
 
   /// Between readers, where nobody is greeted.
   void Open() { this->Guest.emplace(); }
@@ -300,14 +291,9 @@ public:
           break;
         case Fails:
           this->Failure = read<FailsMessage>(message);
-          this->Coming.reset();
-          break;
-        case Comes:
-          this->Coming = read<ComesMessage>(message);
           break;
         case Leave:
           this->Greeting.reset();
-          this->Coming.reset();
           this->Close();
           break;
         default:

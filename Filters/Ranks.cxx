@@ -45,10 +45,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr int firstTag = 21300; // a number that nobody else uses
 
-/// How long a rank waits for others that will come, as they have said, once they have read. Not for ever: what fails upstream of
-/// them may go unnoticed.
-constexpr double secondsForReaders = 600;
-/// And for those that may not come: they read about as much as it has, or nothing.
+/// How long a rank waits for others that may not come: they read about as much as it has, or nothing.
 constexpr double secondsForInputs = 10;
 constexpr double partsOfOwnTime = 10;
 constexpr double secondsWithout = 2; // where nothing upstream runs
@@ -284,13 +281,6 @@ bool FilterRanks::Request(
   }
   const bool isAnother = !(this->Requested == this->Now);
   this->Requested = this->Now;
-  if (this->Inside)
-  {
-    for (const auto& channel : this->Inside->Channels)
-    {
-      channel->send(messageOf(ComesMessage{ Comes, this->Now.changes, this->Now.timeStep }));
-    }
-  }
   return isAnother;
 }
 
@@ -331,27 +321,18 @@ bool FilterRanks::Meeting::HasFailed(const ranks::RankChannel& channel) const
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::IsAwaited(const RankChannel& channel, Clock::time_point end) const
-{
-  const bool comes = channel.Coming && isOf(this->Of.Now, *channel.Coming);
-  const auto longer = std::chrono::duration_cast<Clock::duration>(Seconds(secondsForReaders));
-  return !this->HasFailed(channel) && Clock::now() < (comes ? end + longer : end);
-}
-
-//------------------------------------------------------------------------------
 void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
 {
   for (const auto& channel : this->Of.Inside->Channels)
   {
     channel->Poll();
-    while (!channel->Greeting && this->IsAwaited(*channel, end))
+    while (!channel->Greeting && !this->HasFailed(*channel) && Clock::now() < end)
     {
       waitABit();
       channel->Poll();
     }
     channel->Close(); // to what is left of meetings before
     channel->Guest = std::exchange(channel->Greeting, std::nullopt);
-    channel->Coming.reset(); // it has come, or will not
     if (channel->isOpen())
     {
       channel->send(messageOf(ShortMessage{ Begin, channel->Guest->meeting }));
@@ -376,7 +357,7 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   channel.send(messageOf(hello));
   while (!this->HasMet)
   {
-    while (!channel.hasMessage() && this->IsAwaited(channel, end))
+    while (!channel.hasMessage() && !this->HasFailed(channel) && Clock::now() < end)
     {
       waitABit();
     }
@@ -389,7 +370,6 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
     const auto message = read<ShortMessage>(channel.receive()); // or of a meeting before
     this->HasMet = message.kind == Begin && message.number == meeting;
   }
-  channel.Coming.reset(); // it has come
 }
 
 //------------------------------------------------------------------------------

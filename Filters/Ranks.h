@@ -167,8 +167,6 @@ public:
     void WaitForRank0(Time end);
     /// Whether something upstream of that rank's filter has failed.
     bool HasFailed(const ranks::RankChannel& channel) const;
-    /// Whether to wait longer for what that rank sends: until then, or as long as it takes where it will come.
-    bool IsAwaited(const ranks::RankChannel& channel, Time end) const;
     std::optional<bool> ServeOnce(int threads, const Responder& respond);
     bool ServeAndRead(int threads, const Responder& respond, const Reader& reader);
     void ServeReader(const StepAhead& step, const Inputs& own, const Responder& respond);
