@@ -20,7 +20,8 @@ vtkSmartPointer<Index> filterOf(int model)
 {
   auto image = cube(4);
   addPointArray(image, "rho", [](const Vec&) { return rho; });
-  image->GetPointData()->GetArray("rho")->SetComponent(1, 0, 1.001 * rho); // a constant one is warned of
+  // A constant one is warned of.
+  image->GetPointData()->GetArray("rho")->SetComponent(1, 0, 1.001 * rho);
   addPointArray(image, "Y", [](const Vec&) { return fraction; });
   addPointArray(image, "Z", [](const Vec&) { return 0.5; });
   auto filter = vtkSmartPointer<Index>::New();
