@@ -295,7 +295,8 @@ TEST(Solids, WhatIsOutsideIsHandedOn)
   chained->SetViewDirection(0.3, 0.4, -1);
   chained->Update();
   // Of the former's output, the digits of single precision.
-  EXPECT_LT(relativeDifference(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity")), 1e-4);
+  EXPECT_LT(
+    relativeDifference(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity")), 1e-4);
   EXPECT_EQ(valuesOf(chained, "BlockedFraction"), valuesOf(direct, "BlockedFraction"));
 }
 
