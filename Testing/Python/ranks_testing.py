@@ -27,7 +27,7 @@ def run(command, *arguments, ends=True, script=sys.argv[0], folder=".", **enviro
     inherited = {name: value for name, value in os.environ.items()
                  if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     done = subprocess.run([*command, os.path.abspath(script), *arguments], env=inherited | environment, cwd=folder, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=150, check=False)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300, check=False)
     print(done.stdout)
     assert ends in (None, done.returncode == 0) and "Traceback" not in done.stdout, command
     return done.stdout
