@@ -111,7 +111,7 @@ class OfFilter:
     def set(self, rng, item, value):
         algorithm, command = self.algorithm, item.command
         if item.is_array:
-            index = int(item.element.get("default_values", "0").split()[0])
+            index = int(item.element.get("default_values", "0").split(item.element.get("default_values_delimiter", " "))[0])
             algorithm.SetInputArrayToProcess(index, 0, 0, rng.choice((0, 1)), value)
         elif item.element.tag == "ProxyProperty":
             if item.element.get("clean_command"):
