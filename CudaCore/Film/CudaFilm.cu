@@ -469,9 +469,9 @@ RayCounts CudaFilm::develop(Films& films, CentreValues& values) const
   fetch(memory_->counts.data(), sizeof(RayCounts));
   checkCuda(cudaStreamSynchronize(nullptr), "Fetching the image");
   const unsigned char* from = fetched.data();
-  const auto take = [&from](void* values, std::size_t bytes)
+  const auto take = [&from](void* taken, std::size_t bytes)
   {
-    std::memcpy(values, from, bytes);
+    std::memcpy(taken, from, bytes);
     from += bytes;
   };
   std::vector<std::vector<std::int64_t>> light(planes, std::vector<std::int64_t>(pixels));
