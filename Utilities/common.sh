@@ -51,7 +51,7 @@ install_dependencies()
     if (cd "$SCHLIEREN_ROOT" && quietly "$build/configure.log" cmake --preset release \
       "${SCHLIEREN_CMAKE[@]}" -DSCHLIEREN_CORE_ONLY=ON); then
       say "Building the tracer meanwhile"
-      # ninja itself, which ends its compilers when it is told to end.
+      # ninja itself, which ends its compilers when it receives a signal.
       ninja -C "$build" -j "$SCHLIEREN_JOBS" SchlierenCore >"$build/tracer.log" 2>&1 </dev/null &
       tracer=$!
       # shellcheck disable=SC2064 # this process, not one that is started later
