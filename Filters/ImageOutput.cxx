@@ -244,10 +244,6 @@ std::string mediumInWords(const schlieren::MediumStatistics& medium)
        << " million voxels of " << medium.smallestVoxel << " and more, "
        << std::lround(1e-6 * static_cast<double>(medium.bytes)) << " MB; estimated error "
        << 100 * medium.estimatedError << " % of the largest deflection";
-  if (medium.processes > 1)
-  {
-    text << ", distributed over " << medium.processes << " ranks";
-  }
   return text.str();
 }
 

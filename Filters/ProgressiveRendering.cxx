@@ -430,9 +430,7 @@ void vtkSchlierenFilter::MakeAhead(TimeStep& step, const schlieren::Scene& scene
   // Its medium is another one where it needs the ambient refractivity that is being found now.
   const bool isAmbientKnown = !this->LockAmbient || !this->Inside->FindsAmbient;
   const bool hasTints = this->ColorByField && step.refractivity && !step.refractivity->Source;
-  // Voxels that ranks may share out are not made before these meet for that.
-  const bool isWholeHere = !hasOtherRanks() || this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF;
-  if (!step.refractivity || !isAmbientKnown || hasTints || !isWholeHere ||
+  if (!step.refractivity || !isAmbientKnown || hasTints ||
     this->PathModel == DIFFERENCE)
   {
     return;

@@ -258,7 +258,6 @@ public:
     return {};
   }
   bool isOpen() const override { return this->Guest.has_value(); }
-  std::int32_t address() const override { return this->Rank; }
 
   // On rank 0: of a rank that waits for it, and of one that is at the meeting.
   std::optional<HelloMessage> Greeting, Guest;

@@ -431,10 +431,7 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
   RankChannel& channel = *this->Of.Inside->Channels[0];
   if (!channel.hasMessage())
   {
-    if (!this->Of.Inside->Worker.advance(channel, this->Of.Inside->Peers, threads))
-    {
-      waitABit();
-    }
+    waitABit();
     return {};
   }
   std::optional<std::vector<char>> message = channel.TakeRequest();
@@ -455,7 +452,6 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
     {
       const auto end = read<EndMessage>(*message);
       this->HasImage = end.hasImage != 0;
-      this->Of.Inside->Worker.endTrace();
       channel.send(messageOf(ShortMessage{ Ended, 0 }));
       return end.outcome != 0;
     }

@@ -59,7 +59,6 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
   std::vector<double> description =
     describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
   description.push_back(ranks.AreInPieces() ? ranks.GetGatherings() : 0); // of what others have
-  description.push_back(this->ImagesBecomeTrees(input));
   addBodies(description, this, bodies);
   return description;
 }
@@ -76,26 +75,6 @@ std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtk
   description.push_back(
     -1); // not those of data that rank 0 has: DescribeInputs() has no such number
   return description;
-}
-
-//------------------------------------------------------------------------------
-bool vtkSchlierenFilter::ImagesBecomeTrees(vtkDataObject* input) const
-{
-  if (this->DistributedMedium == DISTRIBUTED_MEDIUM_OFF || !hasOtherRanks() ||
-    this->PathModel == DIFFERENCE || this->Device == CUDA)
-  {
-    return false;
-  }
-  const std::vector<vtkDataObject*> leaves = leavesOf(input);
-  if (std::none_of(leaves.begin(), leaves.end(),
-        [](vtkDataObject* leaf) { return vtkImageData::SafeDownCast(leaf) != nullptr; }))
-  {
-    return false;
-  }
-  const double bytes = static_cast<double>(input->GetNumberOfElements(vtkDataObject::POINT)) *
-    (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float));
-  return this->DistributedMedium == DISTRIBUTED_MEDIUM_ON ||
-    bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
 
 //------------------------------------------------------------------------------
@@ -205,7 +184,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     {
       this->Medium->ReleasePieces();
     }
-    if (this->Medium->CanMakeSource(input, bodies, this->ImagesBecomeTrees(input)))
+    if (this->Medium->CanMakeSource(input, bodies))
     {
       made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents, step);
     }

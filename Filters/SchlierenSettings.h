@@ -189,7 +189,6 @@ struct ResourceSettings
 {
   int MemoryBudget = 1024;
   int MediumMemory = 1024;
-  int DistributedMedium = 0;
   int Device = 0;
   int NumberOfThreads = 0;
   int GatherLimit = 1000000;
@@ -201,7 +200,6 @@ struct ResourceSettings
   {
     use("MemoryBudget", this->MemoryBudget);
     use("MediumMemory", this->MediumMemory);
-    use("DistributedMedium", this->DistributedMedium);
     use("Device", this->Device);
     use("NumberOfThreads", this->NumberOfThreads);
     use("GatherLimit", this->GatherLimit);

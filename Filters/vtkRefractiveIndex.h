@@ -599,8 +599,7 @@ public:
     THIS_STEP,
     NEXT_STEP
   };
-  VTK_WRAPEXCLUDE bool CanMakeSource(
-    vtkDataObject* input, vtkDataObject* bodies = nullptr, bool imagesToo = false);
+  VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input, vtkDataObject* bodies = nullptr);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
     vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE,
     StepOfPieces step = THIS_STEP);

@@ -795,23 +795,6 @@ public:
   vtkGetMacro(MediumMemory, int);
   ///@}
 
-  enum DistributedMediumModes
-  {
-    DISTRIBUTED_MEDIUM_OFF,
-    DISTRIBUTED_MEDIUM_AUTO,
-    DISTRIBUTED_MEDIUM_ON
-  };
-
-  ///@{
-  /**
-   * Where there are several processes, whether each has all voxels (off, the default), or a part of them and MediumMemory
-   * for it (on; auto: where all do not fit into MediumMemory). Rays then go from process to process, and images, whose
-   * own grid is not divided, become a tree within MediumTolerance. No effect on a GPU.
-   */
-  vtkSetClampMacro(DistributedMedium, int, DISTRIBUTED_MEDIUM_OFF, DISTRIBUTED_MEDIUM_ON);
-  vtkGetMacro(DistributedMedium, int);
-  ///@}
-
   ///@{
   /**
    * How long light falls on the film, in the time of the data; 0 (the default): an instant. The image is then the mean
@@ -1072,8 +1055,6 @@ private:
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
   /// The same of data that stay on their ranks, for all filters that have the same.
   std::vector<double> DescribePieces(vtkDataObject* input, vtkDataObject* bodies);
-  /// Whether images without Bodies are not their own grids, of which ranks cannot have parts.
-  bool ImagesBecomeTrees(vtkDataObject* input) const;
   /// Works on an image between updates. Whether an update has something to do now.
   bool WorkOn();
   /// Refine() there. Whether the next update has more to show.

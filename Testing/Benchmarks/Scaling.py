@@ -5,7 +5,7 @@
     SCHLIEREN_PLUGIN=…/Schlieren.so mpiexec -np 4 pvbatch --sym --force-offscreen-rendering \
         Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples [steps]]] [property=value ...]
 
-MODE: gathered, stay or distributed. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
+MODE: gathered or stay. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
 has a sector. One thread on each rank. Prints a row: ranks, mode, cells, pixels, and for the first image and for another view the
 seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
 what they have with the data, MB; then the voxels, MB, and million rays of the other view.
@@ -28,7 +28,7 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-MODES = {"gathered": {"GatherLimit": 2**31 - 1}, "stay": {"GatherLimit": 1}, "distributed": {"GatherLimit": 1, "DistributedMedium": "On"}}
+MODES = {"gathered": {"GatherLimit": 2**31 - 1}, "stay": {"GatherLimit": 1}}
 
 EXTENT = """
 executive = self.GetExecutive()

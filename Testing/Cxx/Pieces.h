@@ -71,7 +71,6 @@ public:
     return message;
   }
   bool isOpen() const override { return this->IsOpen; }
-  std::int32_t address() const override { return -1; }
 
   std::size_t Bytes = 0;
   int AnswersLeft = 1 << 30;
