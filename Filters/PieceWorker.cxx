@@ -54,9 +54,9 @@ bool hasPoints(vtkDataObject* data)
 
 } // namespace
 
-PieceWorker::PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept)
+PieceWorker::PieceWorker(vtkRefractiveIndex* self)
   : Self(self)
-  , Kept(std::move(kept))
+  , Kept(std::make_shared<KeptOfMesh>())
   , Held(std::make_shared<HeldPiece>(this->Kept))
 {
 }
