@@ -455,7 +455,6 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   put(this->Held->piece->summary(), answer);
   put(tally, answer);
   putAll(label, answer);
-  putAll(this->Held->piece->warning(), answer);
   put(this->Held->piece->meshKey(), answer);
   for (int field = 0; field < this->Held->piece->fields(); ++field)
   {

@@ -196,7 +196,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
   this->Search->release();
   Tally tally;
   bool hasGas = false, meetsBodies = false;
-  std::string ofMesh;
   std::shared_ptr<const schlieren::MediumSource> result;
   const auto take = [&](const auto& made)
   {
@@ -296,7 +295,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
       kept.key = key;
     }
     kept.mesh = made->mesh();
-    ofMesh = kept.mesh.warning;
     const auto begunAt = [&](std::size_t number)
     { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
     for (std::size_t number = 0; number < fields.size(); ++number)
@@ -321,7 +319,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, tally);
-  addText(warning, ofMesh);
   if (bodies && !meetsBodies)
   {
     addText(warning, bodiesAreOutside);
@@ -528,7 +525,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, made->tally());
-  addText(warning, made->warning());
   if (bodies && !made->meetsBodies())
   {
     addText(warning, bodiesAreOutside);

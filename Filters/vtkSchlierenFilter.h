@@ -959,14 +959,6 @@ public:
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 
-  ///@{
-  /**
-   * Of no effect, for existing scripts and state files. Empty by default.
-   */
-  void SetFollowedView(const char* name) { this->FollowedView = name ? name : ""; }
-  const char* GetFollowedView() const { return this->FollowedView.c_str(); }
-  ///@}
-
   /// All of these properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
@@ -1061,7 +1053,6 @@ private:
   std::string Sensitivity;
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
-  std::string FollowedView;
 };
 
 #endif
