@@ -32,7 +32,7 @@ struct SourceMesh
   std::shared_ptr<const CellTree::Mesh> cells;
   std::shared_ptr<const GasBoundary> boundary;
   std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
-  std::uint64_t number = 0; // of this mesh; what other ranks keep of it has it, too
+  std::uint64_t number = 0;                 // of this mesh; what other ranks keep of it has it, too
 };
 
 /// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.

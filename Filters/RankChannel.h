@@ -31,17 +31,17 @@ namespace ranks
 /// The first bytes of messages. Those of rays have other numbers.
 enum Kind : std::uint32_t
 {
-  Hello = 1,  // to rank 0
-  Begin,      // to others: an answer to Hello
-  Leave,      // to rank 0, which does not come
-  GiveData,   // to others
-  Data,       // to rank 0
-  End,        // to others
-  Ended,      // to rank 0, an answer to End
-  Ask,        // to others, before they get pieces
-  Ready,      // to rank 0, an answer to Ask
-  Relay,      // to others: a message comes in pieces
-  Fails       // in place of Hello, and to others: what is upstream has failed
+  Hello = 1, // to rank 0
+  Begin,     // to others: an answer to Hello
+  Leave,     // to rank 0, which does not come
+  GiveData,  // to others
+  Data,      // to rank 0
+  End,       // to others
+  Ended,     // to rank 0, an answer to End
+  Ask,       // to others, before they get pieces
+  Ready,     // to rank 0, an answer to Ask
+  Relay,     // to others: a message comes in pieces
+  Fails      // in place of Hello, and to others: what is upstream has failed
 };
 
 struct HelloMessage

@@ -110,7 +110,7 @@ struct vtkSchlierenFilter::Internals
   bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // of the last update; unset for data without time steps
 
-  bool IsExposing = false; // an exposure is being made
+  bool IsExposing = false;        // an exposure is being made
   filters::TimeExposure Exposure; // of the last request
   std::size_t Instant = 0;        // of these, the one that is being made
   // The image of its first instant, whose k and surroundings, and place, are those of all others.

@@ -139,7 +139,8 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
   const bool arePieces = this->Inside->Ranks.AreInPieces();
-  if (arePieces && this->Inside->IsExposing) // only this filter's ranks have what is between time steps
+  if (arePieces &&
+    this->Inside->IsExposing) // only this filter's ranks have what is between time steps
   {
     return this->MakeRefractivity(input, bodies);
   }

@@ -114,8 +114,8 @@ vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 std::function<std::vector<char>(const std::vector<char>& message)> vtkSchlierenFilter::Responder()
 {
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  return
-    [this](const std::vector<char>& message) { return this->Medium->RespondForPiece(message); };
+  return [this](const std::vector<char>& message)
+  { return this->Medium->RespondForPiece(message); };
 }
 
 //------------------------------------------------------------------------------
