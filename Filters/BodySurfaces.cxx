@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodySurfaces.h"
 
-#include "BodyVoxels.h"
 #include "CoincidentPoints.h"
 #include "DataParts.h"
 #include "LatticeDistances.h"
-#include "RefractivityOfBodies.h"
+#include "BodyTriangles.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -23,6 +22,21 @@ namespace filters
 
 namespace
 {
+
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles that share it, to the
+/// last bit, so that no line slips through between them.
+bool isPassed(std::array<double, 3> a, std::array<double, 3> b, double y, double z)
+{
+  if ((a[2] > z) == (b[2] > z))
+  {
+    return false;
+  }
+  if (b[2] < a[2])
+  {
+    std::swap(a, b);
+  }
+  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
+}
 
 /// Triangles whose points are there once.
 Triangles surfaceOf(vtkDataObject* bodies)
