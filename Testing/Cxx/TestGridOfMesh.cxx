@@ -173,7 +173,7 @@ TEST(GridOfMesh, AgreesWithVtk)
       mesh = meshOf(VTK_PYRAMID, 3,
         { { c[0], c[1], c[2], c[3], c[6] }, { c[0], c[4], c[5], c[1], c[6] },
           { c[0], c[3], c[7], c[4], c[6] } },
-        0.1, false);
+        0, false); // moved, their faces of three and of four points would leave gaps
     }
     auto filter = reader(23);
     filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
