@@ -11,8 +11,6 @@
 #include "Optics/CutoffMaker.h"
 #include "RayCache.h"
 #include "Rays/CudaTracer.h"
-#include "Rays/DistributedRays.h"
-#include "Rays/DistributedTracer.h"
 #include "Rays/TeamTracer.h"
 #include "Rays/Tracer.h"
 #include "StageSettings.h"
@@ -86,9 +84,6 @@ struct MediumOfBench
 {
   std::shared_ptr<MediumOnDevices<Real>> shared;
   std::int64_t changesSeen = noChange; ///< those that the bench's rays are of
-  // Where processes have a part of the medium each, which is then shared with no other bench.
-  std::shared_ptr<BrickChannels> owners;
-  std::unique_ptr<DistributedTracer<Real>> distributed; ///< once rays have been traced
 };
 
 template <class Real>
@@ -264,28 +259,18 @@ struct Bench::Stages
   RayCache rays;
   CutoffMaker cutoffs;
 
-  /// `owners`: may be null.
   template <class Real>
-  std::shared_ptr<MediumOnDevices<Real>> makeMedium(
-    const Field& field, const Scene& scene, const std::shared_ptr<BrickOwners>& owners);
+  std::shared_ptr<MediumOnDevices<Real>> makeMedium(const Field& field, const Scene& scene);
   template <class Real>
-  MediumOfBench<Real>& prepareMedium(
-    const Field& field, const Scene& scene, DistributedMedium distribution);
+  MediumOfBench<Real>& prepareMedium(const Field& field, const Scene& scene);
   /// Makes another medium in the place of one that does not do. Where that fails there is none.
   template <class Real>
-  void remakeMedium(MediumOfBench<Real>& current, const Field& field, const Scene& scene,
-    DistributedMedium distribution);
-  /// What the scene needs, where it can be had.
-  DistributedMedium distributionFor(const Unfinished& request) const;
+  void remakeMedium(MediumOfBench<Real>& current, const Field& field, const Scene& scene);
   /// Makes the voxels of a source that a view needs and that are not there. False where these do not fit beside those
   /// of other benches.
   template <class Real>
   bool refineFor(const Column& column, MediumOfBench<Real>& current, const Monitor& monitor,
     Unfinished& request);
-
-  /// The medium of a field with all voxels that its view needs, as far as memory allows. False if aborted.
-  template <class Real>
-  bool prepare(Unfinished& request, const Watch& watch);
 
   /// Traces a pass, or resumes it, where `request` wants that. False if aborted or paused.
   template <class Real>
@@ -302,46 +287,31 @@ struct Bench::Stages
 
   /// Gives the device's memory back.
   void leaveDevice();
-
-  /// After an error: processes may have lost their parts of it.
-  void forgetDistributedMedium();
 };
-
-DistributedMedium Bench::Stages::distributionFor(const Unfinished& request) const
-{
-  const bool canDistribute =
-    !workers.empty() && request.device == Device::Cpu && request.field.source;
-  return canDistribute ? request.scene.distributedMedium : DistributedMedium::Off;
-}
 
 template <class Real>
 std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
-  const Field& field, const Scene& scene, const std::shared_ptr<BrickOwners>& owners)
+  const Field& field, const Scene& scene)
 {
   ++work.mediumBuilds;
   return std::make_shared<MediumOnDevices<Real>>(field.source
-      ? buildTree<Real>(field,
-          { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads, owners })
+      ? buildTree<Real>(
+          field, { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
       : buildMedium<Real>(field, scene.interpolation, scene.threads));
 }
 
 template <class Real>
-void Bench::Stages::remakeMedium(MediumOfBench<Real>& current, const Field& field,
-  const Scene& scene, DistributedMedium distribution)
+void Bench::Stages::remakeMedium(
+  MediumOfBench<Real>& current, const Field& field, const Scene& scene)
 {
   const std::optional<MediumKey> key = std::exchange(mediumKey, std::nullopt);
   current = {}; // first: two media at once might not fit
-  if (distribution == DistributedMedium::On)
-  {
-    current.owners = std::make_shared<BrickChannels>(workers);
-  }
-  current.shared = makeMedium<Real>(field, scene, current.owners);
+  current.shared = makeMedium<Real>(field, scene);
   mediumKey = key;
 }
 
 template <class Real>
-MediumOfBench<Real>& Bench::Stages::prepareMedium(
-  const Field& field, const Scene& scene, DistributedMedium distribution)
+MediumOfBench<Real>& Bench::Stages::prepareMedium(const Field& field, const Scene& scene)
 {
   const bool hasSource = field.source != nullptr;
   const void* samples = hasSource ? static_cast<const void*>(field.source.get())
@@ -350,28 +320,21 @@ MediumOfBench<Real>& Bench::Stages::prepareMedium(
   const Grid& grid = field.grid;
   const MediumKey key{ grid.dimensions, grid.origin, grid.spacing, grid.direction, field.version,
     samples, field.offset, field.ambient, scene.interpolation, scene.precision,
-    hasSource ? scene.mediumTolerance : 0, hasSource ? scene.mediumMemory : 0, distribution };
-  const auto* before = std::get_if<MediumOfBench<Real>>(&medium);
-  const bool haveOwnersChanged =
-    before != nullptr && before->owners && before->owners->channels() != workers;
-  if (!mediumKey || mediumKey->tie() != key.tie() || haveOwnersChanged)
+    hasSource ? scene.mediumTolerance : 0, hasSource ? scene.mediumMemory : 0 };
+  if (!mediumKey || mediumKey->tie() != key.tie())
   {
     // Freed first: two media at once might not fit.
     mediumKey.reset();
     rays.clear();
     medium = std::monostate{};
     MediumOfBench<Real> current;
-    if (distribution == DistributedMedium::On)
-    {
-      remakeMedium(current, field, scene, distribution);
-    }
-    else if (media)
+    if (media)
     {
       current.shared = media->entries_->find<Real>(key);
     }
     if (!current.shared)
     {
-      current.shared = makeMedium<Real>(field, scene, nullptr);
+      current.shared = makeMedium<Real>(field, scene);
       if (media)
       {
         media->entries_->add(key, current.shared);
@@ -409,22 +372,6 @@ bool Bench::Stages::refineFor(
 }
 
 template <class Real>
-bool Bench::Stages::prepare(Unfinished& request, const Watch& watch)
-{
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  MediumOfBench<Real>& current = prepareMedium<Real>(field, scene, DistributedMedium::Off);
-  const InUse<Real> inUse(*current.shared);
-  if (inUse && field.source)
-  {
-    const Frame frame = frameOf(field.grid, scene.view);
-    const Light light = lightOf(scene, field.grid, frame, facesOf(current, scene));
-    refineFor(columnOf(scene, light, frame), current, watch.monitor(), request);
-  }
-  return !watch.isAborted();
-}
-
-template <class Real>
 bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
   MediumOfBench<Real>& current, const RayTask<Real>& task, const Monitor& monitor,
   Unfinished& request)
@@ -446,15 +393,6 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
     isTraced = workers.empty() ? shared.cuda->trace(task, pass, versions, exits, traced, monitor)
                                : shared.teamTracer().traceOnCuda(*shared.cuda, exits, task, pass,
                                    versions, workers, traced, monitor);
-  }
-  else if (current.owners)
-  {
-    if (!current.distributed)
-    {
-      current.distributed =
-        std::make_unique<DistributedTracer<Real>>(shared.medium, *current.owners);
-    }
-    isTraced = current.distributed->trace(task, pass, traced, request.scene.threads, monitor);
   }
   else if (!workers.empty())
   {
@@ -492,13 +430,12 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   image.threads = threadCount(scene.threads);
   image.workers = request.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
 
-  const DistributedMedium distribution = distributionFor(request);
-  MediumOfBench<Real>& current = prepareMedium<Real>(field, scene, distribution);
+  MediumOfBench<Real>& current = prepareMedium<Real>(field, scene);
   std::optional<InUse<Real>> inUse(std::in_place, *current.shared);
   const auto useOwn = [&]
   {
     inUse.reset();
-    remakeMedium(current, field, scene, DistributedMedium::Off);
+    remakeMedium(current, field, scene);
     inUse.emplace(*current.shared);
   };
   if (!*inUse)
@@ -516,16 +453,6 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
       useOwn();
       refineFor(column, current, watch.monitor(), request);
     }
-    const auto isMemoryShort = [&]
-    { return current.shared->medium.tree->statistics().isMemoryShort; };
-    if (distribution == DistributedMedium::Auto && !current.owners && isMemoryShort() &&
-      !watch.isAborted())
-    {
-      inUse.reset();
-      remakeMedium(current, field, scene, DistributedMedium::On);
-      inUse.emplace(*current.shared);
-      refineFor(column, current, watch.monitor(), request);
-    }
     image.medium = current.shared->medium.tree->statistics();
     if (watch.isAborted())
     {
@@ -535,7 +462,6 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   if (current.changesSeen != current.shared->changes)
   {
     current.changesSeen = current.shared->changes;
-    current.distributed.reset();
     rays.clear();
     request.beginAnew();
   }
@@ -652,8 +578,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   {
     return aborted;
   }
-  const auto& cuda = current.shared->cuda;
-  if (request.device == Device::Cuda && !workers.empty() && (!cuda || cuda->hasAll()))
+  if (request.device == Device::Cuda && !workers.empty())
   {
     image.workers = current.shared->teamTracer().workersOnCuda();
   }
@@ -701,26 +626,6 @@ void Bench::Stages::leaveDevice()
     medium);
 }
 
-void Bench::Stages::forgetDistributedMedium()
-{
-  const bool isDistributed = std::visit(
-    [](const auto& current)
-    {
-      if constexpr (!std::is_same_v<std::decay_t<decltype(current)>, std::monostate>)
-      {
-        return current.owners != nullptr;
-      }
-      return false;
-    },
-    medium);
-  if (isDistributed)
-  {
-    mediumKey.reset();
-    rays.clear();
-    medium = std::monostate{};
-  }
-}
-
 Bench::Bench()
   : stages_(std::make_unique<Stages>())
 {
@@ -754,15 +659,6 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
   }
   request->device = hasCuda ? Device::Cuda : Device::Cpu;
   return stages_->render(std::move(request), monitor);
-}
-
-bool Bench::prepare(const Field& field, const Scene& scene, const Monitor& monitor)
-{
-  validate(field, scene);
-  Unfinished request(field, scene);
-  const Watch watch(monitor);
-  return scene.precision == Precision::Single ? stages_->prepare<float>(request, watch)
-                                              : stages_->prepare<double>(request, watch);
 }
 
 Image Bench::resume(const Monitor& monitor)
@@ -808,11 +704,6 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> request, const Monitor& 
         again->deviceNote = failure.what();
       }
       request = std::move(again);
-    }
-    catch (...)
-    {
-      forgetDistributedMedium();
-      throw;
     }
   }
   if (!image.finished && !image.aborted)

@@ -84,14 +84,6 @@ constexpr double airRefractivity = 2.718e-4;
 /// No gas has as much of n - 1, and few liquids less: liquid hydrogen 0.11, water 0.33.
 constexpr double leastOfLiquids = 0.1;
 
-/// Whether processes that work together have a part of the medium each, or all of it.
-enum class DistributedMedium
-{
-  Off,
-  Auto, ///< parts where all of it does not fit into one process's memory for it
-  On
-};
-
 enum class Device
 {
   Auto, ///< CUDA where a device answers, else the CPU
@@ -294,9 +286,6 @@ struct Scene
   /// Bytes that the voxels of a Field's source may take. Where they do not do, the tolerance is not met:
   /// see Image::medium.
   std::size_t mediumMemory = std::size_t{ 1 } << 30;
-  /// Whether each of a bench's workers has a part of a Field's source's voxels, and mediumMemory for it. Not where a GPU
-  /// traces.
-  DistributedMedium distributedMedium = DistributedMedium::Off;
   /// How far, in pixels, a straight ray may be from the refracted one for PathModel::Auto to take it.
   double pathTolerance = 0.01;
   Device device = Device::Auto;
@@ -349,7 +338,6 @@ struct MediumStatistics
   /// of cells, or as fine as the view needs, lack nothing.
   double estimatedError = 0;
   double deflectionError = 0; ///< the same of deflections alone, not divided by the largest one
-  int processes = 1;          ///< that have a part each
   bool isMemoryShort = false; ///< for what the tolerance needs
 };
 
@@ -471,10 +459,6 @@ public:
   Image resume(const Monitor& monitor = {});
   bool isUnfinished() const;
   void cancel(); ///< forgets it
-
-  /// Makes what render() would make of the field before the first ray, for a bench with the same media: see setMedia().
-  /// False if aborted. Throws Error.
-  bool prepare(const Field& field, const Scene& scene, const Monitor& monitor = {});
 
   /// Other processes that trace rays for the next images, each with a RayWorker at the other end of its channel. The
   /// images are the same to the last bit.

@@ -32,12 +32,11 @@ struct MediumKey
   Precision precision;
   double tolerance; ///< of a source, as the next; else 0
   std::size_t memory;
-  DistributedMedium distribution;
 
   auto tie() const
   {
     return std::tie(dimensions, origin, spacing, direction, version, samples, offset, ambient,
-      interpolation, precision, tolerance, memory, distribution);
+      interpolation, precision, tolerance, memory);
   }
 };
 

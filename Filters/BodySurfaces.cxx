@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodySurfaces.h"
 
+#include "BodyTriangles.h"
 #include "CoincidentPoints.h"
 #include "DataParts.h"
 #include "LatticeDistances.h"
-#include "BodyTriangles.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -13,6 +13,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -22,21 +23,6 @@ namespace filters
 
 namespace
 {
-
-/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles that share it, to the
-/// last bit, so that no line slips through between them.
-bool isPassed(std::array<double, 3> a, std::array<double, 3> b, double y, double z)
-{
-  if ((a[2] > z) == (b[2] > z))
-  {
-    return false;
-  }
-  if (b[2] < a[2])
-  {
-    std::swap(a, b);
-  }
-  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
-}
 
 /// Triangles whose points are there once.
 Triangles surfaceOf(vtkDataObject* bodies)
@@ -162,11 +148,11 @@ std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& nu
   return parts;
 }
 
-/// Turns the triangles of closed parts whose normals point inward.
-void turnOutward(
-  Triangles& surface, const std::vector<std::int32_t>& parts, std::int32_t numberOfParts)
+/// Turns the triangles of closed parts whose normals point inward. Parts without a volume become open ones.
+void turnOutward(Triangles& surface, std::vector<std::int32_t>& parts, std::int32_t numberOfParts)
 {
-  std::vector<double> volumes(static_cast<std::size_t>(numberOfParts), 0);
+  constexpr double rounding = 1e-12;
+  std::vector<double> volumes(static_cast<std::size_t>(numberOfParts), 0), largest(volumes);
   std::vector<Point> origins(volumes.size());
   std::vector<unsigned char> hasOrigin(volumes.size(), 0);
   for (std::size_t t = 0; t < surface.size(); ++t)
@@ -179,16 +165,42 @@ void turnOutward(
         hasOrigin[part] = 1;
         origins[part] = surface.corner(t, 0);
       }
-      volumes[part] += dot(surface.normal(t), surface.corner(t, 0) - origins[part]);
+      const Point normal = surface.normal(t), height = surface.corner(t, 0) - origins[part];
+      volumes[part] += dot(normal, height);
+      largest[part] += norm(normal) * norm(height);
     }
   }
   for (std::size_t t = 0; t < surface.size(); ++t)
   {
-    if (parts[t] >= 0 && volumes[static_cast<std::size_t>(parts[t])] < 0)
+    if (parts[t] < 0)
+    {
+      continue;
+    }
+    const auto part = static_cast<std::size_t>(parts[t]);
+    if (std::abs(volumes[part]) <= rounding * largest[part])
+    {
+      parts[t] = -1;
+    }
+    else if (volumes[part] < 0)
     {
       std::swap(surface.corners[t][1], surface.corners[t][2]);
     }
   }
+}
+
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles that share it,
+/// to the last bit, so that no line slips through between them.
+bool isPassed(Point a, Point b, double y, double z)
+{
+  if ((a[2] > z) == (b[2] > z))
+  {
+    return false;
+  }
+  if (b[2] < a[2])
+  {
+    std::swap(a, b);
+  }
+  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "Triangles.h"
 
+#include <cstdint>
 #include <vector>
 
 class vtkDataObject;
@@ -25,7 +26,7 @@ public:
   BodySurfaces(const BodySurfaces&) = delete;
   BodySurfaces& operator=(const BodySurfaces&) = delete;
 
-  /// Normals of closed parts point outward, if their triangles are all turned alike.
+  /// Normals of closed parts point outward, if their triangles are all turned alike. Parts that enclose nothing are not closed.
   const Triangles& surface() const { return this->Surface; }
   const TriangleTree& tree() const { return this->Tree; }
   bool isOfClosed(std::int32_t triangle) const

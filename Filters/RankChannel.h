@@ -31,20 +31,17 @@ namespace ranks
 /// The first bytes of messages. Those of rays have other numbers.
 enum Kind : std::uint32_t
 {
-  Hello = 1,  // to rank 0
-  Begin,      // to others: an answer to Hello
-  Leave,      // to rank 0, which does not come
-  GiveData,   // to others
-  Data,       // to rank 0
-  End,        // to others
-  Ended,      // to rank 0, an answer to End
-  Ask,        // to others, before they get pieces
-  Ready,      // to rank 0, an answer to Ask
-  Relay,      // to others: a message comes in pieces
-  ReadStep,   // to others: a time step that they read while they trace rays
-  StepIsRead, // to rank 0, an answer to ReadStep, on the connection of readers
-  StepEnds,   // to others, likewise: 1 where they keep it
-  Fails       // in place of Hello, and to others: what is upstream has failed
+  Hello = 1, // to rank 0
+  Begin,     // to others: an answer to Hello
+  Leave,     // to rank 0, which does not come
+  GiveData,  // to others
+  Data,      // to rank 0
+  End,       // to others
+  Ended,     // to rank 0, an answer to End
+  Ask,       // to others, before they get pieces
+  Ready,     // to rank 0, an answer to Ask
+  Relay,     // to others: a message comes in pieces
+  Fails      // in place of Hello, and to others: what is upstream has failed
 };
 
 struct HelloMessage
@@ -54,7 +51,6 @@ struct HelloMessage
   double changes = 0;       // the version of the inputs
   double timeStep = 0;
   InputsOfRank inputs;
-  std::int32_t canReadAhead = 0;
 };
 struct FailsMessage
 {
@@ -62,18 +58,6 @@ struct FailsMessage
   std::int32_t changes = 0; // the version of the inputs
   double timeStep = 0;
   char name[64] = {}; // the class of what has failed
-};
-struct ReadStepMessage
-{
-  std::uint32_t kind = ReadStep;
-  double time = 0;
-};
-struct StepIsReadMessage
-{
-  std::uint32_t kind = StepIsRead;
-  std::int32_t isThere = 0;
-  std::int32_t isKeepable = 1;
-  InputsOfRank inputs;
 };
 struct EndMessage
 {
@@ -92,7 +76,7 @@ struct RelayMessage
 struct ShortMessage
 {
   std::uint32_t kind = 0;
-  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; StepEnds: 1 or 0
+  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text
   std::int32_t number = 0;
 };
 
@@ -258,15 +242,12 @@ public:
     return {};
   }
   bool isOpen() const override { return this->Guest.has_value(); }
-  std::int32_t address() const override { return this->Rank; }
 
   // On rank 0: of a rank that waits for it, and of one that is at the meeting.
   std::optional<HelloMessage> Greeting, Guest;
   // The last time that the other rank's filter has not run.
   std::optional<FailsMessage> Failure;
 
-  /// Between readers, where nobody is greeted.
-  void Open() { this->Guest.emplace(); }
   /// Leaves the meeting, or a rank 0 that has not come.
   void Close()
   {

@@ -4,7 +4,6 @@
 
 #include "RankChannel.h"
 #include "RankHoldings.h"
-#include "RankPeers.h"
 #include "Ranks.h"
 
 #include "vtkDIYUtilities.h"
@@ -49,26 +48,22 @@ std::vector<char> dataMessage(int input, const FilterRanks::Inputs& own);
 /// The connections of a filter to the other ranks.
 struct filters::FilterRanks::Others
 {
-  static constexpr int Tags = 5;
+  static constexpr int Tags = 2;
   /// With so many tags from this one on.
   Others(vtkMultiProcessController* controller, int tag)
     : Of(vtkDIYUtilities::GetCommunicator(controller))
-    , Peers(this->Of, tag + 2)
   {
     const bool isFirst = controller->GetLocalProcessId() == 0;
     const int ranks = controller->GetNumberOfProcesses();
     for (int rank = isFirst ? 1 : 0; rank < (isFirst ? ranks : 1); ++rank)
     {
       this->Channels.push_back(std::make_unique<ranks::RankChannel>(this->Of, rank, tag));
-      this->Readers.push_back(std::make_unique<ranks::RankChannel>(this->Of, rank, tag + 3));
     }
   }
 
   ranks::Communicator Of; // all ranks
   std::vector<std::unique_ptr<ranks::RankChannel>>
-    Channels,                  // on rank 0: to all others; there: to it
-    Readers;                   // likewise, between the threads that read the next time step
-  ranks::RankPeers Peers;      // not on rank 0
-  schlieren::RayWorker Worker; // likewise
+    Channels;                  // on rank 0: to all others; there: to it
+  schlieren::RayWorker Worker; // not on rank 0
   int Meetings = 0;            // likewise
 };

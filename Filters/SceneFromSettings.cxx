@@ -133,25 +133,6 @@ schlieren::View viewFrom(const ViewSettings& settings)
   return view;
 }
 
-/// And where the medium may be: ranks keep the parts of one, and a difference would have two.
-void setPathModel(const SchlierenSettings& settings, schlieren::Scene& scene)
-{
-  scene.distributedMedium = static_cast<schlieren::DistributedMedium>(settings.DistributedMedium);
-  if (settings.PathModel != vtkSchlierenFilter::DIFFERENCE)
-  {
-    scene.pathModel = static_cast<schlieren::PathModel>(settings.PathModel);
-    return;
-  }
-  if (scene.distributedMedium == schlieren::DistributedMedium::On)
-  {
-    throw std::runtime_error(
-      "PathModel Difference needs the whole medium on each rank, and DistributedMedium is on. Set "
-      "it to Off or Auto, or PathModel to Refracted or Straight.");
-  }
-  scene.pathModel = schlieren::PathModel::Refracted;
-  scene.distributedMedium = schlieren::DistributedMedium::Off;
-}
-
 std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
 {
   if (!function || function->GetSize() == 0)
@@ -260,7 +241,9 @@ schlieren::Scene sceneFrom(
   scene.memoryBudget = static_cast<std::size_t>(settings.MemoryBudget) << 20;
   scene.samplesPerPixel = settings.SamplesPerPixel;
   scene.seed = static_cast<std::uint32_t>(settings.Seed);
-  setPathModel(settings, scene);
+  scene.pathModel = settings.PathModel == vtkSchlierenFilter::DIFFERENCE
+    ? schlieren::PathModel::Refracted
+    : static_cast<schlieren::PathModel>(settings.PathModel);
   scene.integrator = static_cast<schlieren::Integrator>(settings.Integrator);
   scene.stepSize = settings.StepSize;
   scene.homogeneityTolerance = settings.HomogeneityTolerance;

@@ -189,11 +189,9 @@ struct ResourceSettings
 {
   int MemoryBudget = 1024;
   int MediumMemory = 1024;
-  int DistributedMedium = 0;
   int Device = 0;
   int NumberOfThreads = 0;
   int GatherLimit = 1000000;
-  int ReadAheadMemory = 0;
   double TimeLimit = 0;
 
   template <class Visit>
@@ -201,11 +199,9 @@ struct ResourceSettings
   {
     use("MemoryBudget", this->MemoryBudget);
     use("MediumMemory", this->MediumMemory);
-    use("DistributedMedium", this->DistributedMedium);
     use("Device", this->Device);
     use("NumberOfThreads", this->NumberOfThreads);
     use("GatherLimit", this->GatherLimit);
-    use("ReadAheadMemory", this->ReadAheadMemory);
     use("TimeLimit", this->TimeLimit);
   }
 };

@@ -148,6 +148,25 @@ Range rangeOfBox(const Grid& grid, const Column& column, int side)
   return range;
 }
 
+/// What a straight ray crosses of a leaf with samples.
+struct LeafSegment
+{
+  double local[3], along[3]; ///< from where, local coordinates; and these by data unit
+  double pathLength;         ///< data units
+  double perIndex;           ///< of the leaf
+  std::int32_t steps;
+  std::int32_t leaf;
+  std::int32_t brick, map; ///< map -1: it has none
+};
+
+/// What the samples along it add up to.
+struct LeafSums
+{
+  double gradient[3] = { 0, 0, 0 }; ///< nu by index times data units
+  double opticalPath = 0;           ///< nu times data units
+  bool isBlocked = false;
+};
+
 /// Of the nearest sample.
 std::int16_t gasDistanceAt(
   const BrickLayout& layout, const std::int16_t* distances, const double (&local)[3])
@@ -162,14 +181,15 @@ std::int16_t gasDistanceAt(
   return distances[at];
 }
 
-/// Calls visit(local coordinates, step) for each sample in gas.
-template <class Scheme, class Real, class Visit>
-LeafSums sumUpWith(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
-  const LeafSegment& segment, const Visit& visit)
+/// Adds to `gathered`, of each field, what a ray gathers.
+template <class Scheme, class Real>
+LeafSums sumUp(
+  const LeavesView<Real>& medium, const LeafSegment& segment, std::vector<float>& gathered)
 {
+  const BrickLayout& layout = medium.layout;
   LeafSums sums;
   const double step = segment.pathLength / segment.steps;
-  const Real* brick = samples + segment.brick * layout.samplesPerBrick;
+  const Real* brick = medium.samples + segment.brick * layout.samplesPerBrick;
   for (int n = 0; n < segment.steps; ++n)
   {
     const double middle = (n + 0.5) * step;
@@ -178,7 +198,7 @@ LeafSums sumUpWith(const BrickLayout& layout, const Real* samples, const std::in
     if (segment.map >= 0)
     {
       const std::int16_t distance =
-        gasDistanceAt(layout, gasDistances + segment.map * layout.samplesPerBrick, place);
+        gasDistanceAt(layout, medium.gasDistances + segment.map * layout.samplesPerBrick, place);
       if (distance < 0)
       {
         sums.isBlocked = sums.isBlocked || (distance & 1) == 0;
@@ -187,7 +207,11 @@ LeafSums sumUpWith(const BrickLayout& layout, const Real* samples, const std::in
     }
     const Vec3<Real> here{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
       static_cast<Real>(place[2]) };
-    visit(here, step);
+    if (!gathered.empty())
+    {
+      gatherGradients(medium.gradients, segment.leaf, here, static_cast<Real>(step / layout.unit),
+        gathered.data());
+    }
     const Sample<Real> sample = interpolateBrick<Scheme>(brick, layout.apron, layout.shape, here);
     sums.opticalPath += static_cast<double>(sample.value) * step;
     sums.gradient[0] += static_cast<double>(sample.gradient.x) * segment.perIndex * step;
@@ -197,10 +221,8 @@ LeafSums sumUpWith(const BrickLayout& layout, const Real* samples, const std::in
   return sums;
 }
 
-/// Calls sumsOf(segment, sums of the fields) for leaves with samples.
-template <class Real, class SumsOf>
-Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray,
-  const SumsOf& sumsOf)
+template <class Scheme, class Real>
+Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray)
 {
   double gradient[3] = { 0, 0, 0 }; // summed up, nu by index times data units
   Bend bend;
@@ -268,13 +290,12 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     }
     if (leaf.kind != Leaf<Real>::Constant && pathLength > 0)
     {
-      const LeafSums ofLeaf = sumsOf(
+      const LeafSums ofLeaf = sumUp<Scheme>(medium,
         LeafSegment{ { local[0], local[1], local[2] }, { along[0], along[1], along[2] }, pathLength,
           leaf.perIndex, std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), found,
           leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
         sums);
       bend.opticalPath += ofLeaf.opticalPath;
-      bend.gathered += ofLeaf.gathered;
       for (int axis = 0; axis < 3; ++axis)
       {
         gradient[axis] += ofLeaf.gradient[axis];
@@ -291,7 +312,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
     gradient[2] / grid.spacing[2] };
   bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
-  bend.gathered += std::accumulate(sums.begin(), sums.end(), 0.);
+  bend.gathered = std::accumulate(sums.begin(), sums.end(), 0.);
   return bend;
 }
 
@@ -358,32 +379,8 @@ FieldGradientsView gradientsIn(
 }
 
 template <class Real>
-LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
-  const float* gradients, const LeafSegment& segment)
-{
-  const FieldGradientsView fields = gradientsIn(layout, gradients, &segment.gradients);
-  std::vector<float> gathered(static_cast<std::size_t>(layout.fields), 0.f);
-  LeafSums sums = visitScheme(layout.interpolation,
-    [&](auto scheme)
-    {
-      return sumUpWith<decltype(scheme)>(layout, samples, gasDistances, segment,
-        [&](const Vec3<Real>& here, double step)
-        {
-          if (!gathered.empty())
-          {
-            gatherGradients(
-              fields, 0, here, static_cast<Real>(step / layout.unit), gathered.data());
-          }
-        });
-    });
-  sums.gathered = std::accumulate(gathered.begin(), gathered.end(), 0.);
-  return sums;
-}
-
-template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads,
-  const SumsElsewhere& elsewhere)
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads)
 {
   const Grid& grid = medium.grid;
   double low[2], high[2];
@@ -417,76 +414,21 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
     const bool isIn = width > 0 && u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1];
     return isIn ? std::optional(rayAt(grid, column, u, v)) : std::nullopt;
   };
-  // Calls traceOne(n, ray), which returns the bend.
-  const auto forRays = [&](const auto& traceOne)
-  {
-    parallelFor(rays, 16, threads,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t n = begin; n < end; ++n)
-        {
-          if (const std::optional<StraightRay> ray = rayOf(n))
-          {
-            bends[static_cast<std::size_t>(n)] = traceOne(n, *ray);
-          }
-        }
-      });
-  };
-  if (elsewhere)
-  {
-    // First which segments there are, as if nothing stopped a ray; then what they add up to.
-    std::vector<std::vector<LeafSegment>> segments(static_cast<std::size_t>(rays));
-    forRays(
-      [&](std::int64_t n, const StraightRay& ray)
-      {
-        return trace(medium, column, ray,
-          [&](const LeafSegment& segment, const std::vector<float>&)
-          {
-            segments[static_cast<std::size_t>(n)].push_back(segment);
-            return LeafSums{};
-          });
-      });
-    std::vector<LeafSegment> all;
-    std::vector<std::size_t> firsts;
-    for (const std::vector<LeafSegment>& ofRay : segments)
+  visitScheme(medium.layout.interpolation,
+    [&](auto scheme)
     {
-      firsts.push_back(all.size());
-      all.insert(all.end(), ofRay.begin(), ofRay.end());
-    }
-    const std::vector<LeafSums> sums = elsewhere(all);
-    forRays(
-      [&](std::int64_t n, const StraightRay& ray)
-      {
-        std::size_t next = firsts[static_cast<std::size_t>(n)];
-        return trace(medium, column, ray,
-          [&](const LeafSegment&, const std::vector<float>&) { return sums[next++]; });
-      });
-  }
-  else
-  {
-    visitScheme(medium.layout.interpolation,
-      [&](auto scheme)
-      {
-        forRays(
-          [&](std::int64_t, const StraightRay& ray)
+      parallelFor(rays, 16, threads,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t n = begin; n < end; ++n)
           {
-            return trace(medium, column, ray,
-              [&](const LeafSegment& segment, std::vector<float>& gathered)
-              {
-                return sumUpWith<decltype(scheme)>(medium.layout, medium.samples,
-                  medium.gasDistances, segment,
-                  [&](const Vec3<Real>& here, double step)
-                  {
-                    if (!gathered.empty())
-                    {
-                      gatherGradients(medium.gradients, segment.leaf, here,
-                        static_cast<Real>(step / medium.layout.unit), gathered.data());
-                    }
-                  });
-              });
-          });
-      });
-  }
+            if (const std::optional<StraightRay> ray = rayOf(n))
+            {
+              bends[static_cast<std::size_t>(n)] = trace<decltype(scheme)>(medium, column, *ray);
+            }
+          }
+        });
+    });
   const bool areAllBlocked =
     std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
   RayFindings findings;
@@ -529,13 +471,9 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   return findings;
 }
 
-template LeafSums sumUp(
-  const BrickLayout&, const float*, const std::int16_t*, const float*, const LeafSegment&);
-template LeafSums sumUp(
-  const BrickLayout&, const double*, const std::int16_t*, const float*, const LeafSegment&);
 template RayFindings lookAlongRays(const LeavesView<float>&, const Column&,
-  const std::vector<Vec3<double>>&, double, const RayFindings&, int, const SumsElsewhere&);
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
 template RayFindings lookAlongRays(const LeavesView<double>&, const Column&,
-  const std::vector<Vec3<double>>&, double, const RayFindings&, int, const SumsElsewhere&);
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
 
 } // namespace schlieren

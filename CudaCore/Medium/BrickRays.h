@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace schlieren
@@ -34,27 +33,6 @@ struct Column
   double widthAt(double place) const { return pupil > 0 ? 1 - (place - plane) / pupil : 1; }
 };
 
-/// What a straight ray crosses of a leaf with samples.
-struct LeafSegment
-{
-  double local[3], along[3]; ///< from where, local coordinates; and these by data unit
-  double pathLength;         ///< data units
-  double perIndex;           ///< of the leaf
-  std::int32_t steps;
-  std::int32_t leaf;
-  std::int32_t brick, map;    ///< map -1: it has none
-  std::int32_t gradients = 0; ///< brick of fields' gradients; 0: they are 0
-};
-
-/// What the samples along it add up to.
-struct LeafSums
-{
-  double gradient[3] = { 0, 0, 0 }; ///< nu by index times data units
-  double opticalPath = 0;           ///< nu times data units
-  double gathered = 0;              ///< of all fields
-  bool isBlocked = false;
-};
-
 /// How bricks are laid out.
 struct BrickLayout
 {
@@ -72,11 +50,6 @@ struct BrickLayout
 /// `gradients`: bricks of such a layout; `bricks`: of each leaf.
 FieldGradientsView gradientsIn(
   const BrickLayout& layout, const float* gradients, const std::int32_t* bricks);
-
-/// `gradients`: null where there are no fields.
-template <class Real>
-LeafSums sumUp(const BrickLayout& layout, const Real* samples, const std::int16_t* gasDistances,
-  const float* gradients, const LeafSegment& segment);
 
 /// All that rays see of a tree.
 template <class Real>
@@ -98,9 +71,6 @@ struct LeavesView
   BrickLayout layout;
 };
 
-/// The sums of segments whose samples other processes have.
-using SumsElsewhere = std::function<std::vector<LeafSums>(const std::vector<LeafSegment>&)>;
-
 /// What straight rays find: those on a lattice over the column, and those through some places (index coordinates)
 /// as far as they are in it. Of rays that no wall stops; where walls stop all, of these.
 struct RayFindings
@@ -120,11 +90,9 @@ struct RayFindings
   /// Leaves whose samples are too far apart, as errors along a ray add up. Those that contribute most.
   std::vector<std::int32_t> wrong;
 };
-/// `least`: what is known of the largest ones, e.g. from samples that are no longer there. `elsewhere`: null where all
-/// samples are here.
+/// `least`: what is known of the largest ones, e.g. from samples that are no longer there.
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
-  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads,
-  const SumsElsewhere& elsewhere = nullptr);
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads);
 
 } // namespace schlieren

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the nodes of a tree have: bricks that are kept, here or by the process that owns them, and forgotten.
+// What the nodes of a tree have: bricks that are kept and forgotten.
 #include "Medium/NodesInView.h"
 
 #include <algorithm>
@@ -12,41 +12,7 @@ namespace schlieren
 {
 
 template <class Real>
-std::int32_t MediumTree<Real>::Numbers::take()
-{
-  if (free.empty())
-  {
-    return next++;
-  }
-  const std::int32_t number = free.back();
-  free.pop_back();
-  return number;
-}
-
-/// Gives other processes what is theirs.
-template <class Real>
-void MediumTree<Real>::sendBricks()
-{
-  for (std::size_t owner = 1; owner < owned_.size(); ++owner)
-  {
-    DeliveredBricks<Real>& unsent = owned_[owner].unsent;
-    if (unsent.count() > 0)
-    {
-      sendBricks(static_cast<std::int32_t>(owner));
-    }
-  }
-}
-
-template <class Real>
-void MediumTree<Real>::sendBricks(std::int32_t owner)
-{
-  DeliveredBricks<Real>& unsent = owned_[static_cast<std::size_t>(owner)].unsent;
-  settings_.owners->put(owner, unsent.toBytes());
-  unsent = {};
-}
-
-template <class Real>
-void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int32_t owner)
+void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick)
 {
   Node& node = nodes_[static_cast<std::size_t>(at)];
   node.isKnown = true;
@@ -54,59 +20,12 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick, std::int3
   node.offset = brick.offset;
   node.facts = brick.facts;
   const std::vector<float>& gradients = brick.fields.gradients;
-  const bool hasAny = !brick.samples.empty() || !brick.gasDistances.empty() || !gradients.empty();
-  node.owner = static_cast<std::int16_t>(hasAny ? owner : 0);
-  std::int32_t ofGradients = 0;
-  if (node.owner == 0)
-  {
-    node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
-    node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
-    ofGradients = gradients.empty() ? 0 : gradients_.add(gradients);
-  }
-  else
-  {
-    Owned& owned = owned_[static_cast<std::size_t>(owner)];
-    const auto give = [](const auto& values, Numbers& numbers, auto& numbersSent, auto& sent)
-    {
-      numbersSent.push_back(numbers.take());
-      sent.insert(sent.end(), values.begin(), values.end());
-      return numbersSent.back();
-    };
-    DeliveredBricks<Real>& unsent = owned.unsent;
-    node.brick = brick.samples.empty()
-      ? 0
-      : give(brick.samples, owned.samples, unsent.samplesNumbers, unsent.samples);
-    node.map = brick.gasDistances.empty()
-      ? -1
-      : give(brick.gasDistances, owned.maps, unsent.mapNumbers, unsent.maps);
-    ofGradients = gradients.empty()
-      ? 0
-      : give(gradients, owned.gradients, unsent.gradientNumbers, unsent.gradients);
-    constexpr std::size_t most = 64; // its owner has memory for those that have come, too
-    if (unsent.count() >= most)
-    {
-      sendBricks(owner);
-    }
-  }
+  node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
+  node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
   if (!nodeFields_.empty())
   {
-    nodeFields_[static_cast<std::size_t>(at)] = { ofGradients, false, brick.fields.facts };
-  }
-}
-
-/// Gives a brick's place back, where it is.
-template <class Real>
-template <class Store>
-void MediumTree<Real>::release(
-  std::int32_t brick, std::int16_t owner, Store& own, Numbers Owned::*ofOther)
-{
-  if (owner == 0)
-  {
-    own.remove(brick);
-  }
-  else
-  {
-    (owned_[static_cast<std::size_t>(owner)].*ofOther).free.push_back(brick);
+    nodeFields_[static_cast<std::size_t>(at)] = { gradients.empty() ? 0 : gradients_.add(gradients),
+      false, brick.fields.facts };
   }
 }
 
@@ -116,9 +35,8 @@ void MediumTree<Real>::removeSamples(std::int32_t at)
   Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.brick > 0)
   {
-    release(node.brick, node.owner, samples_, &Owned::samples);
+    samples_.remove(node.brick);
     node.brick = 0;
-    findOwner(at);
   }
 }
 
@@ -128,9 +46,8 @@ void MediumTree<Real>::removeMap(std::int32_t at)
   Node& node = nodes_[static_cast<std::size_t>(at)];
   if (node.map >= 0)
   {
-    release(node.map, node.owner, maps_, &Owned::maps);
+    maps_.remove(node.map);
     node.map = -1;
-    findOwner(at);
   }
 }
 
@@ -139,19 +56,9 @@ void MediumTree<Real>::removeGradients(std::int32_t at)
 {
   if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
   {
-    release(brick, nodes_[static_cast<std::size_t>(at)].owner, gradients_, &Owned::gradients);
+    gradients_.remove(brick);
     nodeFields_[static_cast<std::size_t>(at)].brick = 0;
-    findOwner(at);
   }
-}
-
-/// Of a node that has lost something.
-template <class Real>
-void MediumTree<Real>::findOwner(std::int32_t at)
-{
-  Node& node = nodes_[static_cast<std::size_t>(at)];
-  const bool hasAny = node.brick > 0 || node.map >= 0 || fieldsOf(at).brick > 0;
-  node.owner = hasAny ? node.owner : std::int16_t{ 0 };
 }
 
 /// Takes a node's samples from it.
@@ -260,14 +167,12 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
   return hasChanged;
 }
 
-template void MediumTree<float>::sendBricks();
-template void MediumTree<float>::keep(std::int32_t, const Brick<float>&, std::int32_t);
+template void MediumTree<float>::keep(std::int32_t, const Brick<float>&);
 template void MediumTree<float>::forget(std::int32_t);
 template void MediumTree<float>::forgetNegligible(const View&);
 template bool MediumTree<float>::forgetUnneeded(const View&);
 template bool MediumTree<float>::hasUnneeded(const View&) const;
-template void MediumTree<double>::sendBricks();
-template void MediumTree<double>::keep(std::int32_t, const Brick<double>&, std::int32_t);
+template void MediumTree<double>::keep(std::int32_t, const Brick<double>&);
 template void MediumTree<double>::forget(std::int32_t);
 template void MediumTree<double>::forgetNegligible(const View&);
 template bool MediumTree<double>::forgetUnneeded(const View&);

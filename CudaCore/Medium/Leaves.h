@@ -38,12 +38,9 @@ struct Leaf
   double first[3];    ///< index coordinates of its first sample
   double perIndex;    ///< local by index coordinates
   Real offset;        ///< is added to the samples' values
-  std::int32_t brick; ///< of the samples; ~n where process n has them, see isResident
+  std::int32_t brick; ///< of the samples
   std::int32_t map;   ///< brick of gasDistance, where its kind is Mixed
   Kind kind;
-
-  /// Whether this process has the leaf's samples and its map, if it has any.
-  SCHLIEREN_HD bool isResident() const { return brick >= 0; }
 
   /// From index to local coordinates along an axis, and back.
   SCHLIEREN_HD double toLocal(int axis, double index) const

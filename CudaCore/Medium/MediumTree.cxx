@@ -138,11 +138,6 @@ void MediumTree<Real>::makeRoots()
   samples_.clear();
   maps_.clear();
   gradients_.clear();
-  if (settings_.owners)
-  {
-    owned_.assign(static_cast<std::size_t>(settings_.owners->count()), Owned{});
-    settings_.owners->begin(layout(), sizeof(Real));
-  }
   isMeasured_ = false;
 }
 
@@ -189,14 +184,7 @@ FieldGradientsView MediumTree<Real>::gradients() const
 template <class Real>
 std::size_t MediumTree<Real>::bytesUsed() const
 {
-  std::size_t ofOthers = 0;
-  for (const Owned& owned : owned_)
-  {
-    ofOthers += static_cast<std::size_t>(owned.samples.used() - 1) * samples_.bytesOfBrick() +
-      static_cast<std::size_t>(owned.maps.used()) * maps_.bytesOfBrick() +
-      static_cast<std::size_t>(owned.gradients.used() - 1) * gradients_.bytesOfBrick();
-  }
-  return ofOthers + samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
+  return samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
     nodes_.size() * sizeof(Node) + nodeFields_.size() * sizeof(NodeFields) +
     leaves_.size() * (sizeof(Leaf<Real>) + 2 * sizeof(std::int32_t));
 }
@@ -209,43 +197,12 @@ BrickLayout MediumTree<Real>::layout() const
 }
 
 template <class Real>
-std::int32_t MediumTree<Real>::ownerOf(std::int32_t leaf) const
-{
-  return nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)])].owner;
-}
-
-template <class Real>
-std::vector<Leaf<Real>> MediumTree<Real>::leavesOf(std::int32_t owner) const
-{
-  std::vector<Leaf<Real>> leaves;
-  leaves.reserve(leafNodes_.size());
-  for (const std::int32_t at : leafNodes_)
-  {
-    leaves.push_back(leafOf(at, owner));
-  }
-  return leaves;
-}
-
-template <class Real>
-std::vector<std::int32_t> MediumTree<Real>::gradientBricksOf(std::int32_t owner) const
-{
-  std::vector<std::int32_t> bricks;
-  for (std::size_t leaf = 0; leaf < leafNodes_.size() && !nodeFields_.empty(); ++leaf)
-  {
-    bricks.push_back(
-      ownerOf(static_cast<std::int32_t>(leaf)) == owner ? fieldsOf(leafNodes_[leaf]).brick : 0);
-  }
-  return bricks;
-}
-
-template <class Real>
-Leaf<Real> MediumTree<Real>::leafOf(std::int32_t at, std::int32_t owner) const
+Leaf<Real> MediumTree<Real>::leafOf(std::int32_t at) const
 {
   const Node& node = nodes_[static_cast<std::size_t>(at)];
   const bool hasGradients = fieldsOf(at).brick > 0;
-  const bool isElsewhere = (node.brick > 0 || node.map >= 0 || hasGradients) && node.owner != owner;
-  Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset,
-    isElsewhere ? ~node.owner : node.brick, isElsewhere ? -1 : node.map, node.kind };
+  Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset, node.brick, node.map,
+    node.kind };
   // In one step no gradients would be gathered.
   leaf.kind = leaf.kind == Leaf<Real>::Constant && hasGradients ? Leaf<Real>::Samples : leaf.kind;
   for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
@@ -269,10 +226,14 @@ void MediumTree<Real>::numberLeaves()
     number(static_cast<std::int32_t>(root), roots_[root]);
   }
   // Of a tree that has not changed they stay where they are: rays have their addresses.
-  const std::vector<Leaf<Real>> leaves = leavesOf(0);
-  leaves_.assign(leaves.begin(), leaves.end());
-  const std::vector<std::int32_t> gradientBricks = gradientBricksOf(0);
-  gradientBricks_.assign(gradientBricks.begin(), gradientBricks.end());
+  leaves_.resize(leafNodes_.size());
+  std::transform(leafNodes_.begin(), leafNodes_.end(), leaves_.begin(),
+    [this](std::int32_t at) { return leafOf(at); });
+  gradientBricks_.resize(nodeFields_.empty() ? 0 : leafNodes_.size());
+  for (std::size_t leaf = 0; leaf < gradientBricks_.size(); ++leaf)
+  {
+    gradientBricks_[leaf] = fieldsOf(leafNodes_[leaf]).brick;
+  }
 }
 
 template <class Real>
@@ -330,10 +291,6 @@ void MediumTree<Real>::arrange()
   for (const std::int32_t at : leafNodes_)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
-    if (node.owner > 0)
-    {
-      continue; // numbers of others stay
-    }
     if (node.brick > 0)
     {
       bricks.push_back(node.brick);
@@ -397,7 +354,6 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.voxels =
     statistics_.bricks * brickEdge * brickEdge * (shape() == BrickShape::Layer ? 1 : brickEdge);
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
-  statistics_.processes = std::max(1, static_cast<int>(owned_.size()));
   statistics_.isMemoryShort = work_.isMemoryShort;
   const double deflection = work_.largest, gathered = work_.gathered;
   statistics_.largestDeflection = deflection;

@@ -8,13 +8,11 @@
 #include "Medium/FieldGradients.h"
 #include "Medium/Leaves.h"
 #include "Medium/MediumSource.h"
-#include "Medium/PartOfTree.h"
 #include "Medium/SlopeBlocks.h"
 #include "Schlieren.h"
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,10 +25,9 @@ struct TreeSettings
 {
   /// Error of the deflection of a ray that is allowed, of the largest one. 0: as fine as the data are.
   double tolerance = 0.01;
-  std::size_t memory = std::size_t{ 1 } << 30; ///< bytes that leaves may take, on each process
+  std::size_t memory = std::size_t{ 1 } << 30; ///< bytes that leaves may take
   Interpolation interpolation = Interpolation::Quadratic;
   int threads = 0;
-  std::shared_ptr<BrickOwners> owners{}; ///< null: all bricks are here
 };
 
 /// Of leaves that a view does not need, where memory is short.
@@ -93,13 +90,6 @@ public:
     return gradientBricks_;
   } ///< of the leaves
 
-  /// Which process has a leaf's samples; 0: this one, too.
-  std::int32_t ownerOf(std::int32_t leaf) const;
-  /// The leaves as their owner sees them, with its numbers of bricks. leaves() are those of owner 0.
-  std::vector<Leaf<Real>> leavesOf(std::int32_t owner) const;
-  /// The same of gradientBricks(); 0 where another process has the leaf.
-  std::vector<std::int32_t> gradientBricksOf(std::int32_t owner) const;
-
   // What is known of it.
   double largestNu() const { return largestNu_; }
   double rangeOfNu() const { return rangeOfNu_; }
@@ -117,29 +107,14 @@ private:
     std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has needed
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
-    std::int16_t owner = 0;     ///< of its bricks and map; 0 where there are none
     bool isWrong = false;       ///< its error is too large beside those of others along a ray
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
-    std::int32_t brick = 0; ///< its number at its owner, as that of the map and of NodeFields
+    std::int32_t brick = 0; ///< its number, as that of the map and of NodeFields
     std::int32_t map = -1;
     BrickFacts facts{};
   };
-  /// Of the bricks that another process has.
-  struct Numbers
-  {
-    std::int32_t next;
-    std::vector<std::int32_t> free{};
-
-    std::int32_t take();
-    std::int32_t used() const { return next - static_cast<std::int32_t>(free.size()); }
-  };
-  struct Owned
-  {
-    Numbers samples{ 1 }, maps{ 0 }, gradients{ 1 };
-    DeliveredBricks<Real> unsent{};
-  };
-  /// The same of its fields.
+  /// What it has of fields.
   struct NodeFields
   {
     std::int32_t brick = 0; ///< of gradients; 0: there are none
@@ -173,9 +148,8 @@ private:
     std::size_t tasksBegun = 0;
     std::vector<BrickRequest> requests; ///< of the tasks that are begun
     std::vector<std::int32_t> boxes;    ///< likewise; the nodes that are divided, or -1
-    std::map<std::int32_t, std::vector<Real>> fetched; ///< samples of these that others have
-    std::vector<Brick<Real>> bricks;                   ///< likewise
-    bool areMade = false;                              ///< by others
+    std::vector<Brick<Real>> bricks;    ///< likewise
+    bool areMade = false;               ///< by others
     std::int64_t bricksDone = 0;
   };
   class View;
@@ -183,7 +157,6 @@ private:
   /// Of a node that is divided.
   std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
   void makeBrick(std::size_t request);
-  void fetchBoxes();
   void makeRoots();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
@@ -194,19 +167,11 @@ private:
   void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
   void addNode(const NodePlace& place);
-  void keep(std::int32_t node, const Brick<Real>& brick, std::int32_t owner);
-  std::int32_t ownerOfTask(std::size_t task) const;
-  void sendBricks();
-  void sendBricks(std::int32_t owner);
-  std::vector<LeafSums> sumUp(const std::vector<LeafSegment>& segments) const;
+  void keep(std::int32_t node, const Brick<Real>& brick);
   BrickLayout layout() const;
-  std::size_t memory() const;
-  template <class Store>
-  void release(std::int32_t brick, std::int16_t owner, Store& own, Numbers Owned::*ofOther);
   void removeSamples(std::int32_t node);
   void removeMap(std::int32_t node);
   void removeGradients(std::int32_t node);
-  void findOwner(std::int32_t node);
   void forget(std::int32_t node);
   void forgetNegligible(const View& view);
   void forgetBelow(std::int32_t node);
@@ -219,7 +184,7 @@ private:
   NodeFields fieldsOf(std::int32_t node) const;
   void numberLeaves();
   void number(std::int32_t node, std::int32_t& code);
-  Leaf<Real> leafOf(std::int32_t node, std::int32_t owner) const;
+  Leaf<Real> leafOf(std::int32_t node) const;
   void arrange();
   void summarize(const View& view);
 
@@ -241,7 +206,6 @@ private:
   BrickStore<std::int16_t> maps_;
   BrickStore<float> gradients_;
   std::vector<std::int32_t> gradientBricks_;
-  std::vector<Owned> owned_; ///< by each of the owners; that of this process stays empty
   Work work_;
   Unneeded unneeded_ = Unneeded::Goes; ///< as of the last call
   bool lacksRoom_ = false;

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -139,10 +138,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
     { grid_, finder(), leaves_.data(), differences.data(), errors.data(), samples().data(),
       gasDistances().data(), gradients(), ofFields.empty() ? nullptr : ofFields.data(),
       ofFields.empty() ? nullptr : fieldErrors.data(), layout() },
-    work_.column, places, settings_.tolerance, least, settings_.threads,
-    settings_.owners
-      ? SumsElsewhere([this](const std::vector<LeafSegment>& segments) { return sumUp(segments); })
-      : nullptr);
+    work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
   work_.error = findings.error;
@@ -212,7 +208,7 @@ bool MediumTree<Real>::plan(const View& view)
     work_.tasksDone = 0;
     ++work_.rounds;
     const std::size_t used = bytesUsed();
-    const std::size_t available = memory() > used ? memory() - used : 0;
+    const std::size_t available = settings_.memory > used ? settings_.memory - used : 0;
     std::size_t cost = 0, costOfNew = 0;
     for (const Task& task : work_.tasks)
     {
@@ -263,7 +259,7 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
   std::stable_sort(tasks.begin(), tasks.end(),
     [&](const Task& a, const Task& b)
     { return a.urgency != b.urgency ? a.urgency > b.urgency : levelOf(a) < levelOf(b); });
-  const std::size_t reserve = memory() / partsOfReserve;
+  const std::size_t reserve = settings_.memory / partsOfReserve;
   std::size_t fitting = 0, cost = 0;
   for (bool fits = true; fits && fitting < tasks.size(); fitting += fits ? 1 : 0)
   {
@@ -280,18 +276,6 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
     work_.leastUrgent = fits ? std::min(work_.leastUrgent, task.urgency) : work_.leastUrgent;
   }
   tasks.resize(fitting);
-  if (settings_.owners) // which each have a piece of them, see ownerOfTask()
-  {
-    std::vector<std::int32_t> places(nodes_.size(), 0);
-    for (std::size_t leaf = 0; leaf < leafNodes_.size(); ++leaf)
-    {
-      places[static_cast<std::size_t>(leafNodes_[leaf])] = static_cast<std::int32_t>(leaf);
-    }
-    std::sort(tasks.begin(), tasks.end(),
-      [&](const Task& a, const Task& b) {
-        return places[static_cast<std::size_t>(a.node)] < places[static_cast<std::size_t>(b.node)];
-      });
-  }
 }
 
 /// The bricks that the next tasks are about.
@@ -327,40 +311,6 @@ void MediumTree<Real>::findBricks(const View& view)
   work_.areMade = !work_.bricks.empty();
   work_.bricks.resize(requests.size());
   work_.requests = std::move(requests);
-  fetchBoxes();
-}
-
-/// Gets the samples of boxes that are divided from those who have them.
-template <class Real>
-void MediumTree<Real>::fetchBoxes()
-{
-  work_.fetched.clear();
-  std::vector<std::vector<std::int32_t>> numbers(owned_.size());
-  std::vector<std::int32_t> nodes;
-  for (const std::int32_t at : work_.boxes)
-  {
-    const bool isOther = at >= 0 && (nodes.empty() || nodes.back() != at);
-    const Node* box = isOther ? &nodes_[static_cast<std::size_t>(at)] : nullptr;
-    if (box != nullptr && box->owner > 0 && box->brick > 0)
-    {
-      numbers[static_cast<std::size_t>(box->owner)].push_back(box->brick);
-      nodes.push_back(at);
-    }
-  }
-  if (nodes.empty() || apron() != 1)
-  {
-    return;
-  }
-  const std::vector<std::vector<char>> found = settings_.owners->fetch(numbers);
-  std::vector<std::size_t> next(owned_.size(), 0);
-  const std::size_t bytes = samples_.bytesOfBrick();
-  for (const std::int32_t at : nodes)
-  {
-    const auto owner = static_cast<std::size_t>(nodes_[static_cast<std::size_t>(at)].owner);
-    std::vector<Real>& samples = work_.fetched[at];
-    samples.resize(bytes / sizeof(Real));
-    std::memcpy(samples.data(), found[owner].data() + bytes * next[owner]++, bytes);
-  }
 }
 
 /// A brick with what is wrong with it, also what comparison with the box shows that it is a part of.
@@ -382,10 +332,7 @@ void MediumTree<Real>::makeBrick(std::size_t request)
   if (isPart)
   {
     const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
-    const auto fetched = work_.fetched.find(work_.boxes[request]);
-    const Real* samples = fetched != work_.fetched.end()
-      ? fetched->second.data()
-      : samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
+    const Real* samples = samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
     changes = changesOf(
       brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
   }
@@ -411,11 +358,10 @@ void MediumTree<Real>::keepBricks(const View& view)
   for (; work_.tasksDone < work_.tasksBegun; ++work_.tasksDone)
   {
     const Task& task = work_.tasks[work_.tasksDone];
-    const std::int32_t owner = ownerOfTask(work_.tasksDone);
     forget(task.node);
     if (!task.divides)
     {
-      keep(task.node, *next++, owner);
+      keep(task.node, *next++);
       continue;
     }
     const auto firstChild = static_cast<std::int32_t>(nodes_.size());
@@ -427,11 +373,10 @@ void MediumTree<Real>::keepBricks(const View& view)
       addNode(childOf(place, child));
       if (view.sees(nodes_.back().place))
       {
-        keep(firstChild + child, *next++, owner);
+        keep(firstChild + child, *next++);
       }
     }
   }
-  sendBricks();
   work_.requests.clear();
   work_.bricks.clear();
 }
@@ -480,64 +425,6 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
     }
   }
   return true;
-}
-
-/// Tasks are in the order of leaves, that of a space-filling curve (Morton 1966) within each root cell: each owner gets
-/// what comes of a piece of them.
-template <class Real>
-std::int32_t MediumTree<Real>::ownerOfTask(std::size_t task) const
-{
-  return static_cast<std::int32_t>(
-    task * std::max<std::size_t>(1, owned_.size()) / work_.tasks.size());
-}
-
-template <class Real>
-std::size_t MediumTree<Real>::memory() const
-{
-  return settings_.memory * std::max<std::size_t>(1, owned_.size());
-}
-
-/// The sums of segments, by those who have the samples.
-template <class Real>
-std::vector<LeafSums> MediumTree<Real>::sumUp(const std::vector<LeafSegment>& segments) const
-{
-  std::vector<std::vector<LeafSegment>> ofOwners(owned_.size());
-  std::vector<LeafSums> sums(segments.size());
-  std::vector<std::size_t> own;
-  for (std::size_t n = 0; n < segments.size(); ++n)
-  {
-    LeafSegment segment = segments[n];
-    const Node& node =
-      nodes_[static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(segment.leaf)])];
-    segment.brick = node.brick;
-    segment.map = node.map;
-    segment.gradients = fieldsOf(leafNodes_[static_cast<std::size_t>(segment.leaf)]).brick;
-    ofOwners[static_cast<std::size_t>(node.owner)].push_back(segment);
-    if (node.owner == 0)
-    {
-      own.push_back(n);
-    }
-  }
-  const std::vector<std::vector<LeafSums>> ofOthers = settings_.owners->sumUp(ofOwners);
-  parallelFor(static_cast<std::int64_t>(own.size()), 256, settings_.threads,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-      {
-        sums[own[n]] = schlieren::sumUp(layout(), samples().data(), gasDistances().data(),
-          gradientValues().data(), ofOwners[0][n]);
-      }
-    });
-  std::vector<std::size_t> next(owned_.size(), 0);
-  for (std::size_t n = 0; n < segments.size(); ++n)
-  {
-    const auto owner = static_cast<std::size_t>(ownerOf(segments[n].leaf));
-    if (owner > 0)
-    {
-      sums[n] = ofOthers[owner][next[owner]++];
-    }
-  }
-  return sums;
 }
 
 template bool MediumTree<float>::refine(const Column&, const Monitor&, Unneeded);

@@ -38,8 +38,6 @@ public:
   virtual std::vector<char> receive() = 0;
   /// False once the other process has left: it answers nothing any more.
   virtual bool isOpen() const = 0;
-  /// By which workers reach the other process, see Peers.
-  virtual std::int32_t address() const = 0;
 
   /// Its own: no channel of this process has had it before.
   std::uint64_t number() const { return number_; }
@@ -51,21 +49,6 @@ private:
     return ++last;
   }
   const std::uint64_t number_ = nextNumber();
-};
-
-/// From a worker to others of the same program. Messages arrive complete; those from one worker in order.
-class Peers
-{
-public:
-  Peers() = default;
-  Peers(const Peers&) = delete;
-  Peers& operator=(const Peers&) = delete;
-  virtual ~Peers() = default;
-
-  /// A message of up to 64 kB to the worker with this address. Returns at once.
-  virtual void send(std::int32_t address, std::vector<char> message) = 0;
-  /// The next message from any of them; empty: none has arrived. Does not wait.
-  virtual std::vector<char> receive() = 0;
 };
 
 } // namespace schlieren

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/SuspendedRays.h"
+#include "Rays/RayTask.h"
 
 #include <cuda_runtime.h>
 
@@ -38,28 +38,6 @@ struct MarchedRows
   float* gathered;
   MarchTotals* totals;
 };
-
-/// The same through a medium of which the device has a part, as leaves say: Leaf::isResident. `states` begin with the ray
-/// `firstRay` of the pass.
-template <class Real>
-struct AdvancedRows
-{
-  Pass pass;
-  std::int64_t firstRow, endRow;
-  std::int64_t firstRay;
-  SuspendedRay<Real>* states;
-  RayExit* exits;
-  MarchTotals* totals;
-  unsigned long long* advanced; ///< rays that had come to this part
-  unsigned long long*
-    waiting;   ///< of each part: rays that come to it now; n of leaves whose `brick` is ~n
-  bool areNew; ///< they have not entered the grid yet
-};
-
-/// Starts the kernel that takes rays through leaves that are there, of a task that canSuspend() and gathers nothing.
-template <class Scheme, class Real>
-void launchAdvance(const RayTask<Real>& task, const AdvancedRows<Real>& rows, const dim3& blocks,
-  cudaStream_t stream);
 
 /// Starts the kernel of the task, with all that it points to on the device. CudaMarch*.cu instantiate it for one scheme
 /// each, those that take longest for one precision, so that they can be compiled at the same time.

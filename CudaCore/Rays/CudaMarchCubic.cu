@@ -7,7 +7,5 @@ namespace schlieren
 
 template void launchMarch<CubicInterpolation>(
   const RayTask<float>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchAdvance<CubicInterpolation>(
-  const RayTask<float>&, const AdvancedRows<float>&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -7,7 +7,5 @@ namespace schlieren
 
 template void launchMarch<CubicInterpolation>(
   const RayTask<double>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchAdvance<CubicInterpolation>(
-  const RayTask<double>&, const AdvancedRows<double>&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -7,11 +7,7 @@ namespace schlieren
 
 template void launchMarch<LinearInterpolation>(
   const RayTask<float>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchAdvance<LinearInterpolation>(
-  const RayTask<float>&, const AdvancedRows<float>&, const dim3&, cudaStream_t);
 template void launchMarch<LinearInterpolation>(
   const RayTask<double>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchAdvance<LinearInterpolation>(
-  const RayTask<double>&, const AdvancedRows<double>&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -7,11 +7,7 @@ namespace schlieren
 
 template void launchMarch<QuadraticInterpolation>(
   const RayTask<float>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchAdvance<QuadraticInterpolation>(
-  const RayTask<float>&, const AdvancedRows<float>&, const dim3&, cudaStream_t);
 template void launchMarch<QuadraticInterpolation>(
   const RayTask<double>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
-template void launchAdvance<QuadraticInterpolation>(
-  const RayTask<double>&, const AdvancedRows<double>&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

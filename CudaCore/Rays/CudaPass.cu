@@ -158,17 +158,16 @@ std::vector<T> toHost(const CudaBuffer<T>& values, std::size_t count)
 
 } // namespace
 
-std::size_t availableOnCuda()
-{
-  std::size_t free = 0, total = 0;
-  checkCuda(cudaMemGetInfo(&free, &total), "Asking for free memory");
-  const std::size_t reserve = std::min(std::size_t{ 256 } << 20, total / 8);
-  return free - std::min(free, reserve);
-}
-
 bool canKeepOnCuda(std::size_t bytes)
 {
-  return availableOnCuda() >= (1 + nextPassAndFilms) * bytes;
+  // The next pass, and films of an image of as many pixels: a pixel of films takes up to 88 bytes, a ray 40.
+  constexpr std::size_t nextPassAndFilms = 3;
+  std::size_t free = 0, total = 0;
+  checkCuda(cudaMemGetInfo(&free, &total), "Asking for free memory");
+  // For kernels' stacks, which take 624 bytes of each of 2048 threads on each of 132 multiprocessors at most, and for a
+  // band of shaded rays.
+  const std::size_t reserve = std::min(std::size_t{ 256 } << 20, total / 8);
+  return free >= reserve + (1 + nextPassAndFilms) * bytes;
 }
 
 CudaPass::CudaPass(std::size_t rays)

@@ -12,14 +12,6 @@
 namespace schlieren
 {
 
-/// Free memory of the device but for 256 MB, or an eighth of a device that has little: for kernels' stacks, which take 624 bytes
-/// of each of 2048 threads on each of 132 multiprocessors at most, and for a band of shaded rays.
-std::size_t availableOnCuda();
-
-/// What follows the rays of a pass beside them, by their size: the next pass and films of an image of as many pixels. A pixel
-/// of films takes up to 88 bytes, a ray 40.
-constexpr std::size_t nextPassAndFilms = 3;
-
 /// Whether the device has memory to keep the rays of a pass of so many bytes, and for what then follows.
 bool canKeepOnCuda(std::size_t bytes);
 

@@ -4,14 +4,12 @@
 
 #include "Device/CudaDevice.h"
 #include "Rays/CudaMarch.h"
-#include "Rays/CudaParts.h"
 #include "Rays/CudaTracerMemory.h"
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <type_traits>
-#include <vector>
 
 namespace schlieren
 {
@@ -39,21 +37,6 @@ void addTotals(const MarchTotals& totals, TracedPass& traced)
   std::memcpy(&worstDrift, &totals.worstDrift, sizeof(worstDrift));
   traced.crossed += static_cast<std::int64_t>(totals.crossed);
   traced.worstDrift = std::max(traced.worstDrift, worstDrift);
-}
-
-/// The next of the parts that rays wait for: forwards, and again from the first one for rays that have come back.
-std::int32_t nextPart(const std::vector<unsigned long long>& waiting, std::int32_t part)
-{
-  const auto count = static_cast<std::int32_t>(waiting.size());
-  for (std::int32_t ahead = 1; ahead <= count; ++ahead)
-  {
-    const std::int32_t next = (part + ahead) % count;
-    if (waiting[static_cast<std::size_t>(next)] > 0)
-    {
-      return next;
-    }
-  }
-  return TreeParts::none;
 }
 
 } // namespace
@@ -122,33 +105,19 @@ MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
 }
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const Medium<Real>& medium, std::size_t memory)
-  : CudaTracer(MediumArrays<Real>::of(medium), memory)
+CudaTracer<Real>::CudaTracer(const Medium<Real>& medium)
+  : CudaTracer(MediumArrays<Real>::of(medium))
 {
 }
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium, std::size_t memory)
-  : medium_(medium)
-  , limit_(memory)
-  , memory_(std::make_unique<DeviceMemory>())
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium)
+  : memory_(std::make_unique<DeviceMemory>(medium))
 {
-  const std::size_t bytes = CudaParts<Real>::bytesOfStructure(medium) +
-    CudaParts<Real>::bytesOfBricks(medium) + medium.gradients.count * sizeof(float);
-  if (medium.leaves.count == 0 || bytes <= std::min(availableOnCuda(), memory))
-  {
-    memory_->send(medium);
-  }
 }
 
 template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
-
-template <class Real>
-bool CudaTracer<Real>::hasAll() const
-{
-  return memory_->isSent;
-}
 
 template <class Real>
 bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
@@ -196,15 +165,6 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
 {
   static_assert(bandRows == blockRows);
   const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
-  if (!hasAll())
-  {
-    if (!samplesBeyond(task.kernel) && fields == 0)
-    {
-      return traceInParts(task, pass, exits, bands, traced, monitor);
-    }
-    memory_->send(medium_);
-  }
-  parts_ = 1;
   const RayTask<Real> onDevice = memory_->upload(task, versions);
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
   const CudaPass* there = traced.onDevice.get();
@@ -299,128 +259,6 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
   {
     addTotals(lane.fetchTotals(), traced);
   }
-  return true;
-}
-
-template <class Real>
-bool CudaTracer<Real>::traceInParts(const RayTask<Real>& task, const Pass& pass, Exits exits,
-  TileQueue& bands, TracedPass& traced, const Monitor& monitor)
-{
-  using State = SuspendedRay<Real>;
-  using Count = unsigned long long;
-  const std::size_t raysOfBand = static_cast<std::size_t>(bandRows * pass.columns);
-  const std::size_t bytesOfPass =
-    static_cast<std::size_t>(pass.rows * pass.columns) * sizeof(RayExit);
-  const std::size_t besides =
-    nextPassAndFilms * bytesOfPass + CudaParts<Real>::bytesOfStructure(medium_);
-  const std::size_t available = availableOnCuda();
-  const std::size_t memory = std::min(limit_, available - std::min(available, besides));
-  // Rays that wait at the same time: the fewer there are, the more often all parts have to be sent.
-  const std::size_t bytesOfBand = raysOfBand * sizeof(State);
-  const std::int64_t bandsAtOnce =
-    std::clamp<std::int64_t>(static_cast<std::int64_t>(memory / 4 / bytesOfBand), 1, bandsOf(pass));
-  const CudaBuffer<State> states(static_cast<std::size_t>(bandsAtOnce) * raysOfBand);
-  // With more parts than that the device would do little but receive them.
-  constexpr std::size_t mostParts = 256;
-  CudaParts<Real> parts(medium_, task.light.perLength,
-    std::max(memory - std::min(memory, static_cast<std::size_t>(bandsAtOnce) * bytesOfBand),
-      CudaParts<Real>::bytesOfBricks(medium_) / mostParts));
-  parts_ = parts.count();
-
-  auto& lane = memory_->lanes[0];
-  const auto countOfParts = static_cast<std::size_t>(parts.count());
-  const CudaBuffer<Count> counts(
-    countOfParts + 1); // of rays that wait for each part, and that have advanced
-  Count* const advanced = counts.data() + countOfParts;
-  std::vector<Count> waiting(countOfParts);
-  RayTask<Real> onDevice = task;
-  onDevice.map = {};
-  onDevice.gradients = {};
-  memory_->clearTotals();
-  memory_->findPace(task, 0);
-
-  const auto clear = [&](std::size_t first, std::size_t count)
-  { checkCuda(cudaMemset(counts.data() + first, 0, count * sizeof(Count)), "Counting rays"); };
-  /// Takes rays of some rows through the part that is there. False if aborted.
-  const auto advance = [&](std::int64_t firstRow, std::int64_t endRow, bool areNew)
-  {
-    const std::int64_t firstRay = firstRow * pass.columns;
-    for (std::int64_t row = firstRow; row < endRow;)
-    {
-      const std::int64_t end =
-        std::min(endRow, row + blockRowsOf(pass, *memory_->pace) * blockRows);
-      clear(countOfParts, 1);
-      lane.begin.record(lane.stream);
-      visitScheme(task.kernel.interpolation,
-        [&](auto scheme)
-        {
-          launchAdvance<decltype(scheme)>(onDevice,
-            AdvancedRows<Real>{ pass, row, end, firstRay, states.data(), traced.onDevice->exits(),
-              lane.totals.data(), advanced, counts.data(), areNew },
-            blocksOf(pass, end - row), lane.stream.get());
-        });
-      checkCuda(cudaGetLastError(), "Starting the ray kernel");
-      lane.end.record(lane.stream);
-      Count ofLaunch = 0;
-      copyRays(&ofLaunch, advanced, 1, lane.stream);
-      lane.stream.wait("Tracing rays");
-      const std::int64_t launched = (end - row) * pass.columns;
-      if (constexpr Count most = 8; ofLaunch * most >= static_cast<Count>(launched))
-      {
-        memory_->pace->add(launched, static_cast<std::int64_t>(ofLaunch),
-          CudaEvent::secondsBetween(lane.begin, lane.end));
-      }
-      row = end;
-      if (monitor.aborted && monitor.aborted())
-      {
-        return false;
-      }
-    }
-    return true;
-  };
-  double progress = 0;
-  for (;;)
-  {
-    const TileQueue::Tiles taken = bands.takeFront(bandsAtOnce);
-    if (taken.count() == 0)
-    {
-      break;
-    }
-    const std::int64_t firstRow = taken.first * bandRows;
-    const std::int64_t endRow = std::min(pass.rows, taken.end * bandRows);
-    clear(0, countOfParts);
-    bool areNew = true;
-    for (std::int32_t part = 0; part != TreeParts::none;)
-    {
-      parts.load(part);
-      onDevice.medium = parts.view();
-      clear(static_cast<std::size_t>(part), 1); // these continue now
-      if (!advance(firstRow, endRow, areNew))
-      {
-        return false;
-      }
-      areNew = false;
-      copyRays(waiting.data(), counts.data(), countOfParts, lane.stream);
-      lane.stream.wait("Tracing rays");
-      const double done = static_cast<double>(part + 1) / static_cast<double>(countOfParts);
-      progress = std::max(progress,
-        (static_cast<double>(firstRow) + done * static_cast<double>(endRow - firstRow)) /
-          static_cast<double>(pass.rows));
-      if (monitor.progress)
-      {
-        monitor.progress(progress);
-      }
-      part = nextPart(waiting, part);
-    }
-    if (exits == Exits::OnHost)
-    {
-      const auto first = static_cast<std::size_t>(firstRow * pass.columns);
-      copyRays(traced.exits.data() + first, traced.onDevice->exits() + first,
-        static_cast<std::size_t>((endRow - firstRow) * pass.columns), lane.stream);
-      lane.stream.wait("Fetching rays");
-    }
-  }
-  addTotals(lane.fetchTotals(), traced);
   return true;
 }
 

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 
 namespace schlieren
@@ -49,20 +48,13 @@ struct MediumArrays
 };
 
 /// Traces rays on the CUDA device that cudaAvailable has chosen. Holds in its memory what rays need, from pass to pass: the medium,
-/// the homogeneity map, the gradients of fields. Throws DeviceError.
-///
-/// Of a tree that does not fit into the free memory, each pass sends one part after the other, in the order in which light
-/// comes to them, and rays wait where they leave a part. That is for tasks that canSuspend() and gather nothing; their rays are
-/// those of the whole medium but for rounding.
+/// the homogeneity map, the gradients of fields. Throws DeviceError, OutOfDeviceMemory where the medium does not fit.
 template <class Real>
 class CudaTracer
 {
 public:
-  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-
-  /// The medium must outlive it. `memory`: of the device, in bytes, for the medium, and for the rays in it while they wait.
-  explicit CudaTracer(const MediumArrays<Real>& medium, std::size_t memory = unlimited);
-  explicit CudaTracer(const Medium<Real>& medium, std::size_t memory = unlimited);
+  explicit CudaTracer(const MediumArrays<Real>& medium);
+  explicit CudaTracer(const Medium<Real>& medium);
   ~CudaTracer();
 
   /// Where rays are wanted.
@@ -84,19 +76,8 @@ public:
     Exits exits, TileQueue& bands, TracedPass& traced, const Monitor& monitor,
     const std::function<std::int64_t()>& processes = {});
 
-  /// Whether all of the medium is on the device.
-  bool hasAll() const;
-  /// In how many parts the medium was sent for the last pass, or part of a pass; 1: it is there.
-  int parts() const { return parts_; }
-
 private:
   struct DeviceMemory;
-  bool traceInParts(const RayTask<Real>& task, const Pass& pass, Exits exits, TileQueue& bands,
-    TracedPass& traced, const Monitor& monitor);
-
-  MediumArrays<Real> medium_;
-  std::size_t limit_;
-  int parts_ = 1;
   std::unique_ptr<DeviceMemory> memory_;
 };
 

@@ -31,17 +31,16 @@ void copyRays(T* toHost, const T* fromDevice, std::size_t count, const CudaStrea
 template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {
-  /// Sends all of the medium.
-  void send(const MediumArrays<Real>& medium)
+  /// Sends the medium.
+  explicit DeviceMemory(const MediumArrays<Real>& medium)
+    : view(medium.view)
+    , samples(medium.samples.first, medium.samples.count, "Copying the medium")
   {
-    samples = std::make_unique<CudaBuffer<Real>>(
-      medium.samples.first, medium.samples.count, "Copying the medium");
-    view = medium.view;
-    view.samples = samples->data() + (view.samples - medium.samples.first);
+    view.samples = samples.data() + (view.samples - medium.samples.first);
     if (medium.leaves.count > 0)
     {
       tree = std::make_unique<Tree>(medium);
-      const std::int64_t ghost = view.samples - samples->data();
+      const std::int64_t ghost = view.samples - samples.data();
       view.leaves = tree->leaves.data();
       view.finder.roots = tree->roots.data();
       view.finder.children = tree->children.data();
@@ -54,7 +53,6 @@ struct CudaTracer<Real>::DeviceMemory
         medium.solid.first, medium.solid.count, "Copying the solids");
       view.solid = solid->data();
     }
-    isSent = true; // there was memory for all of it
   }
 
   static int currentDevice()
@@ -65,9 +63,8 @@ struct CudaTracer<Real>::DeviceMemory
   }
 
   int device = currentDevice();
-  bool isSent = false;
-  MediumView<Real> view{}; ///< on the device
-  std::unique_ptr<CudaBuffer<Real>> samples;
+  MediumView<Real> view; ///< on the device
+  CudaBuffer<Real> samples;
   std::unique_ptr<CudaBuffer<std::uint32_t>> solid;
 
   struct Tree

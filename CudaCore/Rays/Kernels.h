@@ -9,14 +9,6 @@
 namespace schlieren
 {
 
-/// Calls visit with an object of the kernel's type, of those that do not look at more than the middles of their steps.
-template <class Scheme, class Visit>
-auto visitPath(PathModel path, const Visit& visit)
-{
-  return path == PathModel::Straight ? visit(Kernel<StraightPath, Leapfrog, Scheme>{})
-                                     : visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
-}
-
 /// Calls visit with an object of the kernel's type, whose scheme is given; of integrators that take several samples
 /// a step another one may be.
 template <class Scheme, class SchemeApart = Scheme, class Visit>

@@ -220,12 +220,12 @@ struct RaysBetweenLeaves
   Real finer;       ///< the new local coordinates by the old ones; 1 for others
 };
 
-/// Moves the rays in question into the leaves of the middle of their next step, see LeavesOfRays::next, but those where
-/// stays(ray, this leaf). Whether any ray has changed its leaf.
-template <class Real, class Stays>
-SCHLIEREN_NOINLINE bool changeLeavesUnless(const MediumView<NumberOf<Real>>& medium,
+/// Moves the rays in question into the leaves of the middle of their next step, see LeavesOfRays::next. Whether any ray
+/// has changed its leaf.
+template <class Real>
+SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
   const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
-  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays, const Stays& stays)
+  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays)
 {
   using Number = NumberOf<Real>;
   constexpr int lanes = lanesOf<Real>;
@@ -246,7 +246,7 @@ SCHLIEREN_NOINLINE bool changeLeavesUnless(const MediumView<NumberOf<Real>>& med
       continue;
     }
     const std::int32_t to = in.next(medium, i, steps, x, along, step[i]);
-    if (to == in.leaf[i] || stays(i, to))
+    if (to == in.leaf[i])
     {
       continue;
     }
@@ -263,19 +263,6 @@ SCHLIEREN_NOINLINE bool changeLeavesUnless(const MediumView<NumberOf<Real>>& med
   rays.finer = fromArray<Real>(finer);
   rays.start = packsOf<Real>(start);
   return hasChanged;
-}
-
-struct StaysNowhere
-{
-  SCHLIEREN_HD bool operator()(int, std::int32_t) const { return false; }
-};
-
-template <class Real>
-SCHLIEREN_HD bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
-  const StepsInLeaves<NumberOf<Real>>& steps, const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
-  LeavesOfRays<Real>& in, RaysBetweenLeaves<Real>& rays)
-{
-  return changeLeavesUnless(medium, steps, perLength, in, rays, StaysNowhere{});
 }
 
 /// Where a pack of places lies that may be in other leaves than the rays.

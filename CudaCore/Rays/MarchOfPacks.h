@@ -208,14 +208,11 @@ constexpr std::int32_t worthALoop = 4;
 template <class Kernel, class Real, class May>
 SCHLIEREN_HD void takePlainSteps(March<Kernel, Real, May>& a, March<Kernel, Real, May>& b)
 {
-  if constexpr (!March<Kernel, Real, May>::areApart)
+  // What blocks are for, long rows of leaves, are not what leaves of one layer are crossed in.
+  if (a.isTree() && a.task.medium.planeStride != 0)
   {
-    // What blocks are for, long rows of leaves, are not what leaves of one layer are crossed in.
-    if (a.isTree() && a.task.medium.planeStride != 0)
-    {
-      takeStepsInBlocks(a, b);
-      return;
-    }
+    takeStepsInBlocks(a, b);
+    return;
   }
   const std::int32_t inside = minimum(a.stepsInside(), b.stepsInside());
   if (inside >= worthALoop)
@@ -253,35 +250,6 @@ SCHLIEREN_HD void marchTwo(March<Kernel, Real, May>& a, March<Kernel, Real, May>
   }
   a.findDrift();
   b.findDrift();
-}
-
-/// AdvanceFunctions of a kernel. `Apart`: the scheme of kernels that sample beyond.
-template <class Kernel, class Apart, class Real>
-AdvanceFunctions<NumberOf<Real>, lanesOf<Real>> advanceFunctions()
-{
-  using Number = NumberOf<Real>;
-  constexpr int lanes = lanesOf<Real>;
-  using Marching = MarchInResidentLeaves<Kernel, Real>;
-  const auto advance = [](const RayTask<Number>& task, RayBatch<Number, lanes>(&batches)[2],
-                         SuspendedRay<Number>(&states)[2][lanes],
-                         [[maybe_unused]] StepElsewhere<Number>* steps)
-  {
-    if constexpr (Marching::mayMiss)
-    {
-      for (int n = 0; n < 2; ++n)
-      {
-        SamplesOfSteps<Real> samples(steps + n * lanes);
-        Marching(task, batches[n], states[n], &samples).takeAllSteps();
-      }
-    }
-    else
-    {
-      Marching a(task, batches[0], states[0]);
-      Marching b(task, batches[1], states[1]);
-      marchTwo(a, b);
-    }
-  };
-  return { advance, &findMissing<Apart, Real> };
 }
 
 } // namespace schlieren

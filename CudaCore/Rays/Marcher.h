@@ -8,8 +8,7 @@
 #include "Rays/InBoxes.h"
 #include "Rays/LeavesOfRays.h"
 #include "Rays/RayTask.h"
-#include "Rays/SamplesElsewhere.h"
-#include "Rays/SuspendedRays.h"
+#include "Rays/SampleApart.h"
 
 #include <cstdint>
 #include <type_traits>
@@ -31,13 +30,12 @@ SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
 
 /// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
 /// cannot be met saves registers.
-template <bool image, bool tree, bool fields, bool absentLeaves = false>
+template <bool image, bool tree, bool fields>
 struct MayMeet
 {
   static constexpr bool anImage = image;
   static constexpr bool aTree = tree;
   static constexpr bool fieldsToGather = fields;
-  static constexpr bool leavesElsewhere = absentLeaves; ///< see Leaf::isResident
 };
 using MayMeetAll = MayMeet<true, true, true>;
 
@@ -55,18 +53,13 @@ struct March
   static constexpr int lanes = lanesOf<Real>;
   static constexpr bool isAdaptive = std::is_same_v<Integrator, Adaptive>;
   static constexpr bool isExact = Integrator::order > 2; ///< about where it leaves, too
-  /// Of rays that may continue elsewhere, with others beside them: what becomes of each must not depend on these.
-  static constexpr bool areApart = May::leavesElsewhere;
   using Batch = RayBatch<Number, lanes>;
-  using Suspended = std::conditional_t<areApart, SuspendedRays<Real>, NoSuspendedRays>;
-  /// A step may look into leaves that are not resident.
-  static constexpr bool mayMiss = areApart && Integrator::samplesBeyond;
 
   const RayTask<Number>& task;
   Batch& batch;
   StraightLight<Real> light;
   Ray<Real> ray;
-  using Leaves = std::conditional_t<lanes == 1 || areApart, LeavesOfRays<Real>, LeavesOfPack<Real>>;
+  using Leaves = std::conditional_t<lanes == 1, LeavesOfRays<Real>, LeavesOfPack<Real>>;
   Leaves in;                        ///< of a tree
   Vec3<Real> domainLow, domainHigh; ///< in local coordinates
   Real baseValue;                   ///< of the leaf: is added to what its samples say
@@ -82,15 +75,11 @@ struct March
   std::int32_t steps = 0;
   std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
-  Suspended suspended;
-  SamplesOfSteps<Real>* samples; ///< mayMiss
 
   // Rays are distinguished by masks, or in arrays, but never by an index into a pack: that would keep the
   // pack in memory, in every step.
 
-  /// `states`: areApart: of the rays, see MarchInResidentLeaves. `ofSteps`: mayMiss: of these.
-  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch,
-    decltype(Suspended::states) states = nullptr, SamplesOfSteps<Real>* ofSteps = nullptr)
+  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
     : task(ofTask)
     , batch(ofBatch)
     , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
@@ -102,8 +91,6 @@ struct March
     , stepsToLast(stepsPerIndex(light.perLength))
     , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
     , nextStep(Real{} + ofTask.step)
-    , suspended{ states }
-    , samples(ofSteps)
   {
     Number usual[lanes], start[3][lanes];
     for (int i = 0; i < lanes; ++i)
@@ -117,21 +104,14 @@ struct March
     cruise = fromArray<Real>(usual);
     ray.start = packs(start);
     areUnderWay = any(cruise > 0);
-    if constexpr (areApart)
+    if (isTree())
     {
-      continueMarch();
+      enterTree();
     }
-    else
+    park(cruise == 0);
+    if constexpr (Path::bends)
     {
-      if (isTree())
-      {
-        enterTree();
-      }
-      park(cruise == 0);
-      if constexpr (Path::bends)
-      {
-        ray.q = atEntry(valueApart(ray.start));
-      }
+      ray.q = atEntry(valueApart(ray.start));
     }
   }
 
@@ -206,10 +186,6 @@ struct March
       {
         batch.fate[i] = fate;
         batch.steps[i] = stepsTaken;
-        if constexpr (areApart)
-        {
-          batch.steps[i] += suspended.states[i].steps;
-        }
         if (isTree())
         {
           in.toIndexCoordinates(task.medium, i, batch.offset);
@@ -307,14 +283,7 @@ struct March
     isConstant = leaves.isConstant;
     someConstant = leaves.someConstant;
     someNearEdge = leaves.someNearEdge;
-    if constexpr (areApart)
-    {
-      inGas = leaves.isNearEdge > 0 ? inGas : Real{} + 1;
-    }
-    else
-    {
-      inGas = someNearEdge ? inGas : Real{} + 1;
-    }
+    inGas = someNearEdge ? inGas : Real{} + 1;
     cruise = leaves.step;
     light.indexScale =
       scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
@@ -340,28 +309,6 @@ struct March
     return minimum(cruise, maximum(out, Real{}));
   }
 
-  /// Moves rays into the leaves of the middle of their next step, if these are resident.
-  SCHLIEREN_HD bool changeLeavesOf(
-    RaysBetweenLeaves<Real>& rays, [[maybe_unused]] bool& someSuspended)
-  {
-    if constexpr (areApart)
-    {
-      // It knows nothing of the march, which would be kept in memory for it.
-      const auto suspends = [states = suspended.states, &medium = task.medium, &someSuspended](
-                              int i, std::int32_t next)
-      {
-        const bool isIt = Suspended::suspends(medium, states[i], next);
-        someSuspended |= isIt;
-        return isIt;
-      };
-      return changeLeavesUnless(task.medium, stepsInLeaves(), batch.perLength, in, rays, suspends);
-    }
-    else
-    {
-      return changeLeaves(task.medium, stepsInLeaves(), batch.perLength, in, rays);
-    }
-  }
-
   /// Sees to it that each ray is in the leaf of the middle of its next step, and returns the longest steps: as
   /// long as a voxel where that is; through a leaf where nothing changes, up to its far side.
   SCHLIEREN_HD Real settle()
@@ -375,8 +322,7 @@ struct March
     {
       RaysBetweenLeaves<Real> rays{ isOut ? Real{} + 1 : Real{}, Path::position(ray, light),
         Path::along(ray, light), within, ray.start, ray.length, {} };
-      bool someSuspended = false;
-      if (changeLeavesOf(rays, someSuspended))
+      if (changeLeaves(task.medium, stepsInLeaves(), batch.perLength, in, rays))
       {
         ray.start = rays.start;
         ray.length = rays.length;
@@ -384,20 +330,6 @@ struct March
         takeLeaves();
       }
       step = rays.step < within ? rays.step : step;
-      if constexpr (areApart)
-      {
-        if (someSuspended)
-        {
-          if constexpr (mayMiss)
-          {
-            samples->keep();
-          }
-          suspended.keep(ray, in, cruise, steps);
-          park(suspended.areSuspended() > 0);
-          areUnderWay = any(cruise > 0);
-          step = cruise > 0 ? step : Real{};
-        }
-      }
     }
     if (someConstant && !isAdaptive)
     {
@@ -472,11 +404,7 @@ struct March
   {
     const std::int64_t* base = isTree() ? in.base : nullptr;
     Sample<Real> found;
-    if constexpr (mayMiss)
-    {
-      return onlyGas(samples->template find<Scheme>(task, in, baseValue, at));
-    }
-    else if constexpr (Integrator::samplesBeyond)
+    if constexpr (Integrator::samplesBeyond)
     {
       if (isTree() && any(insetOf(at, task.medium.leafLow, task.medium.leafHigh) < 0))
       {
@@ -534,10 +462,6 @@ struct March
     Real step, const Mask& leaving, const Vec3<Real>& x, const Vec3<Real>& along) const
   {
     constexpr int iterations = 3;
-    if constexpr (mayMiss)
-    {
-      samples->next(0, leaving ? cruise : Real{});
-    }
     for (int iteration = 0; iteration < iterations; ++iteration)
     {
       Ray<Real> there = ray;
@@ -562,11 +486,7 @@ struct March
   SCHLIEREN_HD auto takeIfGood(const Ray<Real>& there, const Real& step, const Real& error)
   {
     const Real shortest = Real{} + task.step * Number(1. / 4096);
-    auto good = (error <= 1) | (step <= shortest);
-    if constexpr (mayMiss)
-    {
-      good = good & (cruise > 0);
-    }
+    const auto good = (error <= 1) | (step <= shortest);
     takeWhere(good, there);
     // The error of a step of the second order, which is what is compared, goes by its cube.
     const Real factor = Number(0.9) / squareRoot(squareRoot(error));
@@ -619,14 +539,13 @@ struct March
     return by < 0 ? -by : by;
   }
 
-  /// That at the end. Where mayMiss, the last step has found it.
+  /// That at the end.
   SCHLIEREN_HD void findDrift()
   {
-    if constexpr (!Path::bends || mayMiss)
+    if constexpr (!Path::bends)
     {
       return;
     }
-    someNearEdge = someNearEdge || areApart; // when each of them ended
     toArray(drift(packs(batch.q), packs(batch.end)), batch.drift);
     for (int i = 0; i < lanes; ++i)
     {
@@ -659,7 +578,7 @@ struct March
       minimum(leastOf(scaled(high - x, stepsToLast)), leastOf(scaled(x - low, stepsToFirst)));
     Number most[lanes];
     toArray(least, most);
-    const std::int32_t left = stepLimit() - steps;
+    const std::int32_t left = task.stepLimit - steps;
     Number all = static_cast<Number>(left);
     for (const Number one : most)
     {
@@ -713,21 +632,8 @@ struct March
       {
         step = endingOutside(step, next.leaving, x, along);
       }
-      if constexpr (mayMiss)
-      {
-        suspendMissing();
-        step = cruise > 0 ? step : Real{};
-      }
     }
-    if constexpr (areApart)
-    {
-      // As stepInside(), to the last bit: when that is called depends on all rays.
-      next.middle = Path::ahead(ray, light, Number(0.5) * step);
-    }
-    else
-    {
-      next.middle = x + (Number(0.5) * step) * along;
-    }
+    next.middle = x + (Number(0.5) * step) * along;
     if (May::anImage && task.medium.solid != nullptr)
     {
       stopInSolids(step, clampTo(next.middle, task.medium.leafHigh));
@@ -741,33 +647,12 @@ struct March
     return next;
   }
 
-  /// mayMiss: rays whose steps need samples that are not here are suspended where these steps began, and go for the samples.
-  SCHLIEREN_HD void suspendMissing()
-  {
-    if constexpr (mayMiss)
-    {
-      if (samples->someMissing())
-      {
-        const auto which = samples->suspendMissing(suspended.states, in.leaf) > 0;
-        samples->keep();
-        suspended.keep(samples->ray(), samples->leaves(), cruise, steps);
-        park(which);
-        areUnderWay = any(cruise > 0);
-      }
-    }
-  }
-
   SCHLIEREN_HD void take(NextStep next)
   {
-    if constexpr (mayMiss)
-    {
-      samples->next(StepElsewhere<Number>::firstOfStep, cruise);
-    }
     if constexpr (isAdaptive)
     {
       Real error{};
       const Ray<Real> there = attempt(next.step, error);
-      suspendMissing();
       const auto good = takeIfGood(there, next.step, error);
       next.leaving = next.leaving & good;
       next.step = good ? next.step : Real{};
@@ -775,19 +660,6 @@ struct March
     else
     {
       advance(ray, next.step, next.middle);
-    }
-    if constexpr (mayMiss)
-    {
-      suspendMissing();
-      if (next.someLeave)
-      {
-        const auto done = areOutside(next.leaving);
-        samples->next(StepElsewhere<Number>::atEnd, done ? cruise : Real{});
-        const Real atEnd = drift(ray.q, Path::position(ray, light));
-        suspendMissing();
-        toArray(done & (cruise > 0) ? atEnd : fromArray<Real>(batch.drift), batch.drift);
-      }
-      samples->end();
     }
     if (isGathering())
     {
@@ -811,63 +683,16 @@ struct March
     take(chooseStep());
   }
 
-  SCHLIEREN_HD std::int32_t stepLimit() const
-  {
-    if constexpr (areApart)
-    {
-      return suspended.stepLimit;
-    }
-    else
-    {
-      return task.stepLimit;
-    }
-  }
-
   /// Ends the rays that have taken too many steps.
   SCHLIEREN_HD bool isTrapped()
   {
-    if (steps < stepLimit())
+    if (steps < task.stepLimit)
     {
       return false;
     }
-    if constexpr (areApart)
-    {
-      finish((cruise > 0) & (suspended.areTrapped(steps) > 0), RayFate::Trapped, steps);
-      suspended.limitSteps(cruise);
-      areUnderWay = any(cruise > 0);
-    }
-    else
-    {
-      finish(cruise > 0, RayFate::Trapped, steps);
-      areUnderWay = false;
-    }
-    return !areUnderWay;
-  }
-
-  /// areApart: puts the rays where they are.
-  SCHLIEREN_HD void continueMarch()
-  {
-    Real enters{};
-    suspended.stepsOfAll = task.stepLimit;
-    ray = suspended.restore(task.medium, batch.start, in, enters);
-    takeLeaves();
-    suspended.limitSteps(cruise);
-    park(cruise == 0);
-    if constexpr (mayMiss)
-    {
-      Real longest, gas;
-      samples->restore(longest, gas);
-      nextStep = enters > 0 ? nextStep : longest;
-      inGas = enters > 0 ? inGas : gas;
-    }
-    if constexpr (Path::bends)
-    {
-      // They are in their leaves, but for rounding.
-      const Vec3<Real> entering = atEntry(valueApart(withinLeaf(ray.start)));
-      ray.q.x = enters > 0 ? entering.x : ray.q.x;
-      ray.q.y = enters > 0 ? entering.y : ray.q.y;
-      ray.q.z = enters > 0 ? entering.z : ray.q.z;
-    }
+    finish(cruise > 0, RayFate::Trapped, steps);
+    areUnderWay = false;
+    return true;
   }
 
   /// Takes all steps. There is one piece of code for a step, whether there is anything to look at or not: on a GPU,
@@ -877,10 +702,6 @@ struct March
     std::int32_t inside = 0;
     while (areUnderWay && (inside > 0 || !isTrapped()))
     {
-      if constexpr (mayMiss)
-      {
-        samples->begin(ray, in, nextStep, inGas, cruise);
-      }
       take(inside > 0 ? stepInside() : chooseStep());
       --inside;
       if (!isAdaptive && inside < 0)
@@ -900,12 +721,5 @@ SCHLIEREN_HD void march(
   rays.takeAllSteps();
   rays.findDrift();
 }
-
-/// The march of rays through a medium of which leaves are missing. It begins where `states` of the rays say: where they
-/// were suspended, or, where `leaf` is nowhere, where they enter the grid, which must be in a resident leaf. It ends before
-/// they would enter a leaf that is not resident, which `states` then say. What becomes of a ray does not depend on those
-/// beside it.
-template <class Kernel, class Real, bool fields = true>
-using MarchInResidentLeaves = March<Kernel, Real, MayMeet<false, true, fields, true>>;
 
 } // namespace schlieren

@@ -57,25 +57,19 @@ struct CudaTracer<Real>::DeviceMemory
 };
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const Medium<Real>&, std::size_t)
+CudaTracer<Real>::CudaTracer(const Medium<Real>&)
 {
   throw DeviceError(builtWithoutCuda);
 }
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const MediumArrays<Real>&, std::size_t)
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>&)
 {
   throw DeviceError(builtWithoutCuda);
 }
 
 template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
-
-template <class Real>
-bool CudaTracer<Real>::hasAll() const
-{
-  return false;
-}
 
 template <class Real>
 void CudaTracer<Real>::begin(const RayTask<Real>&, const Pass&, Exits, TracedPass&) const

@@ -23,12 +23,6 @@ struct KernelChoice
   Interpolation interpolation;
 };
 
-/// Whether steps look at the medium at other places than their middles.
-inline bool samplesBeyond(const KernelChoice& kernel)
-{
-  return kernel.path != PathModel::Straight && kernel.integrator != Integrator::Leapfrog;
-}
-
 /// All that one ray needs, host and device alike.
 template <class Number>
 struct RayTask

@@ -3,7 +3,6 @@
 #include "Rays/RayWorker.h"
 
 #include "Device/Parallel.h"
-#include "Rays/PartWorker.h"
 #include "Rays/TaskArrays.h"
 
 #include <algorithm>
@@ -20,7 +19,6 @@ namespace schlieren
 struct RayWorker::Arrays
 {
   TaskArrays ofTask;
-  PartWorker part{ ofTask };
 
   /// What it has of them on a CUDA device.
   template <class Real>
@@ -54,11 +52,9 @@ struct RayWorker::Arrays
   void keep(const std::vector<char>& message)
   {
     ArrayMessage head;
-    part.endTrace(); // of which the array may be
     if (read(message, head) && head.first == 0 && head.array == samplesOfTask)
     {
-      part.clear(); // the array is of another medium
-      leaveCuda();
+      leaveCuda(); // the array is of another medium
     }
     ofTask.keep(message);
   }
@@ -194,17 +190,8 @@ namespace
 
 bool isSingle(const std::vector<char>& message)
 {
-  RequestHead request;
+  TilesHead request;
   return read(message, request) && request.bytesOfReal == sizeof(float);
-}
-
-void sendLacking(std::uint64_t number, const TileQueue::Tiles& tiles, Channel& channel)
-{
-  RaysMessage lacking;
-  lacking.kind = RayWorker::Lacking;
-  lacking.number = number;
-  lacking.tiles = tiles;
-  channel.send(messageOf(lacking));
 }
 
 /// Of the device; 0: there is none that works.
@@ -239,13 +226,6 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
         isDone = isSingle(message) ? arrays_->trace<float>(message, channel, threads)
                                    : arrays_->trace<double>(message, channel, threads);
         break;
-      case PutBricks:
-      case SumUp:
-      case FetchBricks:
-      case BeginRays:
-      case Advance:
-        isDone = arrays_->part.answer(message, channel, threads);
-        break;
       default:
         break;
     }
@@ -253,32 +233,18 @@ void RayWorker::answer(std::vector<char> message, Channel& channel, int threads)
   catch (const std::exception&) // there is no memory
   {
     arrays_->leaveCuda();
-    isDone = kindOf(message) == PutBricks;
+    isDone = kindOf(message) != Tiles;
   }
   if (!isDone)
   {
     TilesHead request;
     read(message, request);
-    sendLacking(
-      request.number, kindOf(message) == Tiles ? request.tiles : TileQueue::Tiles{ 0, 0 }, channel);
+    RaysMessage lacking;
+    lacking.kind = Lacking;
+    lacking.number = request.number;
+    lacking.tiles = request.tiles;
+    channel.send(messageOf(lacking));
   }
 }
-
-bool RayWorker::advance(Channel& channel, Peers& peers, int threads)
-{
-  PartWorker& part = arrays_->part;
-  try
-  {
-    return part.advance(channel, peers, threads);
-  }
-  catch (const std::exception&)
-  {
-    part.endTrace();
-    sendLacking(part.trace(), { 0, 0 }, channel);
-    return true;
-  }
-}
-
-void RayWorker::endTrace() { arrays_->part.endTrace(); }
 
 } // namespace schlieren

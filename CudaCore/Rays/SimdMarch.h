@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/SamplesElsewhere.h"
-#include "Rays/SuspendedRays.h"
+#include "Rays/RayTask.h"
 
 namespace schlieren
 {
@@ -21,22 +20,5 @@ MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice);
 /// The same for AVX-512 without gathers.
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice);
-
-/// The same as far as leaves are resident.
-template <class Number, int Lanes>
-struct AdvanceFunctions
-{
-  /// MarchInResidentLeaves with two batches, one after the other where samplesBeyond(). `steps`: of two batches, then.
-  void (*advance)(const RayTask<Number>&, RayBatch<Number, Lanes> (&batches)[2],
-    SuspendedRay<Number> (&states)[2][Lanes], StepElsewhere<Number>* steps);
-  /// See findMissing().
-  void (*find)(const RayTask<Number>&, SuspendedRay<Number>* const* rays,
-    StepElsewhere<Number>* const* steps, int count);
-};
-
-template <class Number, int Lanes>
-AdvanceFunctions<Number, Lanes> simdAdvance(const KernelChoice& choice);
-template <class Number, int Lanes>
-AdvanceFunctions<Number, Lanes> simdAdvanceByRows(const KernelChoice& choice);
 
 } // namespace schlieren

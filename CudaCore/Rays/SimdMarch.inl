@@ -51,25 +51,4 @@ MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice)
     });
 }
 
-template <class Number, int Lanes>
-AdvanceFunctions<Number, Lanes> simdAdvance(const KernelChoice& choice)
-{
-  return visitKernel(choice,
-    [](auto kernel)
-    { return advanceFunctions<decltype(kernel), SchemeOfTask, SimdPack<Number, Lanes>>(); });
-}
-
-template <class Number, int Lanes>
-AdvanceFunctions<Number, Lanes> simdAdvanceByRows(const KernelChoice& choice)
-{
-  return visitScheme(choice.interpolation,
-    [&choice](auto scheme)
-    {
-      return visitKernelOf<ByRows<decltype(scheme)>, SchemeOfTaskByRows>(choice,
-        [](auto kernel) {
-          return advanceFunctions<decltype(kernel), SchemeOfTaskByRows, SimdPack<Number, Lanes>>();
-        });
-    });
-}
-
 } // namespace schlieren

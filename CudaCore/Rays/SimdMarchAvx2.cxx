@@ -9,7 +9,5 @@ namespace schlieren
 
 template MarchFunction<float, 8> simdMarch(const KernelChoice&);
 template MarchFunction<double, 4> simdMarch(const KernelChoice&);
-template AdvanceFunctions<float, 8> simdAdvance(const KernelChoice&);
-template AdvanceFunctions<double, 4> simdAdvance(const KernelChoice&);
 
 } // namespace schlieren

@@ -9,7 +9,5 @@ namespace schlieren
 
 template MarchFunction<float, 16> simdMarch(const KernelChoice&);
 template MarchFunction<double, 8> simdMarch(const KernelChoice&);
-template AdvanceFunctions<float, 16> simdAdvance(const KernelChoice&);
-template AdvanceFunctions<double, 8> simdAdvance(const KernelChoice&);
 
 } // namespace schlieren

@@ -9,7 +9,5 @@ namespace schlieren
 
 template MarchFunction<float, 16> simdMarchByRows(const KernelChoice&);
 template MarchFunction<double, 8> simdMarchByRows(const KernelChoice&);
-template AdvanceFunctions<float, 16> simdAdvanceByRows(const KernelChoice&);
-template AdvanceFunctions<double, 8> simdAdvanceByRows(const KernelChoice&);
 
 } // namespace schlieren

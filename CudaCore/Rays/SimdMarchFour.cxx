@@ -7,6 +7,5 @@ namespace schlieren
 {
 
 template MarchFunction<float, 4> simdMarch(const KernelChoice&);
-template AdvanceFunctions<float, 4> simdAdvance(const KernelChoice&);
 
 } // namespace schlieren

@@ -21,8 +21,6 @@ namespace schlieren
 class TaskArrays
 {
 public:
-  void clear() { arrays_ = {}; }
-
   /// A piece of an array, with an ArrayMessage before it. Where there is no memory for it, it is not there.
   void keep(const std::vector<char>& message)
   {

@@ -72,16 +72,12 @@ void sendPieces(ArrayMessage head, const void* array, std::size_t bytes, const S
   } while (head.first < bytes);
 }
 
-/// The first bytes of all requests of rays and of a tree's parts.
-struct RequestHead
+/// The first bytes of a request of rays.
+struct TilesHead
 {
   std::uint32_t kind = 0;
   std::uint32_t bytesOfReal = 0;
-  std::uint64_t number = 0; ///< that answers repeat, mostly of the trace
-};
-
-struct TilesHead : RequestHead
-{
+  std::uint64_t number = 0; ///< of the trace, which answers repeat
   TileQueue::Tiles tiles{ 0, 0 };
 };
 
@@ -95,7 +91,7 @@ struct DeviceMessage
 template <class Real>
 struct TilesMessage
 {
-  TilesHead head{ { RayWorker::Tiles, sizeof(Real), 0 }, { 0, 0 } };
+  TilesHead head{ RayWorker::Tiles, sizeof(Real), 0, { 0, 0 } };
   Device device = Device::Cpu;
   Simd simd = Simd::None; ///< of the CPU
   Pass pass{};
@@ -142,25 +138,6 @@ bool read(const std::vector<char>& message, Head& head)
   }
   std::memcpy(&head, message.data(), sizeof(Head));
   return true;
-}
-
-template <class Value>
-void append(const std::vector<Value>& values, std::vector<char>& message)
-{
-  const char* first = reinterpret_cast<const char*>(values.data());
-  message.insert(message.end(), first, first + values.size() * sizeof(Value));
-}
-
-/// All that a message has from a byte on.
-template <class Value>
-std::vector<Value> valuesFrom(std::size_t first, const std::vector<char>& message)
-{
-  std::vector<Value> values((message.size() - first) / sizeof(Value));
-  if (!values.empty())
-  {
-    std::memcpy(values.data(), message.data() + first, values.size() * sizeof(Value));
-  }
-  return values;
 }
 
 /// A tile as a pass of its own, with the same rays.

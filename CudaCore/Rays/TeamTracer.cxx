@@ -462,10 +462,10 @@ bool TeamTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Re
     { return State::putBands(head, rays, pass, exits == onHost, traced); } };
 
   // Workers take part where this process has traced for as long as it takes to send them the medium, and where it
-  // receives rays sooner than it traces them; not where each of their bands would need all parts of the medium again.
+  // receives rays sooner than it traces them.
   const typename Clock::time_point start = Clock::now();
   const double secondsToSend = static_cast<double>(state.bytesFor(request)) / bytesPerSecond;
-  const bool areWorthIt = own.hasAll() && state.secondsPerRayReceived <= state.secondsPerRayTraced;
+  const bool areWorthIt = state.secondsPerRayReceived <= state.secondsPerRayTraced;
   const auto helps = [&]
   { return areWorthIt && state.secondsOnCuda + Exchange::secondsSince(start) >= secondsToSend; };
   Monitor watched = monitor;

@@ -107,33 +107,6 @@ TEST_F(TeamOnCuda, ChangesNoBitBesideWalls)
   expectSameOf(field);
 }
 
-// They would need all parts for each of their bands.
-TEST_F(TeamOnCuda, LeavesMediaInPartsToOne)
-{
-  Field field;
-  field.source = std::make_shared<BallsSource>(threeBalls(1e-3));
-  field.grid = coarsestGrid(*field.source);
-  scene_.fieldColors.clear();
-  scene_.histogramSize = 0;
-  scene_.view.width = 50;
-  scene_.view.height = 65;
-  scene_.view.parallelScale = 0.3;
-  scene_.mediumTolerance = 1e-3;
-  Worker worker;
-  Bench bench;
-  bench.setWorkers({ worker.channel() });
-  emulated::setCapacity(std::size_t{ 2 } << 20);
-  for (int view = 0; view < 2; ++view)
-  {
-    scene_.view.viewDirection = { 0.05 * view - 0.2, 0.4, -1 };
-    const Image image = bench.render(field, scene_);
-    EXPECT_EQ(image.device, Device::Cuda);
-    EXPECT_EQ(image.workers, 0);
-    EXPECT_EQ(image.deflection, Bench().render(field, scene_).deflection);
-  }
-  EXPECT_EQ(worker.tiles(), 0);
-}
-
 TEST_F(TeamOnCuda, SendsTheMediumOnceAndFollowsTheScene)
 {
   Worker worker;

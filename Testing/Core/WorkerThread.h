@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -37,12 +36,6 @@ public:
     const std::lock_guard<std::mutex> guard(lock_);
     return messages_.empty();
   }
-  /// Until there is one, or one from a peer.
-  void wait()
-  {
-    std::unique_lock<std::mutex> guard(lock_);
-    arrived_.wait(guard, [this] { return !messages_.empty() || !fromPeers_.empty(); });
-  }
   std::vector<char> take()
   {
     std::unique_lock<std::mutex> guard(lock_);
@@ -52,85 +45,20 @@ public:
     return message;
   }
 
-  void putFromPeer(std::vector<char> message)
-  {
-    const std::lock_guard<std::mutex> guard(lock_);
-    fromPeers_.push_back(std::move(message));
-    arrived_.notify_one();
-  }
-  /// Empty where there is none.
-  std::vector<char> takeFromPeer()
-  {
-    const std::lock_guard<std::mutex> guard(lock_);
-    if (fromPeers_.empty())
-    {
-      return {};
-    }
-    std::vector<char> message = std::move(fromPeers_.front());
-    fromPeers_.pop_front();
-    return message;
-  }
-
 private:
   mutable std::mutex lock_;
   std::condition_variable arrived_;
-  std::deque<std::vector<char>> messages_, fromPeers_;
-};
-
-/// What workers send each other, by their addresses.
-class PeerThread : public Peers
-{
-public:
-  explicit PeerThread(Mail& mail)
-    : mail_(mail)
-  {
-    const std::lock_guard<std::mutex> guard(lock());
-    static std::int32_t last = 0;
-    address_ = ++last;
-    all()[address_] = this;
-  }
-  ~PeerThread() override
-  {
-    const std::lock_guard<std::mutex> guard(lock());
-    all().erase(address_);
-  }
-  std::int32_t address() const { return address_; }
-
-  void send(std::int32_t address, std::vector<char> message) override
-  {
-    const std::lock_guard<std::mutex> guard(lock());
-    const auto to = all().find(address);
-    if (to != all().end())
-    {
-      to->second->mail_.putFromPeer(std::move(message));
-    }
-  }
-  std::vector<char> receive() override { return mail_.takeFromPeer(); }
-
-private:
-  static std::mutex& lock()
-  {
-    static std::mutex one;
-    return one;
-  }
-  static std::map<std::int32_t, PeerThread*>& all()
-  {
-    static std::map<std::int32_t, PeerThread*> peers;
-    return peers;
-  }
-  Mail& mail_;
-  std::int32_t address_ = 0;
+  std::deque<std::vector<char>> messages_;
 };
 
 /// One end of a connection.
 class End : public Channel
 {
 public:
-  End(Mail& to, Mail& from, const std::atomic<bool>& isOpen, std::int32_t address)
+  End(Mail& to, Mail& from, const std::atomic<bool>& isOpen)
     : to_(to)
     , from_(from)
     , isOpen_(isOpen)
-    , address_(address)
   {
   }
   void send(std::vector<char> message) override
@@ -151,13 +79,11 @@ public:
   bool hasMessage() override { return !from_.isEmpty(); }
   std::vector<char> receive() override { return from_.take(); }
   bool isOpen() const override { return isOpen_; }
-  std::int32_t address() const override { return address_; }
 
 private:
   Mail& to_;
   Mail& from_;
   const std::atomic<bool>& isOpen_;
-  const std::int32_t address_;
   std::size_t sent_ = 0;
 };
 
@@ -196,18 +122,10 @@ public:
 private:
   void work()
   {
-    End there(fromWorker_, toWorker_, isOpen_, 0);
+    End there(fromWorker_, toWorker_, isOpen_);
     auto worker = std::make_unique<RayWorker>();
     for (;;)
     {
-      if (!there.hasMessage())
-      {
-        if (isOpen_ ? !worker->advance(there, peers_, 2) : peers_.receive().empty())
-        {
-          toWorker_.wait();
-        }
-        continue;
-      }
       std::vector<char> message = there.receive();
       if (message.empty())
       {
@@ -241,12 +159,11 @@ private:
   }
 
   Mail toWorker_, fromWorker_;
-  PeerThread peers_{ toWorker_ };
   std::atomic<bool> isOpen_{ true };
   std::atomic<int> arrays_{ 0 }, tiles_{ 0 };
   Fault fault_;
   int after_;
-  End here_{ toWorker_, fromWorker_, isOpen_, peers_.address() };
+  End here_{ toWorker_, fromWorker_, isOpen_ };
   std::thread thread_;
 };
 

@@ -138,18 +138,3 @@ TEST(PathDifference, OfAMeshHasOneMedium)
   expectDifference(difference, refracted, straight, "Intensity", 0.5, 0.5);
   expectDifference(difference, refracted, straight, "Deflection");
 }
-
-TEST(PathDifference, NeedsTheMediumInOnePiece)
-{
-  auto filter = benchFor(denseColumn(), Filter::REFRACTED);
-  filter->Update();
-  expectOneMessage(
-    filter.Get(),
-    [](Filter* one)
-    {
-      one->SetPathModel(Filter::DIFFERENCE);
-      one->SetDistributedMedium(Filter::DISTRIBUTED_MEDIUM_ON);
-    },
-    { "PathModel", "DistributedMedium", "Auto" },
-    [](Filter* one) { one->SetDistributedMedium(Filter::DISTRIBUTED_MEDIUM_AUTO); });
-}

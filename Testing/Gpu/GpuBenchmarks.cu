@@ -305,16 +305,6 @@ void measureTree(const Peak& peak)
     scene.view.parallelScale = 0.04;
     scene.mediumTolerance = 0.003;
     measure(direction[0] == 0 ? "tree, along z" : "tree, aslant", bench, field, scene, peak);
-    // Beside what takes so much of the memory that the tree is traced in parts.
-    const std::size_t ofImage = std::size_t{ 128 } << 20, reserve = std::size_t{ 256 } << 20;
-    const auto ofTree = static_cast<std::size_t>(bench.render(field, scene).medium.bytes);
-    bench = Bench();
-    std::size_t free = 0, total = 0;
-    checkCuda(cudaMemGetInfo(&free, &total), "Asking for free memory");
-    const CudaBuffer<char> others(free - std::min(free, reserve + ofImage + ofTree / 2));
-    Bench withLittle;
-    measure(direction[0] == 0 ? "the same in parts" : "the same in parts, aslant", withLittle,
-      field, scene, peak);
   }
 }
 

@@ -178,54 +178,6 @@ def in_pieces():
     return found
 
 
-def distributed():
-    """Media of which each rank has a part: of meshes that stay where they are or are gathered, and a body."""
-    from paraview.simple import ProgrammableSource, Sphere
-    from plugin_testing import Schlieren, image_array
-    found = {}
-    source = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", Script=BALL.replace("KIND", repr("tetrahedra")),
-                                ScriptRequestInformation=WHOLE_EXTENT.replace("IS_GRID", "False"))
-    for kind, limit, path in (("stay", 1, "Refracted"), ("gathered", 10000000, "Refracted"),
-                              ("straight", 10000000, "Straight")):
-        seen = Schlieren(Input=source, Density=["POINTS", "rho"], Bodies=Sphere(Radius=0.2, Center=[0.5, 0.2, 0]),
-                         ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8], GatherLimit=limit, PathModel=path,
-                         MediumTolerance=1e-3, DistributedMedium="On", Device="CPU")
-        for array in ("Deflection", "BlockedFraction"):
-            found[f"{kind}: {array}"] = image_array(seen, array)
-        seen.UpdatePropertyInformation()
-        assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
-        seen.ViewDirection = [0.6, 0.1, -1]
-        found[f"{kind}: from another side"] = image_array(seen, "Deflection")
-        seen.Integrator = "RK4"
-        found[f"{kind}: RK4"] = image_array(seen, "Deflection")
-        seen.Integrator = "Leapfrog"
-        seen.Fields = ["rho"]
-        seen.ColorByField = 1
-        found[f"{kind}: tinted"] = image_array(seen, "Color").astype(np.float64)
-        seen.UpdatePropertyInformation()
-        assert ("distributed over" in seen.GetProperty("Grid").GetData()) == (is_rank0() and on_several()), kind
-        seen.ColorByField = 0
-    seen.TimeLimit = 0.05
-    seen.ViewDirection = [1, 0, 0.3]
-    seen.UpdatePipeline()
-    for _ in range(20):
-        seen.InvokeCommand("Refine")
-        seen.UpdatePipeline()
-    found["time-sliced"] = image_array(seen, "Deflection")
-    # An image's own grid cannot be distributed; a tree can.
-    image = ProgrammableSource(OutputDataSetType="vtkImageData", Script=BALL.replace("KIND", repr("image")),
-                               ScriptRequestInformation=WHOLE_EXTENT.replace("IS_GRID", "True"))
-    seen = Schlieren(Input=image, Density=["POINTS", "rho"], ImageSize=[100, 100], ViewDirection=[0.2, -0.6, -0.8],
-                     MediumTolerance=1e-3, Device="CPU")
-    for mode in ("On", "Off"):
-        seen.DistributedMedium = mode
-        found[f"image, {mode}: Deflection"] = image_array(seen, "Deflection")
-        seen.UpdatePropertyInformation()
-        isDistributed = is_rank0() and on_several() and mode == "On"
-        assert ("distributed over" in seen.GetProperty("Grid").GetData()) == isDistributed, mode
-    return found
-
-
 def exposed(limit=10000000):
     """Exposures over time steps of which each rank has a part, or rank 0 all."""
     from paraview.simple import Sphere
@@ -582,7 +534,7 @@ def run_results(command, parts, file):
 
 
 SAVED = {"same": results, "files": read_files, "gathered": gathered, "pieces": in_pieces, "exposed": exposed,
-         "exposed pieces": exposed_in_pieces, "shared": shared, "distributed": distributed}
+         "exposed pieces": exposed_in_pieces, "shared": shared}
 PARTS = {"redistribute": redistribute, "spread": spread, "requested": requested, "missing": missing, "broken": broken, "full": full, "killed": killed,
          "leaves": leaves}
 if sys.argv[1:2] and sys.argv[1] in SAVED:
@@ -599,10 +551,9 @@ else:
     isSanitized = "libasan" in os.environ.get("LD_PRELOAD", "")
     parts = ["gathered", "exposed"] if isSanitized else [*SAVED]
     one = run_results(on(1), parts, "one.npz")
-    distributed_before = {}
-    assert isSanitized or len(one) == 72 + 24 + 28 + 67 + 15 + 12 + 10 + 12, len(one)
-    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "shared", "distributed"] if not isSanitized else [])),
-                         (5, ["files", "gathered", "pieces", "distributed"] if not isSanitized else []),
+    assert isSanitized or len(one) == 72 + 21 + 28 + 67 + 12 + 12 + 10, len(one)
+    for ranks, parts in ((3, ["gathered", "exposed"] + (["same", "pieces", "exposed pieces", "shared"] if not isSanitized else [])),
+                         (5, ["files", "gathered", "pieces"] if not isSanitized else []),
                          (8, ["gathered"] if not isSanitized else [])):
         several = run_results(on(ranks), parts, "several.npz") if parts else {}
         assert several.keys() == {name for name in one if name.split(":")[0] in parts}
@@ -615,14 +566,6 @@ else:
                 limit = 1e-3 if name.startswith("pieces: cell data") else 1e-6
                 limit = 1 / 127 if name == "pieces: cell data: tinted" else limit  # one level of a colour
                 assert np.abs(one[name] - values).max() <= limit * np.abs(one[name]).max(), name
-            elif name.startswith("distributed:") and "Blocked" not in name:
-                # Rays are rounded differently, and now and then one takes a step in another leaf. On one rank an image keeps
-                # its grid, between whose 13 points another spline is.
-                most, mean = (6e-2, 2e-3) if name == "distributed: image, On: Deflection" else (1e-2, 2e-5)
-                difference = np.abs(one[name] - values) / np.abs(one[name]).max()
-                assert difference.max() <= most and difference.mean() <= mean, (name, difference.max(), difference.mean())
-                # But the same on any number of ranks.
-                assert np.array_equal(values, distributed_before.setdefault(name, values)), name
             else:
                 assert np.array_equal(one[name], values), name
     if not isSanitized:
