@@ -24,9 +24,9 @@ namespace filters
 /**
  * N, or another field, in the cells of adaptive meshes, and what is between the cells.
  *
- * Values of a lattice are made of cells of one level: the coarsest that is no coarser than the lattice. As in
- * RefractivityOfAmr, a cell under finer blocks has the mean of the finer cells, and one that no block of its level
- * holds has the mean over its place of a polynomial through the next coarser level; so the borders of blocks and levels
+ * Values of a lattice are made of cells of one level: the coarsest that is no coarser than the lattice. A cell under finer
+ * blocks has the mean of the finer cells, and one that no block of its level holds has the mean over its place of a
+ * polynomial through the next coarser level (fourth degree, one axis after the other); so the borders of blocks and levels
  * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
  *
  * Cells that are hidden or whose value is not finite are solid.

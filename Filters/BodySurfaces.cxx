@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodySurfaces.h"
 
+#include "BodyTriangles.h"
 #include "CoincidentPoints.h"
 #include "DataParts.h"
 #include "LatticeDistances.h"
-#include "RefractivityOfBodies.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -24,8 +24,8 @@ namespace filters
 namespace
 {
 
-/// Triangles whose points are there once; `places`: see BodySurfaces.
-Triangles surfaceOf(vtkDataObject* bodies, const std::function<Point(const Point&)>& places)
+/// Triangles whose points are there once.
+Triangles surfaceOf(vtkDataObject* bodies)
 {
   Triangles surface;
   const vtkSmartPointer<vtkPolyData> data = trianglesOfBodies(bodies);
@@ -95,10 +95,6 @@ Triangles surfaceOf(vtkDataObject* bodies, const std::function<Point(const Point
     {
       surface.corners.push_back(sorted[i].second);
     }
-  }
-  if (places)
-  {
-    std::transform(surface.points.begin(), surface.points.end(), surface.points.begin(), places);
   }
   return surface;
 }
@@ -209,8 +205,8 @@ bool isPassed(Point a, Point b, double y, double z)
 
 } // namespace
 
-BodySurfaces::BodySurfaces(vtkDataObject* bodies, const std::function<Point(const Point&)>& places)
-  : Surface(surfaceOf(bodies, places))
+BodySurfaces::BodySurfaces(vtkDataObject* bodies)
+  : Surface(surfaceOf(bodies))
   , Parts(closedParts(this->Surface, this->NumberOfParts))
   , Tree((turnOutward(this->Surface, this->Parts, this->NumberOfParts), this->Surface))
 {

@@ -5,7 +5,6 @@
 #include "Triangles.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 class vtkDataObject;
@@ -19,10 +18,8 @@ class Reader;
 class BodySurfaces
 {
 public:
-  /// `places`: where their points are, once points that are one have been found; null: where they are given. Throws
-  /// std::runtime_error where they are no surfaces.
-  explicit BodySurfaces(
-    vtkDataObject* bodies, const std::function<Point(const Point&)>& places = nullptr);
+  /// Throws std::runtime_error where they are no surfaces.
+  explicit BodySurfaces(vtkDataObject* bodies);
   /// What put() has written.
   explicit BodySurfaces(Reader& message);
   void put(std::vector<char>& message) const;

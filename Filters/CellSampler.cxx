@@ -65,7 +65,7 @@ private:
   const schlieren::Lattice& Lattice;
   double* Values;
   // From steps of the tree's boxes to indices of points.
-  double PerStep[3], AtOrigin[3], Slack[3];
+  double PerStep[3], AtOrigin[3], Rounding[3], Slack[3];
   int First[3], Last[3]; // in the last box
 
   // Of the best cells so far.
@@ -97,8 +97,8 @@ Brick::Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* va
     const double spacing = lattice.spacing[axis], first = lattice.first[axis];
     this->PerStep[axis] = tree.step()[axis] / spacing;
     this->AtOrigin[axis] = (tree.origin()[axis] - first) / spacing;
-    this->Slack[axis] =
-      epsilon * (std::abs(first) + std::abs(tree.origin()[axis])) / spacing + 1e-12;
+    this->Rounding[axis] = epsilon * (std::abs(first) + std::abs(tree.origin()[axis]));
+    this->Slack[axis] = this->Rounding[axis] / spacing + 1e-12;
   }
   const auto size = static_cast<std::size_t>(lattice.size());
   this->Misses.assign(size, std::numeric_limits<float>::infinity());
@@ -272,6 +272,13 @@ bool Brick::addNormal(const CellTree::Cell& cell)
     normal.isAffine = shape == CellShape::Tetrahedron || shape == CellShape::Voxel;
   }
   this->Tolerance = normal.isAffine ? toleranceOfPlaneFaces : toleranceOfCurvedFaces;
+  // Far from the origin, rounding of coordinates is more.
+  for (const Vector& row : rows)
+  {
+    this->Tolerance = std::max(this->Tolerance,
+      std::abs(row[0]) * this->Rounding[0] + std::abs(row[1]) * this->Rounding[1] +
+        std::abs(row[2]) * this->Rounding[2]);
+  }
 
   if (!this->GivenBegin)
   {

@@ -4,7 +4,9 @@
 
 #include "AvailableMemory.h"
 #include "FieldFromImage.h"
+#include "GridOfSource.h"
 #include "RefractivityModels.h"
+#include "RefractivityValues.h"
 #include "RefractivitySource.h"
 
 #include "vtkCellData.h"
@@ -116,6 +118,51 @@ void probe(vtkImageData* image, vtkImageData* grid)
   image->ShallowCopy(prober->GetOutput());
 }
 
+/// Whether `input` is an image whose grid is kept.
+bool keepsOwnGrid(vtkRefractiveIndex* medium, vtkDataObject* input)
+{
+  return medium->GetSymmetry() == vtkRefractiveIndex::NO_SYMMETRY &&
+    chooseSource(medium, input).image != nullptr;
+}
+
+/// forFieldImages() of other data. Nothing where it is aborted.
+void forSampledFields(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
+{
+  std::string reportedBefore;
+  const auto source =
+    medium->MakeSourceOfCells(input, nullptr, reportedBefore, vtkRefractiveIndex::WITH_FIELDS);
+  if (!source)
+  {
+    return;
+  }
+  std::vector<float> all;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
+    [&] { all = fieldsAtGrid(*source, WorkProgress(), refractivity); });
+  const vtkIdType points = refractivity->GetNumberOfPoints();
+  for (int field = 0; field < source->fields(); ++field)
+  {
+    vtkNew<vtkFloatArray> values;
+    values->SetName(arrayName);
+    setTuples(values, points);
+    std::copy_n(all.begin() + field * points, points, values->GetPointer(0));
+    const auto valid = newMask(points);
+    for (vtkIdType point = 0; point < points; ++point)
+    {
+      if (!std::isfinite(values->GetValue(point)))
+      {
+        values->SetValue(point, 0);
+        valid->SetValue(point, 0);
+      }
+    }
+    vtkNew<vtkImageData> image;
+    image->CopyStructure(refractivity);
+    image->GetPointData()->AddArray(values);
+    image->GetPointData()->AddArray(valid);
+    take(static_cast<std::size_t>(field), image);
+  }
+}
+
 } // namespace
 
 std::vector<RangeOfField> rangesOfFields(vtkRefractiveIndex* medium, vtkDataObject* input)
@@ -221,18 +268,17 @@ void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageDa
   requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
   const std::size_t count = medium->GetFields().size();
-  if (count > 1)
+  if (!keepsOwnGrid(medium, input))
   {
-    medium->KeepMeshSearch();
+    forSampledFields(medium, input, refractivity, threads, take);
+    return;
   }
   for (std::size_t field = 0; field < count; ++field)
   {
     vtkNew<vtkRefractiveIndex> reader;
     chooseField(reader, medium, field, ranges);
-    reader->SetSamplingDimensions(refractivity->GetDimensions());
     reader->SetSamplingBounds(medium->GetSamplingBounds());
     reader->SetNumberOfThreads(threads);
-    reader->ShareMeshSearch(medium);
     vtkNew<vtkImageData> values;
     reader->Convert(input, values);
     if (!isSameGrid(grid, gridFrom(values)))
@@ -241,7 +287,6 @@ void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageDa
     }
     take(field, values);
   }
-  medium->DropMeshSearch();
 }
 
 std::vector<float> fieldGradients(
@@ -250,9 +295,9 @@ std::vector<float> fieldGradients(
   const schlieren::Grid grid = gridFrom(refractivity);
   const std::size_t count = medium->GetFields().size();
   const auto points = static_cast<std::size_t>(refractivity->GetNumberOfPoints());
-  // And of one field at a time: numbers of an array, the field's own, and a mask.
+  // And of one field at a time: numbers of an array, the field's own, and a mask; or of all of them.
   constexpr std::size_t bytesOfField = sizeof(double) + sizeof(float) + 1;
-  requireMemory(static_cast<double>(points * (count * sizeof(float) + bytesOfField)),
+  requireMemory(static_cast<double>(points * (2 * count * sizeof(float) + bytesOfField)),
     "The fields that color the image, on a grid of " + std::to_string(points) + " points,",
     "Give fewer Fields or smaller SamplingDimensions.");
   std::vector<float> gradients(count * points, 0);

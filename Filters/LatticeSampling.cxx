@@ -196,7 +196,8 @@ void LatticeSampling::findGaps()
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
-      if (this->States[p] == InGas || this->Distances[p] >= -1)
+      // Of a face through the point beside it, rounding decides on which side that is.
+      if (this->States[p] == InGas || this->Distances[p] >= -1 - tie)
       {
         return;
       }

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "MeshSource.h"
-#include "RefractivityByResampling.h"
-#include "RefractivityOfAmr.h"
+#include "SamplingGrid.h"
+#include "AmrGrid.h"
 #include "RefractivitySource.h"
+#include "WorkProgress.h"
 #include "vtkRefractiveIndex.h"
 
 #include "vtkSMPTools.h"
@@ -44,6 +45,9 @@ struct KeptMesh
 /// Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
 int threadsOf(vtkRefractiveIndex* self);
 vtkSMPTools::Config loopsWith(int threads);
+
+/// Of all work of a filter, until it is aborted.
+WorkProgress progressOf(vtkAlgorithm* self);
 
 std::string noGas(const Source& source);
 

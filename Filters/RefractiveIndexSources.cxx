@@ -12,14 +12,11 @@
 #include "GasChoices.h"
 #include "ImageSource.h"
 #include "InputDescription.h"
-#include "MeshSearch.h"
 #include "OneLayer.h"
 #include "PiecesSource.h"
 #include "PreparedLeaves.h"
 #include "Ranks.h"
-#include "RefractivityOfBodies.h"
-#include "RefractivityOutside.h"
-#include "RefractivityValues.h"
+#include "BodyTriangles.h"
 #include "Revolution.h"
 #include "RevolvedSource.h"
 #include "SamplingBox.h"
@@ -52,17 +49,6 @@ namespace
 
 bool isZero(int count) { return count == 0; }
 
-/// Until it is aborted.
-WorkProgress progressOf(vtkAlgorithm* self)
-{
-  return WorkProgress(
-    [self](double done)
-    {
-      self->UpdateProgress(done);
-      return !self->GetAbortExecute();
-    });
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -72,6 +58,17 @@ int filters::threadsOf(vtkRefractiveIndex* self)
   const char* const most = std::getenv("VTK_SMP_MAX_THREADS");
   const int limit = most ? std::atoi(most) : 0;
   return given > 0 ? given : limit > 0 ? limit : schlieren::coresOfProcess();
+}
+
+//------------------------------------------------------------------------------
+WorkProgress filters::progressOf(vtkAlgorithm* self)
+{
+  return WorkProgress(
+    [self](double done)
+    {
+      self->UpdateProgress(done);
+      return !self->GetAbortExecute();
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -115,19 +112,24 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodi
   const bool matters =
     this->Symmetry == AXISYMMETRIC || vtkImageData::SafeDownCast(input) != nullptr;
   const Source source = chooseSource(this, input, matters ? nullptr : &asTheyAre);
-  const int* given = this->SamplingDimensions;
   if (this->Symmetry == AXISYMMETRIC)
   {
     revolutionOf(this, source); // throws where it is none
-    return std::all_of(given, given + 3, isZero) && !SamplingBox(this->SamplingBounds).isGiven();
-  }
-  if ((source.image && !bodies) || SamplingBox(this->SamplingBounds).isGiven() ||
-    !std::all_of(given, given + 3, isZero))
-  {
-    return false;
+    return !this->WantsGrid();
   }
   const int flat = flatAxisOf(source); // throws where there is no volume and no plane
-  return !source.image || flat < 0;
+  if (this->WantsGrid() || source.image)
+  {
+    return flat < 0 && bodies;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::WantsGrid() const
+{
+  const int* given = this->SamplingDimensions;
+  return SamplingBox(this->SamplingBounds).isGiven() || !std::all_of(given, given + 3, isZero);
 }
 
 //------------------------------------------------------------------------------
@@ -179,21 +181,26 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
+  const bool isGrid = this->Symmetry == NO_SYMMETRY &&
+    (this->WantsGrid() || chooseSource(this, input).image != nullptr);
+  return isGrid ? this->MakeSourceOfImage(input, bodies, warning, contents)
+                : this->MakeSourceOfCells(input, bodies, warning, contents);
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfCells(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+{
   Source source = chooseSource(this, input);
   std::optional<Revolution> revolution;
   if (this->Symmetry == AXISYMMETRIC)
   {
     revolution = revolutionOf(this, source);
   }
-  else if (source.image)
-  {
-    return this->MakeSourceOfImage(input, bodies, warning, contents);
-  }
   const int flat = flatAxisOf(source);
   this->FlatAxis = flat;
   const double depth = flat < 0 ? 0 : depthOf(source, flat);
   this->Grid.clear();
-  this->Search->release();
   Tally tally;
   bool hasGas = false, meetsBodies = false;
   std::shared_ptr<const schlieren::MediumSource> result;
@@ -334,53 +341,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::ConvertRevolved(vtkDataObject* input, vtkImageData* output,
-  vtkDataObject* bodies, Numbers numbers, std::string& warning)
-{
-  const auto source = this->MakeSource(input, bodies, warning);
-  if (!source)
-  {
-    return false;
-  }
-  const std::string grid = this->Grid;
-  this->ComputeGrid(input, output);
-  this->Grid = grid;
-  int points[3];
-  output->GetDimensions(points);
-  schlieren::Lattice all;
-  output->GetOrigin(all.first.data());
-  output->GetSpacing(all.spacing.data());
-  const vtkIdType layer = vtkIdType{ points[0] } * points[1];
-  vtkNew<vtkDoubleArray> values;
-  values->SetNumberOfValues(output->GetNumberOfPoints());
-  const auto valid = newMask(output->GetNumberOfPoints());
-  const auto outside = newMask(output->GetNumberOfPoints());
-  outside->SetName(transparentName);
-  vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
-    [&]
-    {
-      vtkSMPTools::For(0, points[2],
-        [&](vtkIdType begin, vtkIdType end)
-        {
-          schlieren::Lattice lattice = all;
-          lattice.points = { points[0], points[1], static_cast<int>(end - begin) };
-          lattice.first[2] += static_cast<double>(begin) * all.spacing[2];
-          std::vector<schlieren::Place> places(static_cast<std::size_t>(lattice.size()));
-          source->sample(lattice, values->GetPointer(begin * layer), places.data(), nullptr);
-          for (vtkIdType i = 0; i < layer * (end - begin); ++i)
-          {
-            const schlieren::Place place = places[static_cast<std::size_t>(i)];
-            valid->SetValue(begin * layer + i, place == schlieren::Place::Gas ? 1 : 0);
-            outside->SetValue(begin * layer + i, place == schlieren::Place::Window ? 1 : 0);
-          }
-        });
-    });
-  setArrays(output, { values }, Linear(), valid, numbers);
-  setOutside(outside, output);
-  return true;
-}
-
-//------------------------------------------------------------------------------
 bool vtkRefractiveIndex::CanUsePieces()
 {
   const int* given = this->SamplingDimensions;
@@ -494,7 +454,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
 {
   this->Grid.clear();
   this->FlatAxis = -1;
-  this->Search->release();
   this->LeaveMesh();
   this->SetPieceData(input);
   this->HasPieces = true;

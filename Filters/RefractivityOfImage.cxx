@@ -3,7 +3,6 @@
 #include "RefractivityOfImage.h"
 
 #include "FlatData.h"
-#include "RefractivityOutside.h"
 #include "RefractivityValues.h"
 
 #include "vtkImageData.h"
@@ -132,6 +131,26 @@ bool hidesSome(vtkImageData* image)
 {
   return image->GetPointGhostArray() || image->GetCellGhostArray() ||
     image->GetPointData()->HasArray(maskName);
+}
+
+/// The points that an image says to let light pass in an array of its own; null where it has none.
+vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image)
+{
+  vtkDataArray* given = image->GetPointData()->GetArray(transparentName);
+  if (!given || given->GetNumberOfComponents() != 1 ||
+    given->GetNumberOfTuples() != image->GetNumberOfPoints())
+  {
+    return nullptr;
+  }
+  vtkUnsignedCharArray* ghosts = image->GetPointGhostArray();
+  auto outside = newMask(image->GetNumberOfPoints());
+  outside->SetName(transparentName);
+  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+  {
+    const bool isHidden = ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT);
+    outside->SetValue(i, given->GetComponent(i, 0) != 0 && !isHidden ? 1 : 0);
+  }
+  return outside;
 }
 
 } // namespace

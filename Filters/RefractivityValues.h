@@ -33,4 +33,7 @@ vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, Numbers numbers);
 
+/// Adds TransparentPointMask to `output`: of the points in `outside` those that are masked, if there are any.
+void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output);
+
 } // namespace filters

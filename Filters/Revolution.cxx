@@ -3,7 +3,7 @@
 #include "Revolution.h"
 
 #include "FlatData.h"
-#include "RefractivityByResampling.h"
+#include "SamplingGrid.h"
 #include "vtkRefractiveIndex.h"
 
 #include "vtkBoundingBox.h"

@@ -313,9 +313,6 @@ vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkSchlierenFilter::GetMeshSearches() { return this->Medium->GetMeshSearches(); }
-
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMeshBuilds() { return this->Medium->GetMeshBuilds(); }
 
 //------------------------------------------------------------------------------

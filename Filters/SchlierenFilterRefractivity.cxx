@@ -186,10 +186,6 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   }
   if (!made->Source && !this->Medium->GetAbortExecute())
   {
-    if (this->ColorByField)
-    {
-      this->Medium->KeepMeshSearch(); // for UpdateFieldGradients
-    }
     made->Warning =
       this->Medium->Convert(input, made->Image, bodies, vtkRefractiveIndex::DIFFERENCES);
     if (!this->Medium->GetAbortExecute())

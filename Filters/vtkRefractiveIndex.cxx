@@ -6,16 +6,17 @@
 #include "AtTheEnd.h"
 #include "AvailableMemory.h"
 #include "ChannelRanks.h"
+#include "FieldFromImage.h"
 #include "FlatData.h"
+#include "GridOfSource.h"
 #include "Guarded.h"
+#include "ImageSource.h"
 #include "InputDescription.h"
-#include "MeshSearch.h"
 #include "PiecesSource.h"
 #include "Ranks.h"
 #include "RefractiveIndexInternals.h"
-#include "RefractivityOfBodies.h"
+#include "BodyTriangles.h"
 #include "RefractivityOfImage.h"
-#include "RefractivityOutside.h"
 #include "RequestGuard.h"
 #include "Revolution.h"
 #include "SamplingBox.h"
@@ -85,7 +86,6 @@ void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
 vtkRefractiveIndex::vtkRefractiveIndex()
   : Plan(std::make_shared<GridPlan>())
   , Mesh(std::make_shared<KeptMesh>())
-  , Search(std::make_shared<MeshSearch>())
   , Guard(std::make_shared<RequestGuard>())
   , Known(std::make_shared<KnownArrays>())
   , Ranks(std::make_shared<FilterRanks>())
@@ -96,29 +96,6 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   // Of vtkImageAlgorithm: the active scalars, whatever these are.
   this->GetInputArrayInformation(DENSITY)->Remove(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
 }
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::KeepMeshSearch() { this->Search->isNeededAgain = true; }
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::DropMeshSearch()
-{
-  this->Search->isNeededAgain = false;
-  if (!this->Search->isSeries)
-  {
-    this->Search->release();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::ShareMeshSearch(vtkRefractiveIndex* owner)
-{
-  this->Search = owner->Search;
-  this->IsSearchShared = true;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractiveIndex::GetMeshSearches() { return this->Search->count; }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractiveIndex::GetMeshBuilds() { return this->Mesh->builds; }
@@ -267,113 +244,106 @@ const char* vtkRefractiveIndex::GetArraysUsed()
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractiveIndex::FillFromImage(const Source& given, Numbers numbers, vtkDataObject* bodies,
+  vtkImageData* output, std::string& warning)
+{
+  Source source = given;
+  this->LeaveMesh();
+  if (auto* fields = std::get_if<FieldMean>(&source.model))
+  {
+    fields->findRanges(source.leaves);
+  }
+  gridOfImage(source.image, source.leaves[0].ofCells, source.depth, output);
+  requireMemoryFor(output, this->DoublePrecision, 0, "Use a coarser input.");
+  const Tally tally = convertImage(source, numbers, output);
+  SamplingBox(this->SamplingBounds).crop(output);
+  warning = warningFrom(source.model, tally);
+  if (bodies)
+  {
+    vtkNew<vtkImageData> refractivity;
+    refractivity->ShallowCopy(output);
+    mergeMasks(refractivity);
+    const ImageSource withBodies(
+      refractivity, bodies, vtkSMPTools::GetEstimatedNumberOfThreads(), progressOf(this).part(0.5, 0.7));
+    if (!withBodies.meetsBodies() || !maskWalls(withBodies, progressOf(this).part(0.7, 1), output))
+    {
+      addText(warning, bodiesAreOutside);
+    }
+  }
+  addText(warning, this->NewNoteOnValues(source));
+  addText(warning, this->NewNoteOnGases(source));
+  const int flat = flatAxisOf(source);
+  addText(warning, flat < 0 ? noteOnWedge(this, source) : warningOfExtrusion(source, flat));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::FillFromSource(const Source& source, vtkDataObject* input, Numbers numbers,
+  vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note)
+{
+  if (this->Symmetry == AXISYMMETRIC)
+  {
+    note = "of the body of revolution";
+    gridOf(revolutionOf(this, source), source, this->SamplingDimensions,
+      SamplingBox(this->SamplingBounds), output);
+  }
+  else
+  {
+    const GridPlan& plan = this->PlanGrid(source, input);
+    note = plan.amr ? plan.amr->note : plan.resampling.note;
+    plan.amr ? gridOf(*plan.amr, output) : gridOf(plan.resampling, output);
+  }
+  constexpr std::size_t bytesToFill = sizeof(double) + 3;
+  requireMemoryFor(output, this->DoublePrecision, bytesToFill, fewerPoints);
+  const auto made = this->MakeSourceOfCells(input, bodies, warning);
+  if (!made)
+  {
+    throw Stopped();
+  }
+  GridRequest request;
+  request.numbers = numbers;
+  request.thinSurfaces = bodies != nullptr;
+  fillGrid(*made, request, progressOf(this).part(0.5, 1), output);
+}
+
+//------------------------------------------------------------------------------
 std::string vtkRefractiveIndex::Convert(
   vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, ConvertedValues values)
 {
   output->Initialize();
   this->Grid.clear();
-  this->LeaveMesh();
-  Source source = chooseSource(this, input);
+  const Source source = chooseSource(this, input);
   this->UpdateProgress(0.05);
   if (this->GetAbortExecute())
   {
     return "";
   }
 
-  const vtkSMPTools::Config threads = loopsWith(threadsOf(this));
   const Numbers numbers = this->DoublePrecision ? Numbers::Doubles
     : values == DIFFERENCES                     ? Numbers::Differences
                                                 : Numbers::Singles;
-  Tally tally;
-  std::string note = "the data's own";
-  std::string ofRevolution;
   this->FlatAxis = planeOf(source);
-  const bool isRevolved = this->Symmetry == AXISYMMETRIC;
-  if (isRevolved)
+  std::string warning, note = "the data's own";
+  try
   {
-    note = "of the body of revolution";
-    if (!this->ConvertRevolved(input, output, bodies, numbers, ofRevolution))
-    {
-      output->Initialize();
-      return "";
-    }
+    vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
+      [&]
+      {
+        source.image && this->Symmetry == NO_SYMMETRY
+          ? this->FillFromImage(source, numbers, bodies, output, warning)
+          : this->FillFromSource(source, input, numbers, bodies, output, warning, note);
+      });
   }
-  vtkSMPTools::LocalScope(threads,
-    [&]()
-    {
-      if (isRevolved)
-      {
-        return;
-      }
-      if (auto* fields = std::get_if<FieldMean>(&source.model))
-      {
-        fields->findRanges(source.leaves);
-      }
-      if (source.image)
-      {
-        this->Search->release();
-        gridOfImage(source.image, source.leaves[0].ofCells, source.depth, output);
-        requireMemoryFor(output, this->DoublePrecision, 0, "Use a coarser input.");
-        tally = convertImage(source, numbers, output);
-        SamplingBox(this->SamplingBounds).crop(output);
-      }
-      else if (const GridPlan& plan = this->PlanGrid(source, input); plan.amr)
-      {
-        this->Search->release();
-        note = plan.amr->note;
-        gridOf(*plan.amr, output);
-        requireMemoryFor(output, this->DoublePrecision, 2 * sizeof(double), fewerPoints);
-        tally = convertAmr(*plan.amr, source, numbers, output);
-        if (!this->GetOutsideBlocksLight())
-        {
-          setOutside(outsideOfBoxes(source.leaves, output), output);
-        }
-      }
-      else
-      {
-        note = plan.resampling.note;
-        gridOf(plan.resampling, output);
-        requireMemoryFor(output, this->DoublePrecision, sizeof(double), fewerPoints);
-        const bool wasSeries = this->Search->isSeries;
-        tally = resample(
-          plan.resampling, source, numbers, this->GetOutsideBlocksLight(), *this->Search,
-          [this](double done)
-          {
-            this->UpdateProgress(0.05 + 0.95 * done);
-            return !this->GetAbortExecute();
-          },
-          output);
-        if (this->IsSearchShared)
-        {
-          this->Search->isSeries = wasSeries;
-        }
-      }
-    });
-
-  if (this->GetAbortExecute())
+  catch (const Stopped&)
   {
     output->Initialize();
     return "";
   }
   const unsigned char* valid =
     vtkUnsignedCharArray::SafeDownCast(output->GetPointData()->GetArray(maskName))->GetPointer(0);
-  const auto hasGas = [&]
+  if (std::none_of(
+        valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; }))
   {
-    return std::any_of(
-      valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; });
-  };
-  if (!hasGas())
-  {
-    throw std::runtime_error(noGas(source));
-  }
-  std::string warning = isRevolved ? ofRevolution : warningFrom(source.model, tally);
-  if (bodies && !isRevolved)
-  {
-    addText(warning, placeBodies(bodies, output));
-    if (!hasGas())
-    {
-      throw std::runtime_error(bodiesCoverAll);
-    }
+    throw std::runtime_error(bodies ? bodiesCoverAll : noGas(source));
   }
 
   int dimensions[3];
@@ -386,13 +356,6 @@ std::string vtkRefractiveIndex::Convert(
   used->SetNumberOfComponents(3);
   used->InsertNextTypedTuple(dimensions);
   output->GetFieldData()->AddArray(used);
-  addText(warning, this->NewNoteOnValues(source));
-  addText(warning, this->NewNoteOnGases(source));
-  if (!isRevolved)
-  {
-    const int flat = flatAxisOf(source);
-    addText(warning, flat < 0 ? noteOnWedge(this, source) : warningOfExtrusion(source, flat));
-  }
   return warning;
 }
 

@@ -17,8 +17,7 @@
  * warning. Blocks of images that hold
  * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
  * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
- * resampled to a grid (see SamplingDimensions): each of its points takes the value that the first cell
- * which holds it interpolates there, cell arrays after vtkCellDataToPointData. Only cells with a volume
+ * sampled on a grid (see SamplingDimensions): each of its points takes what MakeSource() says of it. Only cells with a volume
  * count: surfaces in a composite are left out, and so are blocks that lack an array. Where several
  * arrays are needed, all of them belong to points or all to cells; the refractivity is formed there,
  * before anything is resampled.
@@ -28,7 +27,7 @@
  * hidden if all its cells are, and so are all points of a hidden cell that would otherwise vanish.
  *
  * The second input, optional, holds the surfaces of bodies (vtkPolyData or composites of it): points
- * inside closed ones, whatever the orientation of their faces, and points within half a voxel of open ones are
+ * in and on closed ones, whatever the orientation of their faces, and points within 0.87 voxels of open ones are
  * masked. Bodies may overlap, enclose each other and reach out of the data.
  *
  * IndexModel chooses how N is found. An image that already holds a point array `Refractivity` is
@@ -69,7 +68,6 @@ class RequestGuard;
 class KnownArrays;
 struct GridPlan;
 struct KeptMesh;
-struct MeshSearch;
 class ChannelRanks;
 struct PiecesMesh;
 struct Source;
@@ -405,9 +403,9 @@ public:
    * Unless it is OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have points of their own at the same
    * places, stop light where the values at these differ.
    *
-   * This filter's output, a grid, knows OUTSIDE_AUTO as OUTSIDE_BLOCKS; with OUTSIDE_PASSES it has a third point array
-   * `TransparentPointMask` (unsigned char), 1 at such places (whose vtkValidPointMask stays 0), else 0.
-   * It concerns input that is resampled; an image has cells everywhere, but its point array
+   * This filter's output, a grid, has a third point array `TransparentPointMask` (unsigned char), 1 where light goes
+   * straight on (where vtkValidPointMask stays 0), else 0. It concerns input that is sampled; an image has cells
+   * everywhere, but its point array
    * `TransparentPointMask`, if there is one, is passed on.
    */
   vtkSetClampMacro(Outside, int, OUTSIDE_AUTO, OUTSIDE_PASSES);
@@ -518,10 +516,10 @@ public:
 
   ///@{
   /**
-   * What lies between the points of a mesh, one of Reconstructions, for vtkSchlierenFilter: SMOOTH (the default) is
+   * What lies between the points of a mesh, one of Reconstructions: SMOOTH (the default) is
    * exact for quadratic fields, by gradients at the points (least squares), and stays within the values around a
    * cell; LINEAR_IN_CELLS is the cells' own interpolation, whose gradient jumps from cell to cell, which a
-   * shadowgraph shows. The grid of this filter's output is made by the latter.
+   * shadowgraph shows.
    */
   vtkSetClampMacro(Reconstruction, int, SMOOTH, LINEAR_IN_CELLS);
   vtkGetMacro(Reconstruction, int);
@@ -596,6 +594,10 @@ public:
   VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input, vtkDataObject* bodies = nullptr);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
     vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
+  /// The same of data whose grid is not kept, whatever grid is wanted.
+  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfCells(
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
+    SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
 
   /**
@@ -638,21 +640,6 @@ public:
   VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
   ///@}
 
-  ///@{
-  /**
-   * Where a grid's points lie in a mesh is kept for the next conversion, 16 bytes for each point (17 where
-   * Outside is OUTSIDE_PASSES), if the mesh (points, cells, which of them are hidden, and the grid) is the
-   * same as in the conversion before; not for more than 2^26 points. A conversion with another mesh frees it.
-   * Where it is known that more conversions follow, KeepMeshSearch keeps it at once, and
-   * DropMeshSearch frees it then, unless this filter itself has converted the mesh twice in a row.
-   * Filters may share what one of them keeps. GetMeshSearches() counts the searches of all that share.
-   */
-  VTK_WRAPEXCLUDE void KeepMeshSearch();
-  VTK_WRAPEXCLUDE void DropMeshSearch();
-  VTK_WRAPEXCLUDE void ShareMeshSearch(vtkRefractiveIndex* owner);
-  vtkTypeInt64 GetMeshSearches();
-  ///@}
-
   /**
    * How often a grid was chosen for the input, images apart: once for each input and set of properties.
    */
@@ -690,20 +677,23 @@ private:
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
 
-  /// Convert() of data with an axis of symmetry: false where it was aborted.
-  bool ConvertRevolved(vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies,
-    filters::Numbers numbers, std::string& warning);
+  /// Convert() of one image, which keeps its own grid, and of all else. Throw filters::Stopped where they are aborted.
+  void FillFromImage(const filters::Source& source, filters::Numbers numbers, vtkDataObject* bodies,
+    vtkImageData* output, std::string& warning);
+  void FillFromSource(const filters::Source& source, vtkDataObject* input, filters::Numbers numbers,
+    vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note);
 
-  /// Of a three-dimensional image with bodies.
-  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents);
+  /// Whether SamplingDimensions or SamplingBounds are given.
+  bool WantsGrid() const;
+
+  /// Of a grid that is kept or wanted: three-dimensional, with bodies.
+  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
+    vtkDataObject* bodies, std::string& warning, SourceContents contents);
 
   std::shared_ptr<filters::GridPlan> Plan;
   std::shared_ptr<filters::KeptMesh> Mesh;
   /// Frees it, or leaves it to other filters that have it.
   void LeaveMesh();
-  std::shared_ptr<filters::MeshSearch> Search;
-  bool IsSearchShared = false; // by another filter, whose it is
 
   /// The last note on gases: it is not repeated for every time step.
   std::string ToldOfGases;

@@ -887,13 +887,11 @@ public:
   ///@{
   /**
    * What this filter has done since it was made: media built, meshes prepared for it (see
-   * vtkRefractiveIndex::MakeSource), grids chosen for meshes, cells of meshes searched for a grid's points, and rays
-   * traced. They stand still where an update could use what was there.
+   * vtkRefractiveIndex::MakeSource), grids chosen for meshes, and rays traced. They stand still where an update could use what was there.
    */
   vtkTypeInt64 GetMediumBuilds();
   vtkTypeInt64 GetMeshBuilds();
   vtkTypeInt64 GetGridPlans();
-  vtkTypeInt64 GetMeshSearches();
   vtkTypeInt64 GetTotalRaysTraced();
   ///@}
 

@@ -212,6 +212,7 @@ TEST(Mixture, OfAMeshIsFormedBeforeItIsResampled)
   mesh->SetInputData(image);
   mesh->Update();
   auto filter = mixture(mesh->GetOutput());
+  filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
   filter->SetSamplingDimensions(5, 5, 5);
   EXPECT_LT(
     largestError(filter,

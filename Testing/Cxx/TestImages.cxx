@@ -203,7 +203,7 @@ TEST(Images, BluntFinFromTheSide)
   for (std::size_t i = 0; i < blocked.size(); ++i)
   {
     const double* x = image->GetPoint(static_cast<vtkIdType>(i));
-    if (x[1] > 0.1 && std::abs(x[0]) > 0.21) // 1.5 voxels
+    if (x[1] > 0.21 && std::abs(x[0]) > 0.21) // 1.5 voxels
     {
       ASSERT_EQ(blocked[i], x[0] > 0 ? 1 : 0) << x[0] << " " << x[1];
     }

@@ -274,6 +274,7 @@ TEST(Solids, WhatIsOutsideIsHandedOn)
   index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   index->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  index->SetOutside(vtkRefractiveIndex::OUTSIDE_BLOCKS);
   index->Update();
   EXPECT_EQ(arrayOf(index, "TransparentPointMask"), nullptr);
   index->OutsideBlocksLightOff();

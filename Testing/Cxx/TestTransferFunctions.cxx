@@ -171,6 +171,7 @@ TEST(TransferFunctions, OfAMeshAreFormedBeforeResampling)
   toMesh->Update();
   auto filter = mean(toMesh->GetOutput(), { "A" });
   filter->AddTransferFunction(curve({ { 0, 0 }, { 0.5, 1 }, { 1, 0 } }));
+  filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
   filter->SetSamplingDimensions(11, 11, 11);
   EXPECT_LT(
     largestError(filter, [](const Vec& x) { return scale * std::min(1 - std::abs(x[0]), 0.8); }),

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "MeshSearch.h"
 #include "RefractivitySource.h"
 #include "SamplingBox.h"
 
-#include "vtkSmartPointer.h"
 
 #include <array>
 #include <string>
 
-/// The refractivity of everything that is not one image: resampled to a grid.
+/// The grid that everything which is not one image is brought to, where a grid is wanted.
 namespace filters
 {
 
@@ -43,11 +41,5 @@ Resampling boxOf(const Source& source);
 
 /// Makes `structure` the grid of the plan.
 void gridOf(const Resampling& plan, vtkImageData* structure);
-
-/// Fills `output` as planned. N is formed at the input's points or cells, before it is interpolated.
-/// `outsideBlocksLight`: see vtkRefractiveIndex::SetOutsideBlocksLight. Where `progress` says to stop,
-/// the output has no arrays.
-Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
-  bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output);
 
 } // namespace filters

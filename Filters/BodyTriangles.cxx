@@ -1,24 +1,18 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RefractivityOfBodies.h"
+#include "BodyTriangles.h"
 
-#include "BodyVoxels.h"
 #include "InputDescription.h"
-#include "RefractivitySource.h"
 
 #include "vtkAppendPolyData.h"
-#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
-#include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -28,10 +22,6 @@ namespace filters
 
 namespace
 {
-
-/// Bodies that are smaller, in voxels, or reach further beyond the data, have another unit of length.
-constexpr double leastVoxels = 1e-3;
-constexpr double mostVoxels = 1e9;
 
 /// The surfaces with points.
 std::vector<vtkPolyData*> surfacesOf(vtkDataObject* bodies)
@@ -73,37 +63,6 @@ void requireFinite(vtkPolyData* triangles)
   }
 }
 
-/// A coordinate in voxels, to 1/4096. Walls often go through points of the grid, but for rounding, which
-/// would leave some of these points inside and others outside; now they all lie on the wall.
-double rounded(double x)
-{
-  constexpr double parts = 4096;
-  return std::round(parts * x) / parts;
-}
-
-/// A place in index coordinates of the grid, counted from its first point; 0 where that has no size.
-Point onGrid(const Point& place, vtkImageData* grid)
-{
-  const int* extent = grid->GetExtent();
-  Point x;
-  grid->TransformPhysicalPointToContinuousIndex(place.data(), x.data());
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    x[axis] = std::isfinite(x[axis]) ? rounded(x[axis] - extent[2 * axis]) : 0;
-  }
-  return x;
-}
-
-vtkBoundingBox boundsOf(const std::vector<Point>& points)
-{
-  vtkBoundingBox bounds;
-  for (const Point& x : points)
-  {
-    bounds.AddPoint(x[0], x[1], x[2]);
-  }
-  return bounds;
-}
-
 } // namespace
 
 vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies)
@@ -137,54 +96,6 @@ vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies)
   }
   requireFinite(triangles->GetOutput());
   return triangles->GetOutput();
-}
-
-std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
-{
-  const BodySurfaces surfaces(
-    bodies, [output](const Point& place) { return onGrid(place, output); });
-  const vtkBoundingBox bounds = boundsOf(surfaces.surface().points);
-  std::array<int, 3> dimensions;
-  output->GetDimensions(dimensions.data());
-  double most = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double low = bounds.GetMinPoint()[axis], high = bounds.GetMaxPoint()[axis];
-    if (low > dimensions[static_cast<std::size_t>(axis)] || high < -1)
-    {
-      return bodiesAreOutside;
-    }
-    most = std::max({ most, -low, high });
-  }
-  if (most > mostVoxels)
-  {
-    throw std::runtime_error("The Bodies reach more than 10^9 voxels beyond the data. Do both have "
-                             "the same unit of length?");
-  }
-  if (bounds.GetDiagonalLength() < leastVoxels)
-  {
-    return "The Bodies are smaller than a thousandth of a voxel, so they stop no light. Do both "
-           "have the same unit of length?";
-  }
-
-  vtkPointData* arrays = output->GetPointData();
-  std::vector<vtkDataArray*> cleared = { arrays->GetArray(arrayName), arrays->GetArray(maskName) };
-  if (vtkDataArray* transparent = arrays->GetArray(transparentName))
-  {
-    cleared.push_back(transparent);
-  }
-  bool isMet = false;
-  voxelize(surfaces, dimensions,
-    [&](int i, int j, int k)
-    {
-      isMet = true;
-      const vtkIdType at = (static_cast<vtkIdType>(k) * dimensions[1] + j) * dimensions[0] + i;
-      for (vtkDataArray* array : cleared)
-      {
-        array->SetComponent(at, 0, 0);
-      }
-    });
-  return isMet ? "" : bodiesAreOutside;
 }
 
 } // namespace filters

@@ -1,25 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RefractivityByResampling.h"
+#include "SamplingGrid.h"
 
-#include "AvailableMemory.h"
 #include "CellTypes.h"
 #include "FlatData.h"
 #include "PreparedLeaves.h"
-#include "RefractivityOutside.h"
-#include "RefractivityValues.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkSmartPointer.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -310,49 +302,6 @@ void gridOf(const Resampling& plan, vtkImageData* structure)
   {
     extrudeGrid(structure, plan.flatAxis, plan.depth);
   }
-}
-
-Tally resample(const Resampling& plan, const Source& source, Numbers numbers,
-  bool outsideBlocksLight, MeshSearch& search, const Progress& progress, vtkImageData* output)
-{
-  Tally tally;
-  std::shared_ptr<const SharedPoints> shared;
-  const std::vector<vtkSmartPointer<vtkDataSet>> prepared =
-    preparedLeaves(source, CellValues::Averaged, tally, shared);
-  const std::vector<vtkDataSet*> leaves(prepared.begin(), prepared.end());
-  setPoints(plan, output);
-  vtkNew<vtkDoubleArray> values;
-  setTuples(values, output->GetNumberOfPoints());
-  auto valid = newMask(output->GetNumberOfPoints());
-  const double fraction = outsideBlocksLight ? 1 : 0.5; // of the search for visible cells
-  if (!sampleMeshes(
-        leaves, output, plan.flatAxis, search,
-        [&](double done) { return progress(fraction * done); }, values, valid))
-  {
-    return tally;
-  }
-  vtkSmartPointer<vtkUnsignedCharArray> outside;
-  if (!outsideBlocksLight)
-  {
-    outside = outsideOf(
-      leaves, output, plan.flatAxis, search,
-      [&](double done) { return progress(fraction + (1 - fraction) * done); }, valid);
-    if (!outside)
-    {
-      return tally;
-    }
-  }
-  setArrays(output, { values }, Linear(), valid, numbers);
-  if (outside)
-  {
-    setOutside(outside, output);
-  }
-  if (plan.flatAxis >= 0)
-  {
-    extrudeGrid(output, plan.flatAxis, plan.depth);
-    extrudeArrays(output, plan.flatAxis);
-  }
-  return tally;
 }
 
 } // namespace filters

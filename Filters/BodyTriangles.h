@@ -21,14 +21,10 @@ constexpr const char* bodiesAreOutside =
 /// The mistake where they leave nothing.
 constexpr const char* bodiesCoverAll =
   "The Bodies cover all of the gas, so there is none for light to "
-  "cross. Leave out what encloses the flow.";
+  "cross. Leave out what encloses the flow. Do both have the same unit of length?";
 
-/// Clears mask and refractivity of `output` inside the closed surfaces among `bodies` (vtkPolyData, or a
-/// composite of them), and where open ones are. Returns what to warn the user of, mostly nothing.
-/// Throws std::runtime_error where they are no surfaces.
-std::string placeBodies(vtkDataObject* bodies, vtkImageData* output);
-
-/// The polygons of `bodies` as triangles, whose points are finite. Throws as placeBodies() does.
+/// The polygons of `bodies` as triangles, whose points are finite. Throws std::runtime_error where they are no surfaces (vtkPolyData, or a
+/// composite of it) or have points that are not finite.
 vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies);
 
 } // namespace filters
