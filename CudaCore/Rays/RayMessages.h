@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a TeamTracer and its RayWorkers send each other.
+// What a ProcessTracer and the RayWorkers of other processes send each other.
 #pragma once
 
 #include "Rays/CudaTracer.h"
 #include "Rays/RayWorker.h"
-#include "Rays/TileQueue.h"
+#include "Rays/Tiles.h"
 #include "Rays/Tracer.h"
 
 #include <algorithm>
@@ -72,26 +72,19 @@ void sendPieces(ArrayMessage head, const void* array, std::size_t bytes, const S
   } while (head.first < bytes);
 }
 
-/// The first bytes of a request of rays.
-struct TilesHead
+/// What the first bytes of a request to trace say.
+struct TraceHead
 {
-  std::uint32_t kind = 0;
+  std::uint32_t kind = RayWorker::Trace;
   std::uint32_t bytesOfReal = 0;
-  std::uint64_t number = 0; ///< of the trace, which answers repeat
-  TileQueue::Tiles tiles{ 0, 0 };
 };
 
-struct DeviceMessage
-{
-  std::uint32_t kind = RayWorker::AskDevice;
-  std::int32_t capability = 0;
-};
-
-/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it gets bands in place of tiles.
+/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it traces bands in place of tiles.
 template <class Real>
-struct TilesMessage
+struct TraceMessage
 {
-  TilesHead head{ RayWorker::Tiles, sizeof(Real), 0, { 0, 0 } };
+  TraceHead head{ RayWorker::Trace, sizeof(Real) };
+  std::int64_t first = 0, end = 0; ///< tiles of all processes
   Device device = Device::Cpu;
   Simd simd = Simd::None; ///< of the CPU
   Pass pass{};
@@ -103,21 +96,17 @@ struct TilesMessage
 constexpr std::int64_t nowhere =
   std::numeric_limits<std::int64_t>::min(); // the offset of a null pointer
 
-/// The beginning of a message with rays: of those of each tile, or of all bands, row by row, then of all that they have
+/// The beginning of an answer with rays: of those of each tile, or of all bands, row by row, then of all that they have
 /// gathered.
-struct RaysMessage
+struct RaysHead
 {
-  std::uint32_t kind = RayWorker::Rays; ///< or Lacking: nothing follows
-  std::uint32_t fields = 0;
-  std::uint64_t number = 0;
-  TileQueue::Tiles tiles{ 0, 0 };
+  std::uint64_t fields = 0;
   std::int64_t crossed = 0;
   double worstDrift = 0;
-  double seconds = 0; ///< that it took
 };
 
-static_assert(std::is_trivially_copyable_v<TilesMessage<float>>);
-static_assert(std::is_trivially_copyable_v<TilesMessage<double>>);
+static_assert(std::is_trivially_copyable_v<TraceMessage<float>>);
+static_assert(std::is_trivially_copyable_v<TraceMessage<double>>);
 static_assert(std::is_trivially_copyable_v<RayExit>);
 
 template <class Head>
@@ -153,13 +142,21 @@ inline Pass passOfTile(const Pass& pass, std::int64_t tile)
   return ofTile;
 }
 
-/// Bands as a pass of their own, with the same rays.
-inline Pass passOfBands(const Pass& pass, const TileQueue::Tiles& bands)
+/// Consecutive bands as a pass of their own, with the same rays.
+inline Pass passOfBands(const Pass& pass, const Tiles& bands)
 {
   Pass ofBands = pass;
   ofBands.firstRow += bands.first * bandRows;
-  ofBands.rows = std::min(pass.rows, bands.end * bandRows) - bands.first * bandRows;
+  ofBands.rows =
+    std::max<std::int64_t>(0, std::min(pass.rows, bands.end * bandRows) - bands.first * bandRows);
   return ofBands;
+}
+/// What of so many bands one process traces: a device is busiest with consecutive ones.
+inline Tiles bandsOfProcess(
+  std::int64_t first, std::int64_t end, std::int64_t process, std::int64_t processes)
+{
+  const std::int64_t count = end - first;
+  return { first + count * process / processes, first + count * (process + 1) / processes };
 }
 
 inline std::size_t raysOf(const Pass& pass)
@@ -167,14 +164,30 @@ inline std::size_t raysOf(const Pass& pass)
   return static_cast<std::size_t>(pass.columns * pass.rows);
 }
 
-inline std::size_t raysOf(const Pass& pass, const TileQueue::Tiles& tiles)
+inline std::size_t raysOf(const Pass& pass, const Tiles& tiles)
 {
   std::size_t rays = 0;
-  for (std::int64_t tile = tiles.first; tile < tiles.end; ++tile)
+  for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step)
   {
     rays += raysOf(passOfTile(pass, tile));
   }
   return rays;
+}
+
+/// Calls visit(first ray of the pass, how many) for the rows of tiles.
+template <class Visit>
+void forRowsOf(const Pass& pass, const Tiles& tiles, const Visit& visit)
+{
+  for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step)
+  {
+    const Pass ofTile = passOfTile(pass, tile);
+    for (std::int64_t row = 0; row < ofTile.rows; ++row)
+    {
+      visit(static_cast<std::size_t>((ofTile.firstRow - pass.firstRow + row) * pass.columns +
+              ofTile.firstColumn - pass.firstColumn),
+        static_cast<std::size_t>(ofTile.columns));
+    }
+  }
 }
 
 } // namespace schlieren
