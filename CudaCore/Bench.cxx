@@ -272,10 +272,6 @@ struct Bench::Stages
   bool refineFor(const Column& column, MediumOfBench<Real>& current, const Monitor& monitor,
     Unfinished& request);
 
-  /// The medium of a field with all voxels that its view needs, as far as memory allows. False if aborted.
-  template <class Real>
-  bool prepare(Unfinished& request, const Watch& watch);
-
   /// Traces a pass, or resumes it, where `request` wants that. False if aborted or paused.
   template <class Real>
   bool trace(TracedPass& traced, bool isWantedOnHost, const Pass& pass,
@@ -373,22 +369,6 @@ bool Bench::Stages::refineFor(
     shared.together.reset();
   }
   return !shared.medium.tree->lacksRoom();
-}
-
-template <class Real>
-bool Bench::Stages::prepare(Unfinished& request, const Watch& watch)
-{
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  MediumOfBench<Real>& current = prepareMedium<Real>(field, scene);
-  const InUse<Real> inUse(*current.shared);
-  if (inUse && field.source)
-  {
-    const Frame frame = frameOf(field.grid, scene.view);
-    const Light light = lightOf(scene, field.grid, frame, facesOf(current, scene));
-    refineFor(columnOf(scene, light, frame), current, watch.monitor(), request);
-  }
-  return !watch.isAborted();
 }
 
 template <class Real>
@@ -680,15 +660,6 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
   }
   request->device = hasCuda ? Device::Cuda : Device::Cpu;
   return stages_->render(std::move(request), monitor);
-}
-
-bool Bench::prepare(const Field& field, const Scene& scene, const Monitor& monitor)
-{
-  validate(field, scene);
-  Unfinished request(field, scene);
-  const Watch watch(monitor);
-  return scene.precision == Precision::Single ? stages_->prepare<float>(request, watch)
-                                              : stages_->prepare<double>(request, watch);
 }
 
 Image Bench::resume(const Monitor& monitor)

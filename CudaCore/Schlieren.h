@@ -460,10 +460,6 @@ public:
   bool isUnfinished() const;
   void cancel(); ///< forgets it
 
-  /// Makes what render() would make of the field before the first ray, for a bench with the same media: see setMedia().
-  /// False if aborted. Throws Error.
-  bool prepare(const Field& field, const Scene& scene, const Monitor& monitor = {});
-
   /// Other processes that trace rays for the next images, each with a RayWorker; null: there are none. The images are the
   /// same to the last bit.
   void setProcesses(Processes* processes);

@@ -21,8 +21,8 @@ class ChannelRanks : public PieceRanks
 {
 public:
   /// See PieceWorker.
-  ChannelRanks(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept)
-    : Own(self, std::move(kept))
+  explicit ChannelRanks(vtkRefractiveIndex* self)
+    : Own(self)
   {
   }
 

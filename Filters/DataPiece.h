@@ -40,8 +40,6 @@ public:
     std::array<double, 3> reach{}; ///< from a box, of what contentOf() knows of its surroundings
   };
   virtual Summary summary() const = 0;
-  /// For the user; mostly empty.
-  virtual std::string warning() const { return ""; }
 
   /// A number that two pieces have in common only if their boundaries are the same, but for the values there; 0: of this one it
   /// is not known.

@@ -13,7 +13,6 @@
 
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 
 namespace filters
 {
@@ -28,6 +27,45 @@ std::string textOf(double time)
   std::ostringstream text;
   text << time;
   return text.str();
+}
+
+/// Updates what is upstream of all inputs. False where something there has failed.
+bool updateInputs(vtkAlgorithm* filter)
+{
+  bool areThere = true;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    if (filter->GetNumberOfInputConnections(port) > 0)
+    {
+      auto* upstream = Pipeline::SafeDownCast(filter->GetInputExecutive(port, 0));
+      vtkAlgorithmOutput* from = filter->GetInputConnection(port, 0);
+      areThere = upstream && upstream->Update(from->GetIndex()) && areThere;
+    }
+  }
+  return areThere;
+}
+
+/// Says of what time the outputs are, which the pipeline else takes from the input.
+void setTime(vtkInformationVector* outputs, double time)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject::GetData(outputs, port)
+      ->GetInformation()
+      ->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
+}
+
+/// A copy that shares the arrays and keeps them while upstream makes others; null of null.
+vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data)
+{
+  if (!data)
+  {
+    return nullptr;
+  }
+  auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+  copy->ShallowCopy(data);
+  return copy;
 }
 
 } // namespace
@@ -69,51 +107,6 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
       inInfo->Set(Pipeline::UPDATE_TIME_STEP(), time);
     }
   }
-}
-
-//------------------------------------------------------------------------------
-bool updateInputs(vtkAlgorithm* filter)
-{
-  bool areThere = true;
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
-  {
-    if (filter->GetNumberOfInputConnections(port) > 0)
-    {
-      auto* upstream = Pipeline::SafeDownCast(filter->GetInputExecutive(port, 0));
-      vtkAlgorithmOutput* from = filter->GetInputConnection(port, 0);
-      areThere = upstream && upstream->Update(from->GetIndex()) && areThere;
-    }
-  }
-  return areThere;
-}
-
-//------------------------------------------------------------------------------
-void setTime(vtkInformationVector* outputs, double time)
-{
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkDataObject::GetData(outputs, port)
-      ->GetInformation()
-      ->Set(vtkDataObject::DATA_TIME_STEP(), time);
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data)
-{
-  if (!data)
-  {
-    return nullptr;
-  }
-  auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
-  copy->ShallowCopy(data);
-  return copy;
-}
-
-//------------------------------------------------------------------------------
-double kibibytesOf(vtkDataObject* data)
-{
-  return data ? static_cast<double>(data->GetActualMemorySize()) : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -161,12 +154,10 @@ void ExposureSteps::Meet(const FilterRanks::Inputs& own)
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::MeetAgain() { this->Meet({ this->GetOwn(0), this->GetOwn(1), this->Arrays }); }
-
-//------------------------------------------------------------------------------
-vtkDataObject* ExposureSteps::GetOwn(int port) const
+void ExposureSteps::MeetAgain()
 {
-  return this->This ? this->This->data[port].Get() : vtkDataObject::GetData(this->Inputs[port]);
+  this->Meet({ vtkDataObject::GetData(this->Inputs[0]), vtkDataObject::GetData(this->Inputs[1]),
+    this->Arrays });
 }
 
 //------------------------------------------------------------------------------
@@ -191,37 +182,9 @@ bool ExposureSteps::Resume()
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
   this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  this->This = std::exchange(this->Next, std::nullopt);
-  this->IsThere = this->This ? this->This->isThere : updateInputs(this->Filter);
+  this->IsThere = updateInputs(this->Filter);
   this->MeetAgain();
   return true;
-}
-
-//------------------------------------------------------------------------------
-std::optional<double> ExposureSteps::GetUnread() const
-{
-  const bool isUnread = this->Step + 1 < this->Exposure.Steps.size() && !this->Next;
-  return isUnread ? std::make_optional(this->Exposure.Steps[this->Step + 1]) : std::nullopt;
-}
-
-//------------------------------------------------------------------------------
-bool ExposureSteps::ReadNext()
-{
-  this->Next.emplace();
-  requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step + 1]);
-  this->Next->isThere = updateInputs(this->Filter);
-  for (int port = 0; port < Ports; ++port)
-  {
-    this->Next->data[port] = sharedCopy(vtkDataObject::GetData(this->Inputs[port]));
-  }
-  this->Ranks.CountNoChange();
-  return this->Next->isThere;
-}
-
-//------------------------------------------------------------------------------
-double ExposureSteps::GetKibibytes() const
-{
-  return kibibytesOf(this->Later[0]) + kibibytesOf(this->Later[1]);
 }
 
 //------------------------------------------------------------------------------
@@ -240,7 +203,7 @@ void ExposureSteps::Keep()
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::KeepPiece() { this->Keep(0, this->GetOwn(0)); }
+void ExposureSteps::KeepPiece() { this->Keep(0, vtkDataObject::GetData(this->Inputs[0])); }
 
 //------------------------------------------------------------------------------
 void ExposureSteps::Keep(int port, vtkDataObject* data)

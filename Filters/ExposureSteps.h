@@ -28,18 +28,6 @@ TimeExposure exposureFor(vtkInformation* input, vtkInformation* output, double l
 /// Requests another time of all inputs than that of the output.
 void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
 
-/// Updates what is upstream of all inputs. False where something there has failed.
-bool updateInputs(vtkAlgorithm* filter);
-
-/// Says of what time the outputs are, which the pipeline else takes from the input.
-void setTime(vtkInformationVector* outputs, double time);
-
-/// A copy that shares the arrays and keeps them while upstream makes others; null of null.
-vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data);
-
-/// What data take; 0 for null.
-double kibibytesOf(vtkDataObject* data);
-
 /// The data of an image, for RequestData of a filter that has those of the first step of its exposure, or of the only
 /// one where there is none. What is upstream is updated for one step after the other, on all ranks, and two of them
 /// are kept. (VTK's CONTINUE_EXECUTING would do the same, but never ends where the data of a step cannot be read.)
@@ -66,13 +54,6 @@ public:
   /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
   bool Resume();
 
-  /// The time of the next step, which may be read before Resume(), on all ranks; unset where there is none, or it has been.
-  std::optional<double> GetUnread() const;
-  /// Reads it. False where there are no data, which Keep() will say.
-  bool ReadNext();
-  /// What the step takes.
-  double GetKibibytes() const;
-
   /// On rank 0: keeps the data of the step, of data that stay on their ranks its own piece. Throws std::runtime_error with a
   /// message for the user, as the next ones.
   void Keep();
@@ -95,7 +76,6 @@ private:
   static constexpr int Ports = 2;
 
   void MeetAgain();
-  vtkDataObject* GetOwn(int port) const;
   void Keep(int port, vtkDataObject* data);
 
   vtkAlgorithm* Filter;
@@ -110,12 +90,6 @@ private:
   std::size_t Step = 0;
   bool IsThere = true;                                         // the data of Step
   vtkSmartPointer<vtkDataObject> Earlier[Ports], Later[Ports]; // Later: of Step
-  struct ReadStep
-  {
-    bool isThere = false;
-    vtkSmartPointer<vtkDataObject> data[Ports];
-  };
-  std::optional<ReadStep> This, Next; // This: of Step, where it was read before Resume()
 };
 
 } // namespace filters

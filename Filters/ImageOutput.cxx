@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageOutput.h"
 
-#include "ArrayRanges.h"
 #include "AvailableMemory.h"
 
 #include "vtkDataArray.h"
@@ -53,7 +52,6 @@ vtkSmartPointer<Array> newArray(
   const auto size = static_cast<vtkIdType>(values.size());
   array->SetArray(values.release(), size, 0, Array::VTK_DATA_ARRAY_DELETE);
   setUnit(array, unit);
-  setRanges(array);
   return array;
 }
 
@@ -76,15 +74,12 @@ vtkSmartPointer<vtkFloatArray> newVectors(
   return array;
 }
 
-void setRanges(vtkAbstractArray*) {} // of strings
-
 template <class Array, class Value>
 void addFieldValue(vtkImageData* output, const char* name, const Value& value)
 {
   vtkNew<Array> array;
   array->SetName(name);
   array->InsertNextValue(value);
-  setRanges(array);
   output->GetFieldData()->AddArray(array);
 }
 
@@ -196,7 +191,6 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
       return static_cast<unsigned char>(
         (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
     });
-  setRanges(array);
   output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
   output->GetPointData()->SetActiveScalars("Color");
 }
@@ -276,7 +270,6 @@ void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
   rays->SetNumberOfValues(static_cast<vtkIdType>(histogram.rays.size()));
   std::copy(histogram.rays.begin(), histogram.rays.end(), rays->GetPointer(0));
   setUnit(rays, "1");
-  setRanges(rays);
   output->GetPointData()->SetScalars(rays);
 }
 

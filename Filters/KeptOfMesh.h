@@ -15,7 +15,7 @@ namespace filters
 
 struct PieceMesh;
 
-/// What a rank keeps of the mesh of its last piece, for the piece of the next time step, which another thread may be making.
+/// What a rank keeps of the mesh of its last piece, for the piece of the next time step.
 class KeptOfMesh
 {
 public:

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LastImage.h"
 
-#include "ArrayRanges.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -79,7 +78,6 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
       std::memcpy(made, old + static_cast<std::size_t>(pixel) * bytes, bytes);
       made += bytes;
     }
-    setRanges(array);
   }
   this->Image->ShallowCopy(output); // the next slice will want the same
 }

@@ -3,7 +3,6 @@
 #include "MeshPiece.h"
 
 #include "DataParts.h"
-#include "InvertedCells.h"
 #include "LatticeDistances.h"
 #include "MeshSource.h"
 
@@ -53,7 +52,6 @@ MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   if (!this->Mesh->cells)
   {
     this->Mesh->cells = this->Cells.mesh();
-    this->Mesh->warning = warningOfInvertedCells(this->Cells);
   }
 }
 

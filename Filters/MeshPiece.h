@@ -26,7 +26,6 @@ struct PieceMesh
 {
   std::uint64_t key; // see DataPiece::meshKey()
   std::shared_ptr<const CellTree::Mesh> cells;
-  std::string warning;
   // Of the values at the boundary's points, see Faces; empty: as yet nobody has wanted the boundary.
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
@@ -72,7 +71,6 @@ public:
   }
 
   Summary summary() const override;
-  std::string warning() const override { return this->Mesh->warning; }
   std::uint64_t meshKey() const override { return this->Mesh->key; }
   /// Some cells' sizes, the faces of its own cells, and N at their points.
   void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshSource.h"
 
-#include "InvertedCells.h"
 #include "MeshKey.h"
 
 #include "vtkDataSet.h"
@@ -75,7 +74,6 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
-  , Warning(warningOfInvertedCells(this->Cells))
   , Number(newNumberOfPieces())
 {
 }
@@ -90,7 +88,6 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
-  , Warning(mesh.warning)
   , Number(mesh.number)
 {
   this->Lattices->beginStep();

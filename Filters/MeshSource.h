@@ -32,7 +32,6 @@ struct SourceMesh
   std::shared_ptr<const CellTree::Mesh> cells;
   std::shared_ptr<const GasBoundary> boundary;
   std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
-  std::string warning;
   std::uint64_t number = 0; // of this mesh; what other ranks keep of it has it, too
 };
 
@@ -55,7 +54,7 @@ public:
     const WorkProgress& progress, int flatAxis = -1);
   SourceMesh mesh() const
   {
-    return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Warning, this->Number };
+    return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Number };
   }
 
   /// Whether walls without thickness, which are known by values, are the same with the values of these leaves.
@@ -108,8 +107,7 @@ private:
   int FlatAxis;
   double Ambient; // NaN: there is no boundary
   schlieren::Box Bounds;
-  std::string Warning;  // of the mesh
-  std::uint64_t Number; // likewise
+  std::uint64_t Number; // of the mesh
 
   FieldsOfMesh Fields;
 };

@@ -54,9 +54,9 @@ bool hasPoints(vtkDataObject* data)
 
 } // namespace
 
-PieceWorker::PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept)
+PieceWorker::PieceWorker(vtkRefractiveIndex* self)
   : Self(self)
-  , Kept(std::move(kept))
+  , Kept(std::make_shared<KeptOfMesh>())
   , Held(std::make_shared<HeldPiece>(this->Kept))
 {
 }
@@ -455,7 +455,6 @@ void PieceWorker::MakePiece(Reader& request, std::vector<char>& answer)
   put(this->Held->piece->summary(), answer);
   put(tally, answer);
   putAll(label, answer);
-  putAll(this->Held->piece->warning(), answer);
   put(this->Held->piece->meshKey(), answer);
   for (int field = 0; field < this->Held->piece->fields(); ++field)
   {

@@ -69,8 +69,8 @@ public:
     Lacking // the same, where the rank has not the arrays
   };
 
-  /// With the properties of `self`, which must outlive this. `kept`: for all pieces of the rank.
-  PieceWorker(vtkRefractiveIndex* self, std::shared_ptr<KeptOfMesh> kept);
+  /// With the properties of `self`, which must outlive this.
+  explicit PieceWorker(vtkRefractiveIndex* self);
   ~PieceWorker();
 
   /// How many threads it may have.
@@ -82,11 +82,8 @@ public:
   void Release(); // the piece, and what is kept for the next one
 
   static bool IsFor(std::uint32_t kind) { return kind >= Instant && kind < Answer; }
-  /// After such a request nobody needs the piece of another time step.
-  static bool IsLastOfOthers(std::uint32_t kind) { return kind == Outline || kind == Forget; }
 
-  /// The answer to a request. Throws nothing: errors are answers. What is requested of a piece that has been made may be answered
-  /// while another thread runs filters of VTK.
+  /// The answer to a request. Throws nothing: errors are answers.
   std::vector<char> Respond(const std::vector<char>& request);
 
   /// What is sent with Contents.

@@ -116,8 +116,6 @@ PiecesSource::PiecesSource(std::shared_ptr<PieceRanks> ranks, vtkDataObject* bod
       this->Valid += reader.Get<Tally>();
       const auto label = reader.GetAll<std::string>();
       this->Label = this->Label.empty() ? label : this->Label;
-      const auto warning = reader.GetAll<std::string>();
-      this->Warning = this->Warning.empty() ? warning : this->Warning;
       keys.push_back(reader.Get<std::uint64_t>());
       this->CellsOfRanks.back() = summary.cells;
       if (summary.cells > 0)

@@ -56,7 +56,6 @@ public:
   bool hasGas() const { return this->Cells > 0; }
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->Facts.bounds); }
   const Tally& tally() const { return this->Valid; }
-  const std::string& warning() const { return this->Warning; }
   const std::string& label() const { return this->Label; } // of the arrays; see Source::label
 
   schlieren::Box bounds() const override { return this->Facts.bounds; }
@@ -118,7 +117,7 @@ private:
   PiecesMesh Mesh{};
   std::vector<FieldRange> RangesOfFields;
   Tally Valid;
-  std::string Warning, Label;
+  std::string Label;
   std::unique_ptr<SamplesOfPieces> Known;       // what has been prepared
   std::unique_ptr<const BricksOfPieces> Bricks; // null: rank 0 makes them
 };

@@ -16,11 +16,9 @@
 #include "SceneFromSettings.h"
 
 #include "vtkCommand.h"
-#include "vtkExecutive.h"
 #include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -72,7 +70,7 @@ void vtkSchlierenFilter::Refine()
   }
   else
   {
-    hasMore = meeting.Serve(threadsFrom(*this), this->Responder(vtkRefractiveIndex::THIS_STEP));
+    hasMore = meeting.Serve(threadsFrom(*this), this->Responder());
   }
   if (hasMore)
   {
@@ -164,21 +162,11 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     inside.FailedAt != now && inside.Shown[IMAGE_PORT].IsThere() &&
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
-      this->DescribeInputs(this->InputOfImage(0, this->GetInputDataObject(0, 0)),
-        this->InputOfImage(
+      this->DescribeInputs(inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
+        inside.Ranks.GetInput(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField) &&
     this->UseOwnRanks();
-}
-
-//------------------------------------------------------------------------------
-vtkDataObject* vtkSchlierenFilter::InputOfImage(int port, vtkDataObject* own)
-{
-  if (const TimeStep* step = this->Inside->Ahead.Current(this))
-  {
-    own = port == 0 ? step->data : step->bodies;
-  }
-  return this->Inside->Ranks.GetInput(port, own);
 }
 
 //------------------------------------------------------------------------------
@@ -315,135 +303,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
     scene.view, this->ColorByField || this->HasOwnColor(), CutoffHasBackground(this->Cutoff));
   const auto paths = this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
                                                    : TimeSlicedImage::Paths::OfScene;
-  const auto trace = [&](const schlieren::Monitor& ofTrace)
-  { return inside.Images.Begin(field, scene, paths, seconds, ofTrace); };
-  return isPreview || seconds > 0 ? trace(monitor)
-                                  : this->TraceAndReadAhead(trace, scene, field.ambient, monitor);
-}
-
-//------------------------------------------------------------------------------
-schlieren::Image vtkSchlierenFilter::TraceAndReadAhead(
-  const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
-  const schlieren::Scene& scene, const std::optional<double>& ambient,
-  const schlieren::Monitor& monitor)
-{
-  Internals& inside = *this->Inside;
-  std::optional<double> next;
-  double kibibytes = 0;
-  if (inside.Steps)
-  {
-    next = inside.Steps->GetUnread();
-    kibibytes = inside.Steps->GetKibibytes();
-  }
-  else if (const TimeStep* step = inside.Ahead.Current(this))
-  {
-    next = inside.Ahead.Predict(this->GetExecutive()->GetInputInformation(0, 0));
-    kibibytes = kibibytesOf(inside.Ranks.GetInput(0, step->data)) +
-      kibibytesOf(inside.Ranks.GetInput(1, step->bodies));
-  }
-  if (!next || this->ReadAheadMemory == 0 || kibibytes > this->ReadAheadMemory * 1024.0)
-  {
-    return trace(monitor);
-  }
-  if (hasOtherRanks() && !inside.Meeting->CanReadAhead())
-  {
-    if (!std::exchange(inside.HasWarnedOfMpi, true))
-    {
-      vtkWarningMacro(<< "ReadAheadMemory has no effect: MPI has been initialized for one thread, "
-                         "and both reading and tracing need it. Set OMPI_MPI_THREAD_LEVEL=3 (Open "
-                         "MPI) or MPIR_CVAR_DEFAULT_THREAD_LEVEL=MPI_THREAD_MULTIPLE (MPICH) in "
-                         "the environment of all ranks.");
-    }
-    return trace(monitor);
-  }
-  if (hasOtherRanks())
-  {
-    inside.Meeting->BeginToRead(*next);
-  }
-  std::atomic<bool> isTraced{ false }; // or has failed
-  const auto traceAndSay = [&](const schlieren::Monitor& ofTrace)
-  {
-    const AtTheEnd say([&] { isTraced = true; });
-    return trace(ofTrace);
-  };
-  const auto read = [&]
-  {
-    inside.IsReadingAhead = true;
-    const AtTheEnd end([&] { inside.IsReadingAhead = false; });
-    this->ReadAhead(*next, scene, ambient, isTraced);
-  };
-  return traceWhile(read, traceAndSay, monitor);
-}
-
-//------------------------------------------------------------------------------
-void vtkSchlierenFilter::ReadAhead(double time, const schlieren::Scene& scene,
-  const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
-{
-  using Place = FilterRanks::Meeting::Place;
-  Internals& inside = *this->Inside;
-  FilterRanks::Inputs own;
-  FilterRanks::Meeting::StepAhead read;
-  const auto attempt = [](const std::function<void()>& work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const std::exception&) // the request for that step will say it
-    {
-    }
-  };
-  attempt(
-    [&] { read = inside.readStep(this, this->GetExecutive()->GetInputInformation(), time, own); });
-  Place place = Place::OnRank0;
-  if (hasOtherRanks())
-  {
-    read = inside.Meeting->MeetReaders(read, time, own, this->MostGathered(), place);
-    inside.Ahead.SetKeepable(read.isKeepable);
-  }
-  if (!read.isThere)
-  {
-    inside.Ahead.Drop();
-  }
-  else if (inside.Ahead.GetNext() &&
-    place == (inside.Ranks.AreInPieces() ? Place::InPieces : Place::OnRank0))
-  {
-    const Internals::WithPieces withPieces(this->Medium, inside.Meeting->GetReaders(),
-      threadsFrom(*this), vtkRefractiveIndex::NEXT_STEP);
-    attempt([&] { this->MakeAhead(*inside.Ahead.GetNext(), scene, ambient, isTraced); });
-  }
-  if (hasOtherRanks())
-  {
-    inside.Meeting->EndOfStep(read.isThere);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkSchlierenFilter::MakeAhead(TimeStep& step, const schlieren::Scene& scene,
-  const std::optional<double>& ambient, const std::atomic<bool>& isTraced)
-{
-  const FilterRanks& ranks = this->Inside->Ranks;
-  vtkDataObject* const data = ranks.GetInputAhead(0, step.data);
-  vtkDataObject* const bodies = ranks.GetInputAhead(1, step.bodies);
-  step.refractivity = this->FindOrMakeRefractivity(
-    data, bodies, this->DescribeInputs(data, bodies), vtkRefractiveIndex::NEXT_STEP);
-  // Its medium is another one where it needs the ambient refractivity that is being found now.
-  const bool isAmbientKnown = !this->LockAmbient || !this->Inside->FindsAmbient;
-  const bool hasTints = this->ColorByField && step.refractivity && !step.refractivity->Source;
-  if (!step.refractivity || !isAmbientKnown || hasTints ||
-    this->PathModel == DIFFERENCE)
-  {
-    return;
-  }
-  schlieren::Field field = Internals::fieldOf(*step.refractivity);
-  field.ambient = ambient;
-  field.lengthScale = this->LengthScale;
-  field.gradients = { static_cast<int>(scene.fieldColors.size()), nullptr, field.version };
-  step.bench = std::make_unique<schlieren::Bench>();
-  step.bench->setMedia(mediaOfProcess());
-  // What is left when this image is there is made while the step after the next one is read.
-  step.bench->prepare(
-    field, scene, { nullptr, [&]() { return isTraced || this->GetAbortExecute() != 0; } });
+  return inside.Images.Begin(field, scene, paths, seconds, monitor);
 }
 
 //------------------------------------------------------------------------------

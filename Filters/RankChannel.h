@@ -41,9 +41,6 @@ enum Kind : std::uint32_t
   Ask,        // to others, before they get pieces
   Ready,      // to rank 0, an answer to Ask
   Relay,      // to others: a message comes in pieces
-  ReadStep,   // to others: a time step that they read while they trace rays
-  StepIsRead, // to rank 0, an answer to ReadStep, on the connection of readers
-  StepEnds,   // to others, likewise: 1 where they keep it
   Fails       // in place of Hello, and to others: what is upstream has failed
 };
 
@@ -54,7 +51,6 @@ struct HelloMessage
   double changes = 0;       // the version of the inputs
   double timeStep = 0;
   InputsOfRank inputs;
-  std::int32_t canReadAhead = 0;
 };
 struct FailsMessage
 {
@@ -62,18 +58,6 @@ struct FailsMessage
   std::int32_t changes = 0; // the version of the inputs
   double timeStep = 0;
   char name[64] = {}; // the class of what has failed
-};
-struct ReadStepMessage
-{
-  std::uint32_t kind = ReadStep;
-  double time = 0;
-};
-struct StepIsReadMessage
-{
-  std::uint32_t kind = StepIsRead;
-  std::int32_t isThere = 0;
-  std::int32_t isKeepable = 1;
-  InputsOfRank inputs;
 };
 struct EndMessage
 {
@@ -92,7 +76,7 @@ struct RelayMessage
 struct ShortMessage
 {
   std::uint32_t kind = 0;
-  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text; StepEnds: 1 or 0
+  // Begin: the meeting; GiveData: the input; Data: 1 with data, 0 with a text
   std::int32_t number = 0;
 };
 
@@ -264,8 +248,6 @@ public:
   // The last time that the other rank's filter has not run.
   std::optional<FailsMessage> Failure;
 
-  /// Between readers, where nobody is greeted.
-  void Open() { this->Guest.emplace(); }
   /// Leaves the meeting, or a rank 0 that has not come.
   void Close()
   {

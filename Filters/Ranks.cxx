@@ -20,10 +20,6 @@
 #include "vtkUniformGridAMR.h"
 #include "vtkUnstructuredGrid.h"
 
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-#include "vtkMPI.h"
-#endif
-
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
@@ -59,18 +55,6 @@ vtkMultiProcessController* controllerOfRanks()
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
 #else
   return nullptr;
-#endif
-}
-
-/// Whether several threads may use MPI at once.
-bool canUseMpiInThreads()
-{
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-  int level = MPI_THREAD_SINGLE;
-  MPI_Query_thread(&level);
-  return level == MPI_THREAD_MULTIPLE;
-#else
-  return false;
 #endif
 }
 
@@ -212,7 +196,7 @@ void FilterRanks::CountChanges(vtkAlgorithm* filter)
   {
     // All ranks run their filters in the same order.
     static int filters = 0;
-    constexpr int most = 2250; // all tags are below 32768, which MPI grants
+    constexpr int most = 5700; // all tags are below 32768, which MPI grants
     this->Inside =
       std::make_unique<Others>(controller, firstTag + Others::Tags * (filters++ % most));
   }
@@ -300,7 +284,7 @@ FilterRanks::Meeting::Meeting(FilterRanks& ranks, const std::optional<Inputs>& i
   const Clock::time_point end = now + std::chrono::duration_cast<Clock::duration>(Seconds(limit));
   if (areNew)
   {
-    this->Of.CountNoChange();
+    this->Of.CountedAt.Modified(); // what is upstream has run, and may have modified itself
   }
   if (isRank0())
   {
@@ -349,7 +333,6 @@ void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
   hello.meeting = meeting;
   hello.changes = this->Of.Now.changes;
   hello.timeStep = this->Of.Now.timeStep;
-  hello.canReadAhead = canUseMpiInThreads() ? 1 : 0;
   if (this->Own)
   {
     hello.inputs = inputsOfRank(this->Own->data, this->Own->bodies);
@@ -387,7 +370,6 @@ FilterRanks::Meeting::~Meeting()
     }
     return;
   }
-  this->EndOfStep(false); // where that was forgotten, they would wait for ever
   for (const auto& channel : this->Of.Inside->Channels)
   {
     if (channel->isOpen())
@@ -409,14 +391,10 @@ FilterRanks::Meeting::~Meeting()
 }
 
 //------------------------------------------------------------------------------
-bool FilterRanks::Meeting::Serve(int threads, const Responder& respond, const Reader& reader)
+bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
 {
   while (this->HasMet)
   {
-    if (this->Next)
-    {
-      return this->ServeAndRead(threads, respond, reader);
-    }
     if (const std::optional<bool> outcome = this->ServeOnce(threads, respond))
     {
       return *outcome;
@@ -442,9 +420,6 @@ std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder
   const auto head = read<ShortMessage>(*message);
   switch (head.kind)
   {
-    case ReadStep:
-      this->Next = read<ReadStepMessage>(*message).time;
-      return {};
     case GiveData:
       channel.send(dataMessage(head.number, *this->Own));
       return {};

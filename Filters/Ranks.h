@@ -77,9 +77,6 @@ public:
   /// Requests the same of data alone.
   void RequestData(vtkInformation* inInfo, Part part, double maxCells) const;
 
-  /// What is upstream has run for this filter, and may have modified itself: that is no change.
-  void CountNoChange() { this->CountedAt.Modified(); }
-
   /// On all ranks: until the inputs change, pieces with so few cells in all that rank 0 had better have all of them.
   void SetTooFew(double maxCells) { this->TooFew = maxCells; }
 
@@ -121,45 +118,10 @@ public:
     void SetHasImage(bool hasImage) { this->HasImage = hasImage; }
     std::optional<bool> GetHasImage() const { return this->HasImage; }
 
-    /// On rank 0: whether all ranks can read a time step while rays travel. Both need MPI, which must allow several threads.
-    bool CanReadAhead() const;
-    /// On rank 0, before rays travel: all others read this step, too, and then wait for EndOfStep().
-    void BeginToRead(double time);
-
-    /// A time step that has been read ahead, on a rank or on all.
-    struct StepAhead
-    {
-      bool isThere = false;
-      bool isKeepable = true; // false: what is upstream changes with each step
-    };
-    /// Of the data: rank 0 has all, each rank keeps its own, or rank 0 gathers them.
-    enum class Place
-    {
-      OnRank0,
-      InPieces,
-      Gathered
-    };
-    /// On rank 0, in the thread that reads: waits for the others. What all ranks have of the step of this time where this one has
-    /// `own`, and where the data will be at the meeting for it, see Gather(). Bodies have to be on rank 0, too. What rank 0
-    /// would have to gather it gathers now, and has, see GetInputAhead().
-    StepAhead MeetReaders(
-      const StepAhead& step, double time, const Inputs& own, double maxCells, Place& place);
-    /// Likewise: the connections to the others until EndOfStep(), which rank 0 has to call. They keep the step, or forget it.
-    std::vector<schlieren::Channel*> GetReaders() const;
-    void EndOfStep(bool isKept);
-    /// After Serve() on other ranks: whether they forget it.
-    bool DropsNext() const { return this->Drops; }
-
     /// Answers a message; empty: it is for somebody else.
     using Responder = std::function<std::vector<char>(const std::vector<char>& message)>;
-    /// Reads a time step, and answers messages about it, in the thread that has called Serve().
-    struct Reader
-    {
-      std::function<StepAhead(double time, Inputs& own)> read;
-      Responder respond;
-    };
     /// On other ranks: does what rank 0 requests, until its meeting is over. False where rank 0 does not come.
-    bool Serve(int threads, const Responder& respond = nullptr, const Reader& reader = {});
+    bool Serve(int threads, const Responder& respond = nullptr);
 
   private:
     using Time = std::chrono::steady_clock::time_point;
@@ -168,8 +130,6 @@ public:
     /// Whether something upstream of that rank's filter has failed.
     bool HasFailed(const ranks::RankChannel& channel) const;
     std::optional<bool> ServeOnce(int threads, const Responder& respond);
-    bool ServeAndRead(int threads, const Responder& respond, const Reader& reader);
-    void ServeReader(const StepAhead& step, const Inputs& own, const Responder& respond);
     std::string FindAbsent() const;
     bool CanStayInPieces(double maxCells) const;
     /// On rank 0, with inputs: what each rank has of them.
@@ -181,17 +141,10 @@ public:
     std::optional<bool> HasImage;
     bool HasMet = false;                            // rank 0, on another rank
     mutable std::vector<ranks::InputsOfRank> OfAll; // empty: nobody has needed it
-    bool HasReaders = false;                        // on rank 0: which wait for EndOfStep()
-    std::optional<double> Next;                     // on another rank: the step that it reads
-    bool Drops = false;                             // likewise
   };
 
   /// On rank 0, after it has been gathered: all of an input of which this is what rank 0 has itself.
   vtkDataObject* GetInput(int input, vtkDataObject* own) const;
-  /// Likewise of a step that has been read ahead.
-  vtkDataObject* GetInputAhead(int input, vtkDataObject* own) const;
-  /// Forgets what was gathered of it.
-  void ReleaseAhead() { this->Ahead.reset(); }
 
   /// On rank 0: whether the data have stayed on several ranks, and how often other data were gathered.
   bool AreInPieces() const { return this->InPieces; }
@@ -232,14 +185,6 @@ private:
   using OfInputs = std::array<vtkSmartPointer<vtkDataObject>, 2>;
   OfInputs Gathered;               // likewise; null: rank 0 has all of it
   std::vector<std::string> Arrays; // of the data, that were gathered
-  struct AheadOf
-  {
-    Version version;
-    double maxCells;
-    OfInputs gathered;
-    std::vector<std::string> arrays;
-  };
-  std::optional<AheadOf> Ahead; // of the next time step
 };
 
 } // namespace filters

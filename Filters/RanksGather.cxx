@@ -144,14 +144,6 @@ vtkDataObject* FilterRanks::GetInput(int input, vtkDataObject* own) const
 }
 
 //------------------------------------------------------------------------------
-vtkDataObject* FilterRanks::GetInputAhead(int input, vtkDataObject* own) const
-{
-  vtkDataObject* gathered =
-    this->Ahead ? this->Ahead->gathered[static_cast<std::size_t>(input)].Get() : nullptr;
-  return gathered && own ? gathered : own;
-}
-
-//------------------------------------------------------------------------------
 FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
 {
   FilterRanks& of = this->Of;
@@ -167,18 +159,13 @@ FilterRanks::Inputs FilterRanks::Meeting::Gather(double maxCells)
     of.Gathered[0] = of.Gathered[1] = nullptr;
     of.Problem = this->FindAbsent();
     of.InPieces = of.Problem.empty() && this->CanStayInPieces(maxCells);
-    const std::optional<AheadOf> ahead = std::exchange(of.Ahead, std::nullopt);
-    const bool isAhead = ahead && ahead->version == of.Now && ahead->maxCells == maxCells &&
-      !of.InPieces && hasAll(ahead->arrays, arrays);
-    of.Arrays = isAhead ? ahead->arrays : arrays;
+    of.Arrays = arrays;
     try
     {
       for (int input = of.InPieces ? 1 : 0; input < 2 && of.Problem.empty(); ++input)
       {
         const auto n = static_cast<std::size_t>(input);
-        of.Gathered[n] = isAhead
-          ? ahead->gathered[n]
-          : collect(input, *this->Own, this->InputsOfAll(), of.Inside->Channels);
+        of.Gathered[n] = collect(input, *this->Own, this->InputsOfAll(), of.Inside->Channels);
       }
     }
     catch (const std::bad_alloc&)

@@ -48,7 +48,7 @@ std::vector<char> dataMessage(int input, const FilterRanks::Inputs& own);
 /// The connections of a filter to the other ranks.
 struct filters::FilterRanks::Others
 {
-  static constexpr int Tags = 4;
+  static constexpr int Tags = 2;
   /// With so many tags from this one on.
   Others(vtkMultiProcessController* controller, int tag)
     : Of(vtkDIYUtilities::GetCommunicator(controller))
@@ -58,14 +58,12 @@ struct filters::FilterRanks::Others
     for (int rank = isFirst ? 1 : 0; rank < (isFirst ? ranks : 1); ++rank)
     {
       this->Channels.push_back(std::make_unique<ranks::RankChannel>(this->Of, rank, tag));
-      this->Readers.push_back(std::make_unique<ranks::RankChannel>(this->Of, rank, tag + 2));
     }
   }
 
   ranks::Communicator Of; // all ranks
   std::vector<std::unique_ptr<ranks::RankChannel>>
-    Channels,                  // on rank 0: to all others; there: to it
-    Readers;                   // likewise, between the threads that read the next time step
+    Channels;                  // on rank 0: to all others; there: to it
   schlieren::RayWorker Worker; // not on rank 0
   int Meetings = 0;            // likewise
 };

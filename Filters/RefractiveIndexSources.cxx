@@ -132,8 +132,7 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodi
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfImage(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents,
-  StepOfPieces step)
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   vtkNew<vtkImageData> refractivity;
   warning = this->Convert(input, refractivity, nullptr, DIFFERENCES);
@@ -154,7 +153,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
       forFieldImages(this, input, refractivity, threads,
         [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
     }
-    made->setHelpers(this->Pieces[step]);
+    made->setHelpers(this->Pieces);
     progress.reach(1);
   };
   try
@@ -178,7 +177,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vtkDataObject* input,
-  vtkDataObject* bodies, std::string& warning, SourceContents contents, StepOfPieces step)
+  vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   Source source = chooseSource(this, input);
   std::optional<Revolution> revolution;
@@ -188,7 +187,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
   }
   else if (source.image)
   {
-    return this->MakeSourceOfImage(input, bodies, warning, contents, step);
+    return this->MakeSourceOfImage(input, bodies, warning, contents);
   }
   const int flat = flatAxisOf(source);
   this->FlatAxis = flat;
@@ -197,7 +196,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
   this->Search->release();
   Tally tally;
   bool hasGas = false, meetsBodies = false;
-  std::string ofMesh;
   std::shared_ptr<const schlieren::MediumSource> result;
   const auto take = [&](const auto& made)
   {
@@ -255,7 +253,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
         bringToCells(field);
         made->addField(*levels, field.source);
       }
-      made->setHelpers(this->Pieces[step]);
+      made->setHelpers(this->Pieces);
       take(made);
       return;
     }
@@ -297,7 +295,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
       kept.key = key;
     }
     kept.mesh = made->mesh();
-    ofMesh = kept.mesh.warning;
     const auto begunAt = [&](std::size_t number)
     { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
     for (std::size_t number = 0; number < fields.size(); ++number)
@@ -306,7 +303,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
       made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
-    made->setHelpers(this->Pieces[step]);
+    made->setHelpers(this->Pieces);
     take(made);
   };
   try
@@ -322,7 +319,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vt
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, tally);
-  addText(warning, ofMesh);
   if (bodies && !meetsBodies)
   {
     addText(warning, bodiesAreOutside);
@@ -393,31 +389,27 @@ bool vtkRefractiveIndex::CanUsePieces()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceChannels(
-  std::vector<schlieren::Channel*> channels, StepOfPieces step)
+void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> channels)
 {
-  this->Pieces[step]->SetChannels(std::move(channels));
+  this->Pieces->SetChannels(std::move(channels));
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetHelp(bool help, StepOfPieces step)
-{
-  this->Pieces[step]->SetHelp(help);
-}
+void vtkRefractiveIndex::SetHelp(bool help) { this->Pieces->SetHelp(help); }
 
 //------------------------------------------------------------------------------
 bool vtkRefractiveIndex::UseSource(const schlieren::MediumSource* source)
 {
   const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
   this->HasPieces = this->HasPieces || (source && source->isRemote());
-  return !ofRanks || ofRanks->useRanks(this->Pieces[THIS_STEP]);
+  return !ofRanks || ofRanks->useRanks(this->Pieces);
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractiveIndex::UsesSource(const schlieren::MediumSource* source)
 {
   const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
-  return !ofRanks || ofRanks->usesRanks(*this->Pieces[THIS_STEP]);
+  return !ofRanks || ofRanks->usesRanks(*this->Pieces);
 }
 
 //------------------------------------------------------------------------------
@@ -427,7 +419,7 @@ void vtkRefractiveIndex::ShareArrays(vtkDataObject* own)
   {
     return;
   }
-  ChannelRanks& pieces = *this->Pieces[THIS_STEP];
+  ChannelRanks& pieces = *this->Pieces;
   try
   {
     std::vector<std::vector<char>> requests(pieces.Count(), pieceRequest(PieceWorker::GiveArrays));
@@ -458,8 +450,7 @@ void vtkRefractiveIndex::ReleasePieces()
   if (std::exchange(this->HasPieces, false))
   {
     *this->MeshOfPieces = {};
-    this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
-    ChannelRanks& pieces = *this->Pieces[THIS_STEP];
+    ChannelRanks& pieces = *this->Pieces;
     try
     {
       pieces.Request(
@@ -473,10 +464,9 @@ void vtkRefractiveIndex::ReleasePieces()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceData(
-  vtkDataObject* data, vtkDataObject* earlier, StepOfPieces step)
+void vtkRefractiveIndex::SetPieceData(vtkDataObject* data, vtkDataObject* earlier)
 {
-  this->Pieces[step]->GetOwn().SetData(data, earlier);
+  this->Pieces->GetOwn().SetData(data, earlier);
 }
 
 //------------------------------------------------------------------------------
@@ -484,50 +474,37 @@ void vtkRefractiveIndex::SetInstantOfPieces(double ratio)
 {
   std::vector<char> request = pieceRequest(PieceWorker::Instant);
   put(ratio, request);
-  ChannelRanks& pieces = *this->Pieces[THIS_STEP];
+  ChannelRanks& pieces = *this->Pieces;
   std::vector<std::vector<char>> requests(pieces.Count(), request);
   requests[0].clear();
   readersOf(pieces.Request(std::move(requests))); // throws what has gone wrong
 }
 
 //------------------------------------------------------------------------------
-std::vector<char> vtkRefractiveIndex::RespondForPiece(
-  const std::vector<char>& message, StepOfPieces step)
+std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)
 {
-  const std::uint32_t kind = schlieren::RayWorker::kindOf(message);
-  if (!PieceWorker::IsFor(kind))
-  {
-    return {};
-  }
-  if (step == THIS_STEP && PieceWorker::IsLastOfOthers(kind))
-  {
-    this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
-  }
-  return this->Pieces[step]->GetOwn().Respond(message);
+  return PieceWorker::IsFor(schlieren::RayWorker::kindOf(message))
+    ? this->Pieces->GetOwn().Respond(message)
+    : std::vector<char>();
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfPieces(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents,
-  StepOfPieces step)
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   this->Grid.clear();
   this->FlatAxis = -1;
   this->Search->release();
   this->LeaveMesh();
-  this->SetPieceData(input, nullptr, step);
+  this->SetPieceData(input);
   this->HasPieces = true;
-  if (step == THIS_STEP) // what has been made of another step is of no use
-  {
-    this->Pieces[NEXT_STEP]->GetOwn().ReleasePiece();
-  }
   std::shared_ptr<PiecesSource> made;
   try
   {
     vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
       [&]
       {
-        made = std::make_shared<PiecesSource>(this->Pieces[step], bodies,
+        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
           static_cast<filters::Outside>(this->Outside), contents == WITH_FIELDS,
           *this->MeshOfPieces, progressOf(this));
         *this->MeshOfPieces = made->mesh();
@@ -535,10 +512,10 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
   }
   catch (const Stopped&)
   {
-    this->SetPieceData(nullptr, nullptr, step);
+    this->SetPieceData(nullptr);
     return nullptr;
   }
-  this->SetPieceData(nullptr, nullptr, step);
+  this->SetPieceData(nullptr);
   Source source;
   source.model = modelFrom(this);
   source.noteOnGases = noteOnGases(this);
@@ -548,7 +525,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfP
     throw std::runtime_error(noGas(source));
   }
   warning = warningFrom(source.model, made->tally());
-  addText(warning, made->warning());
   if (bodies && !made->meetsBodies())
   {
     addText(warning, bodiesAreOutside);

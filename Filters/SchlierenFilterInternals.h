@@ -4,7 +4,6 @@
 
 #include "ExposureSteps.h"
 #include "LastImage.h"
-#include "NextStep.h"
 #include "Ranks.h"
 #include "RequestGuard.h"
 #include "RgbImages.h"
@@ -32,61 +31,37 @@
 /// What vtkSchlierenFilter keeps between updates.
 struct vtkSchlierenFilter::Internals
 {
-  /// The other ranks answer for their pieces of a time step, and help with its medium, while this is there.
-  class WithPieces
-  {
-  public:
-    /// `threads`: of this rank; 0: as many as cores.
-    WithPieces(vtkRefractiveIndex* medium, std::vector<schlieren::Channel*> channels, int threads,
-      vtkRefractiveIndex::StepOfPieces step)
-      : Medium(medium)
-      , Step(step)
-    {
-      this->Medium->SetPieceChannels(std::move(channels), step);
-      this->Medium->SetHelp(
-        filters::haveOthersCores(threads > 0 ? threads : schlieren::coresOfProcess()), step);
-    }
-    ~WithPieces()
-    {
-      this->Medium->SetHelp(false, this->Step);
-      this->Medium->SetPieceChannels({}, this->Step);
-    }
-    WithPieces(const WithPieces&) = delete;
-    WithPieces& operator=(const WithPieces&) = delete;
-
-  private:
-    vtkRefractiveIndex* Medium;
-    vtkRefractiveIndex::StepOfPieces Step;
-  };
-
-  /// They trace rays, too.
+  /// The other ranks answer for their pieces, help with the medium and trace rays while this is there.
   class WithWorkers
   {
   public:
+    /// `threads`: of this rank; 0: as many as cores.
     WithWorkers(Internals& internals, vtkRefractiveIndex* medium,
-      filters::FilterRanks::Meeting& meeting, int threads)
+      const filters::FilterRanks::Meeting& meeting, int threads)
       : Of(internals)
-      , Pieces(medium, meeting.GetChannels(), threads, vtkRefractiveIndex::THIS_STEP)
+      , Medium(medium)
     {
-      this->Of.Meeting = &meeting;
+      this->Medium->SetPieceChannels(meeting.GetChannels());
+      this->Medium->SetHelp(
+        filters::haveOthersCores(threads > 0 ? threads : schlieren::coresOfProcess()));
       this->Of.Images.SetWorkers(meeting.GetWorkers());
     }
     ~WithWorkers()
     {
-      this->Of.Meeting = nullptr;
       this->Of.Images.SetWorkers({});
+      this->Medium->SetHelp(false);
+      this->Medium->SetPieceChannels({});
     }
     WithWorkers(const WithWorkers&) = delete;
     WithWorkers& operator=(const WithWorkers&) = delete;
 
   private:
     Internals& Of;
-    WithPieces Pieces;
+    vtkRefractiveIndex* Medium;
   };
 
   filters::RequestGuard Guard;
   filters::FilterRanks Ranks;
-  filters::FilterRanks::Meeting* Meeting = nullptr; // on rank 0, while the others work for it
   filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output
   filters::RgbImageReader RgbImages;
@@ -135,26 +110,7 @@ struct vtkSchlierenFilter::Internals
   bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // of the last update; unset for data without time steps
 
-  filters::NextStep Ahead;
-  filters::ExposureSteps* Steps = nullptr; // of an exposure, while it is being made
-  /// Reads a time step on this rank, and what it then has of it; of an exposure its next step, which Steps has.
-  filters::FilterRanks::Meeting::StepAhead readStep(vtkAlgorithm* filter,
-    vtkInformationVector** inputs, double time, filters::FilterRanks::Inputs& own)
-  {
-    if (this->Steps)
-    {
-      return { this->Steps->ReadNext(), true };
-    }
-    const filters::TimeStep* step = this->Ahead.Read(filter, inputs, time);
-    this->Ranks.CountNoChange();
-    own = step ? filters::FilterRanks::Inputs{ step->data, step->bodies }
-               : filters::FilterRanks::Inputs{};
-    return { step != nullptr, this->Ahead.GetKeepable() };
-  }
-  bool MayReadAhead = false;   // in the last request
-  bool IsReadingAhead = false; // what is made now is of the next time step
-  bool HasWarnedOfMpi = false; // which does not let it
-
+  bool IsExposing = false; // an exposure is being made
   filters::TimeExposure Exposure; // of the last request
   std::size_t Instant = 0;        // of these, the one that is being made
   // The image of its first instant, whose k and surroundings, and place, are those of all others.

@@ -66,7 +66,6 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Finished: " << this->GetFinished() << "\n";
   os << indent << "PictureCount: " << this->PictureCount << "\n";
   os << indent << "Status: " << this->Status << "\n";
-  os << indent << "FollowedView: " << this->FollowedView << "\n";
   os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
   os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";

@@ -112,8 +112,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
-  const auto made =
-    this->FindOrMakeRefractivity(input, bodies, description, vtkRefractiveIndex::THIS_STEP);
+  const auto made = this->FindOrMakeRefractivity(input, bodies, description);
   if (!made)
   {
     return false;
@@ -137,28 +136,26 @@ bool vtkSchlierenFilter::UseOwnRanks()
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
-  vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description,
-  vtkRefractiveIndex::StepOfPieces step)
+  vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
-  const bool isNow = step == vtkRefractiveIndex::THIS_STEP;
   const bool arePieces = this->Inside->Ranks.AreInPieces();
-  if (arePieces && this->Inside->Steps) // only this filter's ranks have what is between time steps
+  if (arePieces && this->Inside->IsExposing) // only this filter's ranks have what is between time steps
   {
-    return this->MakeRefractivity(input, bodies, step);
+    return this->MakeRefractivity(input, bodies);
   }
   RefractivityKey key = keyOf(this->Medium, input, bodies,
     arePieces ? this->DescribePieces(input, bodies) : description, this->ColorByField);
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
-  if (found && (!isNow || !hasOtherRanks() || this->Medium->UseSource(found->Source.get())))
+  if (found && (!hasOtherRanks() || this->Medium->UseSource(found->Source.get())))
   {
-    if (isNow && !arePieces)
+    if (!arePieces)
     {
       this->Medium->ReleasePieces();
     }
     this->Medium->SetMesh(found->Mesh);
     return found;
   }
-  std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies, step);
+  std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
   if (made)
   {
     shareRefractivity(std::move(key), made);
@@ -168,7 +165,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
-  vtkDataObject* input, vtkDataObject* bodies, vtkRefractiveIndex::StepOfPieces step)
+  vtkDataObject* input, vtkDataObject* bodies)
 {
   const Internals& inside = *this->Inside;
   auto made = std::make_shared<MadeRefractivity>();
@@ -176,17 +173,14 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
   if (inside.Ranks.AreInPieces())
   {
-    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents, step);
+    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents);
   }
   else
   {
-    if (step == vtkRefractiveIndex::THIS_STEP)
-    {
-      this->Medium->ReleasePieces();
-    }
+    this->Medium->ReleasePieces();
     if (this->Medium->CanMakeSource(input, bodies))
     {
-      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents, step);
+      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
     }
   }
   if (!made->Source && !this->Medium->GetAbortExecute())

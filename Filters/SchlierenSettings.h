@@ -192,7 +192,6 @@ struct ResourceSettings
   int Device = 0;
   int NumberOfThreads = 0;
   int GatherLimit = 1000000;
-  int ReadAheadMemory = 0;
   double TimeLimit = 0;
 
   template <class Visit>
@@ -203,7 +202,6 @@ struct ResourceSettings
     use("Device", this->Device);
     use("NumberOfThreads", this->NumberOfThreads);
     use("GatherLimit", this->GatherLimit);
-    use("ReadAheadMemory", this->ReadAheadMemory);
     use("TimeLimit", this->TimeLimit);
   }
 };

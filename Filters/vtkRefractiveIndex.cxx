@@ -89,13 +89,9 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Guard(std::make_shared<RequestGuard>())
   , Known(std::make_shared<KnownArrays>())
   , Ranks(std::make_shared<FilterRanks>())
+  , Pieces(std::make_shared<ChannelRanks>(this))
   , MeshOfPieces(std::make_shared<PiecesMesh>())
 {
-  const auto kept = std::make_shared<KeptOfMesh>();
-  for (std::shared_ptr<ChannelRanks>& ofStep : this->Pieces)
-  {
-    ofStep = std::make_shared<ChannelRanks>(this, kept);
-  }
   this->SetNumberOfInputPorts(2);
   // Of vtkImageAlgorithm: the active scalars, whatever these are.
   this->GetInputArrayInformation(DENSITY)->Remove(vtkDataObject::FIELD_ATTRIBUTE_TYPE());

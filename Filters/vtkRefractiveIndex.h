@@ -579,7 +579,7 @@ public:
   /**
    * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images without bodies (unless `imagesToo`), flat ones, and where
+   * what else there is is to be made a grid by Convert(): images without bodies, flat ones, and where
    * SamplingDimensions or SamplingBounds are given. If AbortExecute is set meanwhile, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
@@ -593,16 +593,9 @@ public:
     REFRACTIVITY_ALONE,
     WITH_FIELDS // the source has Fields, too: see FieldTints.h
   };
-  /// Which of two sources at a time; see MakeSourceOfPieces().
-  enum StepOfPieces
-  {
-    THIS_STEP,
-    NEXT_STEP
-  };
   VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input, vtkDataObject* bodies = nullptr);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
-    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE,
-    StepOfPieces step = THIS_STEP);
+    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
 
   /**
@@ -625,30 +618,24 @@ public:
    * step and of the one before, and RespondForPiece() answers messages; empty: a message is for somebody else.
    * SetInstantOfPieces() makes what these have that between the two steps, `ratio` of the way; 1 or more: of the later.
    *
-   * While one thread requests something of the source of this time step, another may do all that with the next one, through
-   * channels of its own.
-   *
-   * A source may be that of another filter or of another step: before it is used, UseSource() makes the ranks of this filter
+   * A source may be that of another filter: before it is used, UseSource() makes the ranks of this filter
    * answer for it. False where they cannot: then it has to be made anew. UsesSource(): whether they do.
    */
   VTK_WRAPEXCLUDE bool CanUsePieces();
-  VTK_WRAPEXCLUDE void SetPieceChannels(
-    std::vector<schlieren::Channel*> channels, StepOfPieces step = THIS_STEP);
+  VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
   /// Whether the other ranks, while their channels are set, help to make the medium of data that rank 0 has alone. No other thread
   /// may use the channels then.
-  VTK_WRAPEXCLUDE void SetHelp(bool help, StepOfPieces step = THIS_STEP);
+  VTK_WRAPEXCLUDE void SetHelp(bool help);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
-    SourceContents contents = REFRACTIVITY_ALONE, StepOfPieces step = THIS_STEP);
+    SourceContents contents = REFRACTIVITY_ALONE);
   VTK_WRAPEXCLUDE bool UseSource(const schlieren::MediumSource* source);
   VTK_WRAPEXCLUDE bool UsesSource(const schlieren::MediumSource* source);
   /// Frees them on all ranks, where there are any.
   VTK_WRAPEXCLUDE void ReleasePieces();
-  VTK_WRAPEXCLUDE void SetPieceData(
-    vtkDataObject* data, vtkDataObject* earlier = nullptr, StepOfPieces step = THIS_STEP);
+  VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
   VTK_WRAPEXCLUDE void SetInstantOfPieces(double ratio);
-  VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(
-    const std::vector<char>& message, StepOfPieces step = THIS_STEP);
+  VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
   ///@}
 
   ///@{
@@ -709,7 +696,7 @@ private:
 
   /// Of a three-dimensional image with bodies.
   std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
-    vtkDataObject* bodies, std::string& warning, SourceContents contents, StepOfPieces step);
+    vtkDataObject* bodies, std::string& warning, SourceContents contents);
 
   std::shared_ptr<filters::GridPlan> Plan;
   std::shared_ptr<filters::KeptMesh> Mesh;
@@ -731,7 +718,7 @@ private:
   std::string ArraysUsed;
 
   std::shared_ptr<filters::FilterRanks> Ranks;
-  std::shared_ptr<filters::ChannelRanks> Pieces[2]; // by StepOfPieces
+  std::shared_ptr<filters::ChannelRanks> Pieces;
   bool HasPieces = false;
   std::shared_ptr<filters::PiecesMesh> MeshOfPieces; // of the last source of pieces
 

@@ -111,12 +111,11 @@ vtkSchlierenFilter::vtkSchlierenFilter()
 vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 
 //------------------------------------------------------------------------------
-std::function<std::vector<char>(const std::vector<char>& message)> vtkSchlierenFilter::Responder(
-  vtkRefractiveIndex::StepOfPieces step)
+std::function<std::vector<char>(const std::vector<char>& message)> vtkSchlierenFilter::Responder()
 {
   this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  return [this, step](const std::vector<char>& message)
-  { return this->Medium->RespondForPiece(message, step); };
+  return
+    [this](const std::vector<char>& message) { return this->Medium->RespondForPiece(message); };
 }
 
 //------------------------------------------------------------------------------
@@ -183,10 +182,6 @@ void vtkSchlierenFilter::OnMediumProgress()
 void vtkSchlierenFilter::Progress(double fraction)
 {
   const Internals& inside = *this->Inside;
-  if (inside.IsReadingAhead)
-  {
-    return;
-  }
   const auto instants =
     static_cast<double>(std::max<std::size_t>(1, inside.Exposure.Instants.size()));
   this->UpdateProgress((static_cast<double>(inside.Instant) + fraction) / instants);
@@ -205,12 +200,13 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   {
     // Where the image lies depends on the input's points: RequestData corrects what is stated here
     // before the input has been produced.
-    if (vtkDataObject* input = this->InputOfImage(0, vtkDataObject::GetData(inputVector[0])))
+    const FilterRanks& ranks = this->Inside->Ranks;
+    if (vtkDataObject* input = ranks.GetInput(0, vtkDataObject::GetData(inputVector[0])))
     {
       this->PassToMedium();
       schlieren::Grid grid;
       int flatAxis = -1;
-      vtkDataObject* bodies = this->InputOfImage(vtkRefractiveIndex::BODIES,
+      vtkDataObject* bodies = ranks.GetInput(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
             this->DescribeInputs(input, bodies), this->Medium, this->ColorByField))
@@ -277,20 +273,9 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  const auto time = timeOf(request, inputVector, outputVector);
   if (inside.Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
   {
     inside.FailedAt = inside.StoppedOf = 0; // of another time step, perhaps
-  }
-  inside.MayReadAhead = this->ReadAheadMemory > 0 && time && inside.Exposure.IsNone();
-  if (inside.MayReadAhead)
-  {
-    inside.Ahead.Request(this, inputVector, *time);
-  }
-  else
-  {
-    inside.Ahead.Release();
-    inside.Ranks.ReleaseAhead();
   }
   return 1;
 }
@@ -317,8 +302,8 @@ int vtkSchlierenFilter::RequestData(
   ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure,
     partFor(this->Medium), maxCells);
   const bool isExposure = !inside.Exposure.IsNone();
-  inside.Steps = isExposure ? &steps : nullptr;
-  const AtTheEnd forgetSteps([&] { inside.Steps = nullptr; });
+  inside.IsExposing = isExposure;
+  const AtTheEnd endExposure([&] { inside.IsExposing = false; });
   inside.Instant = 0;
   inside.FirstInstant.reset();
   // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
@@ -328,30 +313,9 @@ int vtkSchlierenFilter::RequestData(
     return 1;
   }
   // What this rank has of the inputs.
-  FilterRanks::Inputs own{ vtkDataObject::GetData(inputVector[0]),
+  const FilterRanks::Inputs own{ vtkDataObject::GetData(inputVector[0]),
     vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]),
     [this] { return filters::arraysOf(this->Medium); } };
-  TimeStep* step = nullptr;
-  const auto arrive = [&]()
-  {
-    if (inside.MayReadAhead)
-    {
-      step = &inside.Ahead.Arrive(this, *timeOf(request, inputVector, outputVector), inputVector);
-      own.data = step->data;
-      own.bodies = step->bodies;
-    }
-  };
-  const auto meetWithAll = [&]()
-  {
-    if (inside.MayReadAhead) // upstream may have another step
-    {
-      inside.Ahead.Release();
-      requestTime(this, inputVector, *timeOf(request, inputVector, outputVector));
-    }
-    steps.MeetWithAll();
-    arrive();
-  };
-  arrive();
   steps.Meet(own);
   if (!isRank0())
   {
@@ -364,44 +328,26 @@ int vtkSchlierenFilter::RequestData(
       }
       else
       {
-        this->Medium->SetPieceData(
-          step ? step->data.Get() : vtkDataObject::GetData(inputVector[0]));
+        this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
       }
-      const auto readNext = [&](double time, FilterRanks::Inputs& ofStep)
-      {
-        const auto read = inside.readStep(this, inputVector, time, ofStep);
-        this->Medium->SetPieceData(ofStep.data, nullptr, vtkRefractiveIndex::NEXT_STEP);
-        return read;
-      };
-      return steps.GetMeeting().Serve(threadsFrom(*this),
-        this->Responder(vtkRefractiveIndex::THIS_STEP),
-        { readNext, this->Responder(vtkRefractiveIndex::NEXT_STEP) });
+      return steps.GetMeeting().Serve(threadsFrom(*this), this->Responder());
     };
     if (serve())
     {
-      meetWithAll();
+      steps.MeetWithAll();
       serve();
-    }
-    if (steps.GetMeeting().DropsNext())
-    {
-      inside.Ahead.Drop();
     }
     while (steps.Resume())
     {
       serve();
     }
     inside.HasImage = steps.GetMeeting().GetHasImage().value_or(inside.HasImage);
-    if (step)
-    {
-      setTime(outputVector, step->time); // upstream may have another one
-    }
     this->Medium->SetPieceData(nullptr);
-    this->Medium->SetPieceData(nullptr, nullptr, vtkRefractiveIndex::NEXT_STEP);
     return 1;
   }
   if (steps.GetMeeting().AreTooFew(maxCells))
   {
-    meetWithAll();
+    steps.MeetWithAll();
   }
   const AtTheEnd noteImage(
     [&]
@@ -421,10 +367,6 @@ int vtkSchlierenFilter::RequestData(
           vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
     }
     tellPlaces(outputVector);
-    if (inside.Time && inside.Ahead.Current(this))
-    {
-      setTime(outputVector, *inside.Time); // upstream may have another one
-    }
   };
   if (this->GetStopped())
   {
@@ -462,10 +404,6 @@ int vtkSchlierenFilter::RequestData(
     isMade = isMade &&
       (isExposure ? this->Expose(steps, output, histogram)
                   : this->Render(output, histogram, continues));
-    if (step)
-    {
-      step->bench.reset(); // the image's own has the medium now
-    }
     if (isMade)
     {
       showLast();

@@ -886,20 +886,6 @@ public:
 
   ///@{
   /**
-   * Memory, MiB, that the data of the next time step may take, which is then read while the image of this one is
-   * traced, and its medium made; 0 (the default): it is read when it is requested. The next step is the one that is
-   * as far from this one as this one from that before, at first the one after it. As much is taken to be needed as this
-   * one takes; the medium comes on top, see MediumMemory. What is upstream has the data of the next step afterwards.
-   * Of an exposure its own next step is read while an instant is traced, and nothing of the next exposure. No effect with a
-   * TimeLimit, and where ParaView runs as several processes whose MPI is for one thread: then there is one warning. The images
-   * do not depend on it, and another value is no reason to make one again.
-   */
-  void SetReadAheadMemory(int mebibytes) { this->ReadAheadMemory = std::max(0, mebibytes); }
-  vtkGetMacro(ReadAheadMemory, int);
-  ///@}
-
-  ///@{
-  /**
    * What this filter has done since it was made: media built, meshes prepared for it (see
    * vtkRefractiveIndex::MakeSource), grids chosen for meshes, cells of meshes searched for a grid's points, and rays
    * traced. They stand still where an update could use what was there.
@@ -973,14 +959,6 @@ public:
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 
-  ///@{
-  /**
-   * Of no effect, for existing scripts and state files. Empty by default.
-   */
-  void SetFollowedView(const char* name) { this->FollowedView = name ? name : ""; }
-  const char* GetFollowedView() const { return this->FollowedView.c_str(); }
-  ///@}
-
   /// All of these properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
@@ -1017,13 +995,12 @@ private:
   void OnMediumProgress();
   /// Brings the refractivity up to date. False if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
-  /// That of another filter, what was made ahead, or a new one. Null if aborted.
-  std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(vtkDataObject* input,
-    vtkDataObject* bodies, const std::vector<double>& description,
-    vtkRefractiveIndex::StepOfPieces step);
+  /// That of another filter, or a new one. Null if aborted.
+  std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(
+    vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description);
   /// Null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
-    vtkDataObject* input, vtkDataObject* bodies, vtkRefractiveIndex::StepOfPieces step);
+    vtkDataObject* input, vtkDataObject* bodies);
   /// Sees to it that the ranks answer this filter about its refractivity, which another filter may have used. False where they
   /// cannot.
   bool UseOwnRanks();
@@ -1034,23 +1011,10 @@ private:
   vtkMTimeType GetTimeOfImage();
   /// Whether an update has only to resume the image that is not finished.
   bool Continues(vtkDataObject* input, vtkDataObject* bodies);
-  /// On rank 0: what there is of an input, of the time of the last image; `own`: what upstream has.
-  vtkDataObject* InputOfImage(int port, vtkDataObject* own);
-  /// Reads the next time step, where there is memory for it, and makes its medium, while `trace` is at work in another thread.
-  schlieren::Image TraceAndReadAhead(
-    const std::function<schlieren::Image(const schlieren::Monitor&)>& trace,
-    const schlieren::Scene& scene, const std::optional<double>& ambient,
-    const schlieren::Monitor& monitor);
-  /// `isTraced`: whether that has ended.
-  void ReadAhead(double time, const schlieren::Scene& scene, const std::optional<double>& ambient,
-    const std::atomic<bool>& isTraced);
-  void MakeAhead(filters::TimeStep& step, const schlieren::Scene& scene,
-    const std::optional<double>& ambient, const std::atomic<bool>& isTraced);
   /// Up to how many cells rank 0 gathers.
   double MostGathered();
   /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
-  std::function<std::vector<char>(const std::vector<char>& message)> Responder(
-    vtkRefractiveIndex::StepOfPieces step);
+  std::function<std::vector<char>(const std::vector<char>& message)> Responder();
   /// Everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
   /// The same of data that stay on their ranks, for all filters that have the same.
@@ -1089,7 +1053,6 @@ private:
   std::string Sensitivity;
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
-  std::string FollowedView;
 };
 
 #endif

@@ -3,15 +3,12 @@
 """What several ranks take: processor seconds and memory of each, for a first image and for another view.
 
     SCHLIEREN_PLUGIN=…/Schlieren.so mpiexec -np 4 pvbatch --sym --force-offscreen-rendering \
-        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples [steps]]] [property=value ...]
+        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples]] [property=value ...]
 
 MODE: gathered or stay. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
 has a sector. One thread on each rank. Prints a row: ranks, mode, cells, pixels, and for the first image and for another view the
 seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
 what they have with the data, MB; then the voxels, MB, and million rays of the other view.
-
-With `steps` the density pulsates, and rows have the seconds on the clock of each time step's image from the second on, without and
-with reading ahead (MPI has to allow threads: OMPI_MPI_THREAD_LEVEL=3), and of making the data alone.
 
 Other properties may be given, MediumTolerance=0 for example; their values are Python's.
 """
@@ -35,9 +32,6 @@ executive = self.GetExecutive()
 info = executive.GetOutputInformation(0)
 info.Set(executive.WHOLE_EXTENT(), [0, AROUND, 0, POLAR, 0, LAYERS], 6)
 info.Set(self.CAN_PRODUCE_SUB_EXTENT(), 1)
-if NUMBER > 0:
-    info.Set(executive.TIME_STEPS(), list(range(NUMBER)), NUMBER)
-    info.Set(executive.TIME_RANGE(), [0, NUMBER - 1], 2)
 """
 SECTORS = """
 import numpy as np
@@ -58,13 +52,8 @@ output.SetExtent(first, last, 0, POLAR, 0, LAYERS)
 points = vtkPoints()
 points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], 1).astype(np.float32), deep=1))
 output.SetPoints(points)
-executive = self.GetExecutive()
-info = executive.GetOutputInformation(0)
-instant = info.Get(executive.UPDATE_TIME_STEP()) if info.Has(executive.UPDATE_TIME_STEP()) else 0
-pulse = 1 + 0.2 * np.sin(instant)
-density = numpy_to_vtk((1.2 * (1 + 0.6 * pulse * front - 0.4 * wake)).ravel().astype(np.float32), deep=1)
+density = numpy_to_vtk((1.2 * (1 + 0.6 * front - 0.4 * wake)).ravel().astype(np.float32), deep=1)
 density.SetName("rho")
-output.GetInformation().Set(output.DATA_TIME_STEP(), instant)
 output.GetPointData().SetScalars(density)
 """
 
@@ -87,17 +76,6 @@ def in_words(values, digits):
     return text + (f" {min(values[1:]):.{digits}f}-{max(values[1:]):.{digits}f}" if values[1:] else "")
 
 
-def seconds_per_step(row, update, steps):
-    """Prints them, from the second image on."""
-    for step in range(steps):
-        RANKS.Barrier()
-        start = time.time()
-        update(step)
-        row += f" {time.time() - start:.2f}" if step > 0 else ""
-    if RANKS.GetLocalProcessId() == 0:
-        print(row, flush=True)
-
-
 RANKS = vtkMultiProcessController.GetGlobalController()
 simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
 
@@ -111,7 +89,6 @@ def measure():
     size = {"POLAR": round((cells / 3)**(1 / 3)), "AROUND": 2 * round((cells / 3)**(1 / 3))}
     size["LAYERS"] = round(cells / size["POLAR"] / size["AROUND"])
     cells = math.prod(size.values())
-    steps = size["NUMBER"] = int(numbers[3]) if len(numbers) > 3 else 0
     script, extent = SECTORS, EXTENT
     for name, number in size.items():
         script, extent = script.replace(name, str(number)), extent.replace(name, str(number))
@@ -122,12 +99,6 @@ def measure():
                       ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1, Device="CPU",
                       **MODES[mode], **{name: ast.literal_eval(value) for name, value in others.items()})
     row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {cells:.3g} | {pixels} |"
-    if steps > 0:
-        for memory in (0, 1 << 20, 0, 1 << 20):
-            bench.ReadAheadMemory = memory
-            seconds_per_step(f"{row} {'ahead' if memory else 'plain'} |", bench.UpdatePipeline, steps)
-        seconds_per_step(f"{row} data alone |", source.UpdatePipeline, steps)
-        return
     for direction in ([0, 0, -1], [0.3, 0.2, -1]):
         bench.ViewDirection = direction
         RANKS.Barrier()

@@ -96,26 +96,6 @@ TEST(SharedMedia, OneMediumForAllViewsOfAnImage) { expectImagesOfOneBench(blob()
 
 TEST(SharedMedia, OneMediumForAllViewsOfASource) { expectImagesOfOneBench(fieldOf(balls())); }
 
-TEST(SharedMedia, OneThatIsPreparedHasAllThatItsImageNeeds)
-{
-  const Scene scene = sceneTowards(aside);
-  const SampledField<float> samples = blob();
-  for (const Field& field : { samples.field, fieldOf(balls()) })
-  {
-    Together together;
-    EXPECT_TRUE(together.first.prepare(field, scene));
-    EXPECT_EQ(together.first.work().raysTraced, 0);
-    expectSameImage(together.second.render(field, scene), Bench().render(field, scene));
-    EXPECT_EQ(together.second.work().mediumBuilds, 0);
-
-    Monitor soon;
-    soon.aborted = [] { return true; };
-    EXPECT_FALSE(together.third.prepare(field, sceneTowards(front), soon));
-    EXPECT_THROW(together.third.prepare({}, scene), Error);
-    expectSameImage(together.third.render(field, scene), Bench().render(field, scene));
-  }
-}
-
 TEST(SharedMedia, WhatTheMediumDependsOnMakesAnother)
 {
   const SampledField<float> data = blob(), others = blob();

@@ -45,17 +45,15 @@ inline vtkSmartPointer<vtkRefractiveIndex> reader(bool ofCells)
 class LocalChannel : public schlieren::Channel
 {
 public:
-  explicit LocalChannel(
-    vtkRefractiveIndex* rank, vtkRefractiveIndex::StepOfPieces step = vtkRefractiveIndex::THIS_STEP)
+  explicit LocalChannel(vtkRefractiveIndex* rank)
     : Rank(rank)
-    , Step(step)
   {
   }
   void send(std::vector<char> message) override
   {
     this->Bytes += message.size();
     this->Messages.push_back({ 'r', 'a', 'y', 's' }); // that nobody waits for any more
-    this->Messages.push_back(this->Rank->RespondForPiece(message, this->Step));
+    this->Messages.push_back(this->Rank->RespondForPiece(message));
     this->Bytes += this->Messages.back().size();
     this->IsOpen = this->AnswersLeft-- > 1;
     if (!this->IsOpen)
@@ -77,7 +75,6 @@ public:
 
 private:
   vtkRefractiveIndex* Rank;
-  vtkRefractiveIndex::StepOfPieces Step;
   std::deque<std::vector<char>> Messages;
   bool IsOpen = true;
 };
@@ -107,27 +104,9 @@ struct Ranks
     return this->Filters[0]->MakeSourceOfPieces(this->Parts[0], bodies, this->Warning, contents);
   }
 
-  /// Of other data, while that source is in use.
-  std::shared_ptr<const schlieren::MediumSource> makeNext(const std::vector<Data>& parts)
-  {
-    constexpr auto next = vtkRefractiveIndex::NEXT_STEP;
-    std::vector<schlieren::Channel*> channels;
-    this->Readers.clear();
-    for (std::size_t rank = 1; rank < parts.size(); ++rank)
-    {
-      this->Filters[rank]->SetPieceData(parts[rank], nullptr, next);
-      this->Readers.push_back(std::make_unique<LocalChannel>(this->Filters[rank], next));
-      channels.push_back(this->Readers.back().get());
-    }
-    this->Filters[0]->SetPieceChannels(channels, next);
-    std::string warning;
-    return this->Filters[0]->MakeSourceOfPieces(
-      parts[0], nullptr, warning, vtkRefractiveIndex::REFRACTIVITY_ALONE, next);
-  }
-
   std::vector<Data> Parts;
   std::vector<vtkSmartPointer<vtkRefractiveIndex>> Filters;
-  std::vector<std::unique_ptr<LocalChannel>> Channels, Readers;
+  std::vector<std::unique_ptr<LocalChannel>> Channels;
   std::string Warning;
 };
 

@@ -200,59 +200,6 @@ TEST(Pieces, TransferFunctionsHaveTheRangesOfAllFields)
   }
 }
 
-// One thread uses the pieces of a time step while another one makes those of the next.
-TEST(Pieces, AreOfTwoStepsAtATime)
-{
-  const auto at = [](double time)
-  {
-    std::vector<Data> parts = cuts()[2];
-    for (const Data& part : parts)
-    {
-      addPointArray(vtkDataSet::SafeDownCast(part), "N",
-        [time](const Vec& x) {
-          return ball({ x[0] - 0.2 * time, x[1], x[2] }) * (1 + time);
-        });
-    }
-    return parts;
-  };
-  std::vector<std::unique_ptr<Ranks>> fresh;
-  std::vector<std::shared_ptr<const schlieren::MediumSource>> expected;
-  for (const double time : { 0., 1., 2. })
-  {
-    fresh.push_back(std::make_unique<Ranks>(at(time)));
-    expected.push_back(fresh.back()->make());
-  }
-  const auto expectFresh = [&](std::size_t step, const schlieren::MediumSource& source)
-  {
-    SCOPED_TRACE(step);
-    expectSame(*expected[step], source, 1e-15);
-  };
-  Ranks ranks(at(0));
-  auto source = ranks.make();
-  for (std::size_t step = 0; step < 2; ++step)
-  {
-    std::thread user([&] { expectFresh(step, *source); });
-    auto next = ranks.makeNext(at(static_cast<double>(step + 1)));
-    user.join();
-    expectFresh(step, *source);
-    expectFresh(step + 1, *next);
-    ASSERT_TRUE(ranks.Filters[0]->UseSource(next.get()));
-    source = std::move(next);
-    expectFresh(step + 1, *source);
-  }
-  // What was made of a step that does not come is forgotten, also by ranks that have not come for it.
-  const auto unused = ranks.makeNext(at(7));
-  for (std::size_t rank = 1; rank < ranks.Filters.size(); ++rank)
-  {
-    ranks.Filters[rank]->SetPieceData(ranks.Parts[rank]);
-  }
-  expectFresh(0, *ranks.make());
-  EXPECT_THROW(unused->prepareContents({ unused->bounds() }), std::runtime_error);
-  ranks.Channels[0]->AnswersLeft = 1;
-  ranks.Channels[0]->send(std::vector<char>(4)); // then it leaves
-  EXPECT_FALSE(ranks.Filters[0]->UseSource(source.get()));
-}
-
 // Filters of the same ranks use one source in turns, also after the one that has made it has made another.
 TEST(Pieces, AreSharedByFilters)
 {

@@ -420,7 +420,7 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   for (const char* name :
     { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions", "SamplingBounds",
       "Depth", "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "Reconstruction",
-      "MediumTolerance", "MediumMemory", "ReadAheadMemory", "LengthScale",
+      "MediumTolerance", "MediumMemory", "LengthScale",
       "AutoAmbientRefractivity", "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData",
       "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle",
       "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics",

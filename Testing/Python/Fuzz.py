@@ -304,7 +304,7 @@ def case_of_proxies(rng):
 def case_of_views(rng):
     import fuzz_data
     from paraview import simple
-    of_view = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize", "FollowedView", "TimeLimit",
+    of_view = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize", "TimeLimit",
                "PreviewReduction"}
     items = [item for item in settable() if item.name not in of_view]
     view = simple.CreateRenderView()

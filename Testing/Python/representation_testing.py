@@ -14,7 +14,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 GREY_LEVEL = 0.5 + 1e-4
 
 # Of the filter alone: the representation has them of its view.
-OF_THE_VIEW = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize", "FollowedView"}
+OF_THE_VIEW = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize"}
 
 
 def show(flow, view, **settings):
