@@ -54,11 +54,11 @@ void addBodies(std::vector<double>& description, vtkAlgorithm* filter, vtkDataOb
 //------------------------------------------------------------------------------
 std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtkDataObject* bodies)
 {
-  const FilterRanks& ranks = this->Inside->Ranks;
+  InputsOfRanks& ranks = this->Inside->Ranks;
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
   std::vector<double> description =
-    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
-  description.push_back(ranks.AreInPieces() ? ranks.GetGatherings() : 0); // of what others have
+    describeInput(ranks.areInPieces() ? nullptr : input, upstreamTime(this, 0));
+  description.push_back(ranks.areInPieces() ? ranks.ranks().version() : 0); // of what others have
   addBodies(description, this, bodies);
   return description;
 }
@@ -130,15 +130,14 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UseOwnRanks()
 {
-  const schlieren::MediumSource* source = this->Inside->Refractivity->Source.get();
-  return !hasOtherRanks() || this->Medium->UsesSource(source) || this->Medium->UseSource(source);
+  return this->Inside->Ranks.use(this->Inside->Refractivity->Source.get());
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
-  const bool arePieces = this->Inside->Ranks.AreInPieces();
+  const bool arePieces = this->Inside->Ranks.areInPieces();
   if (arePieces && this->Inside->IsExposing) // only this filter's ranks have what is between time steps
   {
     return this->MakeRefractivity(input, bodies);
@@ -146,11 +145,11 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   RefractivityKey key = keyOf(this->Medium, input, bodies,
     arePieces ? this->DescribePieces(input, bodies) : description, this->ColorByField);
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
-  if (found && (!hasOtherRanks() || this->Medium->UseSource(found->Source.get())))
+  if (found && this->Inside->Ranks.use(found->Source.get()))
   {
     if (!arePieces)
     {
-      this->Medium->ReleasePieces();
+      this->Inside->Ranks.release();
     }
     this->Medium->SetMesh(found->Mesh);
     return found;
@@ -167,17 +166,18 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies)
 {
-  const Internals& inside = *this->Inside;
+  Internals& inside = *this->Inside;
   auto made = std::make_shared<MadeRefractivity>();
   const auto contents =
     this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
-  if (inside.Ranks.AreInPieces())
+  if (inside.Ranks.areInPieces())
   {
-    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents);
+    made->Source = this->Medium->MakeSourceOfPieces(inside.Ranks, bodies, made->Warning, contents,
+      inside.IsExposing ? static_cast<int>(inside.Instant) : -1);
   }
   else
   {
-    this->Medium->ReleasePieces();
+    inside.Ranks.release();
     if (this->Medium->CanMakeSource(input, bodies))
     {
       made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);

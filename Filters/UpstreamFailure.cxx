@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 namespace filters
 {
@@ -29,7 +28,7 @@ public:
     vtkOutputWindow::GetInstance()->DisplayErrorText(static_cast<const char*>(text));
     for (UpstreamFailure* watcher : std::set(this->Watchers))
     {
-      watcher->Notice(caller);
+      watcher->notice(caller);
     }
   }
 
@@ -66,11 +65,11 @@ void addUpstreamOf(vtkAlgorithm* filter, std::vector<vtkObject*>& executives)
 UpstreamFailure::~UpstreamFailure() { observer().Watchers.erase(this); }
 
 //------------------------------------------------------------------------------
-void UpstreamFailure::Watch(vtkAlgorithm* filter, Report report)
+void UpstreamFailure::watch(vtkAlgorithm* filter)
 {
   Observer& all = observer();
   all.Watchers.insert(this);
-  this->ReportIt = std::move(report);
+  this->Failed.clear();
   this->Watched.clear();
   addUpstreamOf(filter, this->Watched);
   for (vtkObject* executive : this->Watched)
@@ -83,14 +82,13 @@ void UpstreamFailure::Watch(vtkAlgorithm* filter, Report report)
 }
 
 //------------------------------------------------------------------------------
-void UpstreamFailure::Notice(vtkObject* failed)
+void UpstreamFailure::notice(vtkObject* failed)
 {
-  if (this->ReportIt &&
+  if (this->Failed.empty() &&
     std::find(this->Watched.begin(), this->Watched.end(), failed) != this->Watched.end())
   {
     auto* executive = vtkExecutive::SafeDownCast(failed);
-    std::exchange(this->ReportIt, nullptr)(
-      executive ? executive->GetAlgorithm()->GetClassName() : failed->GetClassName());
+    this->Failed = executive ? executive->GetAlgorithm()->GetClassName() : failed->GetClassName();
   }
 }
 

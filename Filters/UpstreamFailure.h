@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,27 +11,26 @@ class vtkObject;
 namespace filters
 {
 
-/// Finds out that something upstream of a filter has failed: VTK does not run the filter then, and calls nothing of it.
+/// Finds out that something upstream of a filter has failed: VTK does not run the filter then.
 class UpstreamFailure
 {
 public:
-  /// Gets the class of what has failed.
-  using Report = std::function<void(const std::string& name)>;
-
   UpstreamFailure() = default;
   ~UpstreamFailure();
   UpstreamFailure(const UpstreamFailure&) = delete;
   UpstreamFailure& operator=(const UpstreamFailure&) = delete;
 
-  /// Until the first failure or Ignore(). It fails without notice where VTK's messages are off.
-  void Watch(vtkAlgorithm* filter, Report report);
-  void Ignore() { this->ReportIt = nullptr; }
+  /// In ProcessRequest, from REQUEST_DATA_OBJECT on. It fails without notice where VTK's messages are off.
+  void watch(vtkAlgorithm* filter);
+
+  /// The class of what has failed since then; mostly empty.
+  const std::string& failed() const { return this->Failed; }
 
   /// Of an executive.
-  void Notice(vtkObject* failed);
+  void notice(vtkObject* failed);
 
 private:
-  Report ReportIt;
+  std::string Failed;
   std::vector<vtkObject*> Watched; // executives, whose addresses are compared
 };
 

@@ -5,13 +5,11 @@
 #include "ArrayChoice.h"
 #include "AtTheEnd.h"
 #include "AvailableMemory.h"
-#include "ChannelRanks.h"
 #include "FlatData.h"
 #include "Guarded.h"
 #include "InputDescription.h"
+#include "InputsOfRanks.h"
 #include "MeshSearch.h"
-#include "PiecesSource.h"
-#include "Ranks.h"
 #include "RefractiveIndexInternals.h"
 #include "RefractivityOfBodies.h"
 #include "RefractivityOfImage.h"
@@ -34,6 +32,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -88,9 +87,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Search(std::make_shared<MeshSearch>())
   , Guard(std::make_shared<RequestGuard>())
   , Known(std::make_shared<KnownArrays>())
-  , Ranks(std::make_shared<FilterRanks>())
-  , Pieces(std::make_shared<ChannelRanks>(this))
-  , MeshOfPieces(std::make_shared<PiecesMesh>())
+  , Ranks(std::make_shared<InputsOfRanks>(this))
 {
   this->SetNumberOfInputPorts(2);
   // Of vtkImageAlgorithm: the active scalars, whatever these are.
@@ -163,13 +160,16 @@ bool vtkRefractiveIndex::HasArray(int index)
 vtkTypeBool vtkRefractiveIndex::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const auto work = [&]
-  {
-    this->Ranks->Note(this, request);
-    return this->Superclass::ProcessRequest(request, input, output);
-  };
+  const auto work = [&] { return this->Superclass::ProcessRequest(request, input, output); };
   return this->Guard->Process(request, work, noMemory,
     [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfGrid(), output); });
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractiveIndex::ModifyRequest(vtkInformation* request, int when)
+{
+  this->Ranks->modify(this, request, when);
+  return this->Superclass::ModifyRequest(request, when);
 }
 
 //------------------------------------------------------------------------------
@@ -450,10 +450,14 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  if (this->Ranks->Request(this, inputVector))
-  {
-    this->FailedAt = 0; // of another time step, perhaps
-  }
+  requestPieces(this, inputVector);
+  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const double time = inInfo && inInfo->Has(Pipeline::UPDATE_TIME_STEP())
+    ? inInfo->Get(Pipeline::UPDATE_TIME_STEP())
+    : 0;
+  this->FailedAt = time == this->RequestedTime ? this->FailedAt : 0;
+  this->RequestedTime = time;
   return 1;
 }
 
@@ -467,32 +471,38 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   output->Initialize();
   setComplete(outputVector);
 
-  // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
   const vtkMTimeType now = this->GetTimeOfGrid();
-  if (this->FailedAt == now)
+  InputsOfRanks& inputsOfRanks = *this->Ranks;
+  FilterRanks& ranks = inputsOfRanks.ranks();
+  const auto begin = [&]
+  {
+    // Of what has failed before, one message is enough.
+    return inputsOfRanks.begin(this, inputVector, this->FailedAt != now);
+  };
+  bool isWanted = false;
+  if (!guarded([&] { isWanted = begin(); }, noMemory,
+        [&](const std::string& problem) { this->FailOverRanks(problem, now, outputVector); }) ||
+    !isWanted)
   {
     return 1;
   }
-  FilterRanks::Meeting meeting(*this->Ranks,
-    FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
-      vtkDataObject::GetData(inputVector[BODIES]), [this] { return filters::arraysOf(this); } });
-  vtkDataObject* own = vtkDataObject::GetData(inputVector[0]);
+  inputsOfRanks.setOwn(
+    vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(inputVector[BODIES]));
+  const AtTheEnd forgetOwn([&] { inputsOfRanks.forgetOwn(); });
   if (!isRank0())
   {
-    this->SetPieceData(own);
-    meeting.Serve(this->NumberOfThreads,
-      [this](const std::vector<char>& message) { return this->RespondForPiece(message); });
-    this->SetPieceData(nullptr);
+    ranks.serve(this->NumberOfThreads,
+      [&](const std::vector<char>& request) { return inputsOfRanks.answer(request); });
     return 1;
   }
-  this->SetPieceChannels(meeting.GetChannels());
-  const AtTheEnd forgetChannels([this] { this->SetPieceChannels({}); });
+  const AtTheEnd end([&] { ranks.end({ false, false }); });
 
   const auto makeGrid = [&]
   {
     this->Guard->ThrowEarlier();
-    this->ShareArrays(own);
-    const FilterRanks::Inputs inputs = meeting.Gather();
+    inputsOfRanks.shareArrays();
+    const InputsOfRanks::Inputs inputs =
+      inputsOfRanks.gather(std::numeric_limits<double>::infinity());
     this->SetAbortExecute(0); // it stays set after an abort
     const std::string warning = this->Convert(inputs.data, output, inputs.bodies);
     if (!warning.empty())
@@ -509,7 +519,6 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
     setComplete(outputVector);
   };
-  // Before the other ranks leave.
   guarded(makeGrid, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
@@ -519,6 +528,19 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
 vtkMTimeType vtkRefractiveIndex::GetTimeOfGrid()
 {
   return std::max(this->GetMTime(), upstreamTime(this));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::FailOverRanks(
+  const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
+{
+  const bool isNew = this->FailedAt != now;
+  this->Modified(); // it runs again whenever the rank that has failed does
+  this->FailedAt = this->GetTimeOfGrid();
+  if (isRank0() && isNew)
+  {
+    this->Fail(problem, this->FailedAt, outputs);
+  }
 }
 
 //------------------------------------------------------------------------------

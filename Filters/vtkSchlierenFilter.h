@@ -976,6 +976,7 @@ protected:
   ~vtkSchlierenFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int ModifyRequest(vtkInformation* request, int when) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
@@ -1013,8 +1014,6 @@ private:
   bool Continues(vtkDataObject* input, vtkDataObject* bodies);
   /// Up to how many cells rank 0 gathers.
   double MostGathered();
-  /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
-  std::function<std::vector<char>(const std::vector<char>& message)> Responder();
   /// Everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
   /// The same of data that stay on their ranks, for all filters that have the same.
