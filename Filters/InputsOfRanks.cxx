@@ -10,8 +10,6 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
-#include "vtkDemandDrivenPipeline.h"
-#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkRefractiveIndex.h"
@@ -50,11 +48,11 @@ std::vector<char> requestOf(Kind kind)
   return request;
 }
 
-std::string absenceOf(const Ranks& ranks, const std::string& failed)
+std::string absenceOf(const Ranks& ranks)
 {
   return "Rank " + std::to_string(ranks.rank()) + " of " + std::to_string(ranks.count()) +
-    " has no input, because its " + failed +
-    " has failed. See what that rank has reported, or use one process.";
+    " has no input, because something upstream of this filter has failed there. See what that "
+    "rank has reported, or use one process.";
 }
 
 /// The sources of all filters of this rank, by their numbers.
@@ -96,29 +94,6 @@ Sources& sources()
 
 } // namespace
 
-void InputsOfRanks::modify(vtkAlgorithm* filter, vtkInformation* request, int when)
-{
-  if (!this->All.areSeveral() || !request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
-  {
-    return;
-  }
-  if (when == vtkExecutive::BeforeForward)
-  {
-    this->Upstream.watch(filter);
-    return;
-  }
-  if (!this->Upstream.failed().empty())
-  {
-    try
-    {
-      this->All.begin({}, absenceOf(this->All.all(), this->Upstream.failed()));
-    }
-    catch (const std::exception&) // what has failed has reported it
-    {
-    }
-  }
-}
-
 bool InputsOfRanks::begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
   const std::string& problem)
 {
@@ -136,7 +111,9 @@ bool InputsOfRanks::begin(vtkAlgorithm* filter, vtkInformationVector** inputs, b
       description.push_back(data ? static_cast<double>(data->GetNumberOfElements(kind)) : 0);
     }
   }
-  return this->All.begin(description, problem, isWanted);
+  const bool lacksInput = std::exchange(this->LacksInput, false);
+  return this->All.begin(
+    description, problem.empty() && lacksInput ? absenceOf(this->All.all()) : problem, isWanted);
 }
 
 void InputsOfRanks::setOwn(vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt)

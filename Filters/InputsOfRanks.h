@@ -4,7 +4,6 @@
 
 #include "Ranks.h"
 #include "SourceOverRanks.h"
-#include "UpstreamFailure.h"
 
 #include "vtkSmartPointer.h"
 
@@ -17,7 +16,6 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
-class vtkInformation;
 class vtkInformationVector;
 class vtkRefractiveIndex;
 
@@ -41,9 +39,8 @@ public:
 
   FilterRanks& ranks() { return this->All; }
 
-  /// On all ranks, in ModifyRequest() of `filter`. Where something upstream has failed on one rank, VTK does not call its
-  /// RequestData(): it begins here with that message.
-  void modify(vtkAlgorithm* filter, vtkInformation* request, int when);
+  /// On a rank where something upstream has failed, before begin().
+  void lackInput() { this->LacksInput = true; }
   /// On all ranks, in RequestData: FilterRanks::begin(), with what this rank has of the inputs. Throws what has gone wrong
   /// upstream of any rank.
   bool begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
@@ -89,7 +86,7 @@ private:
 
   vtkRefractiveIndex* Self;
   FilterRanks All;
-  UpstreamFailure Upstream;
+  bool LacksInput = false;
   std::array<vtkSmartPointer<vtkDataObject>, 2> Own;
   DataAt OwnAt;
   struct Located

@@ -166,11 +166,7 @@ vtkTypeBool vtkRefractiveIndex::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractiveIndex::ModifyRequest(vtkInformation* request, int when)
-{
-  this->Ranks->modify(this, request, when);
-  return this->Superclass::ModifyRequest(request, when);
-}
+void vtkRefractiveIndex::LackInput() { this->Ranks->lackInput(); }
 
 //------------------------------------------------------------------------------
 int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
@@ -481,7 +477,13 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   };
   bool isWanted = false;
   if (!guarded([&] { isWanted = begin(); }, noMemory,
-        [&](const std::string& problem) { this->FailOverRanks(problem, now, outputVector); }) ||
+        [&](const std::string& problem)
+        {
+          if (isRank0() && this->FailedAt != now)
+          {
+            this->Fail(problem, now, outputVector);
+          }
+        }) ||
     !isWanted)
   {
     return 1;
@@ -528,19 +530,6 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
 vtkMTimeType vtkRefractiveIndex::GetTimeOfGrid()
 {
   return std::max(this->GetMTime(), upstreamTime(this));
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::FailOverRanks(
-  const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
-{
-  const bool isNew = this->FailedAt != now;
-  this->Modified(); // it runs again whenever the rank that has failed does
-  this->FailedAt = this->GetTimeOfGrid();
-  if (isRank0() && isNew)
-  {
-    this->Fail(problem, this->FailedAt, outputs);
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -632,6 +632,11 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  /**
+   * Says that this rank has no input in the next RequestData(), because something upstream has failed; see vtkSchlierenPipeline.
+   */
+  VTK_WRAPEXCLUDE void LackInput();
+
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
@@ -640,7 +645,6 @@ protected:
   ~vtkRefractiveIndex() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int ModifyRequest(vtkInformation* request, int when) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
@@ -659,8 +663,6 @@ private:
   vtkMTimeType GetTimeOfGrid();
   /// Reports a problem of the inputs and properties of a time, and leaves the output empty.
   void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
-  /// The same of what has failed before any rank could begin.
-  void FailOverRanks(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
   double RequestedTime = 0;
 
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.

@@ -140,11 +140,7 @@ vtkTypeBool vtkSchlierenFilter::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::ModifyRequest(vtkInformation* request, int when)
-{
-  this->Inside->Ranks.modify(this, request, when);
-  return this->Superclass::ModifyRequest(request, when);
-}
+void vtkSchlierenFilter::LackInput() { this->Inside->Ranks.lackInput(); }
 
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
@@ -302,7 +298,6 @@ int vtkSchlierenFilter::RequestData(
   bool isWanted = false;
   const auto failOfRanks = [&](const std::string& problem)
   {
-    inside.RefineTime.Modified(); // it runs again whenever the rank that has failed does
     if (isRank0() && inside.FailedAt != now)
     {
       this->Fail(problem, now, outputVector);

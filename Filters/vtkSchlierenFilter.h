@@ -968,6 +968,11 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  /**
+   * Says that this rank has no input in the next RequestData(), because something upstream has failed; see vtkSchlierenPipeline.
+   */
+  VTK_WRAPEXCLUDE void LackInput();
+
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
@@ -976,7 +981,6 @@ protected:
   ~vtkSchlierenFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int ModifyRequest(vtkInformation* request, int when) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
