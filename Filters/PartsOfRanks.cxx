@@ -313,6 +313,8 @@ void PartsOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
         int& high = dataset.whole[2 * axis + 1];
         low = std::min(low, numbers.extent[2 * axis]);
         high = std::max(high, numbers.extent[2 * axis + 1]);
+        const int edge = numbers.extent[2 * axis + 1] - numbers.extent[2 * axis];
+        dataset.thinnest = edge > 0 ? std::min(dataset.thinnest, edge) : dataset.thinnest;
       }
       if (dataset.ranks.empty() || dataset.ranks.back() != rank)
       {
@@ -449,7 +451,9 @@ std::vector<PartsOfRanks::Piece> PartsOfRanks::withGhostCells()
       vtkNew<vtkGhostCellsGenerator> generator;
       generator->SetInputData(given);
       generator->BuildIfRequiredOff();
-      generator->SetNumberOfGhostLayers(isImage ? ImagePiece::layers : dataset.layers);
+      // VTK 9.2 reads beyond grids that are thinner.
+      generator->SetNumberOfGhostLayers(
+        std::min(isImage ? ImagePiece::layers : dataset.layers, dataset.thinnest));
       generator->Update();
       auto* made = vtkDataSet::SafeDownCast(generator->GetOutputDataObject(0));
       if (own)

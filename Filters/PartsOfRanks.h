@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ private:
     int type = -1; ///< of VTK; -1: several
     int dimension = 0;
     int layers = 0; ///< of cells around a piece that values in it depend on
+    int thinnest = std::numeric_limits<int>::max(); ///< of grids, cells along any edge of a part
     double cells = 0;
     Extent whole{};
     std::vector<std::size_t> ranks{}; ///< that have a part of it

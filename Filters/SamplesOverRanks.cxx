@@ -331,7 +331,10 @@ std::vector<std::vector<char>> SamplesOverRanks::make(const schlieren::BrickRule
     for (std::vector<char>& brick : made)
     {
       auto other = reader.GetAll<std::vector<char>>();
-      brick = brick.empty() ? std::move(other) : std::move(brick);
+      if (brick.empty())
+      {
+        brick = std::move(other);
+      }
     }
   }
   return made;

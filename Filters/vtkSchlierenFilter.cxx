@@ -329,8 +329,8 @@ int vtkSchlierenFilter::RequestData(
       }
       inside.HasImage = inside.Ranks.ranks()
                           .serve(threadsFrom(*this),
-                            [&](const std::vector<char>& request)
-                            { return inside.Ranks.answer(request); })
+                            [&](const std::vector<char>& message)
+                            { return inside.Ranks.answer(message); })
                           .hasImage;
     } while (steps.Resume());
     return 1;
