@@ -202,6 +202,60 @@ void restoreHidden(vtkDataSet* mesh, int kind)
   attributes->AddArray(flags);
 }
 
+/// What of a rank's part no part of a rank before it has. Readers may give grids with copies of others' cells. Where one
+/// part lies within another along all axes, both have indices of their own.
+PartsOfRanks::Extent withoutOverlap(const std::vector<PartsOfRanks::Extent>& extents,
+  const std::vector<std::size_t>& ranks, std::size_t rank)
+{
+  const auto at =
+    static_cast<std::size_t>(std::find(ranks.begin(), ranks.end(), rank) - ranks.begin());
+  PartsOfRanks::Extent own = extents[at];
+  for (std::size_t n = 0; n < at; ++n)
+  {
+    const PartsOfRanks::Extent& other = extents[n];
+    bool overlap = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      overlap = overlap &&
+        (own[2 * axis] == own[2 * axis + 1] ||
+          std::max(own[2 * axis], other[2 * axis]) <
+            std::min(own[2 * axis + 1], other[2 * axis + 1]));
+    }
+    for (std::size_t axis = 0; overlap && axis < 3; ++axis)
+    {
+      int& low = own[2 * axis];
+      int& high = own[2 * axis + 1];
+      if (other[2 * axis] < low && other[2 * axis + 1] < high)
+      {
+        low = other[2 * axis + 1];
+        overlap = false;
+      }
+      else if (low < other[2 * axis] && high < other[2 * axis + 1])
+      {
+        high = other[2 * axis];
+        overlap = false;
+      }
+    }
+  }
+  return own;
+}
+
+void crop(vtkDataSet* grid, const PartsOfRanks::Extent& extent)
+{
+  if (auto* image = vtkImageData::SafeDownCast(grid))
+  {
+    image->Crop(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
+  {
+    rectilinear->Crop(extent.data());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
+  {
+    structured->Crop(extent.data());
+  }
+}
+
 } // namespace
 
 /// Of a part, as it is sent.
@@ -319,6 +373,7 @@ void PartsOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
       if (dataset.ranks.empty() || dataset.ranks.back() != rank)
       {
         dataset.ranks.push_back(rank);
+        dataset.extents.push_back(numbers.extent);
       }
     }
   }
@@ -441,11 +496,18 @@ std::vector<PartsOfRanks::Piece> PartsOfRanks::withGhostCells()
       {
         given->ShallowCopy(own);
       }
-      const bool isMesh = dataset.type == VTK_UNSTRUCTURED_GRID;
-      if (isMesh && own)
+      if (own)
       {
         setAsideHidden(given, vtkDataObject::POINT);
         setAsideHidden(given, vtkDataObject::CELL);
+      }
+      if (own && isGrid(own))
+      {
+        extent = withoutOverlap(dataset.extents, dataset.ranks, this->All.rank());
+        crop(given, extent);
+      }
+      else if (own)
+      {
         given->GetPointData()->SetGlobalIds(globalIdsOf(given));
       }
       vtkNew<vtkGhostCellsGenerator> generator;

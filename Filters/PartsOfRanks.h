@@ -69,6 +69,7 @@ private:
     int dimension = 0;
     int layers = 0; ///< of cells around a piece that values in it depend on
     int thinnest = std::numeric_limits<int>::max(); ///< of grids, cells along any edge of a part
+    std::vector<Extent> extents{};                  ///< of the parts, in the order of ranks
     double cells = 0;
     Extent whole{};
     std::vector<std::size_t> ranks{}; ///< that have a part of it

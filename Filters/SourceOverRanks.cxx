@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -215,31 +216,27 @@ void Maker::makePieceOfMeshes()
     const std::vector<FieldValues> fields = this->OfFields.empty() || source.leaves.empty()
       ? std::vector<FieldValues>()
       : fieldValues(this->Self, this->Data, source, this->OfFields);
-    // One by one: pieces of a dataset have the same number on all ranks.
-    for (std::size_t leaf = 0; leaf < source.leaves.size(); ++leaf)
+    if (!source.leaves.empty())
     {
       std::shared_ptr<const SharedPoints> shared;
-      const auto prepare = [&](const Source& from, Tally& to)
-      {
-        Source one = from;
-        one.leaves = { from.leaves[leaf] };
-        return preparedLeaves(one, cellValues, to, shared);
-      };
-      const auto part = std::find_if(this->Parts.begin(), this->Parts.end(),
-        [&](const PartsOfRanks::Piece& of) { return of.data == source.leaves[leaf].input; });
-      for (const auto& prepared : prepare(source, this->Made.tally))
-      {
-        leaves.push_back(prepared);
-        datasets.push_back(part->dataset);
-      }
+      std::vector<const Source*> others;
+      std::transform(fields.begin(), fields.end(), std::back_inserter(others),
+        [](const FieldValues& field) { return &field.source; });
+      leaves = preparedLeaves(source, cellValues, this->Made.tally, shared, others);
       for (std::size_t number = 0; number < fields.size(); ++number)
       {
         Tally notReported;
-        for (const auto& prepared : prepare(fields[number].source, notReported))
-        {
-          leavesOfFields[number].push_back(prepared);
-        }
+        leavesOfFields[number] =
+          preparedLeaves(fields[number].source, cellValues, notReported, shared);
       }
+    }
+    // Datasets that hang together have become one, on other ranks perhaps others of them.
+    const bool areApart = leaves.size() == source.leaves.size();
+    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+    {
+      const auto part = std::find_if(this->Parts.begin(), this->Parts.end(),
+        [&](const PartsOfRanks::Piece& of) { return of.data == source.leaves[leaf].input; });
+      datasets.push_back(areApart && part != this->Parts.end() ? part->dataset : 0);
     }
   }
   auto piece = std::make_unique<MeshPiece>(leaves,
