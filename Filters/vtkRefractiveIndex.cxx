@@ -465,7 +465,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* output = vtkImageData::GetData(outInfo);
 
   output->Initialize();
-  setComplete(outputVector);
+  const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
 
   const vtkMTimeType now = this->GetTimeOfGrid();
   InputsOfRanks& inputsOfRanks = *this->Ranks;
@@ -519,7 +519,6 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     // Where RequestInformation could not know it. Without the second, VTK would crop the output.
     tellGrid(output, outInfo);
     outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
-    setComplete(outputVector);
   };
   guarded(makeGrid, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });

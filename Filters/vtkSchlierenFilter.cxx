@@ -281,7 +281,7 @@ int vtkSchlierenFilter::RequestData(
   vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
   histogram->Initialize();
-  setComplete(outputVector);
+  const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
 
   this->PassToMedium();
   const bool isExposure = !inside.Exposure.IsNone();
