@@ -706,6 +706,11 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> request, const Monitor& 
       }
       request = std::move(again);
     }
+    catch (...) // what another process may have thrown, after some of the rays
+    {
+      rays.clear();
+      throw;
+    }
   }
   if (!image.finished && !image.aborted)
   {

@@ -37,7 +37,6 @@ public:
     std::int64_t cells; ///< or points; 0: no gas
     schlieren::Box bounds;
     CellTree::Content content;
-    std::array<double, 3> reach{}; ///< from a box, of what contentOf() knows of its surroundings
   };
   virtual Summary summary() const = 0;
 

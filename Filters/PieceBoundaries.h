@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The boundaries of all ranks' pieces, as DataPiece::putBoundary() sends them to rank 0.
+// The boundaries of all ranks' pieces, as DataPiece::putBoundary() sends them to all.
 #pragma once
 
 #include "BoundaryFaces.h"
@@ -9,12 +9,10 @@
 #include "DataParts.h"
 #include "ImagePiece.h"
 #include "MeshPiece.h"
-#include "WeightedMedian.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace filters

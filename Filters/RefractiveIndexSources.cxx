@@ -104,7 +104,8 @@ void filters::addText(std::string& text, const std::string& more)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies)
+bool vtkRefractiveIndex::CanMakeSource(
+  vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
 {
   // Whether cells are one layer is of no effect here but in images, of which it is found at once, and with Symmetry.
   static const Source asTheyAre;
@@ -117,7 +118,7 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodi
     revolutionOf(this, source); // throws where it is none
     return std::all_of(given, given + 3, isZero) && !SamplingBox(this->SamplingBounds).isGiven();
   }
-  if ((source.image && !bodies) || SamplingBox(this->SamplingBounds).isGiven() ||
+  if ((source.image && !bodies && !imagesToo) || SamplingBox(this->SamplingBounds).isGiven() ||
     !std::all_of(given, given + 3, isZero))
   {
     return false;

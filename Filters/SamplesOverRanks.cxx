@@ -111,14 +111,8 @@ schlieren::MediumSource::Content SamplesOverRanks::contentFrom(
 SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const
 {
   OwnContent own{ { 1, 0, { infinity, infinity, infinity } }, {} };
-  schlieren::Box around = box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    around.low[axis] -= this->All.reach[axis];
-    around.high[axis] += this->All.reach[axis];
-  }
   const DataPiece::Summary summary = this->Piece->summary();
-  if (summary.cells > 0 && meet(around, summary.bounds))
+  if (summary.cells > 0 && meet(box, summary.bounds))
   {
     own.cells = this->Piece->contentOf(box);
     const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);

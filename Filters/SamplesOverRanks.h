@@ -37,7 +37,6 @@ public:
     std::array<double, 3> voxelShape{ 1, 1, 1 };
     std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     CellTree::Content content{};
-    std::array<double, 3> reach{}; ///< see DataPiece::Summary
     std::vector<FieldRange> fields{};
   };
   /// `number`: by which all ranks know it. `lattices`: what is known of them from earlier time steps; may be null.

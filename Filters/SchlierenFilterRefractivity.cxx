@@ -6,6 +6,7 @@
 #include "FieldTints.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
+#include "RefractiveIndexInternals.h"
 #include "RefractivitySource.h"
 #include "SceneFromSettings.h"
 
@@ -59,8 +60,20 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
   std::vector<double> description =
     describeInput(ranks.areInPieces() ? nullptr : input, upstreamTime(this, 0));
   description.push_back(ranks.areInPieces() ? ranks.ranks().version() : 0); // of what others have
+  description.push_back(this->IsLargeImage(input));
   addBodies(description, this, bodies);
   return description;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::IsLargeImage(vtkDataObject* input) const
+{
+  auto* image = vtkImageData::SafeDownCast(input);
+  const double bytes = image ? static_cast<double>(image->GetNumberOfPoints()) *
+      (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float))
+                             : 0;
+  return this->PathModel != DIFFERENCE &&
+    bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
 
 //------------------------------------------------------------------------------
@@ -178,9 +191,15 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   else
   {
     inside.Ranks.release();
-    if (this->Medium->CanMakeSource(input, bodies))
+    if (this->Medium->CanMakeSource(input, bodies, this->IsLargeImage(input)))
     {
       made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
+      if (this->IsLargeImage(input) && !bodies)
+      {
+        addText(made->Warning,
+          "The image's own grid would take more than MediumMemory, so its medium is a tree within "
+          "MediumTolerance. Set MediumMemory higher for its own grid.");
+      }
     }
   }
   if (!made->Source && !this->Medium->GetAbortExecute())

@@ -330,7 +330,6 @@ void Maker::sumUp()
       extend(this->Facts.bounds, summary.bounds);
       extend(this->Facts.content, summary.content);
       this->Cells += summary.cells;
-      this->Facts.reach = summary.reach;
     }
   }
   this->Made.hasGas = this->Cells > 0;

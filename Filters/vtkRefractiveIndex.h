@@ -570,7 +570,7 @@ public:
   /**
    * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images without bodies, flat ones, and where
+   * what else there is is to be made a grid by Convert(): images without bodies (unless `imagesToo`), flat ones, and where
    * SamplingDimensions or SamplingBounds are given. If AbortExecute is set meanwhile, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
@@ -584,7 +584,8 @@ public:
     REFRACTIVITY_ALONE,
     WITH_FIELDS // the source has Fields, too: see FieldTints.h
   };
-  VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input, vtkDataObject* bodies = nullptr);
+  VTK_WRAPEXCLUDE bool CanMakeSource(
+    vtkDataObject* input, vtkDataObject* bodies = nullptr, bool imagesToo = false);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
     vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();

@@ -203,7 +203,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       else
       {
         vtkNew<vtkImageData> planned;
-        if (this->Medium->CanMakeSource(input))
+        if (this->Medium->CanMakeSource(input, nullptr, this->IsLargeImage(input)))
         {
           this->Medium->ComputeBox(input, planned);
         }

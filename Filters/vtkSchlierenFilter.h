@@ -1020,6 +1020,8 @@ private:
   double MostGathered();
   /// Everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
+  /// Whether an image's own grid would take more than MediumMemory: then it becomes a tree.
+  bool IsLargeImage(vtkDataObject* input) const;
   /// The same of data that stay on their ranks, for all filters that have the same.
   std::vector<double> DescribePieces(vtkDataObject* input, vtkDataObject* bodies);
   /// Works on an image between updates. Whether an update has something to do now.
