@@ -295,8 +295,8 @@ std::shared_ptr<MediumOnDevices<Real>> Bench::Stages::makeMedium(
 {
   ++work.mediumBuilds;
   return std::make_shared<MediumOnDevices<Real>>(field.source
-      ? buildTree<Real>(field,
-          { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
+      ? buildTree<Real>(
+          field, { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
       : buildMedium<Real>(field, scene.interpolation, scene.threads));
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodySurfaces.h"
 
-#include "BodyVoxels.h"
 #include "CoincidentPoints.h"
 #include "LatticeDistances.h"
 #include "RefractivityOfBodies.h"
@@ -13,6 +12,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -23,8 +23,8 @@ namespace filters
 namespace
 {
 
-/// Triangles whose points are there once.
-Triangles surfaceOf(vtkDataObject* bodies)
+/// Triangles whose points are there once; `places`: see BodySurfaces.
+Triangles surfaceOf(vtkDataObject* bodies, const std::function<Point(const Point&)>& places)
 {
   Triangles surface;
   const vtkSmartPointer<vtkPolyData> data = trianglesOfBodies(bodies);
@@ -95,6 +95,10 @@ Triangles surfaceOf(vtkDataObject* bodies)
       surface.corners.push_back(sorted[i].second);
     }
   }
+  if (places)
+  {
+    std::transform(surface.points.begin(), surface.points.end(), surface.points.begin(), places);
+  }
   return surface;
 }
 
@@ -147,11 +151,11 @@ std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& nu
   return parts;
 }
 
-/// Turns the triangles of closed parts whose normals point inward.
-void turnOutward(
-  Triangles& surface, const std::vector<std::int32_t>& parts, std::int32_t numberOfParts)
+/// Turns the triangles of closed parts whose normals point inward. Parts without a volume become open ones.
+void turnOutward(Triangles& surface, std::vector<std::int32_t>& parts, std::int32_t numberOfParts)
 {
-  std::vector<double> volumes(static_cast<std::size_t>(numberOfParts), 0);
+  constexpr double rounding = 1e-12;
+  std::vector<double> volumes(static_cast<std::size_t>(numberOfParts), 0), largest(volumes);
   std::vector<Point> origins(volumes.size());
   std::vector<unsigned char> hasOrigin(volumes.size(), 0);
   for (std::size_t t = 0; t < surface.size(); ++t)
@@ -164,22 +168,48 @@ void turnOutward(
         hasOrigin[part] = 1;
         origins[part] = surface.corner(t, 0);
       }
-      volumes[part] += dot(surface.normal(t), surface.corner(t, 0) - origins[part]);
+      const Point normal = surface.normal(t), height = surface.corner(t, 0) - origins[part];
+      volumes[part] += dot(normal, height);
+      largest[part] += norm(normal) * norm(height);
     }
   }
   for (std::size_t t = 0; t < surface.size(); ++t)
   {
-    if (parts[t] >= 0 && volumes[static_cast<std::size_t>(parts[t])] < 0)
+    if (parts[t] < 0)
+    {
+      continue;
+    }
+    const auto part = static_cast<std::size_t>(parts[t]);
+    if (std::abs(volumes[part]) <= rounding * largest[part])
+    {
+      parts[t] = -1;
+    }
+    else if (volumes[part] < 0)
     {
       std::swap(surface.corners[t][1], surface.corners[t][2]);
     }
   }
 }
 
+/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles that share it,
+/// to the last bit, so that no line slips through between them.
+bool isPassed(Point a, Point b, double y, double z)
+{
+  if ((a[2] > z) == (b[2] > z))
+  {
+    return false;
+  }
+  if (b[2] < a[2])
+  {
+    std::swap(a, b);
+  }
+  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
+}
+
 } // namespace
 
-BodySurfaces::BodySurfaces(vtkDataObject* bodies)
-  : Surface(surfaceOf(bodies))
+BodySurfaces::BodySurfaces(vtkDataObject* bodies, const std::function<Point(const Point&)>& places)
+  : Surface(surfaceOf(bodies, places))
   , Parts(closedParts(this->Surface, this->NumberOfParts))
   , Tree((turnOutward(this->Surface, this->Parts, this->NumberOfParts), this->Surface))
 {

@@ -4,6 +4,8 @@
 
 #include "Triangles.h"
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 class vtkDataObject;
@@ -16,12 +18,14 @@ namespace filters
 class BodySurfaces
 {
 public:
-  /// Throws std::runtime_error where they are no surfaces.
-  explicit BodySurfaces(vtkDataObject* bodies);
+  /// `places`: where their points are, once points that are one have been found; null: where they are given. Throws
+  /// std::runtime_error where they are no surfaces.
+  explicit BodySurfaces(
+    vtkDataObject* bodies, const std::function<Point(const Point&)>& places = nullptr);
   BodySurfaces(const BodySurfaces&) = delete;
   BodySurfaces& operator=(const BodySurfaces&) = delete;
 
-  /// Normals of closed parts point outward, if their triangles are all turned alike.
+  /// Normals of closed parts point outward, if their triangles are all turned alike. Parts that enclose nothing are not closed.
   const Triangles& surface() const { return this->Surface; }
   const TriangleTree& tree() const { return this->Tree; }
   bool isOfClosed(std::int32_t triangle) const

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BodyVoxels.h"
 
-#include "Vectors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,22 +49,7 @@ public:
   }
 
   bool at(int i, int j, int k) const { return holds({ i, j, k }) && this->Flags[place(i, j, k)]; }
-  void flip(int i, int j, int k) { this->Flags[place(i, j, k)] = !this->Flags[place(i, j, k)]; }
-
-  template <class Visit>
-  void forAll(const Visit& visit) const
-  {
-    for (int k = low[2]; k <= high[2]; ++k)
-    {
-      for (int j = low[1]; j <= high[1]; ++j)
-      {
-        for (int i = low[0]; i <= high[0]; ++i)
-        {
-          visit(i, j, k);
-        }
-      }
-    }
-  }
+  void set(int i, int j, int k) { this->Flags[place(i, j, k)] = true; }
 
   const Index low, high; // both are in
 
@@ -92,56 +75,45 @@ struct Corners
 {
   Point a, b, c;
 
-  Corners(const Surface& surface, const Surface::Triangle& triangle)
-    : a(surface.points[triangle[0]])
-    , b(surface.points[triangle[1]])
-    , c(surface.points[triangle[2]])
+  Corners(const Triangles& surface, std::size_t triangle)
+    : a(surface.corner(triangle, 0))
+    , b(surface.corner(triangle, 1))
+    , c(surface.corner(triangle, 2))
   {
   }
   double lowest(std::size_t axis) const { return std::min({ a[axis], b[axis], c[axis] }); }
   double highest(std::size_t axis) const { return std::max({ a[axis], b[axis], c[axis] }); }
 };
 
-/// The points inside a closed surface: those before which, along x, there is an odd number of crossings
-/// (Nooruddin & Turk 2003).
-void findInside(const Surface& surface, Bits& inside)
+/// The points of a box that closed surfaces hold.
+Bits pointsInside(const BodySurfaces& bodies, const Index& low, const Index& high)
 {
-  const Index& low = inside.low;
-  const Index& high = inside.high;
-  for (const Surface::Triangle& triangle : surface.triangles)
+  constexpr int planesAtOnce = 8;
+  Bits inside(low, high);
+  std::vector<unsigned char> isInside;
+  for (int first = low[2]; first <= high[2]; first += planesAtOnce)
   {
-    const Corners t(surface, triangle);
-    const Point normal = cross(t.b - t.a, t.c - t.a);
-    const int lastZ = lastTo(t.highest(2), low[2], high[2]);
-    const int lastY = lastTo(t.highest(1), low[1], high[1]);
-    for (int k = firstFrom(t.lowest(2), low[2], high[2]); k <= lastZ; ++k)
+    const int end = std::min(first + planesAtOnce, high[2] + 1);
+    bodies.findInside(
+      { { static_cast<double>(low[0]), static_cast<double>(low[1]), static_cast<double>(first) },
+        { 1, 1, 1 }, { high[0] - low[0] + 1, high[1] - low[1] + 1, end - first } },
+      isInside);
+    auto next = isInside.begin();
+    for (int k = first; k < end; ++k)
     {
-      for (int j = firstFrom(t.lowest(1), low[1], high[1]); j <= lastY; ++j)
+      for (int j = low[1]; j <= high[1]; ++j)
       {
-        const bool isHit =
-          isPassed(t.a, t.b, j, k) ^ isPassed(t.b, t.c, j, k) ^ isPassed(t.c, t.a, j, k);
-        if (isHit)
+        for (int i = low[0]; i <= high[0]; ++i)
         {
-          const double x =
-            t.a[0] - (normal[1] * (j - t.a[1]) + normal[2] * (k - t.a[2])) / normal[0];
-          const double safe = std::isfinite(x) ? x : t.a[0]; // seen from its edge
-          const int i = firstFrom(std::clamp(safe, t.lowest(0), t.highest(0)), low[0], high[0]);
-          if (i <= high[0])
+          if (*next++ != 0)
           {
-            inside.flip(i, j, k);
+            inside.set(i, j, k);
           }
         }
       }
     }
   }
-  inside.forAll(
-    [&](int i, int j, int k)
-    {
-      if (inside.at(i - 1, j, k))
-      {
-        inside.flip(i, j, k);
-      }
-    });
+  return inside;
 }
 
 /// Calls visit(i, j, k) for the points of the box whose voxels a triangle may meet: those that its plane and
@@ -220,14 +192,14 @@ bool isBetween(const Corners& t, const Bits& inside, const Index& at, double ear
 
 /// The box of the grid, and of a layer of points around it, that a surface can concern. Empty, with
 /// low > high, where there is none.
-std::pair<Index, Index> boxAround(const Surface& surface, const Index& dimensions)
+std::pair<Index, Index> boxAround(const Triangles& surface, const Index& dimensions)
 {
   constexpr int more = 1;
   std::pair<Index, Index> box;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Surface::Triangle& triangle : surface.triangles)
+    for (std::size_t triangle = 0; triangle < surface.size(); ++triangle)
     {
       const Corners t(surface, triangle);
       low = std::min(low, t.lowest(axis));
@@ -241,88 +213,42 @@ std::pair<Index, Index> boxAround(const Surface& surface, const Index& dimension
 
 } // namespace
 
-bool isPassed(std::array<double, 3> a, std::array<double, 3> b, double y, double z)
-{
-  if ((a[2] > z) == (b[2] > z))
-  {
-    return false;
-  }
-  if (b[2] < a[2])
-  {
-    std::swap(a, b);
-  }
-  return y < a[1] + (z - a[2]) / (b[2] - a[2]) * (b[1] - a[1]);
-}
-
-bool isClosed(const Surface& surface)
-{
-  std::vector<std::pair<std::size_t, std::size_t>> edges;
-  edges.reserve(3 * surface.triangles.size());
-  for (const Surface::Triangle& t : surface.triangles)
-  {
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      edges.emplace_back(std::minmax(t[i], t[(i + 1) % 3]));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (auto edge = edges.begin(); edge != edges.end();)
-  {
-    const auto next = std::upper_bound(edge, edges.end(), *edge);
-    if ((next - edge) % 2 != 0)
-    {
-      return false;
-    }
-    edge = next;
-  }
-  return true;
-}
-
-void voxelize(const Surface& surface, const std::array<int, 3>& dimensions,
+void voxelize(const BodySurfaces& bodies, const std::array<int, 3>& dimensions,
   const std::function<void(int, int, int)>& mark)
 {
+  const Triangles& surface = bodies.surface();
   const auto [low, high] = boxAround(surface, dimensions);
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  if (low[0] > high[0] || low[1] > high[1] || low[2] > high[2])
   {
-    if (low[axis] > high[axis])
-    {
-      return;
-    }
+    return;
   }
-  const auto markInGrid = [&](int i, int j, int k)
+  const Bits inside = pointsInside(bodies, low, high);
+  for (int k = std::max(low[2], 0); k <= std::min(high[2], dimensions[2] - 1); ++k)
   {
-    if (i >= 0 && i < dimensions[0] && j >= 0 && j < dimensions[1] && k >= 0 && k < dimensions[2])
+    for (int j = std::max(low[1], 0); j <= std::min(high[1], dimensions[1] - 1); ++j)
     {
-      mark(i, j, k);
-    }
-  };
-
-  Bits inside(low, high);
-  bool hasInside = false;
-  if (isClosed(surface))
-  {
-    findInside(surface, inside);
-    inside.forAll(
-      [&](int i, int j, int k)
+      for (int i = std::max(low[0], 0); i <= std::min(high[0], dimensions[0] - 1); ++i)
       {
         if (inside.at(i, j, k))
         {
-          hasInside = true;
-          markInGrid(i, j, k);
+          mark(i, j, k);
         }
-      });
+      }
+    }
   }
-  // What is thin. A point on the wall of a body is no reason to call that thin.
-  const double earliest = hasInside ? 1e-6 : 0;
-  for (const Surface::Triangle& triangle : surface.triangles)
+  for (std::size_t triangle = 0; triangle < surface.size(); ++triangle)
   {
+    // A point on the wall of a body is no reason to call that thin.
+    const double earliest = bodies.isOfClosed(static_cast<std::int32_t>(triangle)) ? 1e-6 : 0;
     const Corners t(surface, triangle);
     forVoxelsNear(t, low, high,
       [&](int i, int j, int k)
       {
-        if (!inside.at(i, j, k) && isBetween(t, inside, { i, j, k }, earliest))
+        const bool isInGrid =
+          i >= 0 && i < dimensions[0] && j >= 0 && j < dimensions[1] && k >= 0 && k < dimensions[2];
+        if (isInGrid && !inside.at(i, j, k) && isBetween(t, inside, { i, j, k }, earliest))
         {
-          markInGrid(i, j, k);
+          mark(i, j, k);
         }
       });
   }

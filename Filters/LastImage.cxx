@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LastImage.h"
 
-
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 

@@ -172,8 +172,8 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(vtkDataObject* input,
-  vtkDataObject* bodies, std::string& warning, SourceContents contents)
+std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSource(
+  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
 {
   Source source = chooseSource(this, input);
   std::optional<Revolution> revolution;

@@ -7,23 +7,20 @@
 #include "RefractivitySource.h"
 
 #include "vtkAppendPolyData.h"
+#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataConnectivityFilter.h"
 #include "vtkSmartPointer.h"
-#include "vtkStaticCleanPolyData.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace filters
@@ -32,11 +29,8 @@ namespace filters
 namespace
 {
 
-/// Points nearer to each other than this are one, so that surfaces that were written in single precision or
-/// face by face are closed.
-constexpr double mergingVoxels = 1e-4;
-
-/// Further away from the data, in voxels, VTK cannot merge points: it would crash.
+/// Bodies that are smaller, in voxels, or reach further beyond the data, have another unit of length.
+constexpr double leastVoxels = 1e-3;
 constexpr double mostVoxels = 1e9;
 
 /// The surfaces with points.
@@ -79,52 +73,6 @@ void requireFinite(vtkPolyData* triangles)
   }
 }
 
-/// The same triangles in index coordinates of the grid, counted from its first point.
-vtkSmartPointer<vtkPolyData> onGrid(vtkPolyData* triangles, vtkImageData* grid)
-{
-  const int* extent = grid->GetExtent();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(triangles->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < triangles->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    grid->TransformPhysicalPointToContinuousIndex(triangles->GetPoint(i), x);
-    const bool isFinite = std::all_of(x, x + 3, [](double index) { return std::isfinite(index); });
-    if (!isFinite) // no triangle has it, or the grid has no size
-    {
-      std::fill_n(x, 3, 0.);
-    }
-    points->SetPoint(i, x[0] - extent[0], x[1] - extent[2], x[2] - extent[4]);
-  }
-  auto moved = vtkSmartPointer<vtkPolyData>::New();
-  moved->SetPoints(points);
-  moved->SetPolys(triangles->GetPolys());
-  return moved;
-}
-
-/// Whether bodies lie beside the grid. Throws where they reach much further than that.
-bool isBeside(vtkPolyData* moved, const std::array<int, 3>& dimensions)
-{
-  double bounds[6];
-  moved->GetBounds(bounds);
-  double most = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    if (bounds[2 * axis] > dimensions[axis] || bounds[2 * axis + 1] < -1)
-    {
-      return true;
-    }
-    most = std::max({ most, -bounds[2 * axis], bounds[2 * axis + 1] });
-  }
-  if (most > mostVoxels)
-  {
-    throw std::runtime_error("The Bodies reach more than 10^9 voxels beyond the data. Do both have "
-                             "the same unit of length?");
-  }
-  return false;
-}
-
 /// A coordinate in voxels, to 1/4096. Walls often go through points of the grid, but for rounding, which
 /// would leave some of these points inside and others outside; now they all lie on the wall.
 double rounded(double x)
@@ -133,46 +81,27 @@ double rounded(double x)
   return std::round(parts * x) / parts;
 }
 
-/// Polygons, and which of the connected parts each of their points belongs to.
-vtkSmartPointer<vtkPolyData> labelParts(vtkPolyData* triangles)
+/// A place in index coordinates of the grid, counted from its first point; 0 where that has no size.
+Point onGrid(const Point& place, vtkImageData* grid)
 {
-  vtkNew<vtkStaticCleanPolyData> merge;
-  merge->SetInputData(triangles);
-  merge->ToleranceIsAbsoluteOn();
-  merge->SetAbsoluteTolerance(mergingVoxels);
-  merge->ConvertPolysToLinesOff();
-  merge->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  vtkNew<vtkPolyDataConnectivityFilter> label;
-  label->SetInputConnection(merge->GetOutputPort());
-  label->SetExtractionModeToAllRegions();
-  label->ColorRegionsOn();
-  label->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  label->Update();
-  merge->SetMergingArray(nullptr); // its destructor forgets it
-  return label->GetOutput();
+  const int* extent = grid->GetExtent();
+  Point x;
+  grid->TransformPhysicalPointToContinuousIndex(place.data(), x.data());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    x[axis] = std::isfinite(x[axis]) ? rounded(x[axis] - extent[2 * axis]) : 0;
+  }
+  return x;
 }
 
-/// The triangles of each part.
-std::vector<std::vector<Surface::Triangle>> partsOf(vtkPolyData* labelled)
+vtkBoundingBox boundsOf(const std::vector<Point>& points)
 {
-  std::vector<std::vector<Surface::Triangle>> parts;
-  vtkDataArray* labels = labelled->GetPointData()->GetArray("RegionId");
-  auto iterator = vtk::TakeSmartPointer(labelled->GetPolys()->NewIterator());
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  vtkBoundingBox bounds;
+  for (const Point& x : points)
   {
-    vtkIdType count;
-    const vtkIdType* points;
-    iterator->GetCurrentCell(count, points);
-    if (count == 3)
-    {
-      const auto part = static_cast<std::size_t>(labels->GetComponent(points[0], 0));
-      parts.resize(std::max(parts.size(), part + 1));
-      Surface::Triangle triangle;
-      std::copy_n(points, 3, triangle.begin());
-      parts[part].push_back(triangle);
-    }
+    bounds.AddPoint(x[0], x[1], x[2]);
   }
-  return parts;
+  return bounds;
 }
 
 } // namespace
@@ -212,27 +141,30 @@ vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies)
 
 std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
 {
-  const auto triangles = trianglesOfBodies(bodies);
-  const auto moved = onGrid(triangles, output);
+  const BodySurfaces surfaces(
+    bodies, [output](const Point& place) { return onGrid(place, output); });
+  const vtkBoundingBox bounds = boundsOf(surfaces.surface().points);
   std::array<int, 3> dimensions;
   output->GetDimensions(dimensions.data());
-  if (isBeside(moved, dimensions))
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    return bodiesAreOutside;
+    const double low = bounds.GetMinPoint()[axis], high = bounds.GetMaxPoint()[axis];
+    if (low > dimensions[static_cast<std::size_t>(axis)] || high < -1)
+    {
+      return bodiesAreOutside;
+    }
+    most = std::max({ most, -low, high });
   }
-  if (moved->GetLength() < 10 * mergingVoxels) // VTK crashes where all points are one
+  if (most > mostVoxels)
+  {
+    throw std::runtime_error("The Bodies reach more than 10^9 voxels beyond the data. Do both have "
+                             "the same unit of length?");
+  }
+  if (bounds.GetDiagonalLength() < leastVoxels)
   {
     return "The Bodies are smaller than a thousandth of a voxel, so they stop no light. Do both "
-           "have "
-           "the same unit of length?";
-  }
-  const auto labelled = labelParts(moved);
-  std::vector<std::array<double, 3>> points(
-    static_cast<std::size_t>(labelled->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    labelled->GetPoint(static_cast<vtkIdType>(i), points[i].data());
-    std::transform(points[i].begin(), points[i].end(), points[i].begin(), rounded);
+           "have the same unit of length?";
   }
 
   vtkPointData* arrays = output->GetPointData();
@@ -242,20 +174,16 @@ std::string placeBodies(vtkDataObject* bodies, vtkImageData* output)
     cleared.push_back(transparent);
   }
   bool isMet = false;
-  // Each part on its own, so that bodies may overlap or enclose each other.
-  for (std::vector<Surface::Triangle>& part : partsOf(labelled))
-  {
-    voxelize({ points, std::move(part) }, dimensions,
-      [&](int i, int j, int k)
+  voxelize(surfaces, dimensions,
+    [&](int i, int j, int k)
+    {
+      isMet = true;
+      const vtkIdType at = (static_cast<vtkIdType>(k) * dimensions[1] + j) * dimensions[0] + i;
+      for (vtkDataArray* array : cleared)
       {
-        isMet = true;
-        const vtkIdType at = (static_cast<vtkIdType>(k) * dimensions[1] + j) * dimensions[0] + i;
-        for (vtkDataArray* array : cleared)
-        {
-          array->SetComponent(at, 0, 0);
-        }
-      });
-  }
+        array->SetComponent(at, 0, 0);
+      }
+    });
   return isMet ? "" : bodiesAreOutside;
 }
 

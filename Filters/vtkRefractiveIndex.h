@@ -674,8 +674,8 @@ private:
     filters::Numbers numbers, std::string& warning);
 
   /// Of a three-dimensional image with bodies.
-  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
-    vtkDataObject* bodies, std::string& warning, SourceContents contents);
+  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents);
 
   std::shared_ptr<filters::GridPlan> Plan;
   std::shared_ptr<filters::KeptMesh> Mesh;

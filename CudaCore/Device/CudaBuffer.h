@@ -44,7 +44,8 @@ T* allocateOnCuda(std::size_t size)
     const auto megabytes = [](std::size_t bytes) { return std::to_string(bytes >> 20) + " MB"; };
     throw OutOfDeviceMemory("The CUDA device has " + megabytes(free) + " of its " +
       megabytes(total) + " of memory free, but " + megabytes(size * sizeof(T)) +
-      " more are needed. Set Device to Auto or CPU, or make less of it: smaller images, a coarser grid, "
+      " more are needed. Set Device to Auto or CPU, or make less of it: smaller images, a coarser "
+      "grid, "
       "or for other data less Medium Memory or more Medium Tolerance.");
   }
   checkCuda(status, "Allocating memory");

@@ -330,8 +330,7 @@ void MediumTree<Real>::makeBrick(std::size_t request)
   if (isPart)
   {
     const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
-    const Real* samples =
-      samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
+    const Real* samples = samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
     changes = changesOf(
       brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
   }
