@@ -11,7 +11,7 @@
 #include "Optics/CutoffMaker.h"
 #include "RayCache.h"
 #include "Rays/CudaTracer.h"
-#include "Rays/TeamTracer.h"
+#include "Rays/ProcessTracer.h"
 #include "Rays/Tracer.h"
 #include "StageSettings.h"
 #include "Validation.h"
@@ -44,18 +44,18 @@ struct MediumOnDevices
   Medium<Real> medium;
   std::int64_t changes = 0;               ///< of its voxels
   std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
-  std::unique_ptr<TeamTracer<Real>> team; ///< once rays have been traced together with workers
+  std::unique_ptr<ProcessTracer<Real>> together; ///< once several processes have traced rays
 
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
   double mapTolerance = 0;                   ///< of nu
 
-  TeamTracer<Real>& teamTracer()
+  ProcessTracer<Real>& processTracer()
   {
-    if (!team)
+    if (!together)
     {
-      team = std::make_unique<TeamTracer<Real>>(medium);
+      together = std::make_unique<ProcessTracer<Real>>(medium);
     }
-    return *team;
+    return *together;
   }
 
   /// The map for a tolerance.
@@ -249,7 +249,7 @@ struct Bench::Unfinished
 struct Bench::Stages
 {
   Work work;
-  std::vector<Channel*> workers;
+  Processes* processes = nullptr; ///< null: there are no others
   std::unique_ptr<Unfinished> unfinished; ///< after a pause
 
   std::shared_ptr<SharedMedia> media; ///< may be null
@@ -366,7 +366,7 @@ bool Bench::Stages::refineFor(
   {
     ++shared.changes;
     shared.cuda.reset();
-    shared.team.reset();
+    shared.together.reset();
   }
   return !shared.medium.tree->lacksRoom();
 }
@@ -390,14 +390,15 @@ bool Bench::Stages::trace(TracedPass& traced, bool isWantedOnHost, const Pass& p
     using Exits = typename CudaTracer<Real>::Exits;
     const Exits exits = isWantedOnHost ? Exits::OnHost : Exits::OnDevice;
     const TaskVersions versions{ ofGradients, shared.mapTolerance };
-    isTraced = workers.empty() ? shared.cuda->trace(task, pass, versions, exits, traced, monitor)
-                               : shared.teamTracer().traceOnCuda(*shared.cuda, exits, task, pass,
-                                   versions, workers, traced, monitor);
+    isTraced = processes && ProcessTracer<Real>::haveCuda(*processes)
+      ? shared.processTracer().traceOnCuda(
+          *shared.cuda, exits, task, pass, versions, *processes, traced, monitor)
+      : shared.cuda->trace(task, pass, versions, exits, traced, monitor);
   }
-  else if (!workers.empty())
+  else if (processes)
   {
-    isTraced = shared.teamTracer().trace(task, pass, { ofGradients, shared.mapTolerance }, workers,
-      traced, request.scene.threads, monitor);
+    isTraced = shared.processTracer().trace(task, pass, { ofGradients, shared.mapTolerance },
+      *processes, traced, request.scene.threads, monitor);
   }
   else
   {
@@ -428,7 +429,7 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   image.device = request.device;
   image.deviceNote = request.deviceNote;
   image.threads = threadCount(scene.threads);
-  image.workers = request.device == Device::Cpu ? static_cast<int>(workers.size()) : 0;
+  image.processes = request.device == Device::Cpu && processes ? processes->others() + 1 : 1;
 
   MediumOfBench<Real>& current = prepareMedium<Real>(field, scene);
   std::optional<InUse<Real>> inUse(std::in_place, *current.shared);
@@ -578,9 +579,9 @@ Image Bench::Stages::proceed(Unfinished& request, const Watch& watch)
   {
     return aborted;
   }
-  if (request.device == Device::Cuda && !workers.empty())
+  if (request.device == Device::Cuda && processes)
   {
-    image.workers = current.shared->teamTracer().workersOnCuda();
+    image.processes = processes->ofRays().hasCuda.value_or(false) ? processes->others() + 1 : 1;
   }
   image.kScale = request.kScale;
   image.momentumDrift = request.momentumDrift;
@@ -637,7 +638,7 @@ Bench& Bench::operator=(Bench&&) noexcept = default;
 
 const Work& Bench::work() const { return stages_->work; }
 
-void Bench::setWorkers(std::vector<Channel*> workers) { stages_->workers = std::move(workers); }
+void Bench::setProcesses(Processes* processes) { stages_->processes = processes; }
 
 void Bench::setMedia(std::shared_ptr<SharedMedia> media) { stages_->media = std::move(media); }
 
@@ -704,6 +705,11 @@ Image Bench::Stages::render(std::unique_ptr<Unfinished> request, const Monitor& 
         again->deviceNote = failure.what();
       }
       request = std::move(again);
+    }
+    catch (...) // what another process may have thrown, after some of the rays
+    {
+      rays.clear();
+      throw;
     }
   }
   if (!image.finished && !image.aborted)

@@ -13,7 +13,7 @@
 #include "Medium/MediumSource.h"
 #include "Optics/Techniques.h"
 #include "PixelArray.h"
-#include "Rays/Channel.h"
+#include "Rays/Processes.h"
 
 #include <array>
 #include <cstdint>
@@ -366,7 +366,7 @@ struct Image
 
   Device device = Device::Cpu; ///< where the rays were traced
   int threads = 0;             ///< on the CPU
-  int workers = 0;             ///< other processes that rays could be traced by
+  int processes = 1;           ///< that traced rays
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
   PathModel pathModel = PathModel::Refracted;   ///< the one used: Straight or Refracted
   Integrator integrator = Integrator::Leapfrog; ///< the one used
@@ -460,9 +460,9 @@ public:
   bool isUnfinished() const;
   void cancel(); ///< forgets it
 
-  /// Other processes that trace rays for the next images, each with a RayWorker at the other end of its channel. The
-  /// images are the same to the last bit.
-  void setWorkers(std::vector<Channel*> workers);
+  /// Other processes that trace rays for the next images, each with a RayWorker; null: there are none. The images are the
+  /// same to the last bit.
+  void setProcesses(Processes* processes);
 
   /// From the next medium on, it is one of these. Field::version then has to differ between any two fields that benches
   /// are given, whatever their arrays' addresses.

@@ -41,7 +41,7 @@ double onFaces(double cells)
 
 } // namespace
 
-CellState AmrField::stateOf(std::size_t number, const Counts& cell, Whose whose) const
+CellState AmrField::stateOf(std::size_t number, const Counts& cell) const
 {
   CellState state = CellState::None;
   const Level& level = this->Levels[number];
@@ -49,10 +49,6 @@ CellState AmrField::stateOf(std::size_t number, const Counts& cell, Whose whose)
     [&](std::size_t found, const CellBox&)
     {
       const Block& block = level.blocks[found];
-      if (block.isCopy && whose == Whose::Own)
-      {
-        return;
-      }
       const std::size_t at = block.box.index(cell[0], cell[1], cell[2]);
       if (!block.isOfLevel)
       {
@@ -86,7 +82,7 @@ bool AmrField::hasGasAt(const Point& place) const
       }
       cell[axis] = static_cast<int>(std::clamp(std::floor(at), 0., level.cells[axis] - 1.));
     }
-    const CellState state = this->stateOf(number, cell, Whose::Own);
+    const CellState state = this->stateOf(number, cell);
     if (state == CellState::Gas || state == CellState::Solid)
     {
       return state == CellState::Gas;
@@ -112,22 +108,6 @@ std::vector<unsigned char> AmrField::gasAt(const schlieren::Lattice& lattice) co
   return hasGas;
 }
 
-bool AmrField::mayHold(const schlieren::Lattice& lattice) const
-{
-  const schlieren::Box box = boxAround(lattice, 0);
-  bool isFound = false;
-  for (const Level& level : this->Levels)
-  {
-    level.bins->forPartsIn(this->cellsIn(level, box, 1),
-      [&](std::size_t number, const CellBox&)
-      {
-        const Block& block = level.blocks[number];
-        isFound = isFound || (block.isOfLevel && !block.isCopy);
-      });
-  }
-  return isFound;
-}
-
 BoundaryFaces AmrField::faces() const
 {
   std::vector<AmrFaces::Level> lattices;
@@ -135,16 +115,15 @@ BoundaryFaces AmrField::faces() const
   {
     lattices.push_back({ level.spacing, level.cells });
   }
-  Whose whose = Whose::All;
   AmrFaces faces(
     this->Origin, std::move(lattices),
-    [&](std::size_t level, const Counts& cell) { return this->stateOf(level, cell, whose); },
+    [&](std::size_t level, const Counts& cell) { return this->stateOf(level, cell); },
     this->FlatAxis >= 0 ? Extent::Layer : Extent::Volume);
   for (std::size_t level = 0; level < this->Levels.size(); ++level)
   {
     for (const Block& block : this->Levels[level].blocks)
     {
-      if (!block.isOfLevel || block.isCopy || block.solids.empty())
+      if (!block.isOfLevel || block.solids.empty())
       {
         continue;
       }
@@ -160,7 +139,6 @@ BoundaryFaces AmrField::faces() const
   }
   if (!this->AreMissing.empty())
   {
-    whose = Whose::Own; // each rank those beside its gas
     std::size_t cell = 0;
     forCells({ 0, 0, 0 }, this->Levels[0].cells,
       [&](int i, int j, int k)
@@ -173,26 +151,6 @@ BoundaryFaces AmrField::faces() const
     faces.addDomain();
   }
   return faces.take();
-}
-
-schlieren::Box AmrField::ownBounds() const
-{
-  schlieren::Box bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  for (const Level& level : this->Levels)
-  {
-    for (const Block& block : level.blocks)
-    {
-      for (std::size_t axis = 0; axis < 3 && block.isOfLevel && !block.isCopy; ++axis)
-      {
-        const int begin = block.box.begin[axis], end = block.box.end[axis];
-        const double low = this->Origin[axis] + begin * level.spacing[axis];
-        const double high = this->Origin[axis] + end * level.spacing[axis];
-        bounds.low[axis] = std::min(bounds.low[axis], begin == 0 ? -infinity : low);
-        bounds.high[axis] = std::max(bounds.high[axis], end == level.cells[axis] ? infinity : high);
-      }
-    }
-  }
-  return bounds;
 }
 
 /// How many cells of all ranks are at the border of the domain, of which each nth is looked at.
@@ -239,7 +197,7 @@ std::vector<WeightedValue> AmrField::outerValues() const
         }
         ++cell;
       };
-      if (block.isOfLevel && !block.isCopy)
+      if (block.isOfLevel)
       {
         forCells(block.box.begin, block.box.size(), look);
       }
@@ -364,16 +322,6 @@ std::size_t AmrField::levelFor(const schlieren::Lattice& lattice) const
   return found;
 }
 
-std::array<double, 3> AmrField::reachOfContent() const
-{
-  std::array<double, 3> far = this->voxelShape();
-  for (double& along : far)
-  {
-    along *= reach + 1; // a box may begin anywhere in a cell
-  }
-  return far;
-}
-
 CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
 {
   CellTree::Content content{ infinity, -infinity, { infinity, infinity, infinity } };
@@ -384,7 +332,7 @@ CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
       [&](std::size_t number, const CellBox& cells)
       {
         const Block& block = level.blocks[number];
-        if (!block.isOfLevel || block.isCopy)
+        if (!block.isOfLevel)
         {
           return;
         }

@@ -5,7 +5,6 @@
 #include "AmrFaces.h"
 #include "AmrLevels.h"
 #include "CellTree.h"
-#include "DataParts.h"
 #include "Vectors.h"
 #include "WeightedMedian.h"
 #include "WorkProgress.h"
@@ -30,63 +29,40 @@ namespace filters
  * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
  *
  * Cells that are hidden or whose value is not finite are solid.
- *
- * A rank may have some of the blocks, and copies of others' cells around them: then what is said of places in its own cells
- * is what it would be with all blocks.
  */
 class AmrField
 {
 public:
-  /// What a value depends on is no more cells of the lattice's level away: two coefficients of the spline, of which each
-  /// depends on two cells more. Of the next coarser level it is half as far, and what a polynomial reads.
-  static constexpr int cellsOfSpline = 4;
-
-  /// `levels`: of all blocks; turned, where they are flat (see turnedAcrossZ). `source` has the images of those that this
-  /// rank has, whose numbers begin with `firstImage`. To `tally` is added what is wrong with their values.
+  /// `levels`: of all blocks; turned, where they are flat (see turnedAcrossZ). `source` has their
+  /// images. To `tally` is added what is wrong with their values.
   AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
-    const WorkProgress& progress = WorkProgress(), std::size_t firstImage = 0);
-
-  /// Moves its own blocks of some images into a message, and adds those of a message of another rank to its own.
-  void putBlocks(const std::vector<std::uint64_t>& images, std::vector<char>& message);
-  void addBlocks(Reader& blocks);
-  /// Gives images other numbers, by those that they have. Blocks are sorted again.
-  void renumber(const std::vector<std::uint64_t>& numbers);
-
-  /// Adds to a message its cells that a rank needs which has so many images from `firstImage` on: those around these.
-  void putCopies(std::size_t firstImage, std::size_t images, std::vector<char>& message) const;
-  /// Adds what another rank's putCopies() has written. After the last one blocks are to be sorted again.
-  void addCopies(Reader& copies);
-  void sortBlocks();
+    const WorkProgress& progress = WorkProgress());
 
   int flatAxis() const { return this->FlatAxis; }
   std::int64_t ownCells() const { return this->OwnCells; } // with values
   schlieren::Box bounds() const { return this->Bounds; }   // of the domain
-  /// Of its own blocks; infinite where the domain ends. low > high: there are none.
-  schlieren::Box ownBounds() const;
   std::array<double, 3> voxelShape() const { return this->Levels[0].spacing; }
 
-  /// The faces around its own cells without gas, and those of its own gas beside what no block of any rank holds.
+  /// The faces around cells without gas, and those of gas beside what no block holds.
   BoundaryFaces faces() const;
 
-  /// Values of its own cells at the border of the domain, each with an area; of more than a million on all ranks each nth.
+  /// Values of cells at the border of the domain, each with an area; of more than a million each nth.
   std::vector<WeightedValue> outerValues() const;
 
-  /// Of its own cells within a few cells of a box; see CellTree::content(). lowest > highest: there are none.
+  /// Of cells within a few cells of a box; see CellTree::content(). lowest > highest: there are none.
   CellTree::Content contentOf(const schlieren::Box& box) const;
-  /// How far from the box these are at most.
-  std::array<double, 3> reachOfContent() const;
-
-  /// Whether one of its own cells holds the place. Outside of a domain that is a box, as at its border.
+  /// Whether one of the cells holds the place. Outside of a domain that is a box, as at its border.
   bool hasGasAt(const Point& place) const;
   /// The same of all points of a lattice.
   std::vector<unsigned char> gasAt(const schlieren::Lattice& lattice) const;
-  /// Whether it may hold any of them.
-  bool mayHold(const schlieren::Lattice& lattice) const;
-
   /// At those points of a lattice whose indices are in `points`; NaN in solids.
   void sample(const schlieren::Lattice& lattice, const CellBox& points, double* values) const;
 
 private:
+  /// What a value depends on is no more cells of the lattice's level away: two coefficients of the spline, of which each
+  /// depends on two cells more. Of the next coarser level it is half as far, and what a polynomial reads.
+  static constexpr int cellsOfSpline = 4;
+
   /// Cells of a level that are known: those of a block, or the means of a finer block's.
   struct Block
   {
@@ -95,8 +71,6 @@ private:
     std::vector<float> parts; // of a cell that its mean is of; 0: not known
     std::vector<bool> solids; // which of the cells that are not known; empty: none
     bool isOfLevel;           // rather than finer
-    bool isCopy;              // of another rank's
-    std::uint64_t image;      // that it has been made of; of a copy nothing
 
     bool isEmpty() const; // nothing is known of any cell
     bool isSolid(std::size_t cell) const { return !this->solids.empty() && this->solids[cell]; }
@@ -115,7 +89,7 @@ private:
     std::size_t number;
     std::array<double, 3> spacing;
     Counts cells;
-    std::vector<AmrBlock> all; // blocks of the level, of all ranks
+    std::vector<AmrBlock> all; // blocks of the level
     std::unique_ptr<const BoxBins> binsOfAll;
     std::unique_ptr<const BoxBins> covered; // by finer blocks
     std::vector<Block> blocks;
@@ -123,27 +97,17 @@ private:
   };
   /// Cells of a block that are looked at together, along each axis.
   static constexpr int pieceEdge = 8;
-  enum class Whose
-  {
-    All,
-    Own
-  };
-
   static Block coarser(const Block& block, const Counts& ratio);
-  static Block cropped(const Block& block, const CellBox& box);
-  static void putCells(const Block& block, std::vector<char>& message);
-  static Block cellsFrom(Reader& reader);
   void addOwn(std::size_t level, Block block);
+  void sortBlocks();
   void findMissingCells();
-  static std::vector<CellBox> uncoveredIn(const Level& level, const AmrBlock& block);
-  std::vector<Counts> margins() const;
   int outerCellsForOne() const;
   /// Along which there are several cells.
   std::size_t axes() const { return this->FlatAxis >= 0 ? 2 : 3; }
   CellBox cellsIn(const Level& level, const schlieren::Box& box, int margin) const;
   std::vector<double> valuesIn(std::size_t level, const CellBox& box) const;
   std::size_t levelFor(const schlieren::Lattice& lattice) const;
-  CellState stateOf(std::size_t level, const Counts& cell, Whose whose) const;
+  CellState stateOf(std::size_t level, const Counts& cell) const;
 
   int FlatAxis;
   std::array<double, 3> Origin;

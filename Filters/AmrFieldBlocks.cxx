@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells an AmrField knows: those of its blocks, their means on coarser levels, and copies of other ranks'.
+// Which cells an AmrField knows: those of its blocks, and their means on coarser levels.
 #include "AmrField.h"
 
 #include <algorithm>
@@ -114,7 +114,6 @@ void AmrField::Block::findRanges()
 AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
 {
   Block result{};
-  result.image = block.image;
   result.box = coarserBox(block.box, ratio);
   result.means.assign(volume(result.box.size()), 0);
   result.parts.assign(result.means.size(), 0);
@@ -148,31 +147,8 @@ AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
   return result;
 }
 
-/// A part of a block.
-AmrField::Block AmrField::cropped(const Block& block, const CellBox& box)
-{
-  Block part{ box, {}, {}, {}, block.isOfLevel, true, 0, {}, {} };
-  part.means.resize(volume(box.size()));
-  part.parts.resize(part.means.size());
-  part.solids.resize(block.solids.empty() ? 0 : part.means.size());
-  std::size_t to = 0;
-  forCells(box.begin, box.size(),
-    [&](int i, int j, int k)
-    {
-      const std::size_t from = block.box.index(i, j, k);
-      part.means[to] = block.means[from];
-      part.parts[to] = block.parts[from];
-      if (!part.solids.empty())
-      {
-        part.solids[to] = block.solids[from];
-      }
-      ++to;
-    });
-  return part;
-}
-
 AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
-  const WorkProgress& progress, std::size_t firstImage)
+  const WorkProgress& progress)
   : FlatAxis(levels.flat)
   , Origin(levels.origin)
   , Bounds(levels.bounds())
@@ -189,16 +165,10 @@ AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
   for (std::size_t level = 0; level < this->Levels.size(); ++level)
   {
     const BoxBins& covered = *this->Levels[level].covered;
-    for (AmrBlock block : levels.levels[level].blocks)
+    for (const AmrBlock& block : levels.levels[level].blocks)
     {
-      if (block.leaf - firstImage >= source.leaves.size()) // or less than 0
-      {
-        continue;
-      }
-      block.leaf -= firstImage;
       AmrValues values = valuesOf(covered, block, source, tally);
-      Block own{ boxOf(block), std::move(values.values), {}, {}, true, false,
-        block.leaf + firstImage, {}, {} };
+      Block own{ boxOf(block), std::move(values.values), {}, {}, true, {}, {} };
       own.parts.assign(own.means.size(), 0);
       for (std::size_t cell = 0; cell < own.means.size(); ++cell)
       {
@@ -268,200 +238,6 @@ void AmrField::findMissingCells()
   if (std::find(this->AreMissing.begin(), this->AreMissing.end(), true) == this->AreMissing.end())
   {
     this->AreMissing = {};
-  }
-}
-
-/// How many cells of each level around a rank's own others' copies are.
-std::vector<Counts> AmrField::margins() const
-{
-  std::vector<Counts> margins(this->Levels.size(), { cellsOfSpline, cellsOfSpline, cellsOfSpline });
-  for (std::size_t level = this->Levels.size() - 1; level > 0; --level)
-  {
-    const Counts ratio = ratioOf(this->Levels[level].cells, this->Levels[level - 1].cells);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const int coarse = (margins[level][axis] - 1) / ratio[axis] + 1 + cellsOfPolynomial;
-      margins[level - 1][axis] = std::max(coarse, cellsOfSpline);
-    }
-  }
-  return margins;
-}
-
-/// The own cells of a block that no finer block covers: boxes of at most `pieceEdge` cells along each axis around them.
-std::vector<CellBox> AmrField::uncoveredIn(const Level& level, const AmrBlock& block)
-{
-  std::vector<CellBox> uncovered;
-  forPieces(ownBoxOf(block), pieceEdge,
-    [&](const CellBox& piece)
-    {
-      std::vector<bool> isCovered;
-      bool isAllCovered = false;
-      level.covered->forPartsIn(piece,
-        [&](std::size_t, const CellBox& cells)
-        {
-          isAllCovered = isAllCovered || cells.size() == piece.size();
-          isCovered.resize(isAllCovered ? 0 : volume(piece.size()));
-          forCells(cells.begin, isAllCovered ? Counts{} : cells.size(),
-            [&](int i, int j, int k) { isCovered[piece.index(i, j, k)] = true; });
-        });
-      if (isAllCovered)
-      {
-        return;
-      }
-      std::size_t cell = 0;
-      std::optional<CellBox> hull;
-      forCells(piece.begin, isCovered.empty() ? Counts{} : piece.size(),
-        [&](int i, int j, int k)
-        {
-          if (!isCovered[cell++])
-          {
-            const CellBox here{ { i, j, k }, { i + 1, j + 1, k + 1 } };
-            hull = hull ? hullOf(*hull, here) : here;
-          }
-        });
-      if (isCovered.empty() || hull)
-      {
-        uncovered.push_back(hull.value_or(piece));
-      }
-    });
-  return uncovered;
-}
-
-void AmrField::putCells(const Block& block, std::vector<char>& message)
-{
-  put(block.isOfLevel, message);
-  put(block.box, message);
-  putAll(block.means, message);
-  putAll(block.parts, message);
-  putAll(std::vector<unsigned char>(block.solids.begin(), block.solids.end()), message);
-}
-
-/// What putCells() has written.
-AmrField::Block AmrField::cellsFrom(Reader& reader)
-{
-  Block block{};
-  block.isOfLevel = reader.Get<bool>();
-  block.box = reader.Get<CellBox>();
-  block.means = reader.GetAll<std::vector<double>>();
-  block.parts = reader.GetAll<std::vector<float>>();
-  const auto solids = reader.GetAll<std::vector<unsigned char>>();
-  block.solids.assign(solids.begin(), solids.end());
-  return block;
-}
-
-void AmrField::putBlocks(const std::vector<std::uint64_t>& images, std::vector<char>& message)
-{
-  const std::set<std::uint64_t> moved(images.begin(), images.end());
-  for (Level& level : this->Levels)
-  {
-    const auto isMoved = [&](const Block& block)
-    { return !block.isCopy && moved.count(block.image) > 0; };
-    for (const Block& block : level.blocks)
-    {
-      if (block.isOfLevel && isMoved(block))
-      {
-        this->OwnCells -= std::count(block.parts.begin(), block.parts.end(), 1.f);
-        put(static_cast<std::uint64_t>(level.number), message);
-        put(block.image, message);
-        putCells(block, message);
-      }
-    }
-    level.blocks.erase(
-      std::remove_if(level.blocks.begin(), level.blocks.end(), isMoved), level.blocks.end());
-  }
-}
-
-void AmrField::addBlocks(Reader& reader)
-{
-  while (!reader.IsAtEnd())
-  {
-    const auto level = reader.Get<std::uint64_t>();
-    const auto image = reader.Get<std::uint64_t>();
-    Block block = cellsFrom(reader);
-    block.image = image;
-    this->addOwn(level, std::move(block));
-  }
-}
-
-void AmrField::renumber(const std::vector<std::uint64_t>& numbers)
-{
-  for (Level& level : this->Levels)
-  {
-    for (AmrBlock& block : level.all)
-    {
-      block.leaf = numbers.at(block.leaf);
-    }
-    for (Block& block : level.blocks)
-    {
-      block.image = block.isCopy ? block.image : numbers.at(block.image);
-    }
-  }
-  this->sortBlocks();
-}
-
-void AmrField::putCopies(
-  std::size_t firstImage, std::size_t images, std::vector<char>& copies) const
-{
-  std::vector<std::vector<CellBox>> wanted(this->Levels.size());
-  const std::vector<Counts> margins = this->margins();
-  for (const Level& other : this->Levels)
-  {
-    for (const AmrBlock& block : other.all)
-    {
-      if (block.leaf - firstImage >= images) // or less than 0
-      {
-        continue;
-      }
-      for (const CellBox& own : uncoveredIn(other, block))
-      {
-        for (std::size_t number = 0; number < this->Levels.size(); ++number)
-        {
-          const Level& level = this->Levels[number];
-          CellBox& box = wanted[number].emplace_back(number > other.number
-              ? finerBox(own, ratioOf(level.cells, other.cells))
-              : coarserBox(own, ratioOf(other.cells, level.cells)));
-          for (std::size_t axis = 0; axis < this->axes(); ++axis)
-          {
-            box.begin[axis] -= margins[number][axis];
-            box.end[axis] += margins[number][axis];
-          }
-        }
-      }
-    }
-  }
-  for (std::size_t number = 0; number < this->Levels.size(); ++number)
-  {
-    const BoxBins bins(std::move(wanted[number]));
-    for (const Block& block : this->Levels[number].blocks)
-    {
-      if (block.isCopy)
-      {
-        continue;
-      }
-      forPieces(block.box, pieceEdge,
-        [&](const CellBox& piece)
-        {
-          std::optional<CellBox> part;
-          bins.forPartsIn(piece,
-            [&](std::size_t, const CellBox& cells) { part = part ? hullOf(*part, cells) : cells; });
-          const Block cells = part ? cropped(block, *part) : Block{};
-          if (!cells.isEmpty())
-          {
-            put(static_cast<std::uint64_t>(number), copies);
-            putCells(cells, copies);
-          }
-        });
-    }
-  }
-}
-
-void AmrField::addCopies(Reader& reader)
-{
-  while (!reader.IsAtEnd())
-  {
-    Level& level = this->Levels.at(reader.Get<std::uint64_t>());
-    level.blocks.push_back(cellsFrom(reader));
-    level.blocks.back().isCopy = true;
   }
 }
 

@@ -51,16 +51,6 @@ void AmrSource::sample(const schlieren::Lattice& lattice, double* refractivity,
   this->Boundary->sample(lattice, hasGas.data(), places, distances);
 }
 
-DataPiece::Samples AmrSource::samplesOn(const schlieren::Lattice& lattice) const
-{
-  const auto size = static_cast<std::size_t>(lattice.size());
-  DataPiece::Samples samples{ this->Refractivity.gasAt(lattice), std::vector<double>(size),
-    std::vector<double>(this->Fields.size() * size) };
-  this->Refractivity.sample(lattice, { { 0, 0, 0 }, lattice.points }, samples.values.data());
-  this->sampleFields(lattice, samples.fields.data());
-  return samples;
-}
-
 void AmrSource::addField(const AmrLevels& levels, const Source& source)
 {
   Tally notReported;

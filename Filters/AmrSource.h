@@ -5,7 +5,6 @@
 #include "AmrField.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
-#include "HelpedSource.h"
 #include "Medium/MediumSource.h"
 #include "WorkProgress.h"
 
@@ -19,7 +18,7 @@ namespace filters
 
 /// The refractivity of adaptive meshes whose cells hold the values, for the tracer. Solid cells are walls, as they stand:
 /// with the edges of cells.
-class AmrSource : public HelpedSource
+class AmrSource : public schlieren::MediumSource
 {
 public:
   /// `levels`: turned, where they are flat (see turnedAcrossZ). `bodies`: may be null.
@@ -52,8 +51,6 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
-  std::shared_ptr<const GasBoundary> sharedBoundary() const override { return this->Boundary; }
-  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const override;
   void sampleFields(const schlieren::Lattice& lattice, double* values) const;
 
   AmrField Refractivity;

@@ -4,7 +4,6 @@
 
 #include "BodyTriangles.h"
 #include "CoincidentPoints.h"
-#include "DataParts.h"
 #include "LatticeDistances.h"
 
 #include "vtkCellArray.h"
@@ -210,21 +209,6 @@ BodySurfaces::BodySurfaces(vtkDataObject* bodies)
   , Parts(closedParts(this->Surface, this->NumberOfParts))
   , Tree((turnOutward(this->Surface, this->Parts, this->NumberOfParts), this->Surface))
 {
-}
-
-BodySurfaces::BodySurfaces(Reader& message)
-  : Surface(trianglesFrom(message))
-  , NumberOfParts(message.Get<std::int32_t>())
-  , Parts(message.GetAll<std::vector<std::int32_t>>())
-  , Tree(this->Surface)
-{
-}
-
-void BodySurfaces::put(std::vector<char>& message) const
-{
-  putTriangles(this->Surface, message);
-  filters::put(this->NumberOfParts, message);
-  putAll(this->Parts, message);
 }
 
 void BodySurfaces::findInside(

@@ -12,7 +12,6 @@ class vtkDataObject;
 namespace filters
 {
 
-class Reader;
 
 /// Bodies in the gas that are given by their surfaces (vtkPolyData, or a composite of them).
 class BodySurfaces
@@ -20,9 +19,6 @@ class BodySurfaces
 public:
   /// Throws std::runtime_error where they are no surfaces.
   explicit BodySurfaces(vtkDataObject* bodies);
-  /// What put() has written.
-  explicit BodySurfaces(Reader& message);
-  void put(std::vector<char>& message) const;
   BodySurfaces(const BodySurfaces&) = delete;
   BodySurfaces& operator=(const BodySurfaces&) = delete;
 

@@ -37,7 +37,6 @@ public:
     std::int64_t cells; ///< or points; 0: no gas
     schlieren::Box bounds;
     CellTree::Content content;
-    std::array<double, 3> reach{}; ///< from a box, of what contentOf() knows of its surroundings
   };
   virtual Summary summary() const = 0;
 
@@ -45,13 +44,12 @@ public:
   /// is not known.
   virtual std::uint64_t meshKey() const { return 0; }
 
-  /// Adds to a message where its gas ends, for PiecesSource: what kind of boundary, and that.
+  /// Adds to a message where its gas ends, for a source of all ranks: what kind of boundary, and that.
   /// `cellsOfAll`: how many cells there are in all pieces.
   enum class BoundaryKind : std::uint32_t
   {
-    OfMesh,  ///< see MeshPiece::putBoundary()
-    OfImage, ///< see ImagePiece::putBoundary()
-    OfAmr    ///< see AmrPiece::putBoundary()
+    OfMesh, ///< see MeshPiece::putBoundary()
+    OfImage ///< see ImagePiece::putBoundary()
   };
   virtual void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const = 0;
   /// Only the values there, where there is a meshKey().

@@ -110,65 +110,42 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 }
 
 //------------------------------------------------------------------------------
-ExposureSteps::ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks,
+ExposureSteps::ExposureSteps(vtkAlgorithm* filter, InputsOfRanks& ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
-  FilterRanks::Part part, double maxCells)
+  double maxCells)
   : Filter(filter)
   , Ranks(ranks)
   , Inputs(inputs)
   , Outputs(outputs)
   , Exposure(exposure)
-  , Part(part)
   , MaxCells(maxCells)
 {
+  this->SetOwn();
 }
 
 //------------------------------------------------------------------------------
 ExposureSteps::~ExposureSteps()
 {
-  try
-  {
-    while (this->Meeting && hasOtherRanks() && this->Resume())
-    {
-    }
-  }
-  catch (const std::exception&) // it may be what has been thrown already
+  while (hasOtherRanks() && this->Resume())
   {
   }
-  this->Meeting.reset();
+  this->Ranks.forgetOwn();
   if (this->Exposure.IsNone())
   {
     return;
   }
   // So that the next request is not taken for another one.
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps.front());
-  this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
+  requestPieces(this->Filter, this->Inputs);
   setTime(this->Outputs, this->Exposure.Time);
 }
 
 //------------------------------------------------------------------------------
-void ExposureSteps::Meet(const FilterRanks::Inputs& own)
+void ExposureSteps::SetOwn()
 {
-  this->Arrays = own.arrays;
-  this->Meeting.emplace(this->Ranks, own);
-}
-
-//------------------------------------------------------------------------------
-void ExposureSteps::MeetAgain()
-{
-  this->Meet({ vtkDataObject::GetData(this->Inputs[0]), vtkDataObject::GetData(this->Inputs[1]),
-    this->Arrays });
-}
-
-//------------------------------------------------------------------------------
-void ExposureSteps::MeetWithAll()
-{
-  this->Meeting->SetOutcome(true); // the other ranks do the same
-  this->Meeting.reset();
-  this->Ranks.SetTooFew(this->MaxCells);
-  this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  this->IsThere = updateInputs(this->Filter);
-  this->MeetAgain();
+  this->Ranks.setOwn(vtkDataObject::GetData(this->Inputs[0]),
+    vtkDataObject::GetData(this->Inputs[1]), [this](int instant)
+    { return this->GetData(0, this->Exposure.Instants.at(static_cast<std::size_t>(instant))); });
 }
 
 //------------------------------------------------------------------------------
@@ -178,26 +155,38 @@ bool ExposureSteps::Resume()
   {
     return false;
   }
-  this->Meeting.reset(); // the other ranks continue, too
+  this->Ranks.ranks().end({ false, false }); // the other ranks continue, too
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
-  this->Ranks.Request(this->Filter, this->Inputs, this->Part, this->MaxCells);
-  this->IsThere = updateInputs(this->Filter);
-  this->MeetAgain();
+  requestPieces(this->Filter, this->Inputs);
+  this->Problem.clear();
+  if (!updateInputs(this->Filter))
+  {
+    this->Problem = "There are no data of the time step " +
+      textOf(this->Exposure.Steps[this->Step]) +
+      ", which is within ExposureTime: see what is reported before. Repair that step, or set "
+      "ExposureTime to 0.";
+  }
+  try
+  {
+    this->Ranks.begin(this->Filter, this->Inputs, true, this->Problem);
+  }
+  catch (const std::exception& problem)
+  {
+    this->Problem = problem.what();
+  }
+  this->SetOwn();
   return true;
 }
 
 //------------------------------------------------------------------------------
 void ExposureSteps::Keep()
 {
-  if (!this->IsThere)
+  if (!this->IsThere())
   {
-    throw std::runtime_error("There are no data of the time step " +
-      textOf(this->Exposure.Steps[this->Step]) +
-      ", which is within ExposureTime: see what is reported before. Repair that step, or set "
-      "ExposureTime to 0.");
+    throw std::runtime_error(this->Problem);
   }
-  const FilterRanks::Inputs inputs = this->Meeting->Gather(this->MaxCells);
+  const InputsOfRanks::Inputs inputs = this->Ranks.gather(this->MaxCells);
   this->Keep(0, inputs.data);
   this->Keep(1, inputs.bodies);
 }
@@ -226,20 +215,13 @@ vtkSmartPointer<vtkDataObject> ExposureSteps::GetData(
   }
   catch (const std::runtime_error& difference)
   {
-    this->ThrowNoneBetween(instant, difference.what());
+    const std::vector<double>& steps = this->Exposure.Steps;
+    throw std::runtime_error("There are no data between the time steps " +
+      textOf(steps[instant.earlier]) + " and " + textOf(steps[instant.later]) +
+      ", which ExposureTime needs: " + difference.what() +
+      ". Set ExposureTime to 0, or give data with the same cells at all times, as Resample To "
+      "Image makes them.");
   }
-}
-
-//------------------------------------------------------------------------------
-void ExposureSteps::ThrowNoneBetween(
-  const TimeExposure::Instant& instant, const std::string& difference) const
-{
-  const std::vector<double>& steps = this->Exposure.Steps;
-  throw std::runtime_error("There are no data between the time steps " +
-    textOf(steps[instant.earlier]) + " and " + textOf(steps[instant.later]) +
-    ", which ExposureTime needs: " + difference +
-    ". Set ExposureTime to 0, or give data with the same cells at all times, as Resample To Image "
-    "makes them.");
 }
 
 } // namespace filters

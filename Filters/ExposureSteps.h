@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Ranks.h"
+#include "InputsOfRanks.h"
 #include "TimeExposure.h"
 
 #include "vtkSmartPointer.h"
@@ -36,26 +36,20 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 class ExposureSteps
 {
 public:
-  /// `part`, `maxCells`: what was requested of the first step, see FilterRanks::Request(), and what Gather() is to leave where it is.
-  ExposureSteps(vtkAlgorithm* filter, FilterRanks& ranks, vtkInformationVector** inputs,
-    vtkInformationVector* outputs, const TimeExposure& exposure, FilterRanks::Part part,
-    double maxCells);
+  /// `ranks`: which have begun. `maxCells`: see InputsOfRanks::gather().
+  ExposureSteps(vtkAlgorithm* filter, InputsOfRanks& ranks, vtkInformationVector** inputs,
+    vtkInformationVector* outputs, const TimeExposure& exposure, double maxCells);
   ~ExposureSteps();
   ExposureSteps(const ExposureSteps&) = delete;
   ExposureSteps& operator=(const ExposureSteps&) = delete;
 
-  /// The ranks meet for the first step, with what this one has of it.
-  void Meet(const FilterRanks::Inputs& own);
-  FilterRanks::Meeting& GetMeeting() { return *this->Meeting; }
-
-  /// Where pieces are too few, see FilterRanks: updates the inputs once more, all of them on rank 0, and meets again.
-  void MeetWithAll();
-
-  /// Updates the inputs for the next step, for which the ranks meet, too. False where there is none.
+  /// Updates the inputs for the next step, for which the ranks begin anew. False where there is none.
   bool Resume();
+  /// Whether they have begun: no rank lacks the step.
+  bool IsThere() const { return this->Problem.empty(); }
 
   /// On rank 0: keeps the data of the step, of data that stay on their ranks its own piece. Throws std::runtime_error with a
-  /// message for the user, as the next ones.
+  /// message for the user, as the next one.
   void Keep();
   /// On other ranks: keeps their pieces.
   void KeepPiece();
@@ -64,31 +58,20 @@ public:
   bool IsBefore(const TimeExposure::Instant& instant) const { return this->Step < instant.later; }
   vtkSmartPointer<vtkDataObject> GetData(int port, const TimeExposure::Instant& instant) const;
 
-  /// Says that there are no data at an instant because those before and after it differ.
-  [[noreturn]] void ThrowNoneBetween(
-    const TimeExposure::Instant& instant, const std::string& difference) const;
-
-  /// On other ranks: what they have kept of the step, and of the one before; may be null.
-  vtkDataObject* GetPiece() const { return this->Later[0]; }
-  vtkDataObject* GetEarlierPiece() const { return this->Earlier[0]; }
-
 private:
   static constexpr int Ports = 2;
 
-  void MeetAgain();
+  void SetOwn();
   void Keep(int port, vtkDataObject* data);
 
   vtkAlgorithm* Filter;
-  FilterRanks& Ranks;
+  InputsOfRanks& Ranks;
   vtkInformationVector** Inputs;
   vtkInformationVector* Outputs;
   const TimeExposure& Exposure;
-  const FilterRanks::Part Part;
   const double MaxCells;
-  std::function<std::vector<std::string>()> Arrays; // see FilterRanks::Inputs
-  std::optional<FilterRanks::Meeting> Meeting;
   std::size_t Step = 0;
-  bool IsThere = true;                                         // the data of Step
+  std::string Problem;                                         // of Step
   vtkSmartPointer<vtkDataObject> Earlier[Ports], Later[Ports]; // Later: of Step
 };
 

@@ -3,7 +3,6 @@
 #include "GasBoundary.h"
 
 #include "CoincidentPoints.h"
-#include "DataParts.h"
 #include "LatticeSampling.h"
 #include "OuterFaces.h"
 #include "WeightedMedian.h"
@@ -60,32 +59,6 @@ void GasBoundary::findWindows()
   }
   this->TreeOfWindows = std::make_unique<TriangleTree>(this->Windows);
   this->TreeOfWindows->findPlanes();
-}
-
-GasBoundary::GasBoundary(Reader& message)
-  : Faces{ trianglesFrom(message), { 0 }, {}, {}, Extent::Volume, {}, {} }
-  , Tree(this->Faces.surface)
-  , Walls(message.GetAll<std::vector<unsigned char>>())
-  , Far(message.Get<Place>())
-  , Bodies(message.Get<bool>() ? std::make_unique<BodySurfaces>(message) : nullptr)
-{
-  if (message.Get<bool>())
-  {
-    this->findWindows();
-  }
-}
-
-void GasBoundary::put(std::vector<char>& message) const
-{
-  putTriangles(this->Faces.surface, message);
-  putAll(this->Walls, message);
-  filters::put(this->Far, message);
-  filters::put(this->Bodies != nullptr, message);
-  if (this->Bodies)
-  {
-    this->Bodies->put(message);
-  }
-  filters::put(this->TreeOfWindows != nullptr, message);
 }
 
 bool GasBoundary::isBeyondAll(const Point& place) const

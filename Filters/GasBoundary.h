@@ -17,8 +17,6 @@ class vtkDataSet;
 namespace filters
 {
 
-class Reader;
-
 /// What stops light where the gas ends.
 enum class Outside
 {
@@ -44,9 +42,6 @@ public:
   /// Of faces that were found otherwise.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());
-  /// What put() has written: of another one, what sample() and kindAt() need.
-  explicit GasBoundary(Reader& message);
-  void put(std::vector<char>& message) const;
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 

@@ -27,8 +27,6 @@
 namespace filters
 {
 
-using namespace filters;
-
 namespace
 {
 
@@ -67,7 +65,9 @@ void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
   }
 }
 
-/// The parts of one slot, as few datasets as can be.
+} // namespace
+
+//------------------------------------------------------------------------------
 std::vector<vtkSmartPointer<vtkDataSet>> joined(
   const std::vector<vtkSmartPointer<vtkDataSet>>& parts)
 {
@@ -88,19 +88,6 @@ std::vector<vtkSmartPointer<vtkDataSet>> joined(
                                                                : nullptr;
   }
   return whole ? std::vector<vtkSmartPointer<vtkDataSet>>{ whole } : parts;
-}
-
-} // namespace
-
-//------------------------------------------------------------------------------
-std::vector<char> packedData(vtkDataObject* data, const std::vector<std::string>& arrays)
-{
-  std::vector<char> bytes;
-  for (const Part& part : partsOf(data, arrays))
-  {
-    pack(part, bytes);
-  }
-  return bytes;
 }
 
 //------------------------------------------------------------------------------

@@ -10,18 +10,18 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkDataSet;
 
 namespace filters
 {
 
-/// What a rank sends of its data: points, cells, what hides them, and those arrays of points and cells that are named.
-/// Cells that are copies of other ranks' are left out, but in images, where they may touch. Throws std::runtime_error
-/// where VTK cannot send a type of data.
-std::vector<char> packedData(vtkDataObject* data, const std::vector<std::string>& arrays);
+/// Parts of one dataset, as few datasets as can be: parts of one image or grid, and parts of one mesh, become one again, with
+/// points that are the same to the last bit merged. Cells that are copies become ordinary ones.
+std::vector<vtkSmartPointer<vtkDataSet>> joined(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& parts);
 
-/// The data of several ranks, of each what packedData() has made of it. Parts of one image or grid, and parts of one
-/// mesh, become one again, with points that are the same to the last bit merged; different blocks stay as they are.
-/// Null where there is nothing. Throws std::runtime_error where it is unreadable.
+/// The data of several ranks, of each what pack() has made of its parts. Those of one dataset are joined; different blocks
+/// stay as they are. Null where there is nothing. Throws std::runtime_error where it is unreadable.
 vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>& ofRanks);
 
 } // namespace filters

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "GasBoundary.h"
-#include "HelpedSource.h"
 #include "ImagePiece.h"
 #include "Medium/MediumSource.h"
 #include "WorkProgress.h"
@@ -22,7 +21,7 @@ namespace filters
 /// The refractivity of an image with Bodies in it, box by box, for the tracer. The silhouettes of bodies are where their
 /// surfaces are: as the grid that an image is without them, the medium would be blocked voxel by voxel. Between the image's
 /// points it is the same as in the grid: the quadratic spline (see ImagePiece).
-class ImageSource : public HelpedSource
+class ImageSource : public schlieren::MediumSource
 {
 public:
   /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: not null. Throws
@@ -51,12 +50,6 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
-  std::shared_ptr<const GasBoundary> sharedBoundary() const override { return this->Boundary; }
-  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const override
-  {
-    return this->Piece.sample(lattice);
-  }
-
   vtkSmartPointer<vtkDataObject> Bodies; // in the image's axes; null once the rest is made
   ImagePiece Piece;
   double Ambient;

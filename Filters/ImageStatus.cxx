@@ -42,7 +42,7 @@ std::string speedInWords(double raysPerSecond)
 std::string deviceInWords(const schlieren::Image& image)
 {
   const std::string ranks =
-    image.workers > 0 ? " on each of " + std::to_string(image.workers + 1) + " ranks" : "";
+    image.processes > 1 ? " on each of " + std::to_string(image.processes) + " ranks" : "";
   if (image.device == schlieren::Device::Cuda)
   {
     return "CUDA" + ranks;

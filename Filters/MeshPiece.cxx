@@ -70,49 +70,21 @@ Faces MeshPiece::findFaces() const
   return faces;
 }
 
-/// Of the points of faces. Ranks that have parts of a grid know its points by their places in the whole grid.
-std::vector<PointOfDataset> MeshPiece::pointsOfDatasets(const Faces& faces) const
-{
-  std::vector<std::array<int, 6>> extents;
-  for (vtkDataSet* leaf : this->Leaves)
-  {
-    extents.push_back(extentOf(leaf, false));
-  }
-  std::vector<PointOfDataset> all(faces.points.size());
-  for (std::size_t n = 0; n < all.size(); ++n)
-  {
-    const std::size_t first = faces.firstContributions[n];
-    const Contribution& of = faces.contributions[first];
-    if (faces.firstContributions[n + 1] != first + 1)
-    {
-      continue;
-    }
-    all[n].dataset = this->Datasets.empty() ? of.leaf : this->Datasets[of.leaf];
-    const std::array<int, 6>& extent = extents[of.leaf];
-    if (extent[0] <= extent[1])
-    {
-      constexpr std::uint64_t most = std::uint64_t{ 1 } << 21; // of indices
-      const vtkIdType lengths[2] = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1 };
-      const vtkIdType index[3] = { extent[0] + of.point % lengths[0],
-        extent[2] + of.point / lengths[0] % lengths[1],
-        extent[4] + of.point / lengths[0] / lengths[1] };
-      all[n].point = 0;
-      for (const vtkIdType along : index)
-      {
-        all[n].point = all[n].point * most + (static_cast<std::uint64_t>(along) & (most - 1));
-      }
-    }
-  }
-  return all;
-}
-
 void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const
 {
   const Faces faces = this->findFaces();
   put(BoundaryKind::OfMesh, message);
   putAll(this->Cells.measuredCells(cellsOfAll), message);
   putAll(faces.points, message);
-  putAll(this->pointsOfDatasets(faces), message);
+  std::vector<std::uint32_t> datasets;
+  for (std::size_t n = 0; n < faces.points.size(); ++n)
+  {
+    const std::size_t first = faces.firstContributions[n];
+    datasets.push_back(faces.firstContributions[n + 1] != first + 1
+        ? Contribution::ofSeveral
+        : this->Datasets.at(faces.contributions[first].leaf));
+  }
+  putAll(datasets, message);
   putAll(faces.corners, message);
   putAll(faces.starts, message);
   putAll(faces.owners, message);

@@ -31,29 +31,8 @@ struct PieceMesh
   std::vector<Contribution> contributions;
 };
 
-/// A point of a dataset that several ranks may have parts of.
-struct PointOfDataset
-{
-  std::uint32_t dataset =
-    Contribution::ofSeveral; // the same on all ranks; this: the value is one of several points'
-  std::uint64_t point = nobodyElse;
-
-  static constexpr std::uint64_t nobodyElse = ~std::uint64_t{ 0 }; // no other rank has it
-  struct Hash
-  {
-    std::size_t operator()(const PointOfDataset& of) const
-    {
-      return (of.point ^ of.dataset) * 0x9e3779b97f4a7c15u >> 7;
-    }
-  };
-};
-inline bool operator==(const PointOfDataset& a, const PointOfDataset& b)
-{
-  return a.dataset == b.dataset && a.point == b.point;
-}
-
-/// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them give
-/// the points between them the values and trends that they would have in one mesh.
+/// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them (see
+/// PartsOfRanks) give the points between them the values and trends that they would have in one mesh.
 class MeshPiece : public DataPiece
 {
 public:
@@ -87,7 +66,6 @@ public:
 
 private:
   Faces findFaces() const;
-  std::vector<PointOfDataset> pointsOfDatasets(const Faces& faces) const;
   bool meets(const schlieren::Box& box) const;
 
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;

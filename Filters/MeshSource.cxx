@@ -74,7 +74,6 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
-  , Number(newNumberOfPieces())
 {
 }
 
@@ -88,7 +87,6 @@ MeshSource::MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   , FlatAxis(flatAxis)
   , Ambient(this->Boundary->ambient(pointersTo(leaves)))
   , Bounds(boundsOf(this->Cells, leaves))
-  , Number(mesh.number)
 {
   this->Lattices->beginStep();
 }
@@ -151,22 +149,6 @@ void MeshSource::addField(
   const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const WorkProgress& progress)
 {
   this->Fields.add(leaves, this->Cells.mesh(), progress);
-}
-
-DataPiece::Samples MeshSource::samplesOn(const schlieren::Lattice& lattice) const
-{
-  const auto size = static_cast<std::size_t>(lattice.size());
-  const auto fields = static_cast<std::size_t>(this->fields());
-  DataPiece::Samples samples{ std::vector<unsigned char>(size), std::vector<double>(size),
-    std::vector<double>(fields * size) };
-  CellsOfLattice cells;
-  this->Values.sample(
-    lattice, samples.values.data(), samples.found.data(), fields > 0 ? &cells : nullptr);
-  if (fields > 0)
-  {
-    this->Fields.sample(lattice, cells, samples.fields.data());
-  }
-  return samples;
 }
 
 void MeshSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,

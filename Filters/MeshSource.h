@@ -7,7 +7,6 @@
 #include "FieldsOfMesh.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
-#include "HelpedSource.h"
 #include "LatticesOfMesh.h"
 
 #include "vtkSmartPointer.h"
@@ -32,7 +31,6 @@ struct SourceMesh
   std::shared_ptr<const CellTree::Mesh> cells;
   std::shared_ptr<const GasBoundary> boundary;
   std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
-  std::uint64_t number = 0;                 // of this mesh; what other ranks keep of it has it, too
 };
 
 /// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
@@ -40,7 +38,7 @@ schlieren::Box boundsOf(
   const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
 /// The refractivity of meshes, box by box, for the tracer.
-class MeshSource : public HelpedSource
+class MeshSource : public schlieren::MediumSource
 {
 public:
   /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null. `flatAxis`: -1, or that across which
@@ -54,7 +52,7 @@ public:
     const WorkProgress& progress, int flatAxis = -1);
   SourceMesh mesh() const
   {
-    return { this->Cells.mesh(), this->Boundary, this->Lattices, this->Number };
+    return { this->Cells.mesh(), this->Boundary, this->Lattices };
   }
 
   /// Whether walls without thickness, which are known by values, are the same with the values of these leaves.
@@ -95,10 +93,6 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
-  std::shared_ptr<const GasBoundary> sharedBoundary() const override { return this->Boundary; }
-  DataPiece::Samples samplesOn(const schlieren::Lattice& lattice) const override;
-  std::uint64_t meshNumber() const override { return this->Number; }
-
   std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
   CellTree Cells;
   CellSampler Values;
@@ -107,7 +101,6 @@ private:
   int FlatAxis;
   double Ambient; // NaN: there is no boundary
   schlieren::Box Bounds;
-  std::uint64_t Number; // of the mesh
 
   FieldsOfMesh Fields;
 };

@@ -36,7 +36,7 @@ void BoundaryOfMeshes::add(Reader& reader)
   this->cells.insert(this->cells.end(), measured.begin(), measured.end());
   Faces more;
   more.points = reader.GetAll<std::vector<Point>>();
-  const auto ofDatasets = reader.GetAll<std::vector<PointOfDataset>>();
+  const auto datasets = reader.GetAll<std::vector<std::uint32_t>>();
   more.corners = reader.GetAll<std::vector<std::int32_t>>();
   more.starts = reader.GetAll<std::vector<std::size_t>>();
   more.owners = reader.GetAll<std::vector<Point>>();
@@ -47,13 +47,8 @@ void BoundaryOfMeshes::add(Reader& reader)
   const std::size_t firstCorner = faces.corners.size();
   for (std::size_t n = 0; n < more.points.size(); ++n)
   {
-    const PointOfDataset& of = ofDatasets.at(n);
-    auto value = static_cast<vtkIdType>(faces.points.size());
-    if (of.point != PointOfDataset::nobodyElse)
-    {
-      value = this->known.emplace(of, value).first->second;
-    }
-    faces.contributions.push_back({ of.dataset, value, 1 });
+    faces.contributions.push_back(
+      { datasets.at(n), static_cast<vtkIdType>(faces.points.size()), 1 });
     faces.addPoint(more.points[n]);
   }
   for (const std::int32_t corner : more.corners)
@@ -88,14 +83,6 @@ void BoundaryOfImage::add(Reader& reader)
   this->direction = axes;
   addTriangles(reader, this->faces);
   const auto values = reader.GetAll<std::vector<ImagePiece::OuterValue>>();
-  this->outer.insert(this->outer.end(), values.begin(), values.end());
-}
-
-void BoundaryOfAmr::add(Reader& reader)
-{
-  ++this->parts;
-  addTriangles(reader, this->faces);
-  const auto values = reader.GetAll<std::vector<WeightedValue>>();
   this->outer.insert(this->outer.end(), values.begin(), values.end());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The boundaries of all ranks' pieces, as DataPiece::putBoundary() sends them to rank 0.
+// The boundaries of all ranks' pieces, as DataPiece::putBoundary() sends them to all.
 #pragma once
 
 #include "BoundaryFaces.h"
@@ -9,12 +9,10 @@
 #include "DataParts.h"
 #include "ImagePiece.h"
 #include "MeshPiece.h"
-#include "WeightedMedian.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace filters
@@ -23,11 +21,7 @@ namespace filters
 struct BoundaryOfMeshes
 {
   std::vector<CellTree::MeasuredCell> cells;
-  /// Each contribution is the value that is sent with the point; equal ones are of one point of a dataset. `leaf`: see
-  /// PointOfDataset.
-  Faces faces;
-  std::unordered_map<PointOfDataset, vtkIdType, PointOfDataset::Hash>
-    known; // points that several ranks may have
+  Faces faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
 
   /// Another rank's.
   void add(Reader& reader);
@@ -43,16 +37,6 @@ struct BoundaryOfImage
   std::vector<ImagePiece::OuterValue> outer;
 
   /// Another rank's. Throws std::runtime_error where it has other axes.
-  void add(Reader& reader);
-};
-
-struct BoundaryOfAmr
-{
-  std::size_t parts = 0;
-  BoundaryFaces faces;
-  std::vector<WeightedValue> outer;
-
-  /// Another rank's.
   void add(Reader& reader);
 };
 

@@ -54,11 +54,12 @@ bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
 void vtkSchlierenFilter::Refine()
 {
   Internals& inside = *this->Inside;
-  FilterRanks::Meeting meeting(inside.Ranks, std::nullopt);
+  FilterRanks& ranks = inside.Ranks.ranks();
   bool hasMore = false;
+  ranks.resume();
   if (isRank0())
   {
-    const Internals::WithWorkers withWorkers(inside, this->Medium, meeting, threadsFrom(*this));
+    Internals::WithRanks withRanks(inside);
     const auto work = [&] { hasMore = this->RefineOnRank0(); };
     if (!guarded(work, "", [](const std::string&) {})) // an update begins again, and says it
     {
@@ -66,11 +67,14 @@ void vtkSchlierenFilter::Refine()
       inside.UnfinishedOf = 0;
       hasMore = true;
     }
-    meeting.SetOutcome(hasMore);
+    withRanks.Outcome = { hasMore, inside.HasImage };
   }
   else
   {
-    hasMore = meeting.Serve(threadsFrom(*this), this->Responder());
+    hasMore = ranks
+                .serve(threadsFrom(*this),
+                  [&](const std::vector<char>& request) { return inside.Ranks.answer(request); })
+                .hasMore;
   }
   if (hasMore)
   {
@@ -162,8 +166,8 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     inside.FailedAt != now && inside.Shown[IMAGE_PORT].IsThere() &&
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
-      this->DescribeInputs(inside.Ranks.GetInput(0, this->GetInputDataObject(0, 0)),
-        inside.Ranks.GetInput(
+      this->DescribeInputs(inside.Ranks.gatheredOf(0, this->GetInputDataObject(0, 0)),
+        inside.Ranks.gatheredOf(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
       this->Medium, this->ColorByField) &&
     this->UseOwnRanks();
@@ -328,21 +332,10 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
     while (steps.IsBefore(instant))
     {
       steps.Resume();
-      inside.Images.SetWorkers(steps.GetMeeting().GetWorkers());
-      this->Medium->SetPieceChannels(steps.GetMeeting().GetChannels());
       steps.Keep();
     }
-    if (inside.Ranks.AreInPieces())
+    if (inside.Ranks.areInPieces())
     {
-      const bool isBetween = instant.earlier != instant.later;
-      try
-      {
-        this->Medium->SetInstantOfPieces(isBetween ? instant.ratio : 1);
-      }
-      catch (const std::runtime_error& problem)
-      {
-        steps.ThrowNoneBetween(instant, problem.what());
-      }
       inside.MediumTime = 0; // what is known of the input is the same for all instants
     }
     const auto input = steps.GetData(0, instant);
@@ -448,7 +441,7 @@ bool vtkSchlierenFilter::Show(
   {
     inside.Grid = mediumInWords(image.medium);
     inside.Grid += source->fields() > 0 ? " or of the full colour" : "";
-    inside.Grid += source->isRemote() ? ", of data that stay on their ranks" : "";
+    inside.Grid += source->makers() ? ", of data that stay on their ranks" : "";
     addMedium(output, image.medium);
   }
   addGrid(output, this->GetGrid(), inside.Refractivity->Image);

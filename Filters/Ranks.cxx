@@ -3,128 +3,60 @@
 #include "Ranks.h"
 
 #include "DataParts.h"
-#include "InputDescription.h"
-#include "RanksInternals.h"
+#include "RefractivitySource.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataSet.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkPartitionedDataSet.h"
-#include "vtkPartitionedDataSetCollection.h"
-#include "vtkRectilinearGrid.h"
+#include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkStructuredGrid.h"
-#include "vtkUniformGridAMR.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
-#include <thread>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace filters
 {
-
-using namespace ranks;
 
 namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
-
-constexpr int firstTag = 21300; // a number that nobody else uses
-
-/// How long a rank waits for others that may not come: they read about as much as it has, or nothing.
-constexpr double secondsForInputs = 10;
-constexpr double partsOfOwnTime = 10;
-constexpr double secondsWithout = 2; // where nothing upstream runs
-
 /// Null where there is one process.
 vtkMultiProcessController* controllerOfRanks()
 {
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-  auto* controller =
-    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
-#else
-  return nullptr;
-#endif
 }
 
-/// Whether ranks may have pieces of such data that stay, as far as is known before there are any.
-bool isDivisible(vtkInformation* inInfo, double maxCells)
+/// What an attempt has come to.
+enum class Attempt : char
 {
-  vtkDataObject* data = vtkDataObject::GetData(inInfo);
-  if (vtkImageData::SafeDownCast(data) && inInfo->Has(Pipeline::WHOLE_EXTENT()))
-  {
-    const int* whole = inInfo->Get(Pipeline::WHOLE_EXTENT());
-    double cells = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      cells *= whole[2 * axis + 1] - whole[2 * axis]; // 0: it is flat
-    }
-    return cells > cellsOfImageForOne * maxCells;
-  }
-  return vtkUnstructuredGrid::SafeDownCast(data) || vtkRectilinearGrid::SafeDownCast(data) ||
-    vtkStructuredGrid::SafeDownCast(data) || vtkMultiBlockDataSet::SafeDownCast(data) ||
-    vtkPartitionedDataSetCollection::SafeDownCast(data) ||
-    vtkPartitionedDataSet::SafeDownCast(data) || vtkUniformGridAMR::SafeDownCast(data);
-}
+  Done,
+  Failed,
+  Lacking // arrays
+};
 
-void requestPiece(vtkInformation* inInfo, int piece, int pieces)
-{
-  if (inInfo->Has(Pipeline::WHOLE_EXTENT()) &&
-    isGrid(vtkDataSet::SafeDownCast(vtkDataObject::GetData(inInfo))))
-  {
-    // VTK divides it by the piece.
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
-  }
-  else
-  {
-    // Others may have the key, too, from images upstream.
-    inInfo->Remove(Pipeline::UPDATE_EXTENT());
-  }
-  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-}
+/// MPI counts by integers.
+constexpr vtkIdType mostAtOnce = vtkIdType{ 1 } << 30;
+
+/// Of requests, beside those for a RayWorker and those that a filter answers.
+constexpr std::uint32_t endOfWork = 1;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isRank0()
 {
   vtkMultiProcessController* controller = controllerOfRanks();
   return !controller || controller->GetLocalProcessId() == 0;
 }
 
-//------------------------------------------------------------------------------
 bool hasOtherRanks() { return controllerOfRanks() != nullptr; }
 
-//------------------------------------------------------------------------------
-bool haveOthersCores(int threads)
-{
-  if (!hasOtherRanks())
-  {
-    return false;
-  }
-  bool isAloneOnMachine = false;
-  for (const char* name : { "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS" }) // Open MPI, MPICH
-  {
-    const char* const ranks = std::getenv(name);
-    isAloneOnMachine = isAloneOnMachine || (ranks && std::string(ranks) == "1");
-  }
-  return isAloneOnMachine || threads < static_cast<int>(std::thread::hardware_concurrency());
-}
-
-//------------------------------------------------------------------------------
 void setComplete(vtkInformationVector* outputs)
 {
   for (int port = 0; hasOtherRanks() && port < outputs->GetNumberOfInformationObjects(); ++port)
@@ -139,339 +71,296 @@ void setComplete(vtkInformationVector* outputs)
   }
 }
 
-//------------------------------------------------------------------------------
-FilterRanks::FilterRanks() = default;
-FilterRanks::~FilterRanks() = default;
-
-//------------------------------------------------------------------------------
-void FilterRanks::Note(vtkAlgorithm* filter, vtkInformation* request)
+void requestPiece(vtkInformation* inInfo)
 {
-  if (request->Has(Pipeline::REQUEST_DATA_OBJECT()))
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT()) &&
+    isGrid(vtkDataSet::SafeDownCast(vtkDataObject::GetData(inInfo))))
   {
-    this->CountChanges(filter);
-    this->WatchUpstream(filter);
-  }
-  else if (request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
-  {
-    this->WatchUpstream(filter);
-  }
-  else if (request->Has(Pipeline::REQUEST_DATA()))
-  {
-    this->Upstream.Ignore(); // it comes, whatever it has
-  }
-}
-
-//------------------------------------------------------------------------------
-void FilterRanks::WatchUpstream(vtkAlgorithm* filter)
-{
-  if (!this->Inside)
-  {
-    return;
-  }
-  this->Upstream.Watch(filter,
-    [this](const std::string& name)
-    {
-      for (const auto& channel : this->Inside->Channels)
-      {
-        channel->send(this->FailureOf(name));
-      }
-    });
-}
-
-//------------------------------------------------------------------------------
-std::vector<char> FilterRanks::FailureOf(const std::string& name) const
-{
-  FailsMessage message;
-  message.changes = this->Now.changes;
-  message.timeStep = this->Now.timeStep;
-  name.copy(message.name, sizeof(message.name) - 1);
-  return messageOf(message);
-}
-
-//------------------------------------------------------------------------------
-void FilterRanks::CountChanges(vtkAlgorithm* filter)
-{
-  vtkMultiProcessController* controller = controllerOfRanks();
-  if (!this->Inside && controller)
-  {
-    // All ranks run their filters in the same order.
-    static int filters = 0;
-    constexpr int most = 5700; // all tags are below 32768, which MPI grants
-    this->Inside =
-      std::make_unique<Others>(controller, firstTag + Others::Tags * (filters++ % most));
-  }
-  const vtkMTimeType time = upstreamTime(filter);
-  if (this->Now.changes == 0 || time > this->CountedAt.GetMTime())
-  {
-    ++this->Now.changes;
-    this->CountedAt.Modified();
-    this->SetTooFew(std::numeric_limits<double>::infinity());
-  }
-}
-
-//------------------------------------------------------------------------------
-void FilterRanks::RequestData(vtkInformation* inInfo, Part part, double maxCells) const
-{
-  vtkMultiProcessController* controller = controllerOfRanks();
-  if (part == Part::Piece && maxCells < this->TooFew && controller && isDivisible(inInfo, maxCells))
-  {
-    requestPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
-    return;
-  }
-  const bool isWanted = isRank0();
-  if (inInfo->Has(Pipeline::WHOLE_EXTENT()))
-  {
-    const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
-    inInfo->Set(
-      Pipeline::UPDATE_EXTENT(), isWanted ? inInfo->Get(Pipeline::WHOLE_EXTENT()) : nothing, 6);
+    // VTK divides it by the piece.
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
   }
   else
   {
-    // The pipeline has put the image's there, which blocks would hand on to images upstream.
+    // Others may have the key, too, from images upstream.
     inInfo->Remove(Pipeline::UPDATE_EXTENT());
   }
-  // A piece that is out of range is empty, as VTK has it. Many sources divide by the number of pieces, so
-  // that it cannot be 0; and those that do not check the piece find nothing where it is larger than what
-  // they divide.
-  constexpr int manyPieces = 1 << 15;
-  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), isWanted ? 0 : manyPieces);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), isWanted ? 1 : manyPieces);
+  vtkMultiProcessController* controller = controllerOfRanks();
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), controller ? controller->GetLocalProcessId() : 0);
+  inInfo->Set(
+    Pipeline::UPDATE_NUMBER_OF_PIECES(), controller ? controller->GetNumberOfProcesses() : 1);
   inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
-//------------------------------------------------------------------------------
-bool FilterRanks::Request(
-  vtkAlgorithm* filter, vtkInformationVector** inputs, Part part, double maxCells)
+void requestPieces(vtkAlgorithm* filter, vtkInformationVector** inputs)
 {
-  part = maxCells >= this->TooFew ? Part::All : part;
-  this->RequestedAt = Clock::now();
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
-    vtkInformation* inInfo = inputs[port]->GetInformationObject(0);
-    if (!inInfo)
+    if (vtkInformation* inInfo = inputs[port]->GetInformationObject(0))
     {
-      continue;
+      requestPiece(inInfo);
     }
-    if (inInfo->Has(Pipeline::UPDATE_TIME_STEP()))
-    {
-      this->Now.timeStep = inInfo->Get(Pipeline::UPDATE_TIME_STEP());
-    }
-    this->RequestData(inInfo, port == 0 ? part : Part::All, maxCells);
   }
-  if (part != this->RequestedPart)
-  {
-    ++this->Now.changes; // all ranks have the same properties
-    this->RequestedPart = part;
-  }
-  const bool isAnother = !(this->Requested == this->Now);
-  this->Requested = this->Now;
-  return isAnother;
 }
 
-//------------------------------------------------------------------------------
-FilterRanks::Meeting::Meeting(FilterRanks& ranks, const std::optional<Inputs>& inputs)
-  : Of(ranks)
-  , Own(inputs)
+Ranks::Bytes attempted(const std::function<Ranks::Bytes()>& make)
 {
-  if (!this->Of.Inside)
+  Ranks::Bytes bytes;
+  const auto fail = [&](Attempt how, const std::string& text)
+  {
+    bytes.clear();
+    put(how, bytes);
+    put(text.data(), text.size(), bytes);
+  };
+  try
+  {
+    bytes = make();
+    bytes.push_back(static_cast<char>(Attempt::Done)); // behind, so that nothing is moved
+    return bytes;
+  }
+  catch (const ArraysMissing& problem)
+  {
+    fail(Attempt::Lacking, problem.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    fail(Attempt::Failed,
+      "There is not enough memory for a rank's part of the work. Use more nodes or a coarser input.");
+  }
+  catch (const std::exception& problem)
+  {
+    fail(Attempt::Failed, problem.what());
+  }
+  std::rotate(bytes.begin(), bytes.begin() + 1, bytes.end());
+  return bytes;
+}
+
+std::vector<Ranks::Bytes> resultsOf(std::vector<Ranks::Bytes> attempts)
+{
+  std::string failed, lacking;
+  for (Ranks::Bytes& bytes : attempts)
+  {
+    const auto how = static_cast<Attempt>(bytes.back());
+    bytes.pop_back();
+    std::string& text = how == Attempt::Lacking ? lacking : failed;
+    if (how != Attempt::Done && text.empty())
+    {
+      text.assign(bytes.begin(), bytes.end());
+    }
+  }
+  if (!failed.empty())
+  {
+    throw std::runtime_error(failed);
+  }
+  if (!lacking.empty())
+  {
+    throw ArraysMissing(lacking);
+  }
+  return attempts;
+}
+
+Ranks::Ranks()
+  : Controller(controllerOfRanks())
+{
+}
+
+std::size_t Ranks::count() const
+{
+  return this->Controller ? static_cast<std::size_t>(this->Controller->GetNumberOfProcesses()) : 1;
+}
+
+std::size_t Ranks::rank() const
+{
+  return this->Controller ? static_cast<std::size_t>(this->Controller->GetLocalProcessId()) : 0;
+}
+
+std::vector<Ranks::Bytes> Ranks::allGather(const std::function<Bytes()>& make) const
+{
+  Bytes own = attempted(make);
+  if (!this->Controller)
+  {
+    return resultsOf({ std::move(own) });
+  }
+  Bytes together;
+  for (const Bytes& one : this->gather(own, 0))
+  {
+    putAll(one, together);
+  }
+  this->broadcast(together);
+  Reader reader(together);
+  std::vector<Bytes> all;
+  while (!reader.IsAtEnd())
+  {
+    all.push_back(reader.GetAll<Bytes>());
+  }
+  return resultsOf(std::move(all));
+}
+
+void Ranks::agree(const std::function<void()>& work) const
+{
+  this->allGather(
+    [&]
+    {
+      work();
+      return Bytes();
+    });
+}
+
+std::vector<Ranks::Bytes> Ranks::gather(const Bytes& own, std::size_t root) const
+{
+  if (!this->Controller)
+  {
+    return { own };
+  }
+  const std::size_t count = this->count();
+  const int to = static_cast<int>(root);
+  const auto size = static_cast<vtkIdType>(own.size());
+  std::vector<vtkIdType> sizes(count);
+  this->Controller->AllGather(&size, sizes.data(), 1);
+  std::vector<Bytes> all;
+  if (this->rank() == root)
+  {
+    for (const vtkIdType of : sizes)
+    {
+      all.emplace_back().reserve(static_cast<std::size_t>(of));
+    }
+  }
+  const vtkIdType each = mostAtOnce / static_cast<vtkIdType>(count);
+  const vtkIdType longest = *std::max_element(sizes.begin(), sizes.end());
+  Bytes received;
+  for (vtkIdType first = 0; first < longest; first += each)
+  {
+    std::vector<vtkIdType> lengths, offsets{ 0 };
+    for (const vtkIdType of : sizes)
+    {
+      lengths.push_back(std::clamp<vtkIdType>(of - first, 0, each));
+      offsets.push_back(offsets.back() + lengths.back());
+    }
+    received.resize(this->rank() == root ? static_cast<std::size_t>(offsets.back()) : 0);
+    this->Controller->GatherV(own.data() + std::min(first, size), received.data(),
+      lengths[this->rank()], lengths.data(), offsets.data(), to);
+    for (std::size_t n = 0; n < all.size(); ++n)
+    {
+      all[n].insert(all[n].end(), received.begin() + offsets[n], received.begin() + offsets[n + 1]);
+    }
+  }
+  return all;
+}
+
+void Ranks::broadcast(Bytes& bytes) const
+{
+  if (!this->Controller)
   {
     return;
   }
-  const bool areNew = inputs && !(this->Of.Compared == this->Of.Now);
-  const Clock::time_point now = Clock::now();
-  const double ownTime = Seconds(now - this->Of.RequestedAt).count();
-  const double limit = areNew ? secondsForInputs + partsOfOwnTime * ownTime : secondsWithout;
-  const Clock::time_point end = now + std::chrono::duration_cast<Clock::duration>(Seconds(limit));
-  if (areNew)
+  auto size = static_cast<vtkIdType>(bytes.size());
+  this->Controller->Broadcast(&size, 1, 0);
+  bytes.resize(static_cast<std::size_t>(size));
+  for (vtkIdType first = 0; first < size; first += mostAtOnce)
   {
-    this->Of.CountedAt.Modified(); // what is upstream has run, and may have modified itself
-  }
-  if (isRank0())
-  {
-    this->WaitForOthers(end);
-    return;
-  }
-  if (areNew)
-  {
-    this->Of.Compared = this->Of.Now;
-  }
-  this->WaitForRank0(end);
-}
-
-//------------------------------------------------------------------------------
-bool FilterRanks::Meeting::HasFailed(const ranks::RankChannel& channel) const
-{
-  return channel.Failure && isOf(this->Of.Now, *channel.Failure);
-}
-
-//------------------------------------------------------------------------------
-void FilterRanks::Meeting::WaitForOthers(Clock::time_point end)
-{
-  for (const auto& channel : this->Of.Inside->Channels)
-  {
-    channel->Poll();
-    while (!channel->Greeting && !this->HasFailed(*channel) && Clock::now() < end)
-    {
-      waitABit();
-      channel->Poll();
-    }
-    channel->Close(); // to what is left of meetings before
-    channel->Guest = std::exchange(channel->Greeting, std::nullopt);
-    if (channel->isOpen())
-    {
-      channel->send(messageOf(ShortMessage{ Begin, channel->Guest->meeting }));
-    }
+    this->Controller->Broadcast(bytes.data() + first, std::min(mostAtOnce, size - first), 0);
   }
 }
 
-//------------------------------------------------------------------------------
-void FilterRanks::Meeting::WaitForRank0(Clock::time_point end)
+FilterRanks::FilterRanks()
+  : Worker(static_cast<int>(this->All.rank()), static_cast<int>(this->All.count()))
 {
-  RankChannel& channel = *this->Of.Inside->Channels[0];
-  const int meeting = ++this->Of.Inside->Meetings;
-  HelloMessage hello;
-  hello.meeting = meeting;
-  hello.changes = this->Of.Now.changes;
-  hello.timeStep = this->Of.Now.timeStep;
-  if (this->Own)
-  {
-    hello.inputs = inputsOfRank(this->Own->data, this->Own->bodies);
-  }
-  channel.send(messageOf(hello));
-  while (!this->HasMet)
-  {
-    while (!channel.hasMessage() && !this->HasFailed(channel) && Clock::now() < end)
-    {
-      waitABit();
-    }
-    if (!channel.hasMessage())
-    {
-      channel.Failure.reset();
-      channel.send(messageOf(ShortMessage{ Leave, 0 }));
-      return;
-    }
-    const auto message = read<ShortMessage>(channel.receive()); // or of a meeting before
-    this->HasMet = message.kind == Begin && message.number == meeting;
-  }
 }
 
-//------------------------------------------------------------------------------
-FilterRanks::Meeting::~Meeting()
+bool FilterRanks::begin(
+  const std::vector<double>& description, const std::string& problem, bool isWanted)
 {
-  if (!this->Of.Inside)
+  if (!this->areSeveral())
   {
-    return;
-  }
-  if (!isRank0())
-  {
-    if (this->HasMet && std::uncaught_exceptions() > 0) // rank 0 would wait for an answer
+    if (!problem.empty())
     {
-      this->Of.Inside->Channels[0]->send(messageOf(ShortMessage{ Leave, 0 }));
+      throw std::runtime_error(problem);
     }
-    return;
+    return isWanted;
   }
-  for (const auto& channel : this->Of.Inside->Channels)
-  {
-    if (channel->isOpen())
+  std::vector<Ranks::Bytes> all = this->All.allGather(
+    [&]
     {
-      channel->send(messageOf(EndMessage{ End, this->Outcome, this->HasImage.value_or(false) }));
-    }
-    else // if it comes yet, it need not wait for another meeting
-    {
-      channel->send(this->Of.FailureOf("the meeting"));
-    }
-  }
-  for (const auto& channel : this->Of.Inside->Channels)
-  {
-    // What it has yet to send of what has failed here it could not send later, and would wait for ever.
-    channel->ReceiveOne(Ended);
-    channel->Close();
-    channel->Failure.reset();
-  }
-}
-
-//------------------------------------------------------------------------------
-bool FilterRanks::Meeting::Serve(int threads, const Responder& respond)
-{
-  while (this->HasMet)
-  {
-    if (const std::optional<bool> outcome = this->ServeOnce(threads, respond))
-    {
-      return *outcome;
-    }
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
-std::optional<bool> FilterRanks::Meeting::ServeOnce(int threads, const Responder& respond)
-{
-  RankChannel& channel = *this->Of.Inside->Channels[0];
-  if (!channel.hasMessage())
-  {
-    waitABit();
-    return {};
-  }
-  std::optional<std::vector<char>> message = channel.TakeRequest();
-  if (!message)
-  {
-    return {};
-  }
-  const auto head = read<ShortMessage>(*message);
-  switch (head.kind)
-  {
-    case GiveData:
-      channel.send(dataMessage(head.number, *this->Own));
-      return {};
-    case End:
-    {
-      const auto end = read<EndMessage>(*message);
-      this->HasImage = end.hasImage != 0;
-      channel.send(messageOf(ShortMessage{ Ended, 0 }));
-      return end.outcome != 0;
-    }
-    default:
-      break;
-  }
-  std::vector<char> response = respond ? respond(*message) : std::vector<char>();
-  if (!response.empty())
-  {
-    channel.send(std::move(response));
-    return {};
-  }
-  this->Of.Inside->Worker.answer(std::move(*message), channel, threads);
-  return {};
-}
-
-//------------------------------------------------------------------------------
-std::vector<schlieren::Channel*> FilterRanks::Meeting::GetWorkers() const
-{
-  std::vector<schlieren::Channel*> workers;
-  if (this->Of.Inside)
-  {
-    for (const auto& channel : this->Of.Inside->Channels)
-    {
-      if (channel->isOpen())
+      if (!problem.empty() && isWanted)
       {
-        workers.push_back(channel.get());
+        throw std::runtime_error(problem);
       }
-    }
+      Ranks::Bytes own;
+      if (this->All.rank() == 0)
+      {
+        put(isWanted, own);
+      }
+      putAll(description, own);
+      return own;
+    });
+  const bool isWantedByAll = Reader(all[0]).Get<bool>();
+  all[0].erase(all[0].begin());
+  if (all != this->Descriptions)
+  {
+    this->Descriptions = std::move(all);
+    ++this->Version;
   }
-  return workers;
+  this->IsAtWork = isWantedByAll;
+  return isWantedByAll;
 }
 
-//------------------------------------------------------------------------------
-std::vector<schlieren::Channel*> FilterRanks::Meeting::GetChannels() const
+std::vector<std::vector<char>> FilterRanks::request(
+  const std::vector<char>& message, const std::function<void()>& meanwhile)
 {
-  std::vector<schlieren::Channel*> channels;
-  if (this->Of.Inside)
+  if (!this->IsAtWork)
   {
-    for (const auto& channel : this->Of.Inside->Channels)
-    {
-      channels.push_back(channel->isOpen() ? channel.get() : nullptr);
-    }
+    throw std::runtime_error("The other ranks do not work for this filter. Update it again.");
   }
-  return channels;
+  Ranks::Bytes bytes = message;
+  this->All.broadcast(bytes);
+  const Ranks::Bytes own = attempted(
+    [&]
+    {
+      if (meanwhile)
+      {
+        meanwhile();
+      }
+      return Ranks::Bytes();
+    });
+  std::vector<Ranks::Bytes> answers = resultsOf(this->All.gather(own, 0));
+  answers.erase(answers.begin());
+  return answers;
+}
+
+FilterRanks::Outcome FilterRanks::serve(int threads, const Answer& answer)
+{
+  for (;;)
+  {
+    Ranks::Bytes request;
+    this->All.broadcast(request);
+    const std::uint32_t kind = schlieren::RayWorker::kindOf(request);
+    if (kind == endOfWork)
+    {
+      Reader reader(request);
+      reader.Get<std::uint32_t>();
+      this->IsAtWork = false;
+      return reader.Get<Outcome>();
+    }
+    this->All.gather(attempted(
+                       [&]
+                       {
+                         return schlieren::RayWorker::isFor(kind)
+                           ? this->Worker.answer(request, threads)
+                           : answer(request);
+                       }),
+      0);
+  }
+}
+
+void FilterRanks::end(const Outcome& outcome)
+{
+  if (this->areSeveral() && this->IsAtWork)
+  {
+    Ranks::Bytes message;
+    put(endOfWork, message);
+    put(outcome, message);
+    this->All.broadcast(message);
+  }
+  this->IsAtWork = false;
 }
 
 } // namespace filters

@@ -5,18 +5,16 @@
 
 #include "AmrSource.h"
 #include "ArrayChoice.h"
-#include "ChannelRanks.h"
+#include "BodyTriangles.h"
 #include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "FlatData.h"
 #include "GasChoices.h"
 #include "ImageSource.h"
 #include "InputDescription.h"
+#include "InputsOfRanks.h"
 #include "OneLayer.h"
-#include "PiecesSource.h"
 #include "PreparedLeaves.h"
-#include "Ranks.h"
-#include "BodyTriangles.h"
 #include "Revolution.h"
 #include "RevolvedSource.h"
 #include "SamplingBox.h"
@@ -29,14 +27,12 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
-#include "Rays/RayWorker.h"
 #include "Schlieren.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <deque>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -105,7 +101,8 @@ void filters::addText(std::string& text, const std::string& more)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies)
+bool vtkRefractiveIndex::CanMakeSource(
+  vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
 {
   // Whether cells are one layer is of no effect here but in images, of which it is found at once, and with Symmetry.
   static const Source asTheyAre;
@@ -120,7 +117,7 @@ bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodi
   const int flat = flatAxisOf(source); // throws where there is no volume and no plane
   if (this->WantsGrid() || source.image)
   {
-    return flat < 0 && bodies;
+    return flat < 0 && (bodies || (imagesToo && !this->WantsGrid()));
   }
   return true;
 }
@@ -155,7 +152,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfI
       forFieldImages(this, input, refractivity, threads,
         [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
     }
-    made->setHelpers(this->Pieces);
     progress.reach(1);
   };
   try
@@ -260,8 +256,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfC
         bringToCells(field);
         made->addField(*levels, field.source);
       }
-      made->setHelpers(this->Pieces);
-      take(made);
+        take(made);
       return;
     }
     if (flat >= 0)
@@ -310,7 +305,6 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfC
       made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
         progress.part(begunAt(number), begunAt(number + 1)));
     }
-    made->setHelpers(this->Pieces);
     take(made);
   };
   try
@@ -349,146 +343,40 @@ bool vtkRefractiveIndex::CanUsePieces()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceChannels(std::vector<schlieren::Channel*> channels)
-{
-  this->Pieces->SetChannels(std::move(channels));
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetHelp(bool help) { this->Pieces->SetHelp(help); }
-
-//------------------------------------------------------------------------------
-bool vtkRefractiveIndex::UseSource(const schlieren::MediumSource* source)
-{
-  const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
-  this->HasPieces = this->HasPieces || (source && source->isRemote());
-  return !ofRanks || ofRanks->useRanks(this->Pieces);
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractiveIndex::UsesSource(const schlieren::MediumSource* source)
-{
-  const auto* ofRanks = dynamic_cast<const SourceOfRanks*>(source);
-  return !ofRanks || ofRanks->usesRanks(*this->Pieces);
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::ShareArrays(vtkDataObject* own)
-{
-  if (!hasOtherRanks() || !isOpen(this))
-  {
-    return;
-  }
-  ChannelRanks& pieces = *this->Pieces;
-  try
-  {
-    std::vector<std::vector<char>> requests(pieces.Count(), pieceRequest(PieceWorker::GiveArrays));
-    requests[0].clear();
-    std::vector<FlowArray> all = flowArraysOf(dataSetsOf(own), true);
-    const auto answers = pieces.Request(std::move(requests));
-    std::deque<Reader> readers = readersOf(answers);
-    for (Reader& reader : readers)
-    {
-      addArrays(all, getArrays(reader));
-    }
-    std::vector<char> message = pieceRequest(PieceWorker::TakeArrays);
-    putArrays(all, message);
-    requests.assign(pieces.Count(), message);
-    requests[0].clear();
-    pieces.Request(std::move(requests));
-    this->Known->SetOfRanks(std::move(all));
-  }
-  catch (const std::runtime_error&)
-  {
-    // A rank has not come, which whoever gathers the data reports.
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::ReleasePieces()
-{
-  if (std::exchange(this->HasPieces, false))
-  {
-    *this->MeshOfPieces = {};
-    ChannelRanks& pieces = *this->Pieces;
-    try
-    {
-      pieces.Request(
-        std::vector<std::vector<char>>(pieces.Count(), pieceRequest(PieceWorker::Forget)));
-    }
-    catch (const std::runtime_error&)
-    {
-      // A rank has not come. It forgets its piece when the next one is made.
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetPieceData(vtkDataObject* data, vtkDataObject* earlier)
-{
-  this->Pieces->GetOwn().SetData(data, earlier);
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::SetInstantOfPieces(double ratio)
-{
-  std::vector<char> request = pieceRequest(PieceWorker::Instant);
-  put(ratio, request);
-  ChannelRanks& pieces = *this->Pieces;
-  std::vector<std::vector<char>> requests(pieces.Count(), request);
-  requests[0].clear();
-  readersOf(pieces.Request(std::move(requests))); // throws what has gone wrong
-}
-
-//------------------------------------------------------------------------------
-std::vector<char> vtkRefractiveIndex::RespondForPiece(const std::vector<char>& message)
-{
-  return PieceWorker::IsFor(schlieren::RayWorker::kindOf(message))
-    ? this->Pieces->GetOwn().Respond(message)
-    : std::vector<char>();
-}
-
-//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfPieces(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents)
+  InputsOfRanks& inputs, vtkDataObject* bodies, std::string& warning, SourceContents contents,
+  int instant)
 {
   this->Grid.clear();
   this->FlatAxis = -1;
   this->LeaveMesh();
-  this->SetPieceData(input);
-  this->HasPieces = true;
-  std::shared_ptr<PiecesSource> made;
+  MadeOverRanks made;
   try
   {
-    vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
-      [&]
-      {
-        made = std::make_shared<PiecesSource>(this->Pieces, bodies,
-          static_cast<filters::Outside>(this->Outside), contents == WITH_FIELDS,
-          *this->MeshOfPieces, progressOf(this));
-        *this->MeshOfPieces = made->mesh();
-      });
+    made = inputs.make(bodies, contents == WITH_FIELDS, instant);
   }
-  catch (const Stopped&)
+  catch (const std::runtime_error&)
   {
-    this->SetPieceData(nullptr);
-    return nullptr;
+    if (this->GetAbortExecute())
+    {
+      return nullptr;
+    }
+    throw;
   }
-  this->SetPieceData(nullptr);
   Source source;
   source.model = modelFrom(this);
   source.noteOnGases = noteOnGases(this);
-  source.label = made->label();
-  if (!made->hasGas())
+  source.label = made.label;
+  if (!made.hasGas)
   {
     throw std::runtime_error(noGas(source));
   }
-  warning = warningFrom(source.model, made->tally());
-  if (bodies && !made->meetsBodies())
+  warning = warningFrom(source.model, made.tally);
+  if (bodies && !made.meetsBodies)
   {
     addText(warning, bodiesAreOutside);
   }
   addText(warning, this->NewNoteOnValues(source));
   addText(warning, this->NewNoteOnGases(source));
-  return made;
+  return made.source;
 }

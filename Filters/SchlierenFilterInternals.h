@@ -4,7 +4,7 @@
 
 #include "ExposureSteps.h"
 #include "LastImage.h"
-#include "Ranks.h"
+#include "InputsOfRanks.h"
 #include "RequestGuard.h"
 #include "RgbImages.h"
 #include "SceneFromSettings.h"
@@ -31,37 +31,37 @@
 /// What vtkSchlierenFilter keeps between updates.
 struct vtkSchlierenFilter::Internals
 {
-  /// The other ranks answer for their pieces, help with the medium and trace rays while this is there.
-  class WithWorkers
+  explicit Internals(vtkRefractiveIndex* medium)
+    : Ranks(medium)
+  {
+  }
+
+  /// The other ranks work for rank 0 while this is there.
+  class WithRanks
   {
   public:
-    /// `threads`: of this rank; 0: as many as cores.
-    WithWorkers(Internals& internals, vtkRefractiveIndex* medium,
-      const filters::FilterRanks::Meeting& meeting, int threads)
+    explicit WithRanks(Internals& internals)
       : Of(internals)
-      , Medium(medium)
     {
-      this->Medium->SetPieceChannels(meeting.GetChannels());
-      this->Medium->SetHelp(
-        filters::haveOthersCores(threads > 0 ? threads : schlieren::coresOfProcess()));
-      this->Of.Images.SetWorkers(meeting.GetWorkers());
+      filters::FilterRanks& ranks = this->Of.Ranks.ranks();
+      this->Of.Images.SetProcesses(ranks.areSeveral() ? &ranks : nullptr);
     }
-    ~WithWorkers()
+    ~WithRanks()
     {
-      this->Of.Images.SetWorkers({});
-      this->Medium->SetHelp(false);
-      this->Medium->SetPieceChannels({});
+      this->Of.Images.SetProcesses(nullptr);
+      this->Of.Ranks.ranks().end(this->Outcome);
     }
-    WithWorkers(const WithWorkers&) = delete;
-    WithWorkers& operator=(const WithWorkers&) = delete;
+    WithRanks(const WithRanks&) = delete;
+    WithRanks& operator=(const WithRanks&) = delete;
+
+    filters::FilterRanks::Outcome Outcome{ false, false };
 
   private:
     Internals& Of;
-    vtkRefractiveIndex* Medium;
   };
 
   filters::RequestGuard Guard;
-  filters::FilterRanks Ranks;
+  filters::InputsOfRanks Ranks;
   filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output
   filters::RgbImageReader RgbImages;
@@ -110,7 +110,8 @@ struct vtkSchlierenFilter::Internals
   bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // of the last update; unset for data without time steps
 
-  bool IsExposing = false;        // an exposure is being made
+  bool IsExposing = false; // an exposure is being made
+  std::optional<double> RequestedTime;
   filters::TimeExposure Exposure; // of the last request
   std::size_t Instant = 0;        // of these, the one that is being made
   // The image of its first instant, whose k and surroundings, and place, are those of all others.

@@ -6,6 +6,7 @@
 #include "FieldTints.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
+#include "RefractiveIndexInternals.h"
 #include "RefractivitySource.h"
 #include "SceneFromSettings.h"
 
@@ -54,13 +55,25 @@ void addBodies(std::vector<double>& description, vtkAlgorithm* filter, vtkDataOb
 //------------------------------------------------------------------------------
 std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtkDataObject* bodies)
 {
-  const FilterRanks& ranks = this->Inside->Ranks;
+  InputsOfRanks& ranks = this->Inside->Ranks;
   // A source that makes less than was requested, as those that spread their data do, runs at each update.
   std::vector<double> description =
-    describeInput(ranks.AreInPieces() ? nullptr : input, upstreamTime(this, 0));
-  description.push_back(ranks.AreInPieces() ? ranks.GetGatherings() : 0); // of what others have
+    describeInput(ranks.areInPieces() ? nullptr : input, upstreamTime(this, 0));
+  description.push_back(ranks.areInPieces() ? ranks.ranks().version() : 0); // of what others have
+  description.push_back(this->IsLargeImage(input));
   addBodies(description, this, bodies);
   return description;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::IsLargeImage(vtkDataObject* input) const
+{
+  auto* image = vtkImageData::SafeDownCast(input);
+  const double bytes = image ? static_cast<double>(image->GetNumberOfPoints()) *
+      (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float))
+                             : 0;
+  return this->PathModel != DIFFERENCE &&
+    bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
 
 //------------------------------------------------------------------------------
@@ -130,28 +143,26 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UseOwnRanks()
 {
-  const schlieren::MediumSource* source = this->Inside->Refractivity->Source.get();
-  return !hasOtherRanks() || this->Medium->UsesSource(source) || this->Medium->UseSource(source);
+  return this->Inside->Ranks.use(this->Inside->Refractivity->Source.get());
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
-  const bool arePieces = this->Inside->Ranks.AreInPieces();
-  if (arePieces &&
-    this->Inside->IsExposing) // only this filter's ranks have what is between time steps
+  const bool arePieces = this->Inside->Ranks.areInPieces();
+  if (arePieces && this->Inside->IsExposing) // only this filter's ranks have what is between time steps
   {
     return this->MakeRefractivity(input, bodies);
   }
   RefractivityKey key = keyOf(this->Medium, input, bodies,
     arePieces ? this->DescribePieces(input, bodies) : description, this->ColorByField);
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
-  if (found && (!hasOtherRanks() || this->Medium->UseSource(found->Source.get())))
+  if (found && this->Inside->Ranks.use(found->Source.get()))
   {
     if (!arePieces)
     {
-      this->Medium->ReleasePieces();
+      this->Inside->Ranks.release();
     }
     this->Medium->SetMesh(found->Mesh);
     return found;
@@ -168,20 +179,27 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies)
 {
-  const Internals& inside = *this->Inside;
+  Internals& inside = *this->Inside;
   auto made = std::make_shared<MadeRefractivity>();
   const auto contents =
     this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
-  if (inside.Ranks.AreInPieces())
+  if (inside.Ranks.areInPieces())
   {
-    made->Source = this->Medium->MakeSourceOfPieces(input, bodies, made->Warning, contents);
+    made->Source = this->Medium->MakeSourceOfPieces(inside.Ranks, bodies, made->Warning, contents,
+      inside.IsExposing ? static_cast<int>(inside.Instant) : -1);
   }
   else
   {
-    this->Medium->ReleasePieces();
-    if (this->Medium->CanMakeSource(input, bodies))
+    inside.Ranks.release();
+    if (this->Medium->CanMakeSource(input, bodies, this->IsLargeImage(input)))
     {
       made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
+      if (this->IsLargeImage(input) && !bodies)
+      {
+        addText(made->Warning,
+          "The image's own grid would take more than MediumMemory, so its medium is a tree within "
+          "MediumTolerance. Set MediumMemory higher for its own grid.");
+      }
     }
   }
   if (!made->Source && !this->Medium->GetAbortExecute())

@@ -84,10 +84,10 @@ schlieren::Image TimeSlicedImage::Resume(double seconds, const schlieren::Monito
 }
 
 //------------------------------------------------------------------------------
-void TimeSlicedImage::SetWorkers(const std::vector<schlieren::Channel*>& workers)
+void TimeSlicedImage::SetProcesses(schlieren::Processes* processes)
 {
-  this->Bench.setWorkers(workers);
-  this->StraightBench.setWorkers(workers);
+  this->Bench.setProcesses(processes);
+  this->StraightBench.setProcesses(processes);
 }
 
 //------------------------------------------------------------------------------

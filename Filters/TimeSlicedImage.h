@@ -35,7 +35,7 @@ public:
   void Cancel() { this->Difference.Cancel(); }
 
   /// Who traces rays, too: see schlieren::Bench.
-  void SetWorkers(const std::vector<schlieren::Channel*>& workers);
+  void SetProcesses(schlieren::Processes* processes);
 
   schlieren::Work GetWork() const;                                 ///< of all images
   const schlieren::Scene& GetScene() const { return this->Scene; } ///< of the last one

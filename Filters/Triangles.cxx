@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangles.h"
 
-#include "DataParts.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,20 +10,6 @@
 
 namespace filters
 {
-
-void putTriangles(const Triangles& surface, std::vector<char>& message)
-{
-  putAll(surface.points, message);
-  putAll(surface.corners, message);
-}
-
-Triangles trianglesFrom(Reader& message)
-{
-  Triangles surface;
-  surface.points = message.GetAll<std::vector<Point>>();
-  surface.corners = message.GetAll<std::vector<Triangles::Corners>>();
-  return surface;
-}
 
 std::vector<EdgeOfTriangle> edgesOf(const Triangles& surface)
 {

@@ -14,7 +14,6 @@
 namespace filters
 {
 
-class Reader;
 
 /// A surface. Points of which triangles make use are finite.
 struct Triangles
@@ -36,10 +35,6 @@ struct Triangles
     return cross(this->corner(triangle, 1) - a, this->corner(triangle, 2) - a);
   }
 };
-
-/// Adds a surface to a message, and reads it.
-void putTriangles(const Triangles& surface, std::vector<char>& message);
-Triangles trianglesFrom(Reader& message);
 
 /// The triangles at each edge: pairs of the edge's points (the lower number first) and the triangle, sorted.
 struct EdgeOfTriangle

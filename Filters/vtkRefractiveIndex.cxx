@@ -5,17 +5,15 @@
 #include "ArrayChoice.h"
 #include "AtTheEnd.h"
 #include "AvailableMemory.h"
-#include "ChannelRanks.h"
+#include "BodyTriangles.h"
 #include "FieldFromImage.h"
 #include "FlatData.h"
 #include "GridOfSource.h"
 #include "Guarded.h"
 #include "ImageSource.h"
 #include "InputDescription.h"
-#include "PiecesSource.h"
-#include "Ranks.h"
+#include "InputsOfRanks.h"
 #include "RefractiveIndexInternals.h"
-#include "BodyTriangles.h"
 #include "RefractivityOfImage.h"
 #include "RequestGuard.h"
 #include "Revolution.h"
@@ -35,6 +33,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -88,9 +87,7 @@ vtkRefractiveIndex::vtkRefractiveIndex()
   , Mesh(std::make_shared<KeptMesh>())
   , Guard(std::make_shared<RequestGuard>())
   , Known(std::make_shared<KnownArrays>())
-  , Ranks(std::make_shared<FilterRanks>())
-  , Pieces(std::make_shared<ChannelRanks>(this))
-  , MeshOfPieces(std::make_shared<PiecesMesh>())
+  , Ranks(std::make_shared<InputsOfRanks>(this))
 {
   this->SetNumberOfInputPorts(2);
   // Of vtkImageAlgorithm: the active scalars, whatever these are.
@@ -140,14 +137,13 @@ bool vtkRefractiveIndex::HasArray(int index)
 vtkTypeBool vtkRefractiveIndex::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const auto work = [&]
-  {
-    this->Ranks->Note(this, request);
-    return this->Superclass::ProcessRequest(request, input, output);
-  };
+  const auto work = [&] { return this->Superclass::ProcessRequest(request, input, output); };
   return this->Guard->Process(request, work, noMemory,
     [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfGrid(), output); });
 }
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::LackInput() { this->Ranks->lackInput(); }
 
 //------------------------------------------------------------------------------
 int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
@@ -413,10 +409,14 @@ int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
 {
-  if (this->Ranks->Request(this, inputVector))
-  {
-    this->FailedAt = 0; // of another time step, perhaps
-  }
+  requestPieces(this, inputVector);
+  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const double time = inInfo && inInfo->Has(Pipeline::UPDATE_TIME_STEP())
+    ? inInfo->Get(Pipeline::UPDATE_TIME_STEP())
+    : 0;
+  this->FailedAt = time == this->RequestedTime ? this->FailedAt : 0;
+  this->RequestedTime = time;
   return 1;
 }
 
@@ -428,34 +428,46 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
   vtkImageData* output = vtkImageData::GetData(outInfo);
 
   output->Initialize();
-  setComplete(outputVector);
+  const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
 
-  // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
   const vtkMTimeType now = this->GetTimeOfGrid();
-  if (this->FailedAt == now)
+  InputsOfRanks& inputsOfRanks = *this->Ranks;
+  FilterRanks& ranks = inputsOfRanks.ranks();
+  const auto begin = [&]
+  {
+    // Of what has failed before, one message is enough.
+    return inputsOfRanks.begin(this, inputVector, this->FailedAt != now);
+  };
+  bool isWanted = false;
+  if (!guarded([&] { isWanted = begin(); }, noMemory,
+        [&](const std::string& problem)
+        {
+          if (isRank0() && this->FailedAt != now)
+          {
+            this->Fail(problem, now, outputVector);
+          }
+        }) ||
+    !isWanted)
   {
     return 1;
   }
-  FilterRanks::Meeting meeting(*this->Ranks,
-    FilterRanks::Inputs{ vtkDataObject::GetData(inputVector[0]),
-      vtkDataObject::GetData(inputVector[BODIES]), [this] { return filters::arraysOf(this); } });
-  vtkDataObject* own = vtkDataObject::GetData(inputVector[0]);
+  inputsOfRanks.setOwn(
+    vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(inputVector[BODIES]));
+  const AtTheEnd forgetOwn([&] { inputsOfRanks.forgetOwn(); });
   if (!isRank0())
   {
-    this->SetPieceData(own);
-    meeting.Serve(this->NumberOfThreads,
-      [this](const std::vector<char>& message) { return this->RespondForPiece(message); });
-    this->SetPieceData(nullptr);
+    ranks.serve(this->NumberOfThreads,
+      [&](const std::vector<char>& request) { return inputsOfRanks.answer(request); });
     return 1;
   }
-  this->SetPieceChannels(meeting.GetChannels());
-  const AtTheEnd forgetChannels([this] { this->SetPieceChannels({}); });
+  const AtTheEnd end([&] { ranks.end({ false, false }); });
 
   const auto makeGrid = [&]
   {
     this->Guard->ThrowEarlier();
-    this->ShareArrays(own);
-    const FilterRanks::Inputs inputs = meeting.Gather();
+    inputsOfRanks.shareArrays();
+    const InputsOfRanks::Inputs inputs =
+      inputsOfRanks.gather(std::numeric_limits<double>::infinity());
     this->SetAbortExecute(0); // it stays set after an abort
     const std::string warning = this->Convert(inputs.data, output, inputs.bodies);
     if (!warning.empty())
@@ -470,9 +482,7 @@ int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
     // Where RequestInformation could not know it. Without the second, VTK would crop the output.
     tellGrid(output, outInfo);
     outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
-    setComplete(outputVector);
   };
-  // Before the other ranks leave.
   guarded(makeGrid, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;

@@ -57,19 +57,16 @@ class vtkPiecewiseFunction;
 
 namespace schlieren
 {
-class Channel;
 class MediumSource;
 } // namespace schlieren
 
 namespace filters
 {
-class FilterRanks;
+class InputsOfRanks;
 class RequestGuard;
 class KnownArrays;
 struct GridPlan;
 struct KeptMesh;
-class ChannelRanks;
-struct PiecesMesh;
 struct Source;
 enum class Numbers;
 } // namespace filters
@@ -377,12 +374,6 @@ public:
     return this->Known;
   }
 
-  /**
-   * Where several ranks have the data and an array is to be chosen: all learn of all arrays, so that all choose the same. On rank
-   * 0, while the channels to the others are set, see SetPieceChannels(). `own`: what rank 0 has.
-   */
-  VTK_WRAPEXCLUDE void ShareArrays(vtkDataObject* own);
-
   /// What becomes of light at places that no cell covers.
   enum OutsideModes
   {
@@ -577,7 +568,7 @@ public:
   /**
    * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what
    * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images without bodies, flat ones, and where
+   * what else there is is to be made a grid by Convert(): images without bodies (unless `imagesToo`), flat ones, and where
    * SamplingDimensions or SamplingBounds are given. If AbortExecute is set meanwhile, the result is null.
    *
    * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
@@ -591,7 +582,8 @@ public:
     REFRACTIVITY_ALONE,
     WITH_FIELDS // the source has Fields, too: see FieldTints.h
   };
-  VTK_WRAPEXCLUDE bool CanMakeSource(vtkDataObject* input, vtkDataObject* bodies = nullptr);
+  VTK_WRAPEXCLUDE bool CanMakeSource(
+    vtkDataObject* input, vtkDataObject* bodies = nullptr, bool imagesToo = false);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
     vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
   /// The same of data whose grid is not kept, whatever grid is wanted.
@@ -612,33 +604,14 @@ public:
    */
   VTK_WRAPEXCLUDE void PrintSettings(ostream& os, vtkIndent indent);
 
-  ///@{
   /**
-   * The same of meshes that stay on several ranks, on rank 0, while the channels to all other ranks (null: one that
-   * has not come) are set, as they have to be whenever anything is requested of the source. `input`: what rank 0 has.
-   * CanUsePieces(): whether the properties are for that. On the other ranks SetPieceData() says what they have, of a time
-   * step and of the one before, and RespondForPiece() answers messages; empty: a message is for somebody else.
-   * SetInstantOfPieces() makes what these have that between the two steps, `ratio` of the way; 1 or more: of the later.
-   *
-   * A source may be that of another filter: before it is used, UseSource() makes the ranks of this filter
-   * answer for it. False where they cannot: then it has to be made anew. UsesSource(): whether they do.
+   * The same of data that stay on several ranks, on rank 0, whose `inputs` they are. CanUsePieces(): whether the properties are
+   * for that. `instant`: of data between time steps; -1: those of one step.
    */
   VTK_WRAPEXCLUDE bool CanUsePieces();
-  VTK_WRAPEXCLUDE void SetPieceChannels(std::vector<schlieren::Channel*> channels);
-  /// Whether the other ranks, while their channels are set, help to make the medium of data that rank 0 has alone. No other thread
-  /// may use the channels then.
-  VTK_WRAPEXCLUDE void SetHelp(bool help);
   VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
-    SourceContents contents = REFRACTIVITY_ALONE);
-  VTK_WRAPEXCLUDE bool UseSource(const schlieren::MediumSource* source);
-  VTK_WRAPEXCLUDE bool UsesSource(const schlieren::MediumSource* source);
-  /// Frees them on all ranks, where there are any.
-  VTK_WRAPEXCLUDE void ReleasePieces();
-  VTK_WRAPEXCLUDE void SetPieceData(vtkDataObject* data, vtkDataObject* earlier = nullptr);
-  VTK_WRAPEXCLUDE void SetInstantOfPieces(double ratio);
-  VTK_WRAPEXCLUDE std::vector<char> RespondForPiece(const std::vector<char>& message);
-  ///@}
+    filters::InputsOfRanks& inputs, vtkDataObject* bodies, std::string& warning,
+    SourceContents contents = REFRACTIVITY_ALONE, int instant = -1);
 
   /**
    * How often a grid was chosen for the input, images apart: once for each input and set of properties.
@@ -646,6 +619,11 @@ public:
   vtkTypeInt64 GetGridPlans();
 
   vtkMTimeType GetMTime() override;
+
+  /**
+   * Says that this rank has no input in the next RequestData(), because something upstream has failed; see vtkSchlierenPipeline.
+   */
+  VTK_WRAPEXCLUDE void LackInput();
 
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
@@ -673,6 +651,7 @@ private:
   vtkMTimeType GetTimeOfGrid();
   /// Reports a problem of the inputs and properties of a time, and leaves the output empty.
   void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
+  double RequestedTime = 0;
 
   /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
   const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
@@ -707,10 +686,7 @@ private:
   std::shared_ptr<filters::KnownArrays> Known;
   std::string ArraysUsed;
 
-  std::shared_ptr<filters::FilterRanks> Ranks;
-  std::shared_ptr<filters::ChannelRanks> Pieces;
-  bool HasPieces = false;
-  std::shared_ptr<filters::PiecesMesh> MeshOfPieces; // of the last source of pieces
+  std::shared_ptr<filters::InputsOfRanks> Ranks;
 
   int IndexModel = AUTO;
   std::string Gas = "Custom";

@@ -35,11 +35,6 @@ namespace
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
-FilterRanks::Part partFor(vtkRefractiveIndex* medium)
-{
-  return medium->CanUsePieces() ? FilterRanks::Part::Piece : FilterRanks::Part::All;
-}
-
 /// Whether there are no data because a filter before this one was aborted.
 bool isAbortedUpstream(vtkAlgorithm* filter, vtkDataObject* input)
 {
@@ -96,7 +91,7 @@ void tellPlaces(vtkInformationVector* outputs)
 
 //------------------------------------------------------------------------------
 vtkSchlierenFilter::vtkSchlierenFilter()
-  : Inside(new Internals)
+  : Inside(new Internals(this->Medium))
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -109,14 +104,6 @@ vtkSchlierenFilter::vtkSchlierenFilter()
 
 //------------------------------------------------------------------------------
 vtkSchlierenFilter::~vtkSchlierenFilter() = default;
-
-//------------------------------------------------------------------------------
-std::function<std::vector<char>(const std::vector<char>& message)> vtkSchlierenFilter::Responder()
-{
-  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  return [this](const std::vector<char>& message)
-  { return this->Medium->RespondForPiece(message); };
-}
 
 //------------------------------------------------------------------------------
 double vtkSchlierenFilter::MostGathered()
@@ -147,14 +134,13 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const auto work = [&]
-  {
-    this->Inside->Ranks.Note(this, request);
-    return this->Superclass::ProcessRequest(request, input, output);
-  };
+  const auto work = [&] { return this->Superclass::ProcessRequest(request, input, output); };
   return this->Inside->Guard.Process(request, work, noMemory,
     [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfImage(), output); });
 }
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::LackInput() { this->Inside->Ranks.lackInput(); }
 
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
@@ -200,13 +186,13 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
   {
     // Where the image lies depends on the input's points: RequestData corrects what is stated here
     // before the input has been produced.
-    const FilterRanks& ranks = this->Inside->Ranks;
-    if (vtkDataObject* input = ranks.GetInput(0, vtkDataObject::GetData(inputVector[0])))
+    const InputsOfRanks& ranks = this->Inside->Ranks;
+    if (vtkDataObject* input = ranks.gatheredOf(0, vtkDataObject::GetData(inputVector[0])))
     {
       this->PassToMedium();
       schlieren::Grid grid;
       int flatAxis = -1;
-      vtkDataObject* bodies = ranks.GetInput(vtkRefractiveIndex::BODIES,
+      vtkDataObject* bodies = ranks.gatheredOf(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
             this->DescribeInputs(input, bodies), this->Medium, this->ColorByField))
@@ -217,7 +203,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       else
       {
         vtkNew<vtkImageData> planned;
-        if (this->Medium->CanMakeSource(input))
+        if (this->Medium->CanMakeSource(input, nullptr, this->IsLargeImage(input)))
         {
           this->Medium->ComputeBox(input, planned);
         }
@@ -273,18 +259,18 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   {
     requestTime(this, inputVector, inside.Exposure.Steps.front());
   }
-  if (inside.Ranks.Request(this, inputVector, partFor(this->Medium), this->GatherLimit))
+  requestPieces(this, inputVector);
+  const auto time = timeOf(request, inputVector, outputVector);
+  if (time != inside.RequestedTime)
   {
-    inside.FailedAt = inside.StoppedOf = 0; // of another time step, perhaps
+    inside.FailedAt = inside.StoppedOf = 0; // of another time step
   }
+  inside.RequestedTime = time;
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo)
-{
-  this->Inside->Ranks.RequestData(inInfo, partFor(this->Medium), this->GatherLimit);
-}
+void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo) { requestPiece(inInfo); }
 
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestData(
@@ -295,68 +281,66 @@ int vtkSchlierenFilter::RequestData(
   vtkImageData* histogram = vtkImageData::GetData(outputVector, HISTOGRAM_PORT);
   output->Initialize();
   histogram->Initialize();
-  setComplete(outputVector);
+  const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
 
   this->PassToMedium();
-  const double maxCells = this->MostGathered();
-  ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure,
-    partFor(this->Medium), maxCells);
   const bool isExposure = !inside.Exposure.IsNone();
   inside.IsExposing = isExposure;
   const AtTheEnd endExposure([&] { inside.IsExposing = false; });
   inside.Instant = 0;
   inside.FirstInstant.reset();
-  // An empty output lets the pipeline request again and again, on rank 0 alone: one message is enough.
   const vtkMTimeType now = this->GetTimeOfImage();
-  if (inside.FailedAt == now)
+  const auto begin = [&]
+  {
+    // Of what has failed before, one message is enough.
+    return inside.Ranks.begin(this, inputVector, inside.FailedAt != now);
+  };
+  bool isWanted = false;
+  const auto failOfRanks = [&](const std::string& problem)
+  {
+    if (isRank0() && inside.FailedAt != now)
+    {
+      this->Fail(problem, now, outputVector);
+    }
+  };
+  if (!guarded([&] { isWanted = begin(); }, noMemory, failOfRanks) || !isWanted)
   {
     return 1;
   }
-  // What this rank has of the inputs.
-  const FilterRanks::Inputs own{ vtkDataObject::GetData(inputVector[0]),
-    vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]),
-    [this] { return filters::arraysOf(this->Medium); } };
-  steps.Meet(own);
+  const double maxCells = this->MostGathered();
+  std::optional<Internals::WithRanks> withRanks;
+  if (isRank0())
+  {
+    withRanks.emplace(inside);
+  }
+  ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure, maxCells);
   if (!isRank0())
   {
-    const auto serve = [&]()
+    this->Medium->SetNumberOfThreads(this->NumberOfThreads);
+    do
     {
-      if (isExposure && this->Medium->CanUsePieces())
+      if (!steps.IsThere())
+      {
+        continue;
+      }
+      if (isExposure)
       {
         steps.KeepPiece();
-        this->Medium->SetPieceData(steps.GetPiece(), steps.GetEarlierPiece());
       }
-      else
-      {
-        this->Medium->SetPieceData(vtkDataObject::GetData(inputVector[0]));
-      }
-      return steps.GetMeeting().Serve(threadsFrom(*this), this->Responder());
-    };
-    if (serve())
-    {
-      steps.MeetWithAll();
-      serve();
-    }
-    while (steps.Resume())
-    {
-      serve();
-    }
-    inside.HasImage = steps.GetMeeting().GetHasImage().value_or(inside.HasImage);
-    this->Medium->SetPieceData(nullptr);
+      inside.HasImage = inside.Ranks.ranks()
+                          .serve(threadsFrom(*this),
+                            [&](const std::vector<char>& message)
+                            { return inside.Ranks.answer(message); })
+                          .hasImage;
+    } while (steps.Resume());
     return 1;
-  }
-  if (steps.GetMeeting().AreTooFew(maxCells))
-  {
-    steps.MeetWithAll();
   }
   const AtTheEnd noteImage(
     [&]
     {
       inside.HasImage = output->GetNumberOfPoints() > 0;
-      steps.GetMeeting().SetHasImage(inside.HasImage);
+      withRanks->Outcome.hasImage = inside.HasImage;
     });
-  const Internals::WithWorkers withWorkers(
-    inside, this->Medium, steps.GetMeeting(), threadsFrom(*this));
 
   const auto showLast = [&]()
   {
@@ -380,11 +364,11 @@ int vtkSchlierenFilter::RequestData(
   const auto makeImage = [&]
   {
     inside.Guard.ThrowEarlier();
-    this->Medium->ShareArrays(own.data);
-    const FilterRanks::Inputs inputs = steps.GetMeeting().Gather(maxCells);
+    inside.Ranks.shareArrays();
+    const InputsOfRanks::Inputs inputs = inside.Ranks.gather(maxCells);
     vtkDataObject* input = inputs.data;
     vtkDataObject* bodies = inputs.bodies;
-    if (!inside.Ranks.AreInPieces() && isAbortedUpstream(this, input))
+    if (!inside.Ranks.areInPieces() && isAbortedUpstream(this, input))
     {
       this->ForgetImage();
       this->Status = noIndexYet;
@@ -418,7 +402,6 @@ int vtkSchlierenFilter::RequestData(
       this->Status = isExposure ? "No image: the exposure was stopped" : noIndexYet;
     }
   };
-  // Before the other ranks leave.
   guarded(makeImage, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;

@@ -871,13 +871,11 @@ public:
 
   ///@{
   /**
-   * Where ParaView runs as several processes, the number of cells up to which rank 0 has all of a mesh, while others help
-   * to make the medium; then the image is the same to the last bit, however many processes there are. Each rank requests a
-   * piece of meshes; where these have no more cells in all, rank 0 requests all, and where they are spread over the ranks
-   * even so, they are sent to it. Larger ones stay where they are: each rank has its cells, with copies of others'
-   * around them, and makes the medium of them. The image is the same but for rounding. So do adaptive meshes, and images,
-   * which become a tree of bricks, of more than 160 times as many cells. 0: so do all of these. Two-dimensional data, and
-   * all where SamplingDimensions or SamplingBounds are in use are always sent. The default is 10^6.
+   * Where ParaView runs as several processes, the number of cells up to which the pieces that these have of a mesh are put
+   * together on rank 0. Larger meshes stay where they are: each rank has its cells, with ghost cells around them, and samples
+   * them. So do images, which become a tree of bricks, of more than 160 times as many cells. 0: so do all of these. Adaptive
+   * meshes, two-dimensional data, and all where SamplingDimensions or SamplingBounds are in use are always put together. The
+   * default is 10^6.
    */
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);
@@ -966,6 +964,11 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  /**
+   * Says that this rank has no input in the next RequestData(), because something upstream has failed; see vtkSchlierenPipeline.
+   */
+  VTK_WRAPEXCLUDE void LackInput();
+
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
@@ -1011,10 +1014,10 @@ private:
   bool Continues(vtkDataObject* input, vtkDataObject* bodies);
   /// Up to how many cells rank 0 gathers.
   double MostGathered();
-  /// Answers what rank 0 requests of this rank's piece of the data; empty: it is for somebody else.
-  std::function<std::vector<char>(const std::vector<char>& message)> Responder();
   /// Everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
+  /// Whether an image's own grid would take more than MediumMemory: then it becomes a tree.
+  bool IsLargeImage(vtkDataObject* input) const;
   /// The same of data that stay on their ranks, for all filters that have the same.
   std::vector<double> DescribePieces(vtkDataObject* input, vtkDataObject* bodies);
   /// Works on an image between updates. Whether an update has something to do now.

@@ -109,7 +109,7 @@ int BrickMaker<Real>::marginOf(bool hasEdges, bool hasFields) const
   return apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
 }
 
-/// What of a remote source is prepared: also what fronts may need.
+/// What of a source with makers is prepared: also what fronts may need.
 template <class Real>
 int BrickMaker<Real>::preparedMarginOf(bool hasEdges, bool hasFields) const
 {
@@ -140,9 +140,8 @@ template <class Real>
 BrickSamples BrickMaker<Real>::sample(
   const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
 {
-  const int prepared = source_.isRemote() || source_.dependsOnLattice()
-    ? preparedMarginOf(hasEdges, hasFields)
-    : margin;
+  const int prepared =
+    source_.dependsOnLattice() ? preparedMarginOf(hasEdges, hasFields) : margin;
   BrickSamples samples = valuesAt(place, prepared, hasEdges, hasFields);
   for (int layers = margin; layers < prepared; ++layers)
   {

@@ -121,9 +121,12 @@ public:
 
   Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
 
-  /// What is about to be made. Has to be called before, by one thread. Returns the bricks where others help to make them, otherwise
-  /// none.
-  std::vector<Brick<Real>> prepare(const std::vector<BrickRequest>& bricks, int threads) const;
+  /// Where the source has makers, the bricks that they make; otherwise none.
+  std::vector<Brick<Real>> makeTogether(const std::vector<BrickRequest>& requests) const;
+  /// In each of `processes` that have the source's data together, at the same time: those bricks that it makes of them, each as
+  /// Brick::toBytes(). Empty where another one does.
+  std::vector<std::vector<char>> makeShare(const std::vector<BrickRequest>& requests,
+    std::size_t process, std::size_t processes, int threads) const;
 
   int apron() const { return apron_; }
   BrickShape shape() const { return shape_; }

@@ -53,86 +53,69 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
 }
 
 template <class Real>
-std::vector<Brick<Real>> BrickMaker<Real>::prepare(
-  const std::vector<BrickRequest>& bricks, int threads) const
+std::vector<Brick<Real>> BrickMaker<Real>::makeTogether(
+  const std::vector<BrickRequest>& requests) const
 {
-  const bool isRemote = source_.isRemote();
-  const BrickMakers* const makers = source_.makers();
   std::vector<Brick<Real>> made;
-  if (!isRemote && !makers)
+  if (const BrickMakers* makers = source_.makers())
   {
-    return made;
-  }
-  std::vector<Box> boxes;
-  for (const BrickRequest& brick : bricks)
-  {
-    boxes.push_back(boxWithApron(brick.place));
-  }
-  source_.prepareContents(boxes);
-  const bool areLatticesFixed = isRemote || source_.dependsOnLattice();
-  std::vector<Outline> outlines(bricks.size());
-  parallelFor(static_cast<std::int64_t>(bricks.size()), 1, threads,
-    [&](std::int64_t first, std::int64_t last)
+    for (const std::vector<char>& bytes : makers->make(rules_, requests))
     {
-      for (auto n = static_cast<std::size_t>(first); n < static_cast<std::size_t>(last); ++n)
-      {
-        outlines[n] = outlineOf(bricks[n].place, bricks[n].negligible);
-      }
-    });
-  std::vector<BrickTask> tasks;
-  std::vector<std::size_t> sampled;
-  for (std::size_t n = 0; n < bricks.size(); ++n)
-  {
-    Outline& outline = outlines[n];
-    if (outline.isSampled)
-    {
-      const int margin = areLatticesFixed ? preparedMarginOf(outline.hasEdges, outline.hasFields)
-                                          : marginOf(outline.hasEdges, outline.hasFields);
-      tasks.push_back({ bricks[n], outline.box, outline.content, latticeOf(bricks[n].place, margin),
-        outline.hasEdges });
-      sampled.push_back(n);
+      made.push_back(Brick<Real>::fromBytes(bytes, static_cast<std::size_t>(samplesPerBrick()),
+        static_cast<std::size_t>(source_.fields())));
     }
-    made.push_back(std::move(outline.brick));
   }
-  if (!makers)
+  return made;
+}
+
+template <class Real>
+std::vector<std::vector<char>> BrickMaker<Real>::makeShare(
+  const std::vector<BrickRequest>& requests, std::size_t process, std::size_t processes,
+  int threads) const
+{
+  const auto forEach = [threads](std::size_t count, const auto& work)
   {
-    std::vector<Lattice> lattices;
-    for (const BrickTask& task : tasks)
-    {
-      lattices.push_back(task.lattice);
-    }
-    source_.prepareSamples(lattices);
-    return {};
-  }
-  std::vector<unsigned char> isMade(tasks.size(), 0);
-  const auto makeHere = [&](const std::vector<std::size_t>& numbers)
-  {
-    parallelFor(static_cast<std::int64_t>(numbers.size()), 1, threads,
+    parallelFor(static_cast<std::int64_t>(count), 1, threads,
       [&](std::int64_t first, std::int64_t last)
       {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        for (auto n = static_cast<std::size_t>(first); n < static_cast<std::size_t>(last); ++n)
         {
-          const std::size_t n = numbers[i];
-          made[sampled[n]] = make(tasks[n].request.place, tasks[n].request.negligible);
-          isMade[n] = 1;
+          work(n);
         }
       });
   };
-  const std::vector<std::vector<char>> bytes = makers->make(rules_, tasks, makeHere);
-  std::vector<std::size_t> left;
-  for (std::size_t n = 0; n < tasks.size(); ++n)
+  std::vector<Box> boxes;
+  for (const BrickRequest& request : requests)
   {
-    if (!bytes.at(n).empty())
+    boxes.push_back(boxWithApron(request.place));
+  }
+  source_.prepareContents(boxes);
+  std::vector<Outline> outlines(requests.size());
+  forEach(requests.size(),
+    [&](std::size_t n) { outlines[n] = outlineOf(requests[n].place, requests[n].negligible); });
+  std::vector<Lattice> lattices;
+  std::vector<std::size_t> own;
+  for (std::size_t n = 0; n < requests.size(); ++n)
+  {
+    const Outline& outline = outlines[n];
+    if (outline.isSampled ? lattices.size() % processes == process : process == 0)
     {
-      made[sampled[n]] = Brick<Real>::fromBytes(bytes[n],
-        static_cast<std::size_t>(samplesPerBrick()), static_cast<std::size_t>(source_.fields()));
+      own.push_back(n);
     }
-    else if (!isMade[n])
+    if (outline.isSampled)
     {
-      left.push_back(n);
+      lattices.push_back(latticeOf(
+        requests[n].place, preparedMarginOf(outline.hasEdges, outline.hasFields)));
     }
   }
-  makeHere(left);
+  source_.prepareSamples(lattices);
+  std::vector<std::vector<char>> made(requests.size());
+  forEach(own.size(),
+    [&](std::size_t i)
+    {
+      const BrickRequest& request = requests[own[i]];
+      made[own[i]] = make(request.place, request.negligible).toBytes();
+    });
   return made;
 }
 
@@ -140,9 +123,13 @@ template BrickMaker<float>::Outline BrickMaker<float>::outlineOf(
   const NodePlace&, const Negligible&) const;
 template BrickMaker<double>::Outline BrickMaker<double>::outlineOf(
   const NodePlace&, const Negligible&) const;
-template std::vector<Brick<float>> BrickMaker<float>::prepare(
-  const std::vector<BrickRequest>&, int) const;
-template std::vector<Brick<double>> BrickMaker<double>::prepare(
-  const std::vector<BrickRequest>&, int) const;
+template std::vector<Brick<float>> BrickMaker<float>::makeTogether(
+  const std::vector<BrickRequest>&) const;
+template std::vector<std::vector<char>> BrickMaker<float>::makeShare(
+  const std::vector<BrickRequest>&, std::size_t, std::size_t, int) const;
+template std::vector<Brick<double>> BrickMaker<double>::makeTogether(
+  const std::vector<BrickRequest>&) const;
+template std::vector<std::vector<char>> BrickMaker<double>::makeShare(
+  const std::vector<BrickRequest>&, std::size_t, std::size_t, int) const;
 
 } // namespace schlieren

@@ -82,18 +82,18 @@ public:
     const Lattice& lattice, double* refractivity, Place* places, float* distances) const = 0;
   static constexpr float reach = 3;
 
-  /// True: what the data are is known to other processes, and contentOf() and sample() need to be prepared for, many at
-  /// once. contentOf(bounds()) and rangeOfField() never do.
-  virtual bool isRemote() const { return false; }
-  /// True: the value of a point may depend a little on the lattice that it belongs to. Then lattices are those that are requested
-  /// of remote sources, so that the medium does not depend on where the data are.
+  /// True: the value of a point may depend a little on the lattice that it belongs to. Then lattices are those that are
+  /// requested of sources with makers(), so that the medium does not depend on where the data are.
   virtual bool dependsOnLattice() const { return false; }
-  /// Until the next call, contentOf() answers for these boxes. Called by one thread, as the next one.
-  virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
-  /// The same of sample() and lattices.
-  virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
-  /// Processes that make its bricks, at this time; null: there are none. Of a remote source no samples are prepared for them.
+
+  /// Processes that have the data together and make bricks of them; null: this one has all. Each has a source that answers
+  /// for what has been prepared, and contentOf(bounds()) at any time.
   virtual const BrickMakers* makers() const { return nullptr; }
+  /// Until the next call, contentOf() and rangeOfField() answer for these boxes. All processes call it, with the same boxes,
+  /// as the next one.
+  virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
+  /// The same of sample() and every nth lattice: in process number 0 of n the first one, and so on.
+  virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
 
   /// Further fields, whose gradients rays may gather.
   virtual int fields() const { return 0; }

@@ -24,10 +24,9 @@ namespace
 /// Of the memory, for what turns out to be worse than what was divided before.
 constexpr std::size_t partsOfReserve = 16;
 
-/// Bricks that are made before they are put into the tree; fewer where all of them have to be sampled before one is.
+/// Bricks that are made before they are put into the tree; of those that several processes make, by each one.
 constexpr std::size_t bricksAtOnce = 512;
-constexpr std::size_t remoteBricksAtOnce = 96;
-constexpr std::size_t bricksOfMaker = 32; // of those that make them together
+constexpr std::size_t bricksOfMaker = 64;
 
 /// Leaves whose steepest places rays are sent through.
 constexpr std::size_t steepestLeaves = 192;
@@ -287,9 +286,8 @@ void MediumTree<Real>::findBricks(const View& view)
   std::vector<BrickRequest> requests;
   work_.boxes.clear();
   const BrickMakers* const makers = source_->makers();
-  const std::size_t ofAll = makers ? bricksOfMaker * static_cast<std::size_t>(makers->count()) : 0;
-  const std::size_t atOnce = makers || source_->isRemote()
-    ? std::clamp(ofAll, remoteBricksAtOnce, bricksAtOnce)
+  const std::size_t atOnce = makers
+    ? std::min(bricksAtOnce, bricksOfMaker * static_cast<std::size_t>(makers->count()))
     : bricksAtOnce;
   while (work_.tasksBegun < work_.tasks.size() && requests.size() < atOnce)
   {
@@ -307,7 +305,7 @@ void MediumTree<Real>::findBricks(const View& view)
       }
     }
   }
-  work_.bricks = maker_.prepare(requests, settings_.threads);
+  work_.bricks = maker_.makeTogether(requests);
   work_.areMade = !work_.bricks.empty();
   work_.bricks.resize(requests.size());
   work_.requests = std::move(requests);

@@ -124,8 +124,8 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
   begin(task, pass, exits, traced);
-  TileQueue bands(0, bandsOf(pass));
-  const bool isTraced = traceBands(task, pass, versions, exits, bands, traced, monitor);
+  const bool isTraced =
+    traceBands(task, pass, versions, exits, { 0, bandsOf(pass) }, traced, monitor);
   if (exits == Exits::OnHost)
   {
     traced.onDevice.reset();
@@ -160,8 +160,8 @@ void CudaTracer<Real>::begin(
 
 template <class Real>
 bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
-  const TaskVersions& versions, Exits exits, TileQueue& bands, TracedPass& traced,
-  const Monitor& monitor, const std::function<std::int64_t()>& processes)
+  const TaskVersions& versions, Exits exits, const Tiles& bands, TracedPass& traced,
+  const Monitor& monitor)
 {
   static_assert(bandRows == blockRows);
   const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
@@ -180,23 +180,17 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     typename DeviceMemory::Lane* lane;
     std::int64_t firstRow, rows;
   };
+  std::int64_t nextBand = bands.first;
   /// Of the next bands, if there are any.
   const auto launch = [&](std::int64_t number) -> std::optional<Launch>
   {
-    std::int64_t wanted = blockRowsOf(pass, *memory_->pace);
-    if (const std::int64_t parts = processes ? processes() : 1; parts > 1)
-    {
-      constexpr std::int64_t least = 8; // of what it does in its time, so that the device is busy
-      const std::int64_t fair = bands.left().count() / (2 * parts);
-      wanted = std::clamp<std::int64_t>(fair, (wanted + least - 1) / least, wanted);
-    }
-    const TileQueue::Tiles taken = bands.takeFront(wanted);
-    if (taken.count() == 0)
+    if (nextBand >= bands.end)
     {
       return {};
     }
-    const std::int64_t firstRow = taken.first * bandRows;
-    const std::int64_t rows = std::min(pass.rows, taken.end * bandRows) - firstRow;
+    const std::int64_t firstRow = nextBand * bandRows;
+    nextBand = std::min(bands.end, nextBand + blockRowsOf(pass, *memory_->pace));
+    const std::int64_t rows = std::min(pass.rows, nextBand * bandRows) - firstRow;
     auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
     lane.begin.record(lane.stream);
     visitScheme(task.kernel.interpolation,
@@ -242,7 +236,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     if (monitor.progress)
     {
       const std::int64_t toCome =
-        std::min(pass.rows, bands.left().end * bandRows) - current->firstRow - current->rows;
+        std::min(pass.rows, bands.end * bandRows) - current->firstRow - current->rows;
       monitor.progress(1 - static_cast<double>(toCome) / static_cast<double>(pass.rows));
     }
     if (monitor.aborted && monitor.aborted())

@@ -70,11 +70,10 @@ public:
 
   /// Makes room for the rays of a pass: in traced.onDevice, and on the host where they are wanted there.
   void begin(const RayTask<Real>& task, const Pass& pass, Exits exits, TracedPass& traced) const;
-  /// After begin(), in the same thread: traces bands until none are left or the monitor stops it, and adds to what `traced` counts. Other
-  /// processes may take bands meanwhile: `processes` says among how many those that are left are to be divided.
+  /// After begin(), in the same thread: traces consecutive bands until the monitor stops it, and adds to what `traced` counts.
+  /// Returns false if aborted.
   bool traceBands(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
-    Exits exits, TileQueue& bands, TracedPass& traced, const Monitor& monitor,
-    const std::function<std::int64_t()>& processes = {});
+    Exits exits, const Tiles& bands, TracedPass& traced, const Monitor& monitor);
 
 private:
   struct DeviceMemory;

@@ -78,7 +78,7 @@ void CudaTracer<Real>::begin(const RayTask<Real>&, const Pass&, Exits, TracedPas
 
 template <class Real>
 bool CudaTracer<Real>::traceBands(const RayTask<Real>&, const Pass&, const TaskVersions&, Exits,
-  TileQueue&, TracedPass&, const Monitor&, const std::function<std::int64_t()>&)
+  const Tiles&, TracedPass&, const Monitor&)
 {
   return false;
 }

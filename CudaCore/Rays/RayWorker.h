@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Channel.h"
-
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -11,31 +9,31 @@
 namespace schlieren
 {
 
-/// Traces rays for another process.
+/// Traces rays for the ProcessTracer of another process.
 class RayWorker
 {
 public:
-  RayWorker();
+  /// Of so many processes this is that one; the ProcessTracer's own is number 0.
+  RayWorker(int process, int processes);
   ~RayWorker();
 
-  /// The first bytes of each message. Other messages on the same channel have other numbers.
+  /// The first bytes of each request. Others have other numbers.
   enum Kind : std::uint32_t
   {
-    Array = 100, ///< to a worker: an array of the medium
-    Tiles,       ///< to a worker: to be traced
-    Rays,        ///< from a worker: of tiles
-    Lacking,     ///< from a worker: it has not the arrays that it needs, or no memory
-    AskDevice,   ///< to a worker: which device it has
-    DeviceIs     ///< from a worker: cudaCapability()
+    Array = 100, ///< to be kept: a piece of an array of the medium
+    Trace,       ///< tiles
+    AskDevice    ///< which CUDA device the process has
   };
-  static std::uint32_t kindOf(const std::vector<char>& message);
+  static std::uint32_t kindOf(const std::vector<char>& request);
+  static bool isFor(std::uint32_t kind) { return kind >= Array && kind <= AskDevice; }
 
-  /// Does what a message of a TeamTracer requests, and answers. Throws nothing.
-  void answer(std::vector<char> message, Channel& channel, int threads);
+  /// Does what a request says. Throws Error where it cannot.
+  std::vector<char> answer(const std::vector<char>& request, int threads);
 
 private:
   struct Arrays;
   std::unique_ptr<Arrays> arrays_;
+  int process_, processes_;
 };
 
 } // namespace schlieren

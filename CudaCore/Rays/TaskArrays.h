@@ -5,13 +5,12 @@
 #pragma once
 
 #include "Device/UninitialisedAllocator.h"
-#include "Rays/TeamMessages.h"
+#include "Rays/RayMessages.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <type_traits>
 #include <vector>
 
@@ -21,7 +20,9 @@ namespace schlieren
 class TaskArrays
 {
 public:
-  /// A piece of an array, with an ArrayMessage before it. Where there is no memory for it, it is not there.
+  void clear() { arrays_ = {}; }
+
+  /// A piece of an array, with an ArrayMessage before it.
   void keep(const std::vector<char>& message)
   {
     ArrayMessage head;
@@ -33,15 +34,8 @@ public:
     if (head.first == 0)
     {
       array = {}; // first: two at once might not fit
-      try
-      {
-        array.bytes.resize(static_cast<std::size_t>(head.bytes));
-        array.coming = head.version;
-      }
-      catch (const std::exception&)
-      {
-        return;
-      }
+      array.bytes.resize(static_cast<std::size_t>(head.bytes));
+      array.coming = head.version;
     }
     const std::size_t count = message.size() - sizeof(head);
     if (array.coming == head.version && array.known == head.first &&
@@ -54,7 +48,7 @@ public:
     }
   }
 
-  /// Makes the task's pointers point to the arrays. False where one is not there. `request`: as TilesMessage has it.
+  /// Makes the task's pointers point to the arrays. False where one is not there. `request`: as TraceMessage has it.
   template <class Request>
   bool bind(Request& request) const
   {
@@ -79,7 +73,7 @@ public:
 
   /// Those of the medium, where bind() finds all of them.
   template <class Real>
-  MediumArrays<Real> ofMedium(const TilesMessage<Real>& request) const
+  MediumArrays<Real> ofMedium(const TraceMessage<Real>& request) const
   {
     const auto set = [&](std::size_t n, auto& array)
     {

@@ -112,16 +112,15 @@ struct Block
 };
 
 template <class Number, int Lanes>
-void traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
-  const Pass& pass, TileQueue& tiles, TracedPass& traced, int threads, const Monitor& monitor)
+std::int64_t traceTilesWith(const RayTask<Number>& task,
+  MarchFunction<Number, Lanes> marchBatches, const Pass& pass, const Tiles& tiles, TracedPass& traced, int threads, const Monitor& monitor)
 {
   struct OfTile
   {
     double worstDrift = 0;
     std::int64_t crossed = 0;
   };
-  const TileQueue::Tiles all = tiles.left();
-  std::vector<OfTile> ofTiles(static_cast<std::size_t>(all.count()));
+  std::vector<OfTile> ofTiles(static_cast<std::size_t>(tiles.count()));
 
   const auto enterBlock = [&](std::int64_t column, std::int64_t row, RayBatch<Number, Lanes>& batch,
                             Entry(&entries)[Lanes], std::int64_t(&rays)[Lanes])
@@ -154,31 +153,30 @@ void traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> ma
     }
   };
 
-  parallelFrom(
-    all.first, all.end, 1, threads,
+  // Numbers as of all tiles of the pass, for the progress.
+  const std::int64_t before = tiles.first / tiles.step;
+  const std::int64_t done = parallelFrom(
+    before, before + tiles.count(), 1, threads,
     [&](std::int64_t number, std::int64_t)
     {
-      const TileQueue::Tiles taken = tiles.takeFront();
-      for (std::int64_t tile = taken.first; tile < taken.end; ++tile)
+      const std::int64_t tile = tiles.first + (number - before) * tiles.step;
+      const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
+      const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
+      for (std::int64_t row = low; row < std::min(low + tileEdge, pass.rows);
+           row += Block<Lanes>::rows)
       {
-        const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
-        const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
-        for (std::int64_t row = low; row < std::min(low + tileEdge, pass.rows);
-             row += Block<Lanes>::rows)
+        for (std::int64_t column = left; column < std::min(left + tileEdge, pass.columns);
+             column += 2 * Block<Lanes>::columns)
         {
-          for (std::int64_t column = left; column < std::min(left + tileEdge, pass.columns);
-               column += 2 * Block<Lanes>::columns)
-          {
-            RayBatch<Number, Lanes> batches[2]{};
-            Entry entries[2][Lanes]{};
-            std::int64_t rays[2][Lanes];
-            enterBlock(column, row, batches[0], entries[0], rays[0]);
-            enterBlock(column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
-            marchBatches(task, batches[0], batches[1]);
-            OfTile& here = ofTiles[static_cast<std::size_t>(number - all.first)];
-            leaveBlock(batches[0], entries[0], rays[0], here);
-            leaveBlock(batches[1], entries[1], rays[1], here);
-          }
+          RayBatch<Number, Lanes> batches[2]{};
+          Entry entries[2][Lanes]{};
+          std::int64_t rays[2][Lanes];
+          enterBlock(column, row, batches[0], entries[0], rays[0]);
+          enterBlock(column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
+          marchBatches(task, batches[0], batches[1]);
+          OfTile& here = ofTiles[static_cast<std::size_t>(number - before)];
+          leaveBlock(batches[0], entries[0], rays[0], here);
+          leaveBlock(batches[1], entries[1], rays[1], here);
         }
       }
     },
@@ -188,6 +186,7 @@ void traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> ma
     traced.worstDrift = std::max(traced.worstDrift, tile.worstDrift);
     traced.crossed += tile.crossed;
   }
+  return done - before;
 }
 
 template <class Number>
@@ -249,37 +248,22 @@ Simd packsFor(const KernelChoice& kernel, Simd simd)
   return isOfPaper ? std::min(simd, Simd::Four) : simd;
 }
 
-TileQueue TracedPass::tilesLeft(const Pass& pass)
-{
-  if (tilesDone == 0)
-  {
-    worstDrift = 0;
-    crossed = 0;
-  }
-  return { tilesDone, tilesOf(pass) - tilesDoneAtEnd };
-}
-
-bool TracedPass::keepTilesLeft(const TileQueue& tiles, const Pass& pass)
-{
-  const TileQueue::Tiles left = tiles.left();
-  const bool isFinished = left.count() == 0;
-  tilesDone = isFinished ? 0 : left.first;
-  tilesDoneAtEnd = isFinished ? 0 : tilesOf(pass) - left.end;
-  return isFinished;
-}
-
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd)
 {
-  TileQueue tiles = traced.tilesLeft(pass);
-  traceTiles(task, pass, tiles, traced, threads, monitor, simd);
-  return traced.keepTilesLeft(tiles, pass);
+  const std::int64_t all = tilesOf(pass);
+  traced.begin();
+  traced.tilesDone +=
+    traceTiles(task, pass, { traced.tilesDone, all }, traced, threads, monitor, simd);
+  const bool isFinished = traced.tilesDone == all;
+  traced.tilesDone = isFinished ? 0 : traced.tilesDone;
+  return isFinished;
 }
 
 template <class Real>
-void traceTiles(const RayTask<Real>& task, const Pass& pass, TileQueue& tiles, TracedPass& traced,
-  int threads, const Monitor& monitor, Simd simd)
+std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles& tiles,
+  TracedPass& traced, int threads, const Monitor& monitor, Simd simd)
 {
   const KernelChoice& kernel = task.kernel;
   if (task.medium.planeStride > std::numeric_limits<std::uint32_t>::max())
@@ -288,42 +272,38 @@ void traceTiles(const RayTask<Real>& task, const Pass& pass, TileQueue& tiles, T
   }
   simd = packsFor(kernel, simd);
   const auto traceWith = [&](auto marchBatches)
-  { traceTilesWith(task, marchBatches, pass, tiles, traced, threads, monitor); };
+  { return traceTilesWith(task, marchBatches, pass, tiles, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
   constexpr int ofAvx512 = isSingle ? 16 : 8, ofAvx2 = isSingle ? 8 : 4;
   if constexpr (isCompiledFor(Simd::Avx512))
   {
     if (simd == Simd::Avx512)
     {
-      traceWith(simdMarch<Real, ofAvx512>(kernel));
-      return;
+      return traceWith(simdMarch<Real, ofAvx512>(kernel));
     }
   }
   if constexpr (isCompiledFor(Simd::Avx512Rows))
   {
     if (simd == Simd::Avx512Rows)
     {
-      traceWith(simdMarchByRows<Real, ofAvx512>(kernel));
-      return;
+      return traceWith(simdMarchByRows<Real, ofAvx512>(kernel));
     }
   }
   if constexpr (isCompiledFor(Simd::Avx2))
   {
     if (simd == Simd::Avx2)
     {
-      traceWith(simdMarch<Real, ofAvx2>(kernel));
-      return;
+      return traceWith(simdMarch<Real, ofAvx2>(kernel));
     }
   }
   if constexpr (isSingle) // for doubles the instructions that all have are too narrow to gain
   {
     if (simd != Simd::None)
     {
-      traceWith(simdMarch<Real, 4>(kernel));
-      return;
+      return traceWith(simdMarch<Real, 4>(kernel));
     }
   }
-  traceWith(marchOneByOne<Real>(kernel));
+  return traceWith(marchOneByOne<Real>(kernel));
 }
 
 template RayTask<float> makeTask(const Medium<float>&, const HomogeneityMap<float>*,
@@ -334,9 +314,9 @@ template bool traceOnCpu(
   const RayTask<float>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
 template bool traceOnCpu(
   const RayTask<double>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
-template void traceTiles(
-  const RayTask<float>&, const Pass&, TileQueue&, TracedPass&, int, const Monitor&, Simd);
-template void traceTiles(
-  const RayTask<double>&, const Pass&, TileQueue&, TracedPass&, int, const Monitor&, Simd);
+template std::int64_t traceTiles(
+  const RayTask<float>&, const Pass&, const Tiles&, TracedPass&, int, const Monitor&, Simd);
+template std::int64_t traceTiles(
+  const RayTask<double>&, const Pass&, const Tiles&, TracedPass&, int, const Monitor&, Simd);
 
 } // namespace schlieren

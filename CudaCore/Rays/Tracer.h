@@ -6,7 +6,7 @@
 #include "Rays/CudaPass.h"
 #include "Rays/DisplacementBound.h"
 #include "Rays/Marcher.h"
-#include "Rays/TileQueue.h"
+#include "Rays/Tiles.h"
 
 #include <memory>
 #include <vector>
@@ -252,18 +252,20 @@ struct TracedPass
   std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
   std::int64_t crossed = 0;           ///< rays that met the grid
   double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
-  /// From the first and from the last tile on, where a pause has interrupted tracing on the CPU; else 0.
-  std::int64_t tilesDone = 0, tilesDoneAtEnd = 0;
+  std::int64_t tilesDone = 0; ///< where a pause has interrupted tracing on the CPU; else 0
 
-  /// What there is to trace on the CPU, where it begins or resumes. keepTilesLeft(): whether it is all done.
-  TileQueue tilesLeft(const Pass& pass);
-  bool keepTilesLeft(const TileQueue& tiles, const Pass& pass);
+  /// Before tracing on the CPU begins or resumes.
+  void begin()
+  {
+    crossed = tilesDone == 0 ? 0 : crossed;
+    worstDrift = tilesDone == 0 ? 0 : worstDrift;
+  }
 
   /// Makes room on the host.
   void resize(const Pass& pass, int fields)
   {
     onDevice.reset();
-    tilesDone = tilesDoneAtEnd = 0;
+    tilesDone = 0;
     const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
     exits.resize(rays);
     gathered.assign(rays * static_cast<std::size_t>(fields), 0);
@@ -301,10 +303,10 @@ template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd = bestSimd());
 
-/// Traces tiles of a pass until none are left, the monitor stops it or an exception is thrown. Others may take tiles
-/// from the queue meanwhile. Adds to what `traced` counts.
+/// Traces tiles of a pass until the monitor stops it. Adds to what `traced` counts. Returns how many are done: the first
+/// ones.
 template <class Real>
-void traceTiles(const RayTask<Real>& task, const Pass& pass, TileQueue& tiles, TracedPass& traced,
-  int threads, const Monitor& monitor, Simd simd = bestSimd());
+std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles& tiles,
+  TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
 
 } // namespace schlieren

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data that are spread over ranks become what one rank would have.
 #include "Fixtures.h"
+#include "DataParts.h"
 #include "GatheredData.h"
 
 #include "vtkAppendFilter.h"
@@ -179,6 +180,16 @@ void expectSame(vtkDataSet* a, vtkDataSet* b)
 }
 
 const std::vector<std::string> names{ "rho", "of cells" };
+
+std::vector<char> packedData(vtkDataObject* data, const std::vector<std::string>& arrays)
+{
+  std::vector<char> bytes;
+  for (const Part& part : partsOf(data, arrays))
+  {
+    pack(part, bytes);
+  }
+  return bytes;
+}
 
 vtkSmartPointer<vtkDataObject> gatheredOf(const std::vector<vtkDataObject*>& ofRanks)
 {

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Other processes of the same program, on the same kind of processor, which do what this one requests.
+class Processes
+{
+public:
+  Processes() = default;
+  Processes(const Processes&) = delete;
+  Processes& operator=(const Processes&) = delete;
+  virtual ~Processes() = default;
+
+  /// How many there are besides this one.
+  virtual int others() const = 0;
+
+  /// Sends one request to all of them, calls `meanwhile` here, and returns their answers, in a fixed order. Throws what
+  /// has gone wrong in any process, once all have answered. Called by one thread.
+  virtual std::vector<std::vector<char>> request(
+    const std::vector<char>& message, const std::function<void()>& meanwhile) = 0;
+
+  /// What a ProcessTracer has found out about them.
+  struct KnownOfRays
+  {
+    std::array<std::uint64_t, 9> arrays{}; ///< versions of those of a RayTask that they have
+    std::optional<bool> hasCuda;           ///< whether all have CUDA devices like this process's
+    double secondsPerTile = 0;             ///< of all processes together; 0: not known yet
+  };
+  KnownOfRays& ofRays() { return ofRays_; }
+
+private:
+  KnownOfRays ofRays_;
+};
+
+} // namespace schlieren

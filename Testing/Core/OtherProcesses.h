@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Processes that trace rays for another one: here threads of this one, which know it by requests alone.
+#pragma once
+
+#include "Rays/Processes.h"
+#include "Rays/RayMessages.h"
+#include "Rays/RayWorker.h"
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace schlieren
+{
+
+class OtherProcesses : public Processes
+{
+public:
+  explicit OtherProcesses(int others)
+    : arrays(0)
+  {
+    for (int n = 1; n <= others; ++n)
+    {
+      workers_.push_back(std::make_unique<RayWorker>(n, others + 1));
+    }
+  }
+
+  int others() const override { return static_cast<int>(workers_.size()); }
+  std::vector<std::vector<char>> request(
+    const std::vector<char>& message, const std::function<void()>& meanwhile) override
+  {
+    bytes += message.size();
+    const std::uint32_t kind = RayWorker::kindOf(message);
+    arrays += kind == RayWorker::Array ? 1 : 0;
+    traces += kind == RayWorker::Trace ? 1 : 0;
+    std::vector<std::vector<char>> answers(workers_.size());
+    std::vector<std::exception_ptr> problems(workers_.size() + 1);
+    std::vector<std::thread> threads;
+    for (std::size_t n = 0; n < workers_.size(); ++n)
+    {
+      threads.emplace_back(
+        [&, n]
+        {
+          try
+          {
+            if (static_cast<int>(n) == failing && kind == RayWorker::Trace)
+            {
+              throw Error("lost");
+            }
+            answers[n] = n == 0 && kind == RayWorker::AskDevice && hasOtherDevice
+              ? messageOf(int{ 75 })
+              : workers_[n]->answer(message, 2);
+          }
+          catch (...)
+          {
+            problems[n] = std::current_exception();
+          }
+        });
+    }
+    try
+    {
+      if (meanwhile)
+      {
+        meanwhile();
+      }
+    }
+    catch (...)
+    {
+      problems.back() = std::current_exception();
+    }
+    for (std::thread& thread : threads)
+    {
+      thread.join();
+    }
+    for (const std::exception_ptr& problem : problems)
+    {
+      if (problem)
+      {
+        std::rethrow_exception(problem);
+      }
+    }
+    return answers;
+  }
+
+  std::size_t bytes = 0; ///< of requests
+  int arrays = 0;        ///< pieces of arrays that were sent
+  int traces = 0;        ///< requests of rays
+  int failing = -1;      ///< the one that fails
+  bool hasOtherDevice = false;
+
+private:
+  std::vector<std::unique_ptr<RayWorker>> workers_;
+};
+
+} // namespace schlieren
