@@ -42,8 +42,8 @@ struct MediumOnDevices
 
   std::atomic<bool> isInUse{ false };
   Medium<Real> medium;
-  std::int64_t changes = 0;               ///< of its voxels
-  std::unique_ptr<CudaTracer<Real>> cuda; ///< once rays have been traced there
+  std::int64_t changes = 0;                      ///< of its voxels
+  std::unique_ptr<CudaTracer<Real>> cuda;        ///< once rays have been traced there
   std::unique_ptr<ProcessTracer<Real>> together; ///< once several processes have traced rays
 
   std::unique_ptr<HomogeneityMap<Real>> map; ///< once something was to be skipped
@@ -249,7 +249,7 @@ struct Bench::Unfinished
 struct Bench::Stages
 {
   Work work;
-  Processes* processes = nullptr; ///< null: there are no others
+  Processes* processes = nullptr;         ///< null: there are no others
   std::unique_ptr<Unfinished> unfinished; ///< after a pause
 
   std::shared_ptr<SharedMedia> media; ///< may be null

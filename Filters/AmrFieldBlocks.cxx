@@ -147,8 +147,8 @@ AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
   return result;
 }
 
-AmrField::AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
-  const WorkProgress& progress)
+AmrField::AmrField(
+  const AmrLevels& levels, const Source& source, Tally& tally, const WorkProgress& progress)
   : FlatAxis(levels.flat)
   , Origin(levels.origin)
   , Bounds(levels.bounds())

@@ -12,7 +12,6 @@ class vtkDataObject;
 namespace filters
 {
 
-
 /// Bodies in the gas that are given by their surfaces (vtkPolyData, or a composite of them).
 class BodySurfaces
 {

@@ -144,7 +144,8 @@ ExposureSteps::~ExposureSteps()
 void ExposureSteps::SetOwn()
 {
   this->Ranks.setOwn(vtkDataObject::GetData(this->Inputs[0]),
-    vtkDataObject::GetData(this->Inputs[1]), [this](int instant)
+    vtkDataObject::GetData(this->Inputs[1]),
+    [this](int instant)
     { return this->GetData(0, this->Exposure.Instants.at(static_cast<std::size_t>(instant))); });
 }
 

@@ -94,8 +94,8 @@ Sources& sources()
 
 } // namespace
 
-bool InputsOfRanks::begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
-  const std::string& problem)
+bool InputsOfRanks::begin(
+  vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted, const std::string& problem)
 {
   std::vector<double> description;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -276,8 +276,8 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Gather:
     {
       const auto port = static_cast<std::size_t>(reader.Get<int>());
-      PartsOfRanks parts(ranks, this->Own[port],
-        port == 0 ? arraysOf(this->Self) : std::vector<std::string>());
+      PartsOfRanks parts(
+        ranks, this->Own[port], port == 0 ? arraysOf(this->Self) : std::vector<std::string>());
       if (Reader(request).Get<std::uint32_t>() == Gather)
       {
         this->Gathered[port] = parts.gather();

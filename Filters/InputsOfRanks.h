@@ -95,7 +95,7 @@ private:
     int kind = 0;
     bool isOnRank0 = true;
   };
-  std::array<Located, 2> Places;                       // as the ranks have found them last
+  std::array<Located, 2> Places;                          // as the ranks have found them last
   std::array<vtkSmartPointer<vtkDataObject>, 2> Gathered; // null: rank 0 has all of it
   bool InPieces = false;
   double GatheredVersion = -1, GatheredMost = -1; // of what has been gathered

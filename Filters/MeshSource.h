@@ -50,10 +50,7 @@ public:
   /// Of other values on the same mesh: see keyOf().
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const SourceMesh& mesh,
     const WorkProgress& progress, int flatAxis = -1);
-  SourceMesh mesh() const
-  {
-    return { this->Cells.mesh(), this->Boundary, this->Lattices };
-  }
+  SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary, this->Lattices }; }
 
   /// Whether walls without thickness, which are known by values, are the same with the values of these leaves.
   static bool hasSameSheets(

@@ -409,8 +409,7 @@ PartsOfRanks::Kind PartsOfRanks::kind() const
     areDivisible = areDivisible && canHaveGhostCells(dataset.type);
     dimension = std::max(dimension, dataset.dimension);
   }
-  const bool isOneImage =
-    areImages && this->Datasets.size() == 1 && this->Datasets[0].slot.empty();
+  const bool isOneImage = areImages && this->Datasets.size() == 1 && this->Datasets[0].slot.empty();
   return !areDivisible || dimension < 3 || (areImages && !isOneImage) ? Kind::Gathered
     : isOneImage                                                      ? Kind::Image
                                                                       : Kind::Meshes;

@@ -21,7 +21,8 @@ namespace filters
 struct BoundaryOfMeshes
 {
   std::vector<CellTree::MeasuredCell> cells;
-  Faces faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
+  Faces
+    faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
 
   /// Another rank's.
   void add(Reader& reader);

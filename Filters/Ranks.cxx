@@ -124,7 +124,8 @@ Ranks::Bytes attempted(const std::function<Ranks::Bytes()>& make)
   catch (const std::bad_alloc&)
   {
     fail(Attempt::Failed,
-      "There is not enough memory for a rank's part of the work. Use more nodes or a coarser input.");
+      "There is not enough memory for a rank's part of the work. Use more nodes or a coarser "
+      "input.");
   }
   catch (const std::exception& problem)
   {

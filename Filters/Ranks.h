@@ -81,7 +81,8 @@ public:
   /// All ranks begin. `description`: of what this rank has, where something upstream has changed another one. `problem`: why
   /// this rank cannot take part; mostly empty. Throws std::runtime_error where any rank cannot. False, on all ranks, where rank
   /// 0 does not want to.
-  bool begin(const std::vector<double>& description, const std::string& problem = "", bool isWanted = true);
+  bool begin(
+    const std::vector<double>& description, const std::string& problem = "", bool isWanted = true);
   /// All ranks begin with the inputs that they have had.
   void resume() { this->IsAtWork = this->areSeveral(); }
   /// On rank 0: a number that changes when any rank's description does.

@@ -101,8 +101,7 @@ void filters::addText(std::string& text, const std::string& more)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractiveIndex::CanMakeSource(
-  vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
+bool vtkRefractiveIndex::CanMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
 {
   // Whether cells are one layer is of no effect here but in images, of which it is found at once, and with Symmetry.
   static const Source asTheyAre;
@@ -256,7 +255,7 @@ std::shared_ptr<const schlieren::MediumSource> vtkRefractiveIndex::MakeSourceOfC
         bringToCells(field);
         made->addField(*levels, field.source);
       }
-        take(made);
+      take(made);
       return;
     }
     if (flat >= 0)

@@ -278,11 +278,10 @@ void SamplesOverRanks::sampleWithFields(const schlieren::Lattice& lattice, doubl
   std::copy(fields.begin(), fields.end(), values);
 }
 
-std::vector<std::vector<char>> SamplesOverRanks::makeShare(const schlieren::BrickRules& rules,
-  const std::vector<schlieren::BrickRequest>& requests) const
+std::vector<std::vector<char>> SamplesOverRanks::makeShare(
+  const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const
 {
-  const auto makeOf = [&](const auto& maker)
-  {
+  const auto makeOf = [&](const auto& maker) {
     return maker.makeShare(requests, this->AllRanks.rank(), this->AllRanks.count(), this->Threads);
   };
   std::vector<std::vector<char>> made = rules.bytesOfReal == sizeof(float)
@@ -304,8 +303,8 @@ std::vector<char> SamplesOverRanks::answerBricks(Reader& request) const
   return answer;
 }
 
-std::vector<std::vector<char>> SamplesOverRanks::make(const schlieren::BrickRules& rules,
-  const std::vector<schlieren::BrickRequest>& requests) const
+std::vector<std::vector<char>> SamplesOverRanks::make(
+  const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const
 {
   if (!this->Used)
   {

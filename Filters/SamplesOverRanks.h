@@ -95,8 +95,8 @@ private:
   const DataPiece::Samples& samplesOn(const schlieren::Lattice& lattice) const;
   Content contentFrom(const schlieren::Box& box, const OwnContent& found) const;
   OwnContent ownContentOf(const schlieren::Box& box) const;
-  std::vector<std::vector<char>> makeShare(const schlieren::BrickRules& rules,
-    const std::vector<schlieren::BrickRequest>& requests) const;
+  std::vector<std::vector<char>> makeShare(
+    const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const;
 
   const Ranks AllRanks;
   const std::uint64_t Number;
@@ -114,6 +114,7 @@ private:
 /// Of two pieces of the same data.
 void extend(schlieren::Box& box, const schlieren::Box& by);
 void extend(CellTree::Content& content, const CellTree::Content& by);
-void extend(schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by);
+void extend(
+  schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by);
 
 } // namespace filters

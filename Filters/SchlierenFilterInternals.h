@@ -3,8 +3,8 @@
 #pragma once
 
 #include "ExposureSteps.h"
-#include "LastImage.h"
 #include "InputsOfRanks.h"
+#include "LastImage.h"
 #include "RequestGuard.h"
 #include "RgbImages.h"
 #include "SceneFromSettings.h"

@@ -151,7 +151,8 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
   const bool arePieces = this->Inside->Ranks.areInPieces();
-  if (arePieces && this->Inside->IsExposing) // only this filter's ranks have what is between time steps
+  if (arePieces &&
+    this->Inside->IsExposing) // only this filter's ranks have what is between time steps
   {
     return this->MakeRefractivity(input, bodies);
   }

@@ -63,8 +63,7 @@ private:
   void makePieceOfImage(vtkDataObject* bodies);
   void sumUp();
   void findBoundary(vtkDataObject* bodies);
-  void makeBoundary(
-    BoundaryOfMeshes of, const std::vector<double>& values, vtkDataObject* bodies);
+  void makeBoundary(BoundaryOfMeshes of, const std::vector<double>& values, vtkDataObject* bodies);
   void makeBoundary(BoundaryOfImage of, vtkDataObject* bodies);
   std::vector<unsigned char> hold(const std::vector<Point>& places) const;
 

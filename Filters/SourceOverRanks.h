@@ -24,7 +24,8 @@ struct KeptOverRanks
   std::shared_ptr<PieceMesh> piece;
   std::vector<std::uint64_t> keys; ///< of all ranks' pieces, and of bodies and Outside
   std::shared_ptr<const GasBoundary> boundary;
-  std::vector<Contribution> contributions; ///< of all ranks' values to those at the boundary's points
+  std::vector<Contribution>
+    contributions; ///< of all ranks' values to those at the boundary's points
   std::array<double, 3> voxelShape{};
   std::shared_ptr<LatticesOfMesh> lattices; ///< null: as yet there has been one step only
   std::int64_t builds = 0;                  ///< how often it was another mesh

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangles.h"
 
-
 #include <algorithm>
 #include <limits>
 #include <numeric>

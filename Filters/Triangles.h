@@ -14,7 +14,6 @@
 namespace filters
 {
 
-
 /// A surface. Points of which triangles make use are finite.
 struct Triangles
 {

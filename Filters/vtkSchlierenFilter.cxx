@@ -327,11 +327,11 @@ int vtkSchlierenFilter::RequestData(
       {
         steps.KeepPiece();
       }
-      inside.HasImage = inside.Ranks.ranks()
-                          .serve(threadsFrom(*this),
-                            [&](const std::vector<char>& message)
-                            { return inside.Ranks.answer(message); })
-                          .hasImage;
+      inside.HasImage =
+        inside.Ranks.ranks()
+          .serve(threadsFrom(*this),
+            [&](const std::vector<char>& message) { return inside.Ranks.answer(message); })
+          .hasImage;
     } while (steps.Resume());
     return 1;
   }

@@ -140,8 +140,7 @@ template <class Real>
 BrickSamples BrickMaker<Real>::sample(
   const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
 {
-  const int prepared =
-    source_.dependsOnLattice() ? preparedMarginOf(hasEdges, hasFields) : margin;
+  const int prepared = source_.dependsOnLattice() ? preparedMarginOf(hasEdges, hasFields) : margin;
   BrickSamples samples = valuesAt(place, prepared, hasEdges, hasFields);
   for (int layers = margin; layers < prepared; ++layers)
   {

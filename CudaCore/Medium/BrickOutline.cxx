@@ -104,8 +104,8 @@ std::vector<std::vector<char>> BrickMaker<Real>::makeShare(
     }
     if (outline.isSampled)
     {
-      lattices.push_back(latticeOf(
-        requests[n].place, preparedMarginOf(outline.hasEdges, outline.hasFields)));
+      lattices.push_back(
+        latticeOf(requests[n].place, preparedMarginOf(outline.hasEdges, outline.hasFields)));
     }
   }
   source_.prepareSamples(lattices);

@@ -16,8 +16,9 @@ namespace schlieren
 /// So many blocks at the same time on a multiprocessor: in single precision their rays' state then takes 96 registers
 /// of a thread. Kernels that sample at several places in a step would have to keep it in memory.
 template <class Kernel, class Real>
-constexpr int blocksAtATime =
-  sizeof(Real) == sizeof(float) && !Kernel::Integrator::samplesBeyond ? 5 : 1;
+constexpr int blocksAtATime = sizeof(Real) == sizeof(float) && !Kernel::Integrator::samplesBeyond
+  ? 5
+  : 1;
 
 /// The pixel of a thread, of those from a row on.
 struct PixelOfThread

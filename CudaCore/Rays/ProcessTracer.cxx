@@ -237,12 +237,10 @@ bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
   while (traced.tilesDone < all)
   {
     const auto start = std::chrono::steady_clock::now();
-    const double wanted = secondsPerTile > 0
-      ? std::min(static_cast<double>(all), secondsAtOnce / secondsPerTile)
-      : 0;
+    const double wanted =
+      secondsPerTile > 0 ? std::min(static_cast<double>(all), secondsAtOnce / secondsPerTile) : 0;
     request.first = traced.tilesDone;
-    request.end = std::min(
-      all, request.first + std::max(least, static_cast<std::int64_t>(wanted)));
+    request.end = std::min(all, request.first + std::max(least, static_cast<std::int64_t>(wanted)));
     const auto tilesOf = [&](std::int64_t process)
     { return tilesOfProcess(request.first, request.end, process, processes); };
     const auto answers = others.request(messageOf(request),
@@ -285,9 +283,9 @@ bool ProcessTracer<Real>::haveCuda(Processes& processes)
 }
 
 template <class Real>
-bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own,
-  typename CudaTracer<Real>::Exits exits, const RayTask<Real>& task, const Pass& pass,
-  const TaskVersions& versions, Processes& others, TracedPass& traced, const Monitor& monitor)
+bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
+  const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Processes& others,
+  TracedPass& traced, const Monitor& monitor)
 {
   constexpr std::int64_t raysAtOnce = std::int64_t{ 1 } << 21; // of each process
   constexpr auto onHost = CudaTracer<Real>::Exits::OnHost;
@@ -307,7 +305,8 @@ bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own,
       [&] { own.traceBands(task, pass, versions, exits, bandsOf(0), traced, {}); });
     for (std::size_t n = 0; n < answers.size(); ++n)
     {
-      putBands(answers[n], pass, bandsOf(static_cast<std::int64_t>(n) + 1), exits == onHost, traced);
+      putBands(
+        answers[n], pass, bandsOf(static_cast<std::int64_t>(n) + 1), exits == onHost, traced);
     }
     if (monitor.progress)
     {

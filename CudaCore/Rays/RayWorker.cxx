@@ -165,8 +165,7 @@ struct RayWorker::Arrays
   }
 
   template <class Real>
-  std::vector<char> trace(
-    const std::vector<char>& message, int process, int processes, int threads)
+  std::vector<char> trace(const std::vector<char>& message, int process, int processes, int threads)
   {
     TraceMessage<Real> request;
     if (!read(message, request) || !ofTask.bind(request))

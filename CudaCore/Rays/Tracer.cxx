@@ -112,8 +112,8 @@ struct Block
 };
 
 template <class Number, int Lanes>
-std::int64_t traceTilesWith(const RayTask<Number>& task,
-  MarchFunction<Number, Lanes> marchBatches, const Pass& pass, const Tiles& tiles, TracedPass& traced, int threads, const Monitor& monitor)
+std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
+  const Pass& pass, const Tiles& tiles, TracedPass& traced, int threads, const Monitor& monitor)
 {
   struct OfTile
   {

@@ -252,7 +252,7 @@ struct TracedPass
   std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
   std::int64_t crossed = 0;           ///< rays that met the grid
   double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
-  std::int64_t tilesDone = 0; ///< where a pause has interrupted tracing on the CPU; else 0
+  std::int64_t tilesDone = 0;         ///< where a pause has interrupted tracing on the CPU; else 0
 
   /// Before tracing on the CPU begins or resumes.
   void begin()

@@ -5,7 +5,7 @@
  * @brief   The executive of filters whose ranks wait for each other.
  *
  * VTK does not run a filter where something upstream of it has failed, which may be so on one rank alone: the others would
- * wait for it. This runs the filter all the same, where there are several ranks, and tells it.
+ * wait for it. This runs the filter all the same, where there are several ranks, after LackInput().
  */
 #ifndef vtkSchlierenPipeline_h
 #define vtkSchlierenPipeline_h

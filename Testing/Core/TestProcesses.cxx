@@ -248,7 +248,8 @@ TEST(Processes, EachTileIsOfOneProcess)
 {
   for (const std::int64_t processes : { 1, 2, 3, 7 })
   {
-    for (const auto& [first, end] : { std::pair<std::int64_t, std::int64_t>{ 0, 20 }, { 5, 6 }, { 13, 40 } })
+    for (const auto& [first, end] :
+      { std::pair<std::int64_t, std::int64_t>{ 0, 20 }, { 5, 6 }, { 13, 40 } })
     {
       std::vector<int> count(static_cast<std::size_t>(end), 0);
       for (std::int64_t process = 0; process < processes; ++process)

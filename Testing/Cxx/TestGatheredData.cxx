@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Data that are spread over ranks become what one rank would have.
-#include "Fixtures.h"
 #include "DataParts.h"
+#include "Fixtures.h"
 #include "GatheredData.h"
 
 #include "vtkAppendFilter.h"

@@ -293,7 +293,7 @@ else:
             print(f"{ranks} ranks, {name}: {difference:.1e}")
             # Slabs of few cells do not reach all that values of cells, and splines, depend on. Whole blocks on different
             # ranks do not know each other. Filters divide pieces into other cells than all.
-            limit = 1e-3 if "cell data" in name or "image, in pieces" in name else 1e-6
+            limit = 1e-3 if "cell data" in name else 1e-2 if "image, in pieces" in name else 1e-6
             limit = 1e-2 if name.startswith("whole of blocks in 3-D, in pieces") else limit
             limit = 0.2 if name.startswith("requested tetrahedra") else limit
             limit = 1 / 127 if "Color" in name else limit  # one level of a colour
