@@ -947,11 +947,11 @@ public:
   bool dependsOnLattice() const override { return true; }
   int count() const override { return 2; }
   std::vector<std::vector<char>> make(
-    const BrickRules& rules, const std::vector<BrickRequest>& requests) const override
+    const BrickRules& rules, const std::vector<BrickRequest>& wanted) const override
   {
     const BrickMaker<float> maker(*this, rules);
-    std::vector<std::vector<char>> made = maker.makeShare(requests, 0, 2, 1);
-    const std::vector<std::vector<char>> others = maker.makeShare(requests, 1, 2, 2);
+    std::vector<std::vector<char>> made = maker.makeShare(wanted, 0, 2, 1);
+    const std::vector<std::vector<char>> others = maker.makeShare(wanted, 1, 2, 2);
     for (std::size_t n = 0; n < made.size(); ++n)
     {
       EXPECT_NE(made[n].empty(), others[n].empty());
