@@ -30,6 +30,8 @@ struct Column
   double plane =
     0; ///< x.w of the image's plane, where there is a pupil; half widths and pixels are those there
 
+  double steepest = 0; ///< no slope of its light to the lines of sight is larger
+
   /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.
   double widthAt(double place) const { return pupil > 0 ? 1 - (place - plane) / pupil : 1; }
 };

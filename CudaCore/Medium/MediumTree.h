@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Medium/BlockedLight.h"
 #include "Medium/Brick.h"
 #include "Medium/BrickRays.h"
 #include "Medium/BrickStore.h"
@@ -161,6 +162,7 @@ private:
     double largest = 0;                    ///< deflection
     double gathered = 0;                   ///< of fields, for full colour
     double error = 0, errorOfGathered = 0; ///< along rays, see RayFindings
+    BlockedLight blocked{};
     int rounds = 0;                        ///< begun
     double progress = 0;                   ///< reported
     double leastUrgent =
@@ -185,6 +187,7 @@ private:
   void makeBrick(std::size_t request);
   void fetchBoxes();
   void makeRoots();
+  void findBlockedLight();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
   std::vector<Task> tasksOf(const View& view) const;
@@ -194,6 +197,7 @@ private:
   void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
   void addNode(const NodePlace& place);
+  Box indexBoxOf(const NodePlace& place) const;
   void keep(std::int32_t node, const Brick<Real>& brick, std::int32_t owner);
   std::int32_t ownerOfTask(std::size_t task) const;
   void sendBricks();
@@ -226,6 +230,7 @@ private:
   std::shared_ptr<const MediumSource> source_;
   TreeSettings settings_;
   Grid grid_;
+  int coarserLevels_; ///< than 0, the first one with samples
   std::array<std::int32_t, 3> rootCells_;
   double rangeOfNu_ = 0;
   double largestN_ = 0;

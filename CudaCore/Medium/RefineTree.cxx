@@ -71,6 +71,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
         numberLeaves();
         measure(view, found); // what is negligible leaf by leaf may not be so along a ray
       }
+      findBlockedLight();
       hasChanged = plan(view) || hasChanged;
       work_.isFinished = work_.tasks.empty();
     }
@@ -164,6 +165,21 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   return findings;
 }
 
+template <class Real>
+void MediumTree<Real>::findBlockedLight()
+{
+  work_.blocked = BlockedLight(grid_, work_.column);
+  for (const std::int32_t at : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    if (node.kind == Leaf<Real>::Solid)
+    {
+      work_.blocked.add(indexBoxOf(node.place));
+    }
+  }
+  work_.blocked.finish();
+}
+
 /// What there is to do: leaves to be made, and leaves to be divided.
 template <class Real>
 std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const View& view) const
@@ -172,7 +188,7 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
   for (const std::int32_t n : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(n)];
-    if (!view.sees(node.place))
+    if (!view.sees(node.place) || (node.isKnown && view.isDark(node.place)))
     {
       continue;
     }
@@ -197,6 +213,10 @@ std::size_t MediumTree<Real>::costOf(const Task& task) const
   const std::size_t ofOne = samples_.bytesOfBrick() +
     (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0) +
     (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
+  if (node.place.level < -1)
+  {
+    return parts() * (sizeof(Node) + sizeof(Leaf<Real>));
+  }
   return task.divides ? parts() * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
 }
 
@@ -271,7 +291,7 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
     cost += costOf(task);
     if (!task.divides)
     {
-      fits = cost <= available || levelOf(task) == 0; // there must be something
+      fits = cost <= available || levelOf(task) <= 0; // there must be something
       continue;
     }
     const bool isWorse = task.urgency > 2 * work_.leastUrgent;
