@@ -4,6 +4,7 @@
 
 #include "CellShape.h"
 #include "MeshArrays.h"
+#include "MeshCell.h"
 
 #include "vtkSMPTools.h"
 
@@ -27,6 +28,12 @@ struct Signs
   std::size_t negative = 0, positive = 0;
 };
 using SignsByKind = std::map<std::pair<const MeshArrays*, CellShape>, Signs>;
+
+struct Findings
+{
+  SignsByKind signs;
+  std::size_t folded = 0; // of curved cells
+};
 
 /// More than this part of all are no mistake, but made so.
 constexpr double maxInverted = 0.1;
@@ -80,34 +87,41 @@ int signOf(const CellTree::Cell& cell, CellShape shape)
   return determinant > least ? 1 : determinant < -least ? -1 : 0;
 }
 
-SignsByKind findSigns(const CellTree& cells)
+Findings look(const CellTree& cells)
 {
-  SignsByKind all;
+  Findings all;
   std::mutex mutex;
   constexpr vtkIdType part = 1 << 16;
   vtkSMPTools::For(0, static_cast<vtkIdType>(cells.size()), part,
     [&](vtkIdType begin, vtkIdType end)
     {
-      SignsByKind found;
+      Findings found;
+      MeshCell curved(-1);
       for (vtkIdType place = begin; place < end; ++place)
       {
         const CellTree::Cell cell = cells.cell(cells.number(static_cast<std::size_t>(place)));
         const CellShape shape = shapeOf(cell.block->type(cell.id));
+        if (shape == CellShape::Other && isCurved(cell.block->type(cell.id)))
+        {
+          curved.set(cell.block->data(), cell.id);
+          found.folded += curved.isFolded() ? 1 : 0;
+        }
         if (shape == CellShape::Voxel || shape == CellShape::Other)
         {
           continue;
         }
         if (const int sign = signOf(cell, shape); sign != 0)
         {
-          Signs& signs = found[{ cell.block, shape }];
+          Signs& signs = found.signs[{ cell.block, shape }];
           ++(sign < 0 ? signs.negative : signs.positive);
         }
       }
       const std::lock_guard<std::mutex> lock(mutex);
-      for (const auto& [kind, signs] : found)
+      all.folded += found.folded;
+      for (const auto& [kind, signs] : found.signs)
       {
-        all[kind].negative += signs.negative;
-        all[kind].positive += signs.positive;
+        all.signs[kind].negative += signs.negative;
+        all.signs[kind].positive += signs.positive;
       }
     });
   return all;
@@ -117,18 +131,28 @@ SignsByKind findSigns(const CellTree& cells)
 
 std::string warningOfInvertedCells(const CellTree& cells)
 {
+  const Findings found = look(cells);
   std::size_t inverted = 0;
-  for (const auto& [kind, signs] : findSigns(cells))
+  for (const auto& [kind, signs] : found.signs)
   {
     const std::size_t fewer = std::min(signs.negative, signs.positive);
     const auto both = static_cast<double>(signs.negative + signs.positive);
     inverted += static_cast<double>(fewer) <= maxInverted * both ? fewer : 0;
   }
+  std::string folded;
+  if (found.folded > 0)
+  {
+    folded = std::to_string(found.folded) + " of " + std::to_string(cells.size()) +
+      " cells are curved so much that they fold over themselves, and places in them may not be "
+      "found, where light passes as "
+      "through a hole. Make the mesh finer there, or its cells linear (Tessellate).";
+  }
   if (inverted == 0)
   {
-    return "";
+    return folded;
   }
-  return std::to_string(inverted) + " of " + std::to_string(cells.size()) +
+  return (folded.empty() ? "" : folded + " ") + std::to_string(inverted) + " of " +
+    std::to_string(cells.size()) +
     " cells are inside out (negative volume, where others of their kind have a positive one, or "
     "the reverse): the mesh is folded there, or their points are in a wrong order. Their values "
     "are used as they are. Look for them with the filter Mesh Quality.";

@@ -51,12 +51,12 @@ BlockedLight::BlockedLight(const Grid& grid, const Column& column)
   const double along[3] = { w.x, w.y, w.z };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    depth_ += std::abs(along[axis]) * grid.spacing[axis] *
-      static_cast<double>(grid.dimensions[axis] - 1);
+    depth_ +=
+      std::abs(along[axis]) * grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
   }
   for (int side = 0; side < 2; ++side)
   {
-    const Range ofBox = rangeOfBox(grid, column, side);
+    const ImageRange ofBox = rangeOfBox(grid, column, side);
     const double low = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
     const double high = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
     if (!(low < high) || !std::isfinite(high - low))
@@ -66,8 +66,7 @@ BlockedLight::BlockedLight(const Grid& grid, const Column& column)
     }
     const auto at = static_cast<std::size_t>(side);
     const double pixels = (high - low) / column.finest;
-    points_[at] =
-      static_cast<int>(std::clamp(pixels / pixelsOfSpacing, fewestPoints, mostPoints));
+    points_[at] = static_cast<int>(std::clamp(pixels / pixelsOfSpacing, fewestPoints, mostPoints));
     spacing_[at] = (high - low) / points_[at];
     first_[at] = low + 0.5 * spacing_[at];
   }
@@ -125,8 +124,7 @@ void BlockedLight::add(const Box& box)
         isBlocked_[static_cast<std::size_t>(j) * static_cast<std::size_t>(points_[0]) +
           static_cast<std::size_t>(i)];
       if (isBlocked == 0 &&
-        meets(
-          rayAt(grid_, column_, first_[0] + i * spacing_[0], first_[1] + j * spacing_[1]), box))
+        meets(rayAt(grid_, column_, first_[0] + i * spacing_[0], first_[1] + j * spacing_[1]), box))
       {
         isBlocked = 1;
       }
@@ -170,10 +168,10 @@ bool BlockedLight::isDark(const Box& box, double slope) const
   {
     const double margin = 1 + slope * depth_ / (places.narrowest * spacing_[axis]);
     const auto last = static_cast<double>(points_[axis]);
-    from[axis] = static_cast<std::size_t>(
-      std::clamp(std::floor(places.low[axis] - margin), 0., last));
-    to[axis] = static_cast<std::size_t>(
-      std::clamp(std::ceil(places.high[axis] + margin) + 1, 0., last));
+    from[axis] =
+      static_cast<std::size_t>(std::clamp(std::floor(places.low[axis] - margin), 0., last));
+    to[axis] =
+      static_cast<std::size_t>(std::clamp(std::ceil(places.high[axis] + margin) + 1, 0., last));
   }
   const std::size_t stride = static_cast<std::size_t>(points_[0]) + 1;
   const auto before = [&](std::size_t column, std::size_t row)

@@ -37,7 +37,8 @@ private:
   struct Places
   {
     std::array<double, 2> low, high; ///< in points of the lattice
-    double narrowest;                ///< of the column there, by its width in the image's plane; not positive: anywhere
+    double
+      narrowest; ///< of the column there, by its width in the image's plane; not positive: anywhere
   };
   Places placesOf(const Box& box) const;
 
@@ -47,7 +48,8 @@ private:
   std::array<int, 2> points_{ 0, 0 };
   double depth_ = 0; ///< of the grid along the light
   std::vector<unsigned char> isBlocked_;
-  std::vector<std::int32_t> unblocked_; ///< before a row and a column: one more of each than there are points
+  std::vector<std::int32_t>
+    unblocked_; ///< before a row and a column: one more of each than there are points
 };
 
 } // namespace schlieren

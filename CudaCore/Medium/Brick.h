@@ -20,7 +20,7 @@ namespace schlieren
 /// A box of the tree, see Leaves.h.
 struct NodePlace
 {
-  int level; ///< below 0: larger than the domain is wide
+  int level;                      ///< below 0: larger than the domain is wide
   std::array<std::int32_t, 3> at; ///< in boxes of that level
 };
 
@@ -49,12 +49,12 @@ struct BrickFacts
   std::array<bool, 3> canImprove{ false, false, false };
   /// The same, because of what lies between samples that are further apart than cells along this axis.
   std::array<double, 3> hidden{ 0, 0, 0 };
-  bool isTooLarge = false;   ///< for samples, of which it needs some
   double range = 0;          ///< of its samples, as the deflection that it may make
   double difference = 0;     ///< largest one of nu in it
   double besideWindow = 0;   ///< the same, because a window's edge is not where it should be
   double neglected = 0;      ///< the larger of both, where nothing was made of them
   bool hasWallEdge = false;  ///< gas, or a window, ends at a wall in it
+  bool isTooLarge = false;   ///< for samples, of which it needs some
   double edgeError = 0;      ///< how far an edge is from where it should be; data units
   bool areWallsFlat = false; ///< see MediumSource::Content
   bool areEdgesFine = true;  ///< with voxels much finer than cells, edges show nothing new

@@ -293,7 +293,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   double low[2], high[2];
   for (int side = 0; side < 2; ++side)
   {
-    const Range ofBox = rangeOfBox(grid, column, side);
+    const ImageRange ofBox = rangeOfBox(grid, column, side);
     low[side] = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
     high[side] = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
     if (!(low[side] < high[side]))

@@ -30,7 +30,7 @@ constexpr int mostCoarserLevels = 13;
 struct Division
 {
   std::array<std::int32_t, 3> cells; ///< one along z where nothing depends on it
-  int coarserLevels;                 ///< of roots, each of which has 2^coarserLevels of them along each axis
+  int coarserLevels; ///< of roots, each of which has 2^coarserLevels of them along each axis
 };
 
 /// Of data much longer than wide most may be empty (blocks far from each other), which larger boxes hold.

@@ -163,8 +163,8 @@ private:
     double gathered = 0;                   ///< of fields, for full colour
     double error = 0, errorOfGathered = 0; ///< along rays, see RayFindings
     BlockedLight blocked{};
-    int rounds = 0;                        ///< begun
-    double progress = 0;                   ///< reported
+    int rounds = 0;      ///< begun
+    double progress = 0; ///< reported
     double leastUrgent =
       std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
     bool hasForgotten = false;                 ///< what the view does not need

@@ -42,7 +42,8 @@ public:
   {
     for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
     {
-      const double first = std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level);
+      const double first =
+        std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level);
       if (first >= static_cast<double>(tree_.grid_.dimensions[axis] - 1))
       {
         return false;

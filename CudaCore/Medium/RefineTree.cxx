@@ -38,6 +38,7 @@ bool isSame(const Column& a, const Column& b)
   const auto isSameVector = [](const Vec3<double>& p, const Vec3<double>& q)
   { return p.x == q.x && p.y == q.y && p.z == q.z; };
   return isSameVector(a.u, b.u) && isSameVector(a.v, b.v) && a.finest == b.finest &&
+    a.pupil == b.pupil && a.plane == b.plane && a.steepest == b.steepest &&
     std::equal(a.middle, a.middle + 2, b.middle) &&
     std::equal(a.halfWidth, a.halfWidth + 2, b.halfWidth);
 }

@@ -52,7 +52,7 @@ double imageCoordinate(const Column& column, int side, double coordinate, double
                           : coordinate;
 }
 
-Range rangeOfBox(const Grid& grid, const Column& column, int side)
+ImageRange rangeOfBox(const Grid& grid, const Column& column, int side)
 {
   const Vec3<double>& along = side == 0 ? column.u : column.v;
   if (!(column.pupil > 0))
@@ -69,7 +69,8 @@ Range rangeOfBox(const Grid& grid, const Column& column, int side)
     return { middle - half, middle + half };
   }
   const Vec3<double> w = cross(column.u, column.v);
-  Range range{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  ImageRange range{ std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
   for (int corner = 0; corner < 8; ++corner)
   {
     double x[3];

@@ -22,12 +22,12 @@ StraightRay rayAt(const Grid& grid, const Column& column, double u, double v);
 /// Where something with such a product with u or v is seen in the image, where the column is so wide.
 double imageCoordinate(const Column& column, int side, double coordinate, double width);
 
-struct Range
+struct ImageRange
 {
   double low, high;
 };
 
 /// Of the image's coordinates along u or v, as far as there is something of the grid.
-Range rangeOfBox(const Grid& grid, const Column& column, int side);
+ImageRange rangeOfBox(const Grid& grid, const Column& column, int side);
 
 } // namespace schlieren

@@ -4,6 +4,8 @@
 // Cells that are inside out are warned of.
 #include "CellMeshes.h"
 
+#include "CellShape.h"
+
 #include "vtkMultiBlockDataSet.h"
 
 #include <functional>
@@ -73,6 +75,33 @@ TEST(InvertedCells, AreNoneWhereAllAreTheSameWayRound)
   blocks->SetBlock(0, rowOf(VTK_HEXAHEDRON, 8, 30, [](int) { return false; }));
   blocks->SetBlock(1, rowOf(VTK_HEXAHEDRON, 8, 2, [](int) { return true; }));
   EXPECT_TRUE(warningsOf(blocks).empty());
+}
+
+// A point in the middle of an edge that lies beyond its end.
+TEST(InvertedCells, CurvedCellsThatFoldAreCounted)
+{
+  for (const auto& [type, points] : std::vector<std::pair<int, int>>{ { VTK_QUADRATIC_TETRA, 10 },
+         { VTK_QUADRATIC_WEDGE, 15 }, { VTK_QUADRATIC_PYRAMID, 13 },
+         { VTK_QUADRATIC_HEXAHEDRON, 20 }, { VTK_TRIQUADRATIC_HEXAHEDRON, 27 } })
+  {
+    SCOPED_TRACE(type);
+    const Mesh mesh = rowOf(type, points, 30, [](int) { return false; });
+    EXPECT_TRUE(warningsOf(mesh).empty());
+    for (const int cell : { 3, 21 })
+    {
+      vtkNew<vtkIdList> ids;
+      mesh->GetCellPoints(cell, ids);
+      const vtkIdType middle = ids->GetId(filters::cornersOf(filters::skeletonOf(type)));
+      double x[3];
+      mesh->GetPoint(middle, x);
+      mesh->GetPoints()->SetPoint(middle, x[0] + 0.7, x[1], x[2]);
+    }
+    mesh->Modified();
+    const auto warnings = warningsOf(mesh);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("2 of 30 cells are curved so much"), std::string::npos)
+      << warnings[0];
+  }
 }
 
 TEST(InvertedCells, OfTheSameMeshAreSaidAtEachStep)
