@@ -57,8 +57,9 @@ BlockedLight::BlockedLight(const Grid& grid, const Column& column)
   for (int side = 0; side < 2; ++side)
   {
     const ImageRange ofBox = rangeOfBox(grid, column, side);
-    const double low = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
-    const double high = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
+    const double half = Column::widening * column.halfWidth[side];
+    const double low = std::max(ofBox.low, column.middle[side] - half);
+    const double high = std::min(ofBox.high, column.middle[side] + half);
     if (!(low < high) || !std::isfinite(high - low))
     {
       points_ = { 0, 0 };
@@ -172,6 +173,10 @@ bool BlockedLight::isDark(const Box& box, double slope) const
       static_cast<std::size_t>(std::clamp(std::floor(places.low[axis] - margin), 0., last));
     to[axis] =
       static_cast<std::size_t>(std::clamp(std::ceil(places.high[axis] + margin) + 1, 0., last));
+  }
+  if (from[0] >= to[0] || from[1] >= to[1])
+  {
+    return false;
   }
   const std::size_t stride = static_cast<std::size_t>(points_[0]) + 1;
   const auto before = [&](std::size_t column, std::size_t row)

@@ -30,6 +30,8 @@ struct Column
   double plane =
     0; ///< x.w of the image's plane, where there is a pupil; half widths and pixels are those there
 
+  /// It is refined this much wider than it is, so that small turns need nothing new.
+  static constexpr double widening = 1.1;
   double steepest = 0; ///< no slope of its light to the lines of sight is larger
 
   /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.

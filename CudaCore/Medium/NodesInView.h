@@ -21,9 +21,6 @@ class MediumTree<Real>::View
   /// Layers between samples that are no further apart than this do not matter.
   static constexpr double pixelsOfLayer = 4;
 
-  /// A column is refined this much wider than it is, so that small turns need nothing new.
-  static constexpr double widening = 1.1;
-
   /// As many levels as most media have; for the progress that is reported.
   static constexpr int usualLevels = 10;
 
@@ -279,7 +276,7 @@ private:
 
   bool sees(const Vec3<double>& direction, int side, const Box& box) const
   {
-    const double widest = widening * column_.halfWidth[side];
+    const double widest = Column::widening * column_.halfWidth[side];
     if (!(column_.pupil > 0))
     {
       const Range range = rangeOf(direction, box);
