@@ -68,17 +68,6 @@ CellBox coarserBox(const CellBox& box, const Counts& ratio)
   return coarse;
 }
 
-CellBox finerBox(const CellBox& box, const Counts& ratio)
-{
-  CellBox fine;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    fine.begin[axis] = box.begin[axis] * ratio[axis];
-    fine.end[axis] = box.end[axis] * ratio[axis];
-  }
-  return fine;
-}
-
 } // namespace
 
 bool AmrField::Block::isEmpty() const

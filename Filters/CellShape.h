@@ -77,6 +77,12 @@ inline CellShape skeletonOf(int type)
   }
 }
 
+/// Whether a cell is three-dimensional and curved, of the kinds that are known.
+inline bool isCurved(int type)
+{
+  return shapeOf(type) == CellShape::Other && skeletonOf(type) != CellShape::Other;
+}
+
 constexpr int cornersOf(CellShape shape)
 {
   switch (shape)

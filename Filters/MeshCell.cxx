@@ -26,7 +26,8 @@ constexpr double toleranceOfCurvedFaces = 1e-3;
 // Newton's method converges quadratically: after a step as small as this nothing is left.
 constexpr int maxSteps = 15;
 constexpr double lastStep = 1e-7;
-constexpr double farthest = 1; // from the range
+constexpr int maxWithoutGain = 4; // steps that are not half as long as the shortest one before
+constexpr double farthest = 1;    // from the range
 
 /// The rows of the inverse of a matrix of three columns; not finite where there is none.
 void invert(const Vector columns[3], double inverse[3][3])
@@ -59,6 +60,7 @@ MeshCell::Shape MeshCell::shapeOf(int type)
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
     case VTK_PYRAMID: // a hexahedron of which a face is a point
+    case VTK_QUADRATIC_PYRAMID:
     case VTK_QUADRATIC_QUAD:
     case VTK_BIQUADRATIC_QUAD:
     case VTK_QUADRATIC_LINEAR_QUAD:
@@ -237,6 +239,33 @@ void MeshCell::evaluate(Vector& x, Vector columns[3])
   }
 }
 
+bool MeshCell::isFolded()
+{
+  if (this->Form == Shape::Other || this->Cell->IsLinear() || this->Cell->GetCellDimension() < 3)
+  {
+    return false;
+  }
+  if (!this->HasPoints)
+  {
+    this->setPoints();
+  }
+  const double* places = this->Cell->GetParametricCoords();
+  bool hasNegative = false, hasPositive = false;
+  for (vtkIdType i = 0; places != nullptr && i < this->Count; ++i)
+  {
+    constexpr double flat = 1e-6; // at the tip of a pyramid
+    std::copy_n(places + 3 * i, 3, this->Place);
+    Vector x, columns[3];
+    this->evaluate(x, columns);
+    const double determinant = dot(columns[0], cross(columns[1], columns[2]));
+    const double least = flat * this->Length * this->Length * this->Length;
+    hasNegative = hasNegative || determinant < -least;
+    hasPositive = hasPositive || determinant > least;
+  }
+  this->IsWarm = false;
+  return hasNegative && hasPositive;
+}
+
 /// Whether Place is the place of `x`; else the step of Newton's method that leads there.
 bool MeshCell::isAt(const Vector& x, Vector& step)
 {
@@ -260,6 +289,8 @@ bool MeshCell::isAt(const Vector& x, Vector& step)
 
 bool MeshCell::iterate(const Vector& x)
 {
+  double shortest = HUGE_VAL;
+  int withoutGain = 0;
   for (int i = 0; i < maxSteps; ++i)
   {
     Vector step;
@@ -279,7 +310,9 @@ bool MeshCell::iterate(const Vector& x)
     {
       return true;
     }
-    if (!std::isfinite(step[0] + step[1] + step[2]) || moved == 0)
+    withoutGain = size < 0.5 * shortest ? 0 : withoutGain + 1;
+    shortest = std::min(shortest, size);
+    if (!std::isfinite(step[0] + step[1] + step[2]) || moved == 0 || withoutGain == maxWithoutGain)
     {
       return false;
     }

@@ -236,7 +236,8 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
           bend = std::max(bend, samples.bendAt(i, j, k));
           samples.addNormal(i, j, k, normals);
         }
-        if (isNear && samples.places[at] == Place::Gas)
+        const bool isGas = samples.places[at] == Place::Gas;
+        if (isGas && (isNear || (isLast && samples.isBesideWindow(i, j, k))))
         {
           besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
         }

@@ -20,7 +20,7 @@ namespace schlieren
 /// A box of the tree, see Leaves.h.
 struct NodePlace
 {
-  int level;
+  int level;                      ///< below 0: larger than the domain is wide
   std::array<std::int32_t, 3> at; ///< in boxes of that level
 };
 
@@ -54,6 +54,7 @@ struct BrickFacts
   double besideWindow = 0;   ///< the same, because a window's edge is not where it should be
   double neglected = 0;      ///< the larger of both, where nothing was made of them
   bool hasWallEdge = false;  ///< gas, or a window, ends at a wall in it
+  bool isTooLarge = false;   ///< for samples, of which it needs some
   double edgeError = 0;      ///< how far an edge is from where it should be; data units
   bool areWallsFlat = false; ///< see MediumSource::Content
   bool areEdgesFine = true;  ///< with voxels much finer than cells, edges show nothing new

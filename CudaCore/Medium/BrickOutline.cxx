@@ -32,13 +32,14 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
   outline.lowest = hasData ? nuOf(content.lowest) : 0;
   outline.highest = hasData ? nuOf(content.highest) : 0;
   const double gathered = hasData ? largestGathered(source_, outline.box) : 0;
-  outline.hasFields = gathered > negligible.gathered;
+  const Negligible allowed = place.level < 0 ? Negligible{ 0 } : negligible;
+  outline.hasFields = gathered > allowed.gathered;
   brick.fields.facts.neglected = outline.hasFields ? 0 : gathered;
   if (!content.hasWall && !outline.hasFields)
   {
     const double low = content.hasWindow ? std::min(outline.lowest, 0.) : outline.lowest;
     const double high = content.hasWindow ? std::max(outline.highest, 0.) : outline.highest;
-    if (deflectionByRange * (high - low) <= negligible.deflection)
+    if (deflectionByRange * (high - low) <= allowed.deflection)
     {
       brick.facts.neglected = deflectionByRange * (high - low);
       brick.facts.difference = high - low;
@@ -46,6 +47,11 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
       brick.offset = content.hasWindow ? Real(0) : static_cast<Real>(0.5 * (low + high));
       return outline;
     }
+  }
+  if (place.level < 0)
+  {
+    brick.facts.isTooLarge = true;
+    return outline;
   }
   outline.hasEdges = content.hasWall || content.hasWindow;
   outline.isSampled = true;

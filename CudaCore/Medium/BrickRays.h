@@ -29,6 +29,10 @@ struct Column
   double plane =
     0; ///< x.w of the image's plane, where there is a pupil; half widths and pixels are those there
 
+  /// It is refined this much wider than it is, so that small turns need nothing new.
+  static constexpr double widening = 1.1;
+  double steepest = 0; ///< no slope of its light to the lines of sight is larger
+
   /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.
   double widthAt(double place) const { return pupil > 0 ? 1 - (place - plane) / pupil : 1; }
 };

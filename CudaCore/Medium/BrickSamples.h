@@ -39,6 +39,23 @@ struct BrickSamples
     return i >= begin[0] && i < end[0] && j >= begin[1] && j < end[1] &&
       (layers == 1 || (k >= begin[2] && k < end[2]));
   }
+  /// Whether a neighbour along an axis, within the domain, is a window.
+  bool isBesideWindow(int i, int j, int k) const
+  {
+    for (int axis = 0; axis < (layers > 1 ? 3 : 2); ++axis)
+    {
+      for (const int step : { -1, 1 })
+      {
+        const int a = i + (axis == 0 ? step : 0), b = j + (axis == 1 ? step : 0),
+                  c = k + (axis == 2 ? step : 0);
+        if (isWithin(a, b, c) && places[index(a, b, c)] == Place::Window)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
   std::array<int, 3> nearestWithin(std::array<int, 3> at) const
   {
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -23,8 +23,18 @@ namespace
 constexpr double fewestRoots = 4;
 constexpr double maxRoots = 16;
 
-/// One along z where nothing depends on it.
-std::array<std::int32_t, 3> rootCellsOf(const MediumSource& source)
+/// So that neither cells nor levels are too many for numbers of 32 bits.
+constexpr int mostCoarserLevels = 13;
+
+/// The boxes of level 0, which the domain is made of.
+struct Division
+{
+  std::array<std::int32_t, 3> cells; ///< one along z where nothing depends on it
+  int coarserLevels; ///< of roots, each of which has 2^coarserLevels of them along each axis
+};
+
+/// Of data much longer than wide most may be empty (blocks far from each other), which larger boxes hold.
+Division divisionOf(const MediumSource& source)
 {
   const Box box = source.bounds();
   const std::array<double, 3> voxelShape = source.voxelShape();
@@ -45,28 +55,45 @@ std::array<std::int32_t, 3> rootCellsOf(const MediumSource& source)
   {
     length[2] = std::min(length[0], length[1]);
   }
-  const double longest = *std::max_element(length.begin(), length.end());
-  const double shortest = *std::min_element(length.begin(), length.end());
-  const double most = std::clamp(std::round(longest / shortest), fewestRoots, maxRoots);
-  std::array<std::int32_t, 3> cells{};
+  std::array<double, 3> sorted = length;
+  std::sort(sorted.begin(), sorted.end());
+  const auto [shortest, middle, longest] = sorted;
+  Division division{};
+  while (division.coarserLevels < mostCoarserLevels &&
+    longest > std::ldexp(maxRoots, division.coarserLevels) * middle)
+  {
+    ++division.coarserLevels;
+  }
+  const double most = std::clamp(
+    std::round(longest / shortest), fewestRoots, std::ldexp(maxRoots, division.coarserLevels));
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cells[axis] = std::max<std::int32_t>(
+    division.cells[axis] = std::max<std::int32_t>(
       1, static_cast<std::int32_t>(std::lround(most * length[axis] / longest)));
   }
-  cells[2] = source.isFlat() ? 1 : cells[2];
-  return cells;
+  division.cells[2] = source.isFlat() ? 1 : division.cells[2];
+  return division;
+}
+
+std::array<std::int32_t, 3> rootCellsOf(const Division& division)
+{
+  std::array<std::int32_t, 3> roots{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    roots[axis] = ((division.cells[axis] - 1) >> division.coarserLevels) + 1;
+  }
+  return roots;
 }
 
 /// Where nothing depends on z, two points, the depth apart, represent it.
 Grid gridOf(const MediumSource& source, std::int64_t brickEdge)
 {
   const Box box = source.bounds();
-  const std::array<std::int32_t, 3> rootCells = rootCellsOf(source);
+  const std::array<std::int32_t, 3> cells = divisionOf(source).cells;
   Grid grid;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const std::int64_t voxels = axis == 2 && source.isFlat() ? 1 : brickEdge * rootCells[axis];
+    const std::int64_t voxels = axis == 2 && source.isFlat() ? 1 : brickEdge * cells[axis];
     grid.dimensions[axis] = voxels + 1;
     grid.spacing[axis] = (box.high[axis] - box.low[axis]) / static_cast<double>(voxels);
     grid.origin[axis] = box.low[axis];
@@ -101,7 +128,8 @@ MediumTree<Real>::MediumTree(
   : source_(std::move(source))
   , settings_(settings)
   , grid_(gridOf(*source_, brickEdge))
-  , rootCells_(rootCellsOf(*source_))
+  , coarserLevels_(divisionOf(*source_).coarserLevels)
+  , rootCells_(rootCellsOf(divisionOf(*source_)))
   , maker_(*source_,
       { grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
         settings.interpolation })
@@ -131,7 +159,7 @@ void MediumTree<Real>::makeRoots()
     {
       for (std::int32_t i = 0; i < rootCells_[0]; ++i)
       {
-        addNode({ 0, { i, j, k } });
+        addNode({ -coarserLevels_, { i, j, k } });
       }
     }
   }
@@ -146,6 +174,25 @@ void MediumTree<Real>::addNode(const NodePlace& place)
 {
   nodes_.push_back({ place });
   nodeFields_.resize(source_->fields() > 0 ? nodes_.size() : 0);
+}
+
+/// Without what of it is outside of the domain.
+template <class Real>
+Box MediumTree<Real>::indexBoxOf(const NodePlace& place) const
+{
+  Box box{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto last = static_cast<double>(grid_.dimensions[axis] - 1);
+    box.high[axis] = last;
+    if (axis < maker_.axes())
+    {
+      const double edge = std::ldexp(static_cast<double>(brickEdge), -place.level);
+      box.low[axis] = std::min(edge * place.at[axis], last);
+      box.high[axis] = std::min(edge * (place.at[axis] + 1.), last);
+    }
+  }
+  return box;
 }
 
 template <class Real>
@@ -170,7 +217,7 @@ Grid coarsestGrid(const MediumSource& source)
 template <class Real>
 LeafFinder MediumTree<Real>::finder() const
 {
-  constexpr double perIndex = 1. / brickEdge;
+  const double perIndex = std::ldexp(1. / brickEdge, -coarserLevels_);
   return { roots_.data(), children_.data(), { rootCells_[0], rootCells_[1], rootCells_[2] },
     { perIndex, perIndex, shape() == BrickShape::Layer ? 0 : perIndex } };
 }
@@ -342,7 +389,7 @@ void MediumTree<Real>::summarize(const View& view)
       statistics_.finestLevel = std::max(statistics_.finestLevel, level);
     }
     statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
-    if (view.sees(node.place))
+    if (view.sees(node.place) && !view.isDark(node.place))
     {
       error = std::max(error, view.errorOf(node.place, node.facts));
       errorOfFields = std::max(errorOfFields, view.errorOf(node.place, fields.facts));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Medium/BlockedLight.h"
 #include "Medium/Brick.h"
 #include "Medium/BrickRays.h"
 #include "Medium/BrickStore.h"
@@ -136,8 +137,9 @@ private:
     double largest = 0;                    ///< deflection
     double gathered = 0;                   ///< of fields, for full colour
     double error = 0, errorOfGathered = 0; ///< along rays, see RayFindings
-    int rounds = 0;                        ///< begun
-    double progress = 0;                   ///< reported
+    BlockedLight blocked{};
+    int rounds = 0;      ///< begun
+    double progress = 0; ///< reported
     double leastUrgent =
       std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
     bool hasForgotten = false;                 ///< what the view does not need
@@ -158,6 +160,7 @@ private:
   std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
   void makeBrick(std::size_t request);
   void makeRoots();
+  void findBlockedLight();
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
   std::vector<Task> tasksOf(const View& view) const;
@@ -167,6 +170,7 @@ private:
   void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
   void addNode(const NodePlace& place);
+  Box indexBoxOf(const NodePlace& place) const;
   void keep(std::int32_t node, const Brick<Real>& brick);
   BrickLayout layout() const;
   void removeSamples(std::int32_t node);
@@ -191,6 +195,7 @@ private:
   std::shared_ptr<const MediumSource> source_;
   TreeSettings settings_;
   Grid grid_;
+  int coarserLevels_; ///< than 0, the first one with samples
   std::array<std::int32_t, 3> rootCells_;
   double rangeOfNu_ = 0;
   double largestN_ = 0;

@@ -21,9 +21,6 @@ class MediumTree<Real>::View
   /// Layers between samples that are no further apart than this do not matter.
   static constexpr double pixelsOfLayer = 4;
 
-  /// A column is refined this much wider than it is, so that small turns need nothing new.
-  static constexpr double widening = 1.1;
-
   /// As many levels as most media have; for the progress that is reported.
   static constexpr int usualLevels = 10;
 
@@ -40,6 +37,15 @@ public:
 
   bool sees(const NodePlace& place) const
   {
+    for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
+    {
+      const double first =
+        std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level);
+      if (first >= static_cast<double>(tree_.grid_.dimensions[axis] - 1))
+      {
+        return false;
+      }
+    }
     const Box box = tree_.maker_.boxOf(place);
     return sees(column_.u, 0, box) && sees(column_.v, 1, box);
   }
@@ -96,9 +102,21 @@ public:
     return error;
   }
 
+  /// Whether nothing of a leaf can be seen, however fine it is: light is stopped before it or behind it.
+  bool isDark(const NodePlace& place) const
+  {
+    constexpr double ofEstimate = 2; // of the largest deflection
+    const double slope = column_.steepest + ofEstimate * work_.largest;
+    return work_.blocked.isDark(tree_.indexBoxOf(place), slope);
+  }
+
   /// How badly a leaf needs to be divided; 0: not at all.
   double urgencyOf(const Node& node, const FieldFacts& ofFields) const
   {
+    if (node.facts.isTooLarge)
+    {
+      return std::numeric_limits<double>::infinity();
+    }
     const double error = errorOf(node.place, node.facts);
     const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
     const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
@@ -204,8 +222,8 @@ private:
   bool allows(int level, std::size_t axis, double finest) const
   {
     constexpr double rounding = 1 - 1e-9;
-    return level < finestLevelOfAll && axis < tree_.maker_.axes() &&
-      tree_.maker_.voxelOf(level + 1)[axis] >= rounding * finest;
+    return level < finestLevelOfAll - tree_.coarserLevels_ && axis < tree_.maker_.axes() &&
+      (level < 0 || tree_.maker_.voxelOf(level + 1)[axis] >= rounding * finest);
   }
   bool allows(int level, double finest) const
   {
@@ -258,7 +276,7 @@ private:
 
   bool sees(const Vec3<double>& direction, int side, const Box& box) const
   {
-    const double widest = widening * column_.halfWidth[side];
+    const double widest = Column::widening * column_.halfWidth[side];
     if (!(column_.pupil > 0))
     {
       const Range range = rangeOf(direction, box);

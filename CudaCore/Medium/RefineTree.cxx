@@ -36,6 +36,7 @@ bool isSame(const Column& a, const Column& b)
   const auto isSameVector = [](const Vec3<double>& p, const Vec3<double>& q)
   { return p.x == q.x && p.y == q.y && p.z == q.z; };
   return isSameVector(a.u, b.u) && isSameVector(a.v, b.v) && a.finest == b.finest &&
+    a.pupil == b.pupil && a.plane == b.plane && a.steepest == b.steepest &&
     std::equal(a.middle, a.middle + 2, b.middle) &&
     std::equal(a.halfWidth, a.halfWidth + 2, b.halfWidth);
 }
@@ -69,6 +70,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
         numberLeaves();
         measure(view, found); // what is negligible leaf by leaf may not be so along a ray
       }
+      findBlockedLight();
       hasChanged = plan(view) || hasChanged;
       work_.isFinished = work_.tasks.empty();
     }
@@ -159,6 +161,21 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   return findings;
 }
 
+template <class Real>
+void MediumTree<Real>::findBlockedLight()
+{
+  work_.blocked = BlockedLight(grid_, work_.column);
+  for (const std::int32_t at : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    if (node.kind == Leaf<Real>::Solid)
+    {
+      work_.blocked.add(indexBoxOf(node.place));
+    }
+  }
+  work_.blocked.finish();
+}
+
 /// What there is to do: leaves to be made, and leaves to be divided.
 template <class Real>
 std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const View& view) const
@@ -167,7 +184,7 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
   for (const std::int32_t n : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(n)];
-    if (!view.sees(node.place))
+    if (!view.sees(node.place) || (node.isKnown && view.isDark(node.place)))
     {
       continue;
     }
@@ -192,6 +209,10 @@ std::size_t MediumTree<Real>::costOf(const Task& task) const
   const std::size_t ofOne = samples_.bytesOfBrick() +
     (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0) +
     (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
+  if (node.place.level < -1)
+  {
+    return parts() * (sizeof(Node) + sizeof(Leaf<Real>));
+  }
   return task.divides ? parts() * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
 }
 
@@ -266,7 +287,7 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
     cost += costOf(task);
     if (!task.divides)
     {
-      fits = cost <= available || levelOf(task) == 0; // there must be something
+      fits = cost <= available || levelOf(task) <= 0; // there must be something
       continue;
     }
     const bool isWorse = task.urgency > 2 * work_.leastUrgent;

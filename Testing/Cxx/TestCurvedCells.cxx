@@ -5,6 +5,7 @@
 #include "CellMeshes.h"
 
 #include "BasisProduct.h"
+#include "MeshCell.h"
 #include "MeshFaces.h"
 
 #include "vtkCellData.h"
@@ -179,6 +180,59 @@ TEST(CurvedCells, OtherCellsAreNoProducts)
   {
     cell->SetCellType(type);
     EXPECT_FALSE(product.set(cell, type)) << type;
+  }
+}
+
+// Places that a quadratic pyramid maps somewhere are found there again, and others are not found.
+TEST(CurvedCells, QuadraticPyramidsAreInverted)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(0, 1), moved(-0.05, 0.05);
+  auto mesh = Mesh::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkIdList> ids;
+  for (const Vec& x : unitCell(VTK_QUADRATIC_PYRAMID, 13))
+  {
+    ids->InsertNextId(
+      points->InsertNextPoint(x[0] + moved(random), x[1] + moved(random), x[2] + moved(random)));
+  }
+  mesh->InsertNextCell(VTK_QUADRATIC_PYRAMID, ids);
+  mesh->SetPoints(points);
+  addPointArray(mesh, "N", linear);
+  std::vector<double> values(13);
+  for (vtkIdType i = 0; i < 13; ++i)
+  {
+    values[static_cast<std::size_t>(i)] = mesh->GetPointData()->GetArray("N")->GetComponent(i, 0);
+  }
+  vtkNew<vtkGenericCell> cell;
+  mesh->GetCell(0, cell);
+  filters::MeshCell own(-1);
+  own.set(mesh, 0);
+  EXPECT_FALSE(own.isFolded());
+  for (int n = 0; n < 200; ++n)
+  {
+    double place[3] = { any(random), any(random), 0.95 * any(random) }, weights[13];
+    cell->InterpolateFunctions(place, weights);
+    Vec x{ 0, 0, 0 };
+    for (vtkIdType i = 0; i < 13; ++i)
+    {
+      double point[3];
+      points->GetPoint(i, point);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        x[axis] += weights[i] * point[axis];
+      }
+    }
+    double found[3], outside = 0;
+    ASSERT_TRUE(own.find(x.data(), found, outside)) << n;
+    EXPECT_NEAR(own.valueAt(x.data(), found, values.data()), linear(x), 1e-9);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(found[axis], place[axis], 1e-5);
+    }
+    x[2] += 2;
+    EXPECT_FALSE(own.find(x.data(), found, outside));
   }
 }
 

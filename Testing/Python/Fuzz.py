@@ -85,7 +85,7 @@ def check_image(image, has_failed, what):
     for n in range(attributes.GetNumberOfArrays()):
         array = attributes.GetArray(n)
         assert array.GetNumberOfTuples() == count, f"{what}: {array.GetName()} has not all values"
-        if count and array.GetName() in ("Intensity", "Refractivity", "BlockedFraction", "Deflection"):
+        if count and array.GetName() in ("Intensity", "Refractivity", "BlockedFraction", "Deflection", "OpticalPathDifference"):
             assert np.isfinite(vtk_to_numpy(array)).all(), f"{what}: {array.GetName()} has values that are no numbers"
 
 

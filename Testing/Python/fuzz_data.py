@@ -6,9 +6,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
-    VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON,
+    VTK_BEZIER_HEXAHEDRON, VTK_BEZIER_TETRAHEDRON, VTK_BEZIER_WEDGE, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON,
     VTK_BIQUADRATIC_QUADRATIC_WEDGE, VTK_HEXAGONAL_PRISM, VTK_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON,
-    VTK_LAGRANGE_TETRAHEDRON, VTK_LINE, VTK_PENTAGONAL_PRISM, VTK_POLYGON, VTK_POLYHEDRON,
+    VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_WEDGE, VTK_LINE, VTK_PENTAGONAL_PRISM, VTK_POLYGON, VTK_POLYHEDRON,
     VTK_PYRAMID, VTK_QUAD, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_LINEAR_WEDGE, VTK_QUADRATIC_PYRAMID,
     VTK_QUADRATIC_TETRA, VTK_QUADRATIC_WEDGE, VTK_TETRA, VTK_TRIANGLE, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_VERTEX, VTK_VOXEL,
     VTK_WEDGE, vtkImageData, vtkMultiBlockDataSet, vtkNonOverlappingAMR, vtkOverlappingAMR, vtkAMRBox,
@@ -24,11 +24,10 @@ POINTS = {VTK_VERTEX: 1, VTK_LINE: 2, VTK_TRIANGLE: 3, VTK_QUAD: 4, VTK_TETRA: 4
           VTK_QUADRATIC_HEXAHEDRON: 20, VTK_QUADRATIC_WEDGE: 15, VTK_QUADRATIC_PYRAMID: 13,
           VTK_TRIQUADRATIC_HEXAHEDRON: 27, VTK_BIQUADRATIC_QUADRATIC_WEDGE: 18,
           VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON: 24, VTK_QUADRATIC_LINEAR_WEDGE: 12}
-# Not Bezier cells, nor Lagrange wedges: VTK ends the program where it evaluates wedges (an assertion of vtkHigherOrderTriangle),
-# and takes minutes for a few of the others.
 WHOLE = (VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID, VTK_QUADRATIC_TETRA, VTK_QUADRATIC_HEXAHEDRON,
-         VTK_QUADRATIC_WEDGE, VTK_QUADRATIC_PYRAMID, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_TETRAHEDRON,
-         VTK_LAGRANGE_HEXAHEDRON, VTK_TRIANGLE, VTK_QUAD)
+         VTK_QUADRATIC_WEDGE, VTK_QUADRATIC_PYRAMID, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_TRIANGLE, VTK_QUAD)
+OF_ANY_ORDER = (VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_HEXAHEDRON, VTK_LAGRANGE_WEDGE, VTK_BEZIER_TETRAHEDRON,
+                VTK_BEZIER_HEXAHEDRON, VTK_BEZIER_WEDGE)
 NAMES = ("rho", "p", "T", "Density", "Y_H2", "N", "Refractivity", "vtkValidPointMask", "U", "x y/z", "é", "")
 EXTREMES = (float("nan"), float("inf"), -float("inf"), 0., -1., 1e-300, 1e300, 1e38, -1e38, 1e-38)
 
@@ -167,10 +166,10 @@ def structured(rng):
 def one_type(rng):
     """A mesh of one type of cell that fills a box."""
     source = vtkCellTypeSource()
-    kind = rng.choice(WHOLE)
+    kind = rng.choice(WHOLE + OF_ANY_ORDER)
     source.SetCellType(kind)
     source.SetBlocksDimensions(*(rng.choice((1, 2, 2)) for _ in range(3)))
-    source.SetCellOrder(rng.choice((1, 2, 3)) if kind in (VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_HEXAHEDRON) else 1)
+    source.SetCellOrder(rng.choice((1, 2, 3)) if kind in OF_ANY_ORDER else 1)
     source.Update()
     made = vtkUnstructuredGrid()
     made.ShallowCopy(source.GetOutput())
