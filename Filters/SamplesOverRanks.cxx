@@ -205,24 +205,30 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
         putAll(ofLattices[n], packed[n % ranks]);
       }
     });
-  this->Samples.clear();
+  // What may fail comes behind the last of these, at which others would wait.
+  std::vector<Ranks::Bytes> ofRanks;
   for (std::size_t root = 0; root < ranks; ++root)
   {
-    const std::vector<Ranks::Bytes> ofRanks = this->AllRanks.gather(packed[root], root);
+    std::vector<Ranks::Bytes> gathered = this->AllRanks.gather(packed[root], root);
     Ranks::Bytes().swap(packed[root]);
-    for (const Ranks::Bytes& bytes : ofRanks)
+    if (root == this->AllRanks.rank())
     {
-      Reader reader(bytes);
-      for (std::size_t n = root; n < lattices.size(); n += ranks)
+      ofRanks = std::move(gathered);
+    }
+  }
+  this->Samples.clear();
+  for (const Ranks::Bytes& bytes : ofRanks)
+  {
+    Reader reader(bytes);
+    for (std::size_t n = this->AllRanks.rank(); n < lattices.size(); n += ranks)
+    {
+      const auto ofLattice = reader.GetAll<Ranks::Bytes>();
+      DataPiece::Samples& samples = this->Samples[keyOf(lattices[n])];
+      if (!ofLattice.empty())
       {
-        const auto ofLattice = reader.GetAll<Ranks::Bytes>();
-        DataPiece::Samples& samples = this->Samples[keyOf(lattices[n])];
-        if (!ofLattice.empty())
-        {
-          Reader own(ofLattice);
-          samples.Add(DataPiece::Samples::Get(
-            own, static_cast<std::size_t>(lattices[n].size()), this->All.fields.size()));
-        }
+        Reader own(ofLattice);
+        samples.Add(DataPiece::Samples::Get(
+          own, static_cast<std::size_t>(lattices[n].size()), this->All.fields.size()));
       }
     }
   }
