@@ -6,8 +6,8 @@
 #include "FieldFromImage.h"
 #include "GridOfSource.h"
 #include "RefractivityModels.h"
-#include "RefractivityValues.h"
 #include "RefractivitySource.h"
+#include "RefractivityValues.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSet.h"

@@ -33,9 +33,10 @@ constexpr int layersAtATime = 8;
 struct LatticeOfGrid
 {
   schlieren::Lattice lattice;
-  std::array<vtkIdType, 3> strides{}; ///< in the grid, from a point of the lattice to the next one along each axis
-  vtkIdType first = 0;                ///< in the grid, of the lattice's first point
-  int copies = 1;                     ///< layers of the grid that one of the lattice stands for
+  std::array<vtkIdType, 3>
+    strides{};         ///< in the grid, from a point of the lattice to the next one along each axis
+  vtkIdType first = 0; ///< in the grid, of the lattice's first point
+  int copies = 1;      ///< layers of the grid that one of the lattice stands for
   vtkIdType copyStride = 0;
   std::size_t slow = 2; ///< the axis across which it is worked off
 
@@ -63,10 +64,10 @@ struct LatticeOfGrid
           along[own] += direction[3 * row + own] * grid.direction[3 * row + axis];
         }
       }
-      const auto own = static_cast<std::size_t>(
-        std::max_element(along.begin(), along.end(),
-          [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-        along.begin());
+      const auto own =
+        static_cast<std::size_t>(std::max_element(along.begin(), along.end(),
+                                   [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+          along.begin());
       const auto count = static_cast<int>(grid.dimensions[axis]);
       const bool isReversed = along[own] < 0;
       this->lattice.points[own] = count;
@@ -154,8 +155,8 @@ public:
   }
 
   /// `point`: of the grid; `distances` as the source has given them, of the same lattice.
-  void set(vtkIdType point, schlieren::Place place, const schlieren::Lattice& lattice, std::size_t ofLattice,
-    const std::vector<float>& distances)
+  void set(vtkIdType point, schlieren::Place place, const schlieren::Lattice& lattice,
+    std::size_t ofLattice, const std::vector<float>& distances)
   {
     const auto at = static_cast<std::size_t>(point);
     this->Places[at] = place;
@@ -196,7 +197,8 @@ private:
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const auto count = static_cast<std::size_t>(lattice.points[axis]);
-      const double x = lattice.first[axis] + static_cast<double>(point % count) * lattice.spacing[axis];
+      const double x =
+        lattice.first[axis] + static_cast<double>(point % count) * lattice.spacing[axis];
       point /= count;
       const double reach = reachOfVoxel * lattice.spacing[axis];
       if (x - reach < this->Bounds.low[axis] || x + reach > this->Bounds.high[axis])
@@ -240,8 +242,8 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-void fillGrid(const schlieren::MediumSource& source, const GridRequest& request, const WorkProgress& progress,
-  vtkImageData* grid)
+void fillGrid(const schlieren::MediumSource& source, const GridRequest& request,
+  const WorkProgress& progress, vtkImageData* grid)
 {
   const LatticeOfGrid points(source, grid);
   const vtkIdType count = grid->GetNumberOfPoints();
@@ -303,7 +305,8 @@ std::vector<float> fieldsAtGrid(
         {
           for (std::size_t field = 0; field < fields; ++field)
           {
-            all[field * count + static_cast<std::size_t>(at)] = static_cast<float>(values[field * size + i]);
+            all[field * count + static_cast<std::size_t>(at)] =
+              static_cast<float>(values[field * size + i]);
           }
         });
     });
@@ -311,7 +314,8 @@ std::vector<float> fieldsAtGrid(
 }
 
 //------------------------------------------------------------------------------
-bool maskWalls(const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image)
+bool maskWalls(
+  const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image)
 {
   const LatticeOfGrid points(source, image);
   WallsOfGrid walls(source, image, true);
@@ -324,8 +328,7 @@ bool maskWalls(const schlieren::MediumSource& source, const WorkProgress& progre
       std::vector<float> distances(size);
       source.sample(part, refractivity.data(), places.data(), distances.data());
       points.forPoints(part, begin,
-        [&](std::size_t i, vtkIdType at)
-        { walls.set(at, places[i], part, i, distances); });
+        [&](std::size_t i, vtkIdType at) { walls.set(at, places[i], part, i, distances); });
     });
   bool isAny = false;
   vtkPointData* arrays = image->GetPointData();

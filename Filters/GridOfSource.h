@@ -27,8 +27,8 @@ struct GridRequest
 
 /// Sets Refractivity and the masks of `grid`, whose axes are along axes of the source, in any order and to either side. Of a
 /// flat source the layers along its z are all the same. Several threads; throws Stopped and std::bad_alloc.
-void fillGrid(const schlieren::MediumSource& source, const GridRequest& request, const WorkProgress& progress,
-  vtkImageData* grid);
+void fillGrid(const schlieren::MediumSource& source, const GridRequest& request,
+  const WorkProgress& progress, vtkImageData* grid);
 
 /// The values of the source's fields at the grid's points, field after field; NaN where a field has none.
 std::vector<float> fieldsAtGrid(
@@ -36,6 +36,7 @@ std::vector<float> fieldsAtGrid(
 
 /// Masks the points of an image, which has its arrays already, at which a source of the same axes has a wall. Returns whether
 /// there are any.
-bool maskWalls(const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image);
+bool maskWalls(
+  const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image);
 
 } // namespace filters

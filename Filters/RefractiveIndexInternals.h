@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "MeshSource.h"
-#include "SamplingGrid.h"
 #include "AmrGrid.h"
+#include "MeshSource.h"
 #include "RefractivitySource.h"
+#include "SamplingGrid.h"
 #include "WorkProgress.h"
 #include "vtkRefractiveIndex.h"
 

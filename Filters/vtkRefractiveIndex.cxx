@@ -259,8 +259,8 @@ void vtkRefractiveIndex::FillFromImage(const Source& given, Numbers numbers, vtk
     vtkNew<vtkImageData> refractivity;
     refractivity->ShallowCopy(output);
     mergeMasks(refractivity);
-    const ImageSource withBodies(
-      refractivity, bodies, vtkSMPTools::GetEstimatedNumberOfThreads(), progressOf(this).part(0.5, 0.7));
+    const ImageSource withBodies(refractivity, bodies, vtkSMPTools::GetEstimatedNumberOfThreads(),
+      progressOf(this).part(0.5, 0.7));
     if (!withBodies.meetsBodies() || !maskWalls(withBodies, progressOf(this).part(0.7, 1), output))
     {
       addText(warning, bodiesAreOutside);
@@ -324,7 +324,7 @@ std::string vtkRefractiveIndex::Convert(
     vtkSMPTools::LocalScope(loopsWith(threadsOf(this)),
       [&]
       {
-        source.image && this->Symmetry == NO_SYMMETRY
+        source.image&& this->Symmetry == NO_SYMMETRY
           ? this->FillFromImage(source, numbers, bodies, output, warning)
           : this->FillFromSource(source, input, numbers, bodies, output, warning, note);
       });

@@ -666,8 +666,8 @@ private:
   bool WantsGrid() const;
 
   /// Of a grid that is kept or wanted: three-dimensional, with bodies.
-  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(vtkDataObject* input,
-    vtkDataObject* bodies, std::string& warning, SourceContents contents);
+  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents);
 
   std::shared_ptr<filters::GridPlan> Plan;
   std::shared_ptr<filters::KeptMesh> Mesh;
