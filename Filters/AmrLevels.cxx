@@ -166,7 +166,7 @@ bool place(
       AmrLevel& level = levels[i];
       const double ratio = std::round(coarsest / level.spacing[axis]);
       const double before = i > 0 ? std::round(coarsest / levels[i - 1].spacing[axis]) : 1;
-      if (!(cells * ratio < 1e6) || !isNearlyWhole(ratio / before))
+      if (!(cells >= 1 && cells * ratio < 1e6) || !isNearlyWhole(ratio / before))
       {
         return false;
       }

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace filters
 {
@@ -95,6 +96,37 @@ constexpr int cornersOf(CellShape shape)
       return 5;
     default:
       return 8;
+  }
+}
+
+/// The edges of a cell's corners; none where these are in no known order.
+inline const std::vector<std::array<int, 2>>& edgesOf(CellShape shape)
+{
+  using Edges = std::vector<std::array<int, 2>>;
+  static const Edges tetrahedron{ { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+  static const Edges wedge{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 },
+    { 1, 4 }, { 2, 5 } };
+  static const Edges pyramid{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 },
+    { 3, 4 } };
+  static const Edges hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
+    { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
+  static const Edges voxel{ { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 4, 5 }, { 6, 7 }, { 4, 6 },
+    { 5, 7 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
+  static const Edges none;
+  switch (shape)
+  {
+    case CellShape::Tetrahedron:
+      return tetrahedron;
+    case CellShape::Wedge:
+      return wedge;
+    case CellShape::Pyramid:
+      return pyramid;
+    case CellShape::Hexahedron:
+      return hexahedron;
+    case CellShape::Voxel:
+      return voxel;
+    default:
+      return none;
   }
 }
 

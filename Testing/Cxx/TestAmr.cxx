@@ -410,6 +410,25 @@ TEST(Amr, MissingBlocksAreBodies)
   }
 }
 
+// Two blocks so far from the origin that they have no extent: an error, and nothing that divides by it.
+TEST(Amr, BlocksWithoutExtentAreAnError)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned number = 0; number < 2; ++number)
+  {
+    vtkNew<vtkImageData> block;
+    block->SetDimensions(5, 5, 5);
+    block->SetOrigin(1e18, 1e18, 1e18);
+    addCellArray(block, "N", [](const Vec& x) { return 1e-4 * x[0]; });
+    blocks->SetBlock(number, block);
+  }
+  auto filter = bench(blocks);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_FALSE(complaints->Errors.empty());
+  EXPECT_TRUE(isEmpty(filter));
+}
+
 // VTK's own source: 5 x 5 x 5 cells of edge 0.5, in part refined once. It gives values at the cells'
 // centres, not means, which is the same only in a field of little curvature.
 TEST(Amr, PulseOfVtkMatchesTheClosedForm)

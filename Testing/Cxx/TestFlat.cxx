@@ -53,6 +53,22 @@ vtkSmartPointer<vtkImageData> plane(int axis, int points, bool ofCells = false)
   return image;
 }
 
+/// As structured points, as cells, or as blocks of images.
+std::vector<vtkSmartPointer<vtkDataObject>> asMeshes(vtkImageData* image)
+{
+  vtkNew<vtkImageDataToPointSet> structured;
+  structured->SetInputData(image);
+  structured->Update();
+  vtkNew<vtkAppendFilter> pixels;
+  pixels->SetInputData(image);
+  vtkNew<vtkDataSetTriangleFilter> triangles;
+  triangles->SetInputConnection(pixels->GetOutputPort());
+  triangles->Update();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, image);
+  return { structured->GetOutput(), pixels->GetOutput(), triangles->GetOutput(), blocks };
+}
+
 /// Looks along an axis onto the plane: a length of 1 of what the plane has.
 void expectOnePlaneDeep(vtkSchlierenFilter* filter, int axis, double tolerance)
 {
@@ -128,19 +144,7 @@ TEST(Flat, MeshesAreAsDeepAsGiven)
     image->GetSpacing(spacing);
     spacing[axis] = 1;
     image->SetSpacing(spacing);
-    vtkNew<vtkImageDataToPointSet> structured;
-    structured->SetInputData(image);
-    structured->Update();
-    vtkNew<vtkAppendFilter> pixels;
-    pixels->SetInputData(image);
-    vtkNew<vtkDataSetTriangleFilter> triangles;
-    triangles->SetInputConnection(pixels->GetOutputPort());
-    triangles->Update();
-    vtkNew<vtkMultiBlockDataSet> blocks;
-    blocks->SetBlock(0, triangles->GetOutput());
-    for (vtkDataObject* input :
-      { static_cast<vtkDataObject*>(structured->GetOutput()),
-        static_cast<vtkDataObject*>(triangles->GetOutput()), static_cast<vtkDataObject*>(blocks) })
+    for (const vtkSmartPointer<vtkDataObject>& input : asMeshes(image))
     {
       auto filter = bench(input, 128); // no voxel is smaller than a pixel
       filter->SetMediumTolerance(0.001);
@@ -228,22 +232,6 @@ vtkSmartPointer<vtkImageData> bump(double unit, int axis, bool ofCells = false)
   };
   ofCells ? addCellArray(image, "N", field) : static_cast<void>(addPointArray(image, "N", field));
   return image;
-}
-
-/// As structured points, as cells, or as blocks of images.
-std::vector<vtkSmartPointer<vtkDataObject>> asMeshes(vtkImageData* image)
-{
-  vtkNew<vtkImageDataToPointSet> structured;
-  structured->SetInputData(image);
-  structured->Update();
-  vtkNew<vtkAppendFilter> pixels;
-  pixels->SetInputData(image);
-  vtkNew<vtkDataSetTriangleFilter> triangles;
-  triangles->SetInputConnection(pixels->GetOutputPort());
-  triangles->Update();
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, image);
-  return { structured->GetOutput(), pixels->GetOutput(), triangles->GetOutput(), blocks };
 }
 
 double largestOf(vtkSchlierenFilter* filter, const char* name)
