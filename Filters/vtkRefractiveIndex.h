@@ -9,7 +9,7 @@
  *   0 where the mask is 0. N is stored and not n, because in single precision the 1 would cost all
  *   digits of a weak flow.
  * - `vtkValidPointMask` (unsigned char): 0 in solids and outside the input, else 1;
- * and, where Outside is OUTSIDE_PASSES, with a third one, `TransparentPointMask` (see there).
+ * and, where light goes straight on at places without gas, a third one, `TransparentPointMask` (see Outside).
  *
  * An image keeps its own grid, oriented ones included: point arrays are taken as they stand, cell
  * arrays on the grid of the cells' centres, so that nothing is smoothed. Data in one plane across a
@@ -394,8 +394,8 @@ public:
    * Unless it is OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have points of their own at the same
    * places, stop light where the values at these differ.
    *
-   * This filter's output, a grid, has a third point array `TransparentPointMask` (unsigned char), 1 where light goes
-   * straight on (where vtkValidPointMask stays 0), else 0. It concerns input that is sampled; an image has cells
+   * This filter's output, a grid, has a third point array `TransparentPointMask` (unsigned char) if light goes straight on
+   * somewhere, 1 there (where vtkValidPointMask stays 0), else 0. It concerns input that is sampled; an image has cells
    * everywhere, but its point array
    * `TransparentPointMask`, if there is one, is passed on.
    */
