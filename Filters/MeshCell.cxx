@@ -26,7 +26,7 @@ constexpr double toleranceOfCurvedFaces = 1e-3;
 // Newton's method converges quadratically: after a step as small as this nothing is left.
 constexpr int maxSteps = 15;
 constexpr double lastStep = 1e-7;
-constexpr int maxWithoutGain = 4; // steps that are not half as long as the shortest one before
+constexpr int maxWithoutGain = 8; // steps that are not half as long as the shortest one before
 constexpr double farthest = 1;    // from the range
 
 /// The rows of the inverse of a matrix of three columns; not finite where there is none.
@@ -237,33 +237,6 @@ void MeshCell::evaluate(Vector& x, Vector columns[3])
       columns[along] = columns[along] + this->Derivatives[along * count + i] * this->Points[i];
     }
   }
-}
-
-bool MeshCell::isFolded()
-{
-  if (this->Form == Shape::Other || this->Cell->IsLinear() || this->Cell->GetCellDimension() < 3)
-  {
-    return false;
-  }
-  if (!this->HasPoints)
-  {
-    this->setPoints();
-  }
-  const double* places = this->Cell->GetParametricCoords();
-  bool hasNegative = false, hasPositive = false;
-  for (vtkIdType i = 0; places != nullptr && i < this->Count; ++i)
-  {
-    constexpr double flat = 1e-6; // at the tip of a pyramid
-    std::copy_n(places + 3 * i, 3, this->Place);
-    Vector x, columns[3];
-    this->evaluate(x, columns);
-    const double determinant = dot(columns[0], cross(columns[1], columns[2]));
-    const double least = flat * this->Length * this->Length * this->Length;
-    hasNegative = hasNegative || determinant < -least;
-    hasPositive = hasPositive || determinant > least;
-  }
-  this->IsWarm = false;
-  return hasNegative && hasPositive;
 }
 
 /// Whether Place is the place of `x`; else the step of Newton's method that leads there.

@@ -30,10 +30,6 @@ public:
   /// of them is out of their range.
   bool find(const double x[3], double coordinates[3], double& outside);
 
-  /// Whether the Jacobian determinant of a curved cell has one sign at some of its points and the other at others. Places
-  /// there may not be found.
-  bool isFolded();
-
   /// The interpolated value at a place that was found.
   double valueAt(const double x[3], const double coordinates[3], const double* values);
 

@@ -193,7 +193,6 @@ TEST(Images, BluntFinFromTheSide)
   filter->SetOutsideBlocksLight(false);
   filter->SetViewDirection(0, 1, 0);
   filter->SetViewUp(0, 0, 1);
-  filter->SetSamplingDimensions(161, 0, 0);
   filter->SetFocalPoint(-1.5, 0, 2);
   filter->SetParallelScale(2.2);
   filter->SetImageSize(256, 220);
