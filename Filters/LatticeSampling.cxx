@@ -179,8 +179,12 @@ void LatticeSampling::measure(
           const std::int32_t wall = nearest[Wall][i], window = nearest[Window][i];
           const bool isTie =
             wall >= 0 && window >= 0 && std::abs(std::sqrt(toWall) - std::sqrt(toWindow)) < tie;
-          const bool isWall =
-            isTie ? this->isWallNearer({ i, j, k }, wall, window) : wall >= 0 && toWall < toWindow;
+          // A body whose surface is where cells end, as of a hole that a mesh leaves for it, need not be closed.
+          const bool isBody = window >= 0 && nearest[Body][i] >= 0 &&
+            std::abs(std::sqrt(toBody) - std::sqrt(toWindow)) < tie;
+          const bool isWall = isBody ||
+            (isTie ? this->isWallNearer({ i, j, k }, wall, window)
+                   : wall >= 0 && toWall < toWindow);
           state = isWall ? InWall : (window >= 0 ? InWindow : Unknown);
         }
         this->States[p] = state;
