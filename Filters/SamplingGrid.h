@@ -5,7 +5,6 @@
 #include "RefractivitySource.h"
 #include "SamplingBox.h"
 
-
 #include <array>
 #include <string>
 
