@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace filters
 {
@@ -145,12 +145,11 @@ struct LatticeOfGrid
 class WallsOfGrid
 {
 public:
-  /// `thinSurfaces`: see GridRequest; without it, walls are where the source has them.
-  WallsOfGrid(const schlieren::MediumSource& source, vtkImageData* grid, bool thinSurfaces)
+  WallsOfGrid(const schlieren::MediumSource& source, vtkImageData* grid)
     : Bounds(source.bounds())
     , Grid(grid)
     , Places(static_cast<std::size_t>(grid->GetNumberOfPoints()))
-    , Near(thinSurfaces ? this->Places.size() : 0)
+    , Near(this->Places.size())
   {
   }
 
@@ -160,7 +159,7 @@ public:
   {
     const auto at = static_cast<std::size_t>(point);
     this->Places[at] = place;
-    if (!this->Near.empty() && place == schlieren::Place::Gas && this->isWithin(lattice, ofLattice))
+    if (place == schlieren::Place::Gas && this->isWithin(lattice, ofLattice))
     {
       const float distance = std::abs(distances[ofLattice]);
       this->Near[at] = distance <= rounding ? On : distance <= reachOfVoxel ? Beside : 0;
@@ -172,7 +171,7 @@ public:
   bool isWall(vtkIdType point) const
   {
     const auto at = static_cast<std::size_t>(point);
-    if (this->Places[at] != schlieren::Place::Gas || this->Near.empty() || this->Near[at] == 0)
+    if (this->Places[at] != schlieren::Place::Gas || this->Near[at] == 0)
     {
       return this->Places[at] == schlieren::Place::Wall;
     }
@@ -242,7 +241,7 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-void fillGrid(const schlieren::MediumSource& source, const GridRequest& request,
+void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
   const WorkProgress& progress, vtkImageData* grid)
 {
   const LatticeOfGrid points(source, grid);
@@ -252,14 +251,18 @@ void fillGrid(const schlieren::MediumSource& source, const GridRequest& request,
   const auto valid = newMask(count);
   const auto outside = newMask(count);
   outside->SetName(transparentName);
-  WallsOfGrid walls(source, grid, request.thinSurfaces);
+  std::optional<WallsOfGrid> walls;
+  if (thinSurfaces)
+  {
+    walls.emplace(source, grid);
+  }
   points.forParts(progress,
     [&](const schlieren::Lattice& part, vtkIdType begin)
     {
       const auto size = static_cast<std::size_t>(part.size());
       std::vector<double> sampled(size);
       std::vector<schlieren::Place> places(size);
-      std::vector<float> distances(request.thinSurfaces ? size : 0);
+      std::vector<float> distances(thinSurfaces ? size : 0);
       source.sample(
         part, sampled.data(), places.data(), distances.empty() ? nullptr : distances.data());
       points.forPoints(part, begin,
@@ -268,20 +271,23 @@ void fillGrid(const schlieren::MediumSource& source, const GridRequest& request,
           values->SetValue(at, sampled[i]);
           valid->SetValue(at, places[i] == schlieren::Place::Gas ? 1 : 0);
           outside->SetValue(at, places[i] == schlieren::Place::Window ? 1 : 0);
-          walls.set(at, places[i], part, i, distances);
+          if (walls)
+          {
+            walls->set(at, places[i], part, i, distances);
+          }
         });
     });
-  if (request.thinSurfaces)
+  if (walls)
   {
     for (vtkIdType at = 0; at < count; ++at)
     {
-      if (walls.isWall(at))
+      if (walls->isWall(at))
       {
         valid->SetValue(at, 0);
       }
     }
   }
-  setArrays(grid, { values }, Linear(), valid, request.numbers);
+  setArrays(grid, { values }, Linear(), valid, numbers);
   setOutside(outside, grid);
 }
 
@@ -318,7 +324,7 @@ bool maskWalls(
   const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image)
 {
   const LatticeOfGrid points(source, image);
-  WallsOfGrid walls(source, image, true);
+  WallsOfGrid walls(source, image);
   points.forParts(progress,
     [&](const schlieren::Lattice& part, vtkIdType begin)
     {

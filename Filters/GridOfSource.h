@@ -17,17 +17,10 @@ class MediumSource;
 namespace filters
 {
 
-/// What is to be known of a source at the points of a grid.
-struct GridRequest
-{
-  Numbers numbers = Numbers::Singles;
-  /// Bodies may be thin: points on their surfaces, and within 0.87 voxels of those that have no inside, are masked.
-  bool thinSurfaces = false;
-};
-
 /// Sets Refractivity and the masks of `grid`, whose axes are along axes of the source, in any order and to either side. Of a
-/// flat source the layers along its z are all the same. Several threads; throws Stopped and std::bad_alloc.
-void fillGrid(const schlieren::MediumSource& source, const GridRequest& request,
+/// flat source the layers along its z are all the same. `thinSurfaces`: bodies may be thin; points on their surfaces, and within
+/// 0.87 voxels of those that have no inside, are masked. Several threads; throws Stopped and std::bad_alloc.
+void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
   const WorkProgress& progress, vtkImageData* grid);
 
 /// The values of the source's fields at the grid's points, field after field; NaN where a field has none.

@@ -295,10 +295,7 @@ void vtkRefractiveIndex::FillFromSource(const Source& source, vtkDataObject* inp
   {
     throw Stopped();
   }
-  GridRequest request;
-  request.numbers = numbers;
-  request.thinSurfaces = bodies != nullptr;
-  fillGrid(*made, request, progressOf(this).part(0.5, 1), output);
+  fillGrid(*made, numbers, bodies != nullptr, progressOf(this).part(0.5, 1), output);
 }
 
 //------------------------------------------------------------------------------

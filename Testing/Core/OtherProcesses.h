@@ -4,6 +4,7 @@
 // Processes that trace rays for another one: here threads of this one, which know it by requests alone.
 #pragma once
 
+#include "AnalyticSources.h"
 #include "Rays/Processes.h"
 #include "Rays/RayMessages.h"
 #include "Rays/RayWorker.h"
@@ -95,5 +96,19 @@ public:
 private:
   std::vector<std::unique_ptr<RayWorker>> workers_;
 };
+
+/// Balls, with two fields.
+inline Field ballsWithFields()
+{
+  const auto balls = std::make_shared<BallsSource>(threeBalls(3e-4));
+  const auto source = std::make_shared<SourceWithFields>(balls,
+    std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3), ballField({ -0.2, 0.3, 0 }, 0.1) });
+  Field field;
+  field.source = source;
+  field.grid = coarsestGrid(*source);
+  field.version = 1;
+  field.gradients.count = 2;
+  return field;
+}
 
 } // namespace schlieren

@@ -19,20 +19,6 @@ namespace schlieren
 namespace
 {
 
-/// Balls, with two fields.
-Field fieldOfTree()
-{
-  const auto balls = std::make_shared<BallsSource>(threeBalls(3e-4));
-  const auto source = std::make_shared<SourceWithFields>(balls,
-    std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3), ballField({ -0.2, 0.3, 0 }, 0.1) });
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  field.version = 1;
-  field.gradients.count = 2;
-  return field;
-}
-
 Scene oblique()
 {
   Scene scene;
@@ -89,7 +75,7 @@ TEST(Processes, ChangesNoBitOfATree)
 {
   Scene scene = oblique();
   scene.source.distance = 20;
-  expectSameOf(fieldOfTree(), scene);
+  expectSameOf(ballsWithFields(), scene);
 }
 
 TEST(Processes, ChangesNoBitBesideWalls)

@@ -62,18 +62,7 @@ TEST_F(ProcessesOnCuda, ChangesNoBitOfAnImage)
   expectSameOf(flow_.tinted());
 }
 
-TEST_F(ProcessesOnCuda, ChangesNoBitOfATree)
-{
-  const auto balls = std::make_shared<BallsSource>(threeBalls(3e-4));
-  const auto source = std::make_shared<SourceWithFields>(balls,
-    std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3), ballField({ -0.2, 0.3, 0 }, 0.1) });
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  field.version = 1;
-  field.gradients.count = 2;
-  expectSameOf(field);
-}
+TEST_F(ProcessesOnCuda, ChangesNoBitOfATree) { expectSameOf(ballsWithFields()); }
 
 TEST_F(ProcessesOnCuda, ChangesNoBitBesideWalls)
 {
