@@ -153,7 +153,7 @@ BoundaryFaces AmrField::faces() const
   return faces.take();
 }
 
-/// How many cells of all ranks are at the border of the domain, of which each nth is looked at.
+/// Returns n where each nth cell at the border of the domain is looked at.
 int AmrField::outerCellsForOne() const
 {
   double cells = 0;

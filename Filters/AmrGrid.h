@@ -32,7 +32,4 @@ std::optional<Amr> planAmr(
 /// Makes `structure` the grid of the plan.
 void gridOf(const Amr& amr, vtkImageData* structure);
 
-/// Fills `output` as planned. N is formed in the cells of the input, before anything is interpolated.
-Tally convertAmr(const Amr& amr, const Source& source, Numbers numbers, vtkImageData* output);
-
 } // namespace filters

@@ -310,17 +310,6 @@ CellBox intersection(const CellBox& a, const CellBox& b)
   return both;
 }
 
-CellBox hullOf(const CellBox& a, const CellBox& b)
-{
-  CellBox hull;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    hull.begin[axis] = std::min(a.begin[axis], b.begin[axis]);
-    hull.end[axis] = std::max(a.end[axis], b.end[axis]);
-  }
-  return hull;
-}
-
 BoxBins::BoxBins(std::vector<CellBox> boxes)
   : Boxes(std::move(boxes))
 {

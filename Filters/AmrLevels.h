@@ -122,8 +122,6 @@ struct CellBox
 
 CellBox boxOf(const AmrBlock& block);
 CellBox intersection(const CellBox& a, const CellBox& b);
-/// The smallest box around both.
-CellBox hullOf(const CellBox& a, const CellBox& b);
 
 /// Boxes in about as many equal bins, so that few are looked at for each box in question.
 class BoxBins
@@ -199,23 +197,5 @@ struct AmrValues
 };
 AmrValues valuesOf(
   const BoxBins& covered, const AmrBlock& block, const Source& source, Tally& tally);
-
-/// Calls visit(i, j, k, N) for the cells that count.
-template <class Visit>
-void forValues(const BoxBins& covered, const AmrBlock& block, const Source& source, Tally& tally,
-  const Visit& visit)
-{
-  const AmrValues cells = valuesOf(covered, block, source, tally);
-  std::size_t cell = 0;
-  forCells(block.first, block.cells,
-    [&](int i, int j, int k)
-    {
-      if (cells.counts[cell])
-      {
-        visit(i, j, k, cells.values[cell]);
-      }
-      ++cell;
-    });
-}
 
 } // namespace filters

@@ -17,11 +17,6 @@ namespace filters
 namespace
 {
 
-std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
-{
-  return { leaves.begin(), leaves.end() };
-}
-
 /// That of another piece where it is the same.
 std::shared_ptr<PieceMesh> meshOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)

@@ -17,11 +17,6 @@ namespace filters
 namespace
 {
 
-std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
-{
-  return { leaves.begin(), leaves.end() };
-}
-
 /// Whether a cell holds a place.
 bool holds(const CellSampler& cells, const Point& place)
 {
@@ -32,6 +27,11 @@ bool holds(const CellSampler& cells, const Point& place)
 }
 
 } // namespace
+
+std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
+{
+  return { leaves.begin(), leaves.end() };
+}
 
 schlieren::Box boundsOf(
   const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)

@@ -33,6 +33,8 @@ struct SourceMesh
   std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
 };
 
+std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
+
 /// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
 schlieren::Box boundsOf(
   const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
