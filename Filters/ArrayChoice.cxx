@@ -3,18 +3,14 @@
 #include "ArrayChoice.h"
 
 #include "GasChoices.h"
-#include "RefractivityValues.h"
-#include "vtkRefractiveIndex.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <utility>
 
 namespace filters
@@ -23,50 +19,15 @@ namespace filters
 namespace
 {
 
-using Index = vtkRefractiveIndex;
+using S = MediumSettings;
 
-const char* const properties[] = { "Density", "IndexArray", "Temperature", "Pressure", "Humidity" };
-
-/// By the user.
-bool isChosen(const Selection& selection)
+/// Whether an array that the model needs is not chosen.
+bool lacksArrays(const MediumSettings& settings)
 {
-  return !selection.name.empty() || selection.attribute >= 0;
-}
-
-/// A mixture needs densities and fractions, moist air three arrays.
-std::vector<int> arraysOfModel(int model)
-{
-  switch (model)
-  {
-    case Index::CIDDOR:
-      return { Index::TEMPERATURE, Index::PRESSURE, Index::HUMIDITY };
-    case Index::TRANSFER_FUNCTIONS:
-      return {};
-    case Index::REFRACTIVE_INDEX:
-    case Index::REFRACTIVITY:
-      return { Index::INDEX_ARRAY };
-    default:
-      return { Index::DENSITY };
-  }
-}
-
-/// The arrays that the user has chosen.
-void takeGiven(vtkRefractiveIndex* self, MediumChoice& choice)
-{
-  for (int index = 0; index < static_cast<int>(choice.arrays.size()); ++index)
-  {
-    choice.arrays[static_cast<std::size_t>(index)] = selectionFrom(self, index, properties[index]);
-  }
-}
-
-/// Whether an array that its model needs is not chosen.
-bool lacksArrays(const MediumChoice& choice)
-{
-  const std::vector<int> needed = arraysOfModel(choice.indexModel);
+  const std::vector<std::size_t> needed = arraysOfModel(settings.IndexModel);
   return std::any_of(needed.begin(), needed.end(),
-    [&](int index) {
-      return index != Index::HUMIDITY && !isChosen(choice.arrays[static_cast<std::size_t>(index)]);
-    });
+    [&](std::size_t index)
+    { return index != S::HumidityArray && !settings.Arrays[index].isChosen(); });
 }
 
 double scaleIn(const FlowDefaults& defaults, const std::string& property)
@@ -81,21 +42,22 @@ double scaleIn(const FlowDefaults& defaults, const std::string& property)
   return 0;
 }
 
-std::string inWords(const MediumChoice& choice)
+std::string inWords(const MediumSettings& settings)
 {
   std::string text;
-  for (const int index : arraysOfModel(choice.indexModel))
+  for (const std::size_t index : arraysOfModel(settings.IndexModel))
   {
-    const Selection& selection = choice.arrays[static_cast<std::size_t>(index)];
-    if (selection.name.empty() || selection.name == "None")
+    const ArraySelection& selection = settings.Arrays[index];
+    if (!selection.isNamed())
     {
       continue;
     }
-    text += (text.empty() ? "" : "; ") + selection.property + ": '" + selection.name + "'";
-    const double scale = index == Index::DENSITY ? choice.densityScale
-      : index == Index::TEMPERATURE              ? choice.temperatureScale
-      : index == Index::PRESSURE                 ? choice.pressureScale
-                                                 : 1;
+    text += (text.empty() ? "" : "; ") + std::string(S::arrayProperties[index]) + ": '" +
+      selection.name + "'";
+    const double scale = index == S::DensityArray ? settings.DensityScale
+      : index == S::TemperatureArray              ? settings.TemperatureScale
+      : index == S::PressureArray                 ? settings.PressureScale
+                                                  : 1;
     if (scale != 1)
     {
       char factor[32];
@@ -103,9 +65,10 @@ std::string inWords(const MediumChoice& choice)
       text += factor;
     }
   }
-  for (std::size_t i = 0; i < choice.mixtureArrays.size(); ++i)
+  for (std::size_t i = 0; settings.IndexModel == S::Mixture && i < settings.MixtureArrays.size();
+       ++i)
   {
-    text += (i > 0 ? ", '" : "; fractions: '") + choice.mixtureArrays[i] + "'";
+    text += (i > 0 ? ", '" : "; fractions: '") + settings.MixtureArrays[i] + "'";
   }
   return text.empty() ? text : text + ".";
 }
@@ -224,175 +187,115 @@ std::vector<FlowArray> getArrays(Reader& message)
 }
 
 //------------------------------------------------------------------------------
-bool MediumChoice::hasHumidity() const
+std::vector<std::size_t> arraysOfModel(int model)
 {
-  const std::string& name = this->arrays[Index::HUMIDITY].name;
-  return !name.empty() && name != "None";
-}
-
-//------------------------------------------------------------------------------
-bool isOpen(vtkRefractiveIndex* self)
-{
-  const int model = self->GetIndexModel();
-  if (model == Index::AUTO ||
-    (model == Index::GLADSTONE_DALE_MIXTURE && self->GetMixtureArrays().empty()))
+  switch (model)
   {
-    return true;
+    case S::Ciddor:
+      return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
+    case S::Curves:
+      return {};
+    case S::RefractiveIndex:
+    case S::Refractivity:
+      return { S::IndexArray };
+    default:
+      return { S::DensityArray };
   }
-  MediumChoice choice;
-  choice.indexModel = model;
-  takeGiven(self, choice);
-  return lacksArrays(choice);
 }
 
 //------------------------------------------------------------------------------
-void noteArrays(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& data)
+bool isOpen(const MediumSettings& settings)
 {
-  if (!isOpen(self) || self->GetKnownArrays()->AreOfRanks())
-  {
-    return;
-  }
-  self->GetKnownArrays()->Note(flowArraysOf(data, false));
+  return settings.IndexModel == S::Auto ||
+    (settings.IndexModel == S::Mixture && settings.MixtureArrays.empty()) || lacksArrays(settings);
 }
 
 //------------------------------------------------------------------------------
-MediumChoice choiceOf(vtkRefractiveIndex* self)
+MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
 {
-  const std::vector<FlowArray> known = self->GetKnownArrays()->Get();
   MediumChoice choice;
-  takeGiven(self, choice);
-  choice.mixtureArrays = self->GetMixtureArrays();
-  choice.mixtureGases = self->GetMixtureGases();
-  choice.fractionType = self->GetFractionType();
-  const Selection& density = choice.arrays[Index::DENSITY];
-  const bool isAuto = self->GetIndexModel() == Index::AUTO;
+  choice.settings = given;
+  MediumSettings& settings = choice.settings;
+  ArraySelection& density = settings.Arrays[S::DensityArray];
+  const bool isAuto = given.IndexModel == S::Auto;
   FlowDefaults defaults;
-  if (isAuto && !isChosen(density) && choice.mixtureArrays.empty())
+  if (isAuto && !density.isChosen() && given.MixtureArrays.empty())
   {
     defaults = flowDefaults(known);
-    choice.indexModel = defaults.indexModel;
+    settings.IndexModel = defaults.indexModel;
   }
   else
   {
-    choice.indexModel = !isAuto      ? self->GetIndexModel()
-      : choice.mixtureArrays.empty() ? static_cast<int>(Index::GLADSTONE_DALE)
-                                     : static_cast<int>(Index::GLADSTONE_DALE_MIXTURE);
-    if (lacksArrays(choice))
+    settings.IndexModel = !isAuto   ? given.IndexModel
+      : given.MixtureArrays.empty() ? S::GladstoneDale
+                                    : S::Mixture;
+    if (lacksArrays(settings))
     {
-      defaults = flowDefaults(known, static_cast<FlowDefaults::IndexModel>(choice.indexModel));
+      defaults = flowDefaults(known, static_cast<MediumSettings::Models>(settings.IndexModel));
     }
   }
   // Arrays that are not chosen.
-  for (const int index : arraysOfModel(choice.indexModel))
+  for (const std::size_t index : arraysOfModel(settings.IndexModel))
   {
-    Selection& selection = choice.arrays[static_cast<std::size_t>(index)];
+    ArraySelection& selection = settings.Arrays[index];
     // Without an array RelativeHumidity counts.
-    if (isChosen(selection) || (index == Index::HUMIDITY && !isAuto))
+    if (selection.isChosen() || (index == S::HumidityArray && !isAuto))
     {
       continue;
     }
-    selection.name = defaults.arrayOf(selection.property);
+    selection.name = defaults.arrayOf(S::arrayProperties[index]);
     selection.cellsFirst = defaults.association == FlowArray::Cells;
-    if (selection.name.empty() && index != Index::HUMIDITY)
+    if (selection.name.empty() && index != S::HumidityArray)
     {
       choice.note = defaults.note;
     }
   }
   // The gases of a density: with a gas of the user's own there is no mixture.
-  const bool isOneGas = !isCustom(self->GetGas()) ||
-    self->GetGladstoneDaleConstant() != Index::DefaultGladstoneDaleConstant;
-  const bool mayBeMixture = choice.indexModel == Index::GLADSTONE_DALE_MIXTURE ||
-    (isAuto && choice.indexModel == Index::GLADSTONE_DALE && !isOneGas);
-  if (isAuto && isOneGas && choice.indexModel == Index::GLADSTONE_DALE_MIXTURE &&
-    choice.mixtureArrays.empty())
+  const bool isOneGas =
+    !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
+  const bool mayBeMixture = settings.IndexModel == S::Mixture ||
+    (isAuto && settings.IndexModel == S::GladstoneDale && !isOneGas);
+  if (isAuto && isOneGas && settings.IndexModel == S::Mixture && given.MixtureArrays.empty())
   {
-    choice.indexModel = Index::GLADSTONE_DALE;
+    settings.IndexModel = S::GladstoneDale;
   }
-  else if (mayBeMixture && choice.mixtureArrays.empty())
+  else if (mayBeMixture && given.MixtureArrays.empty())
   {
     const FlowDefaults species =
       flowSpecies(known, density.cellsFirst ? FlowArray::Cells : FlowArray::Points);
     if (!species.fractions.empty())
     {
-      choice.indexModel = Index::GLADSTONE_DALE_MIXTURE;
-      choice.mixtureArrays = species.fractions;
-      choice.mixtureGases = choice.mixtureGases.empty() ? species.gases : choice.mixtureGases;
-      choice.fractionType = species.ofVolume ? Index::VOLUME : Index::MASS;
+      settings.IndexModel = S::Mixture;
+      settings.MixtureArrays = species.fractions;
+      settings.MixtureGases = given.MixtureGases.empty() ? species.gases : given.MixtureGases;
+      settings.FractionType = species.ofVolume ? 1 : 0;
     }
   }
   // Factors to SI units.
-  const auto scaleOf = [&](int index, double given)
+  const auto scaleOf = [&](std::size_t index, double scale)
   {
-    const Selection& selection = choice.arrays[static_cast<std::size_t>(index)];
-    const double byUnit = scaleByUnit(selection.property, selection.name);
+    const std::string property = S::arrayProperties[index];
+    const std::string& name = settings.Arrays[index].name;
+    const double byUnit = scaleByUnit(property, name);
     // What is guessed by values, as hPa are, belongs to arrays that were not chosen.
-    const bool isOfDefaults = isAuto && selection.name == defaults.arrayOf(selection.property);
-    const double byValues = isOfDefaults ? scaleIn(defaults, selection.property + "Scale") : 0;
-    const bool isKnown = given != 0 || byUnit != 0 || byValues != 0;
+    const bool isOfDefaults = isAuto && name == defaults.arrayOf(property);
+    const double byValues = isOfDefaults ? scaleIn(defaults, property + "Scale") : 0;
+    const bool isKnown = scale != 0 || byUnit != 0 || byValues != 0;
     choice.isScaleKnown = choice.isScaleKnown || isKnown;
-    return given != 0 ? given : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
+    return scale != 0 ? scale : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
   };
-  if (choice.indexModel == Index::CIDDOR)
+  if (settings.IndexModel == S::Ciddor)
   {
-    choice.temperatureScale = scaleOf(Index::TEMPERATURE, self->GetTemperatureScale());
+    settings.TemperatureScale = scaleOf(S::TemperatureArray, given.TemperatureScale);
     choice.isScaleKnown = false; // that of the pressure counts
-    choice.pressureScale = scaleOf(Index::PRESSURE, self->GetPressureScale());
+    settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
-  else if (choice.indexModel == Index::GLADSTONE_DALE ||
-    choice.indexModel == Index::GLADSTONE_DALE_MIXTURE)
+  else if (settings.IndexModel == S::GladstoneDale || settings.IndexModel == S::Mixture)
   {
-    choice.densityScale = scaleOf(Index::DENSITY, self->GetDensityScale());
+    settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }
-  choice.message = inWords(choice);
+  choice.message = inWords(settings);
   return choice;
-}
-
-//------------------------------------------------------------------------------
-Implausible implausibleIn(vtkRefractiveIndex* self, const Source& source)
-{
-  const MediumChoice choice = choiceOf(self);
-  if (source.isComputed || choice.indexModel == Index::TRANSFER_FUNCTIONS)
-  {
-    return {};
-  }
-  const bool isMoistAir = choice.indexModel == Index::CIDDOR;
-  FlowInUse flow;
-  flow.indexModel = static_cast<FlowDefaults::IndexModel>(choice.indexModel);
-  flow.isScaleGiven = choice.isScaleKnown;
-  flow.scales = isMoistAir ? std::vector<double>{ choice.temperatureScale, choice.pressureScale }
-                           : std::vector<double>{ choice.densityScale };
-  const bool isOfTable = !isCustom(self->GetGas());
-  flow.isGas = choice.indexModel == Index::GLADSTONE_DALE_MIXTURE || isOfTable ||
-    self->GetGladstoneDaleConstant() == Index::DefaultGladstoneDaleConstant;
-  if (isOfTable && choice.indexModel == Index::GLADSTONE_DALE)
-  {
-    flow.constant = self->GetGladstoneDaleConstantUsed();
-  }
-  const std::vector<int> indices = arraysOfModel(choice.indexModel);
-  for (std::size_t i = 0; i < flow.scales.size(); ++i)
-  {
-    const Selection& selection = choice.arrays[static_cast<std::size_t>(indices[i])];
-    FlowArray array{ selection.name, selection.cellsFirst ? FlowArray::Cells : FlowArray::Points, 1,
-      { std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest() } };
-    for (const Leaf& leaf : source.leaves)
-    {
-      double range[2];
-      vtkUnsignedCharArray* ghosts =
-        leaf.ofCells ? leaf.data->GetCellGhostArray() : leaf.data->GetPointGhostArray();
-      ghosts ? leaf.arrays[i]->GetFiniteRange(range, 0, ghosts->GetPointer(0),
-                 leaf.ofCells ? hiddenCellBits
-                              : static_cast<unsigned char>(vtkDataSetAttributes::HIDDENPOINT))
-             : leaf.arrays[i]->GetFiniteRange(range, 0);
-      array.range[0] = std::min(array.range[0], range[0]);
-      array.range[1] = std::max(array.range[1], range[1]);
-      if (array.name.empty() && leaf.arrays[i]->GetName())
-      {
-        array.name = leaf.arrays[i]->GetName();
-      }
-    }
-    flow.arrays.push_back(std::move(array));
-  }
-  return implausible(flow);
 }
 
 } // namespace filters

@@ -1,21 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which arrays, units and gases a vtkRefractiveIndex uses: what the user has chosen, and where that leaves something open,
-// what flowDefaults() chooses of the arrays that there are.
+// Chooses arrays, units and gases: what the user has chosen, and where that leaves something open, what flowDefaults()
+// chooses of the arrays that there are.
 #pragma once
 
-#include "DataParts.h"
 #include "FlowDefaults.h"
-#include "RefractivitySource.h"
+#include "MediumSettings.h"
+#include "Message.h"
 
-#include <array>
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <vector>
 
 class vtkDataSet;
-class vtkRefractiveIndex;
 
 namespace filters
 {
@@ -48,30 +47,23 @@ void addArrays(std::vector<FlowArray>& all, const std::vector<FlowArray>& more);
 void putArrays(const std::vector<FlowArray>& arrays, std::vector<char>& message);
 std::vector<FlowArray> getArrays(Reader& message);
 
-/// What is used.
+/// What is used of data.
 struct MediumChoice
 {
-  int indexModel = 0;              ///< one of vtkRefractiveIndex::IndexModels, never AUTO
-  std::array<Selection, 5> arrays; ///< by vtkRefractiveIndex::InputArrays, DENSITY to HUMIDITY
-  double densityScale = 1, temperatureScale = 1, pressureScale = 1;
+  MediumSettings
+    settings; ///< with nothing left open: IndexModel, arrays, factors of units and fractions
   bool isScaleKnown = false; ///< by the user or by the unit in a name
-  std::vector<std::string> mixtureArrays, mixtureGases;
-  int fractionType = 0;
-  std::string message; ///< in words
-  std::string note;    ///< what was not understood of the names, mostly empty
-
-  bool hasHumidity() const;
+  std::string message;       ///< in words
+  std::string note;          ///< what was not understood of the names, mostly empty
 };
 
 /// Whether something is left open, so that the choice depends on the arrays that there are.
-bool isOpen(vtkRefractiveIndex* self);
+bool isOpen(const MediumSettings& settings);
 
-/// Notes the arrays of the datasets where something is left open.
-void noteArrays(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& data);
+/// Chooses what `settings` leave open from the arrays of the data.
+MediumChoice choiceOf(const MediumSettings& settings, const std::vector<FlowArray>& known);
 
-MediumChoice choiceOf(vtkRefractiveIndex* self);
-
-/// What is implausible about the values of the arrays that are used, where they count.
-Implausible implausibleIn(vtkRefractiveIndex* self, const Source& source);
+/// The indices of MediumSettings::Arrays that an index model takes besides fractions and fields.
+std::vector<std::size_t> arraysOfModel(int model);
 
 } // namespace filters

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ArrayNames.h"
 
-#include "vtkGasTable.h"
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <cctype>
@@ -240,7 +240,7 @@ Understood understood(const std::vector<std::string>& words, const Names& names)
     {
       continue;
     }
-    else if (others.count(small) || vtkGasTable::Has(word) || vtkGasTable::Has(small))
+    else if (others.count(small) || schlieren::findGas(word) || schlieren::findGas(small))
     {
       atLeast(Understood::AsSpecies);
     }

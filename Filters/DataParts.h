@@ -4,15 +4,12 @@
 // The datasets that a rank has of an input, and how they are sent to another one.
 #pragma once
 
+#include "Message.h"
+
 #include "vtkSmartPointer.h"
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 class vtkDataObject;
@@ -38,98 +35,6 @@ std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& a
 
 /// Some cells of a mesh, with all arrays.
 vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, vtkIdList* cells);
-
-/// Adds plain values to a message.
-template <class Value>
-void put(const Value* values, std::size_t count, std::vector<char>& bytes)
-{
-  static_assert(std::is_trivially_copyable_v<Value>);
-  const std::size_t at = bytes.size();
-  bytes.resize(at + count * sizeof(Value));
-  if (count > 0)
-  {
-    std::memcpy(bytes.data() + at, values, count * sizeof(Value));
-  }
-}
-template <class Value>
-void put(const Value& value, std::vector<char>& bytes)
-{
-  put(&value, 1, bytes);
-}
-/// A vector or a string, and how long it is.
-template <class Values>
-void putAll(const Values& values, std::vector<char>& bytes)
-{
-  put(static_cast<std::uint64_t>(values.size()), bytes);
-  put(values.data(), values.size(), bytes);
-}
-
-/// Reads what put() has written. Throws std::runtime_error where there is less.
-class Reader
-{
-public:
-  explicit Reader(const std::vector<char>& bytes)
-    : Bytes(bytes)
-  {
-  }
-
-  bool IsAtEnd() const { return this->At == this->Bytes.size(); }
-
-  template <class Value>
-  void Get(Value* values, std::size_t count)
-  {
-    if (count > (this->Bytes.size() - this->At) / sizeof(Value))
-    {
-      Fail();
-    }
-    if (count > 0)
-    {
-      std::memcpy(values, this->Bytes.data() + this->At, count * sizeof(Value));
-      this->At += count * sizeof(Value);
-    }
-  }
-
-  template <class Value>
-  Value Get()
-  {
-    Value value;
-    this->Get(&value, 1);
-    return value;
-  }
-  /// What putAll() has written.
-  template <class Values>
-  Values GetAll()
-  {
-    using Value = typename Values::value_type;
-    const auto count = this->Get<std::uint64_t>();
-    if (count > (this->Bytes.size() - this->At) / sizeof(Value))
-    {
-      this->Fail();
-    }
-    Values values(static_cast<std::size_t>(count), Value());
-    this->Get(values.data(), values.size());
-    return values;
-  }
-
-  /// Adds what is left to another message.
-  void GetRest(std::vector<char>& bytes)
-  {
-    bytes.insert(
-      bytes.end(), this->Bytes.begin() + static_cast<std::ptrdiff_t>(this->At), this->Bytes.end());
-    this->At = this->Bytes.size();
-  }
-
-  /// Of what has been read, and cannot be.
-  [[noreturn]] static void Fail()
-  {
-    throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "
-                             "ranks of the same version of this plugin?");
-  }
-
-private:
-  const std::vector<char>& Bytes;
-  std::size_t At = 0;
-};
 
 /// A part as it is sent, and as it arrives. Throw std::runtime_error where VTK cannot send a type of data.
 void pack(const Part& part, std::vector<char>& bytes);

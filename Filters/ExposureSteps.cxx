@@ -110,10 +110,11 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 }
 
 //------------------------------------------------------------------------------
-ExposureSteps::ExposureSteps(vtkAlgorithm* filter, InputsOfRanks& ranks,
+ExposureSteps::ExposureSteps(vtkAlgorithm* filter, MediumMaker& maker, InputsOfRanks& ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
   double maxCells)
   : Filter(filter)
+  , Maker(maker)
   , Ranks(ranks)
   , Inputs(inputs)
   , Outputs(outputs)
@@ -143,7 +144,7 @@ ExposureSteps::~ExposureSteps()
 //------------------------------------------------------------------------------
 void ExposureSteps::SetOwn()
 {
-  this->Ranks.setOwn(vtkDataObject::GetData(this->Inputs[0]),
+  this->Ranks.setOwn(this->Maker, vtkDataObject::GetData(this->Inputs[0]),
     vtkDataObject::GetData(this->Inputs[1]),
     [this](int instant)
     { return this->GetData(0, this->Exposure.Instants.at(static_cast<std::size_t>(instant))); });

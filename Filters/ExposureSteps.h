@@ -36,9 +36,10 @@ void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double tim
 class ExposureSteps
 {
 public:
-  /// `ranks`: which have begun. `maxCells`: see InputsOfRanks::gather().
-  ExposureSteps(vtkAlgorithm* filter, InputsOfRanks& ranks, vtkInformationVector** inputs,
-    vtkInformationVector* outputs, const TimeExposure& exposure, double maxCells);
+  /// `maker`: see InputsOfRanks::setOwn(). `ranks`: which have begun. `maxCells`: see InputsOfRanks::gather().
+  ExposureSteps(vtkAlgorithm* filter, MediumMaker& maker, InputsOfRanks& ranks,
+    vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
+    double maxCells);
   ~ExposureSteps();
   ExposureSteps(const ExposureSteps&) = delete;
   ExposureSteps& operator=(const ExposureSteps&) = delete;
@@ -65,6 +66,7 @@ private:
   void Keep(int port, vtkDataObject* data);
 
   vtkAlgorithm* Filter;
+  MediumMaker& Maker;
   InputsOfRanks& Ranks;
   vtkInformationVector** Inputs;
   vtkInformationVector* Outputs;

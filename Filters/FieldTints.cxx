@@ -5,6 +5,7 @@
 #include "AvailableMemory.h"
 #include "FieldFromImage.h"
 #include "GridOfSource.h"
+#include "MediumMaker.h"
 #include "RefractivityModels.h"
 #include "RefractivitySource.h"
 #include "RefractivityValues.h"
@@ -20,7 +21,6 @@
 #include "vtkPointData.h"
 #include "vtkPointDataToCellData.h"
 #include "vtkProbeFilter.h"
-#include "vtkRefractiveIndex.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -37,47 +37,50 @@ namespace filters
 namespace
 {
 
-using filters::arrayName;
-using filters::maskName;
-
-void requireFields(vtkRefractiveIndex* medium)
+void requireFields(const MediumSettings& medium)
 {
-  if (medium->GetFields().empty())
+  if (medium.Fields.empty())
   {
     throw std::runtime_error(
       "ColorByField is on, but Fields is empty, so no field gives its colour. "
       "Name arrays in Fields, or switch ColorByField off.");
   }
-  filters::fieldMeanFrom(medium); // whether its lists belong together
+  fieldMeanFrom(medium); // whether its lists belong together
 }
 
-/// Makes of a filter one that finds a single field, between 0 and 1, as if it were a refractivity. `ranges`: see
-/// forFieldImages().
-void chooseField(vtkRefractiveIndex* reader, vtkRefractiveIndex* medium, std::size_t field,
-  const std::vector<FieldMean::Range>& ranges)
+/// Settings that find a single field, between 0 and 1, as if it were a refractivity. `ranges`: see forFieldImages().
+MediumSettings settingsOfField(
+  const MediumSettings& medium, std::size_t field, const std::vector<FieldMean::Range>& ranges)
 {
-  reader->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
-  reader->SetRefractivityScale(1);
-  reader->SetDepth(medium->GetDepth());
-  reader->SetSymmetry(medium->GetSymmetry());
-  reader->SetSymmetryAxis(medium->GetSymmetryAxis());
-  reader->SetSymmetryOrigin(medium->GetSymmetryOrigin());
-  reader->AddField(medium->GetFields()[field].c_str());
-  if (medium->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS &&
-    !medium->GetTransferFunctions().empty())
+  MediumSettings settings;
+  settings.IndexModel = MediumSettings::Curves;
+  settings.RefractivityScale = 1;
+  settings.Depth = medium.Depth;
+  settings.Symmetry = medium.Symmetry;
+  settings.SymmetryAxis = medium.SymmetryAxis;
+  std::copy_n(medium.SymmetryOrigin, 3, settings.SymmetryOrigin);
+  settings.Fields = { medium.Fields[field] };
+  if (medium.IndexModel == MediumSettings::Curves && !medium.TransferFunctions.empty())
   {
-    reader->AddTransferFunction(medium->GetTransferFunctions()[field]);
+    settings.TransferFunctions = { medium.TransferFunctions[field] };
   }
-  if (!medium->GetFieldRanges().empty())
+  if (!medium.FieldRanges.empty())
   {
-    reader->AddFieldRange(medium->GetFieldRanges()[2 * field]);
-    reader->AddFieldRange(medium->GetFieldRanges()[2 * field + 1]);
+    settings.FieldRanges = { medium.FieldRanges[2 * field], medium.FieldRanges[2 * field + 1] };
   }
   else if (!ranges.empty() && ranges[field][0] < ranges[field][1])
   {
-    reader->AddFieldRange(ranges[field][0]);
-    reader->AddFieldRange(ranges[field][1]);
+    settings.FieldRanges = { ranges[field][0], ranges[field][1] };
   }
+  return settings;
+}
+
+/// The source of a single field.
+Source sourceOfField(
+  const MediumSettings& settings, vtkDataObject* input, const Source* like = nullptr)
+{
+  KnownArrays nothingIsOpen;
+  return chooseSource(settings, nothingIsOpen, input, like);
 }
 
 bool isSameGrid(const schlieren::Grid& a, const schlieren::Grid& b)
@@ -118,24 +121,12 @@ void probe(vtkImageData* image, vtkImageData* grid)
   image->ShallowCopy(prober->GetOutput());
 }
 
-/// Whether `input` is an image whose grid is kept.
-bool keepsOwnGrid(vtkRefractiveIndex* medium, vtkDataObject* input)
-{
-  return medium->GetSymmetry() == vtkRefractiveIndex::NO_SYMMETRY &&
-    chooseSource(medium, input).image != nullptr;
-}
-
-/// forFieldImages() of other data. Nothing where it is aborted.
-void forSampledFields(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
+/// forFieldImages() of other data.
+void forSampledFields(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
   int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
 {
   std::string reportedBefore;
-  const auto source =
-    medium->MakeSourceOfCells(input, nullptr, reportedBefore, vtkRefractiveIndex::WITH_FIELDS);
-  if (!source)
-  {
-    return;
-  }
+  const auto source = maker.makeSourceOfCells(input, nullptr, reportedBefore, true);
   std::vector<float> all;
   vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
     [&] { all = fieldsAtGrid(*source, WorkProgress(), refractivity); });
@@ -165,19 +156,17 @@ void forSampledFields(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImage
 
 } // namespace
 
-std::vector<RangeOfField> rangesOfFields(vtkRefractiveIndex* medium, vtkDataObject* input)
+std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input)
 {
   requireFields(medium);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const RangeOfField none{ { infinity, -infinity }, "" };
-  std::vector<RangeOfField> ranges(medium->GetFields().size(), none);
+  std::vector<RangeOfField> ranges(medium.Fields.size(), none);
   for (std::size_t number = 0; number < ranges.size(); ++number)
   {
-    vtkNew<vtkRefractiveIndex> reader;
-    chooseField(reader, medium, number, {});
     try
     {
-      const Source source = chooseSource(reader, input);
+      const Source source = sourceOfField(settingsOfField(medium, number, {}), input);
       ranges[number].range = std::get<FieldMean>(source.model).rangesIn(source.leaves).at(0);
     }
     catch (const ArraysMissing& problem)
@@ -188,22 +177,21 @@ std::vector<RangeOfField> rangesOfFields(vtkRefractiveIndex* medium, vtkDataObje
   return ranges;
 }
 
-std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* input,
-  const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges)
+std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
+  const Source& ofMedium, const std::vector<FieldMean::Range>& ranges)
 {
   requireFields(medium);
-  std::vector<FieldValues> fields(medium->GetFields().size());
+  std::vector<FieldValues> fields(medium.Fields.size());
   for (std::size_t number = 0; number < fields.size(); ++number)
   {
-    vtkNew<vtkRefractiveIndex> reader;
-    chooseField(reader, medium, number, ranges);
+    const MediumSettings settings = settingsOfField(medium, number, ranges);
     FieldValues& field = fields[number];
     try
     {
-      field.source = filters::chooseSource(reader, input, &ofMedium);
+      field.source = sourceOfField(settings, input, &ofMedium);
       if (ranges.empty())
       {
-        std::get<filters::FieldMean>(field.source.model).findRanges(field.source.leaves);
+        std::get<FieldMean>(field.source.model).findRanges(field.source.leaves);
       }
     }
     catch (const ArraysMissing&)
@@ -212,18 +200,18 @@ std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* 
       {
         throw;
       }
-      field.source.model = modelFrom(reader); // another part has it
+      field.source.model = modelFrom(settings); // another part has it
     }
     if (!ranges.empty())
     {
       std::get<FieldMean>(field.source.model).setRanges({ ranges[number] });
     }
-    const std::vector<filters::Leaf> found = std::move(field.source.leaves);
+    const std::vector<Leaf> found = std::move(field.source.leaves);
     field.source.leaves.clear();
-    for (const filters::Leaf& leaf : ofMedium.leaves)
+    for (const Leaf& leaf : ofMedium.leaves)
     {
-      const auto same = std::find_if(found.begin(), found.end(),
-        [&](const filters::Leaf& other) { return other.input == leaf.input; });
+      const auto same = std::find_if(
+        found.begin(), found.end(), [&](const Leaf& other) { return other.input == leaf.input; });
       if (same != found.end())
       {
         field.source.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
@@ -242,7 +230,7 @@ std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* 
 
 void bringToCells(FieldValues& field)
 {
-  for (filters::Leaf& leaf : field.source.leaves)
+  for (Leaf& leaf : field.source.leaves)
   {
     if (leaf.ofCells)
     {
@@ -261,26 +249,26 @@ void bringToCells(FieldValues& field)
   }
 }
 
-void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
+void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
   int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges)
 {
+  const MediumSettings& medium = maker.settings;
   requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
-  const std::size_t count = medium->GetFields().size();
-  if (!keepsOwnGrid(medium, input))
+  if (!maker.keepsGrid(input))
   {
-    forSampledFields(medium, input, refractivity, threads, take);
+    forSampledFields(maker, input, refractivity, threads, take);
     return;
   }
-  for (std::size_t field = 0; field < count; ++field)
+  for (std::size_t field = 0; field < medium.Fields.size(); ++field)
   {
-    vtkNew<vtkRefractiveIndex> reader;
-    chooseField(reader, medium, field, ranges);
-    reader->SetSamplingBounds(medium->GetSamplingBounds());
-    reader->SetNumberOfThreads(threads);
+    MediumMaker reader;
+    reader.settings = settingsOfField(medium, field, ranges);
+    std::copy_n(medium.SamplingBounds, 6, reader.settings.SamplingBounds);
+    reader.numberOfThreads = threads;
     vtkNew<vtkImageData> values;
-    reader->Convert(input, values);
+    reader.convert(input, values, nullptr, Numbers::Singles);
     if (!isSameGrid(grid, gridFrom(values)))
     {
       probe(values, refractivity);
@@ -290,10 +278,11 @@ void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageDa
 }
 
 std::vector<float> fieldGradients(
-  vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads)
+  MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity)
 {
+  const int threads = maker.threads();
   const schlieren::Grid grid = gridFrom(refractivity);
-  const std::size_t count = medium->GetFields().size();
+  const std::size_t count = maker.settings.Fields.size();
   const auto points = static_cast<std::size_t>(refractivity->GetNumberOfPoints());
   // And of one field at a time: numbers of an array, the field's own, and a mask; or of all of them.
   constexpr std::size_t bytesOfField = sizeof(double) + sizeof(float) + 1;
@@ -301,7 +290,7 @@ std::vector<float> fieldGradients(
     "The fields that color the image, on a grid of " + std::to_string(points) + " points,",
     "Give fewer Fields or smaller SamplingDimensions.");
   std::vector<float> gradients(count * points, 0);
-  forFieldImages(medium, input, refractivity, threads,
+  forFieldImages(maker, input, refractivity, threads,
     [&](std::size_t field, vtkImageData* values)
     {
       schlieren::gradientMagnitudes(grid,

@@ -16,10 +16,11 @@
 class vtkDataArray;
 class vtkDataObject;
 class vtkImageData;
-class vtkRefractiveIndex;
 
 namespace filters
 {
+
+class MediumMaker;
 
 /// What vtkSchlierenFilter needs to tint an image by the Fields of its medium. A field is what its transfer function
 /// makes of it, where the medium is made with these; else its place in its range. A user's mistake is thrown as
@@ -40,26 +41,26 @@ struct RangeOfField
   std::string lacks;      // what to say where no part has the field; empty: this one has
 };
 /// Of the fields of `medium`.
-std::vector<RangeOfField> rangesOfFields(vtkRefractiveIndex* medium, vtkDataObject* input);
+std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input);
 
 /// The fields of `medium`, which takes `ofMedium` from `input`. `ranges`: of all parts of the data, of which this may not have
 /// all fields; empty: these are all.
-std::vector<FieldValues> fieldValues(vtkRefractiveIndex* medium, vtkDataObject* input,
+std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
   const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
 
 /// Makes values at points those of cells: their mean.
 void bringToCells(FieldValues& field);
 
 /// Calls take(number, image) for each field with its values, as if they were a refractivity, on the grid of
-/// `refractivity`, which `medium` has made from `input`. `ranges`: of all parts of the data; empty: this is all.
-void forFieldImages(vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity,
+/// `refractivity`, which `maker` has made from `input`. `ranges`: of all parts of the data; empty: this is all.
+void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
   int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges = {});
 
-/// The gradients of the fields on the grid of `refractivity`, which `medium` has made from `input`: what
+/// The gradients of the fields on the grid of `refractivity`, which `maker` has made from `input`: what
 /// schlieren::FieldGradients::values needs.
 std::vector<float> fieldGradients(
-  vtkRefractiveIndex* medium, vtkDataObject* input, vtkImageData* refractivity, int threads);
+  MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity);
 
 /// Three `values` for each field; or, where there are none, hues of the golden section (their numbers
 /// times 0.618 of the circle, from red), of which any number is well apart and none changes when a field

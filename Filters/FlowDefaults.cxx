@@ -3,7 +3,7 @@
 #include "FlowDefaults.h"
 
 #include "ArrayNames.h"
-#include "vtkGasTable.h"
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <cctype>
@@ -41,7 +41,7 @@ struct Fraction
 std::string gasOf(const std::string& word)
 {
   const std::string name = lowered(word);
-  return vtkGasTable::Has(word) ? word : vtkGasTable::Has(name) ? name : std::string();
+  return schlieren::findGas(word) ? word : schlieren::findGas(name) ? name : std::string();
 }
 
 bool isFraction(const FlowArray& array, Fraction& fraction)
@@ -142,19 +142,19 @@ public:
       this->moistAir();
   }
 
-  bool choose(FlowDefaults::IndexModel model)
+  bool choose(MediumSettings::Models model)
   {
     this->Result.indexModel = model;
     switch (model)
     {
-      case FlowDefaults::RefractiveIndex:
+      case MediumSettings::RefractiveIndex:
         return this->refractiveIndex();
-      case FlowDefaults::Refractivity:
+      case MediumSettings::Refractivity:
         return this->refractivity();
-      case FlowDefaults::Ciddor:
+      case MediumSettings::Ciddor:
         return this->moistAir();
       default:
-        return this->density(model == FlowDefaults::Mixture);
+        return this->density(model == MediumSettings::Mixture);
     }
   }
 
@@ -251,7 +251,7 @@ private:
     {
       return false;
     }
-    this->take(FlowDefaults::Refractivity, array->association, { { "IndexArray", array->name } });
+    this->take(MediumSettings::Refractivity, array->association, { { "IndexArray", array->name } });
     this->Result.message = "Refractivity n - 1: " + quoted(array->name) + ".";
     return true;
   }
@@ -264,12 +264,12 @@ private:
       return false;
     }
     this->take(
-      FlowDefaults::RefractiveIndex, array->association, { { "IndexArray", array->name } });
+      MediumSettings::RefractiveIndex, array->association, { { "IndexArray", array->name } });
     this->Result.message = "Refractive index n: " + quoted(array->name) + ".";
     return true;
   }
 
-  void take(FlowDefaults::IndexModel model, FlowArray::Association association,
+  void take(MediumSettings::Models model, FlowArray::Association association,
     std::vector<std::pair<std::string, std::string>> arrays)
   {
     this->Result.indexModel = model;
@@ -341,14 +341,14 @@ private:
     for (const Fraction& fraction : found)
     {
       if (fraction.ofVolume == this->Result.ofVolume &&
-        formulas.insert(vtkGasTable::GetFormula(fraction.gas)).second)
+        formulas.insert(std::string(schlieren::findGas(fraction.gas)->formula)).second)
       {
         this->Result.fractions.push_back(fraction.array);
         this->Result.gases.push_back(fraction.gas);
         list += (list.empty() ? "" : ", ") + quoted(fraction.array);
       }
     }
-    this->Result.indexModel = FlowDefaults::Mixture;
+    this->Result.indexModel = MediumSettings::Mixture;
     this->Result.message += this->Result.ofVolume ? "; volume" : "; mass";
     this->Result.message += " fractions: " + list;
   }
@@ -405,7 +405,7 @@ private:
     {
       pascals = 1000;
     }
-    this->take(FlowDefaults::Ciddor, association,
+    this->take(MediumSettings::Ciddor, association,
       { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
     this->Result.message = "Air; temperature: " + quoted(temperature.array->name);
     if (kelvins == 1)
@@ -534,7 +534,7 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
 }
 
 //------------------------------------------------------------------------------
-FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, FlowDefaults::IndexModel model)
+FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, MediumSettings::Models model)
 {
   Chooser chooser(arrays);
   const bool isFound = chooser.choose(model);

@@ -5,6 +5,7 @@
 // representation, toolbar and demo.
 #pragma once
 
+#include "MediumSettings.h"            // for the index models
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
 #include <array>
@@ -29,17 +30,7 @@ struct FlowArray
 /// How a Schlieren filter gets the refractive index.
 struct FlowDefaults
 {
-  /// Values of the property IndexModel.
-  enum IndexModel
-  {
-    GladstoneDale = 0,
-    RefractiveIndex = 1,
-    Refractivity = 2,
-    Mixture = 3,
-    Ciddor = 4
-  };
-
-  IndexModel indexModel = GladstoneDale;
+  MediumSettings::Models indexModel = MediumSettings::GladstoneDale;
   FlowArray::Association association = FlowArray::Points;
 
   /// Properties that take an array, and the array. The first is what the flow is shown by. None: no array
@@ -88,7 +79,7 @@ VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(const std::vector<FlowArray
 
 /// The same for an index model that is given: its arrays alone.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(
-  const std::vector<FlowArray>& arrays, FlowDefaults::IndexModel model);
+  const std::vector<FlowArray>& arrays, MediumSettings::Models model);
 
 /// The fractions of known gases among the arrays of points or those of cells, and nothing else.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowSpecies(
@@ -108,7 +99,7 @@ VTKSCHLIERENFILTERS_EXPORT std::string arraysInWords(const std::vector<FlowArray
 /// What is used of a flow, for implausible().
 struct FlowInUse
 {
-  FlowDefaults::IndexModel indexModel = FlowDefaults::GladstoneDale;
+  MediumSettings::Models indexModel = MediumSettings::GladstoneDale;
   /// Of the densities; of moist air the temperature and the pressure. With the ranges of what counts.
   std::vector<FlowArray> arrays;
   std::vector<double> scales; ///< of each, to SI units

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GasChoices.h"
 
-#include "ArrayChoice.h"
-#include "vtkRefractiveIndex.h"
+#include "MediumSettings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,18 +49,17 @@ std::string noteOn(const schlieren::Gas& gas, double wavelength)
 }
 
 /// The names of the gases that the index model uses, as they were chosen.
-std::vector<std::string> namesUsed(vtkRefractiveIndex* self)
+std::vector<std::string> namesUsed(const MediumSettings& settings)
 {
-  const MediumChoice choice = choiceOf(self);
   std::vector<std::string> names;
-  if (choice.indexModel == vtkRefractiveIndex::GLADSTONE_DALE)
+  if (settings.IndexModel == MediumSettings::GladstoneDale)
   {
-    names = { self->GetGas() };
+    names = { settings.Gas };
   }
-  else if (choice.indexModel == vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE)
+  else if (settings.IndexModel == MediumSettings::Mixture)
   {
-    names = choice.mixtureGases;
-    names.push_back(self->GetBackgroundGas());
+    names = settings.MixtureGases;
+    names.push_back(settings.BackgroundGas);
   }
   return names;
 }
@@ -92,34 +90,34 @@ const schlieren::Gas* gasFrom(const std::string& property, const std::string& na
 }
 
 //------------------------------------------------------------------------------
-double wavelengthOfGases(vtkRefractiveIndex* self)
+double wavelengthOfGases(const MediumSettings& settings)
 {
-  if (!std::isfinite(self->GetWavelength()) || self->GetWavelength() <= 0)
+  if (!std::isfinite(settings.Wavelength) || settings.Wavelength <= 0)
   {
-    throw std::runtime_error("Wavelength is " + std::to_string(self->GetWavelength()) +
+    throw std::runtime_error("Wavelength is " + std::to_string(settings.Wavelength) +
       " nm, but a wavelength is positive. Set it to that of the light (helium-neon laser: 632.8).");
   }
-  return 1e-9 * self->GetWavelength();
+  return 1e-9 * settings.Wavelength;
 }
 
 //------------------------------------------------------------------------------
-bool usesWavelength(vtkRefractiveIndex* self)
+bool usesWavelength(const MediumSettings& settings)
 {
-  const std::vector<std::string> names = namesUsed(self);
-  return choiceOf(self).indexModel == vtkRefractiveIndex::CIDDOR ||
+  const std::vector<std::string> names = namesUsed(settings);
+  return settings.IndexModel == MediumSettings::Ciddor ||
     !std::all_of(names.begin(), names.end(), isCustom);
 }
 
 //------------------------------------------------------------------------------
-std::function<double(double)> dispersionOfGases(vtkRefractiveIndex* self, double reference)
+std::function<double(double)> dispersionOfGases(const MediumSettings& settings, double reference)
 {
-  if (choiceOf(self).indexModel == vtkRefractiveIndex::CIDDOR)
+  if (settings.IndexModel == MediumSettings::Ciddor)
   {
-    const auto at = [co2 = self->GetCO2()](double wavelength)
+    const auto at = [co2 = settings.CO2](double wavelength)
     { return schlieren::MoistAir::at(wavelength, co2).dry; };
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
   }
-  const std::vector<std::string> names = namesUsed(self);
+  const std::vector<std::string> names = namesUsed(settings);
   const schlieren::Gas* gas =
     names.empty() || isCustom(names.back()) ? nullptr : schlieren::findGas(names.back());
   if (!gas)
@@ -131,14 +129,14 @@ std::function<double(double)> dispersionOfGases(vtkRefractiveIndex* self, double
 }
 
 //------------------------------------------------------------------------------
-std::string noteOnGases(vtkRefractiveIndex* self)
+std::string noteOnGases(const MediumSettings& settings)
 {
   std::string notes;
   std::set<std::string_view> reported;
-  for (const std::string& name : namesUsed(self))
+  for (const std::string& name : namesUsed(settings))
   {
     const schlieren::Gas* gas = isCustom(name) ? nullptr : schlieren::findGas(name);
-    const double wavelength = 1e-9 * self->GetWavelength();
+    const double wavelength = 1e-9 * settings.Wavelength;
     if (gas && !isMeasuredNear(*gas, wavelength) && reported.insert(gas->name).second)
     {
       notes += (notes.empty() ? "" : " ") + noteOn(*gas, wavelength);

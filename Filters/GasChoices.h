@@ -7,9 +7,9 @@
 #include <functional>
 #include <string>
 
-class vtkRefractiveIndex;
+struct MediumSettings;
 
-/// Gases that a user has chosen by name.
+/// Gases that a user has chosen by name. All settings are such as leave nothing open: MediumChoice::settings.
 namespace filters
 {
 
@@ -21,19 +21,19 @@ bool isCustom(const std::string& name);
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);
 
 /// The filter's wavelength in metres. Throws std::runtime_error where it is not positive.
-double wavelengthOfGases(vtkRefractiveIndex* self);
+double wavelengthOfGases(const MediumSettings& settings);
 
 /// Whether the refractivity depends on the wavelength: for moist air and where gases were chosen by name.
-bool usesWavelength(vtkRefractiveIndex* self);
+bool usesWavelength(const MediumSettings& settings);
 
 /// The refractivity at a wavelength by that at `reference` (both metres) of the gas that the index model uses:
 /// of a mixture, its background; of moist air, the dry part, from which vapour differs by percents of
 /// the dispersion. Null where the gas is not known.
 std::function<double(double wavelength)> dispersionOfGases(
-  vtkRefractiveIndex* self, double reference);
+  const MediumSettings& settings, double reference);
 
 /// What the user should know about the gases that the index model uses: whose constants have not been
 /// measured at the filter's wavelength. Mostly empty.
-std::string noteOnGases(vtkRefractiveIndex* self);
+std::string noteOnGases(const MediumSettings& settings);
 
 } // namespace filters

@@ -71,7 +71,7 @@ Implausible ofDensity(const FlowInUse& flow)
         "of it." };
   }
   const double low = array.range[0] * flow.scales[0], high = array.range[1] * flow.scales[0];
-  if (low == high && flow.indexModel == FlowDefaults::GladstoneDale)
+  if (low == high && flow.indexModel == MediumSettings::GladstoneDale)
   {
     return { "constant",
       "The density '" + array.name + "' is " + textOf(array.range[0]) +
@@ -170,10 +170,10 @@ Implausible implausible(const FlowInUse& flow)
   }
   switch (flow.indexModel)
   {
-    case FlowDefaults::GladstoneDale:
-    case FlowDefaults::Mixture:
+    case MediumSettings::GladstoneDale:
+    case MediumSettings::Mixture:
       return flow.arrays.size() == 1 ? ofDensity(flow) : Implausible();
-    case FlowDefaults::Ciddor:
+    case MediumSettings::Ciddor:
       return flow.arrays.size() == 2 ? ofMoistAir(flow) : Implausible();
     default:
       return {};

@@ -3,8 +3,10 @@
 #include "InputsOfRanks.h"
 
 #include "ArrayChoice.h"
+#include "GasChoices.h"
 #include "GatheredData.h"
 #include "InputDescription.h"
+#include "MediumMaker.h"
 #include "PartsOfRanks.h"
 #include "RefractivitySource.h"
 
@@ -12,7 +14,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkRefractiveIndex.h"
 
 #include <algorithm>
 #include <map>
@@ -116,10 +117,19 @@ bool InputsOfRanks::begin(
     description, problem.empty() && lacksInput ? absenceOf(this->All.all()) : problem, isWanted);
 }
 
-void InputsOfRanks::setOwn(vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt)
+void InputsOfRanks::setOwn(
+  MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt)
 {
+  this->Maker = &maker;
   this->Own = { data, bodies };
   this->OwnAt = std::move(dataAt);
+}
+
+void InputsOfRanks::forgetOwn()
+{
+  this->Maker = nullptr;
+  this->Own = {};
+  this->OwnAt = nullptr;
 }
 
 /// Rank 0 does the same meanwhile.
@@ -130,7 +140,7 @@ void InputsOfRanks::requestOfAll(const std::vector<char>& message)
 
 void InputsOfRanks::shareArrays()
 {
-  if (this->All.areSeveral() && isOpen(this->Self))
+  if (this->All.areSeveral() && isOpen(this->Maker->settings))
   {
     this->requestOfAll(requestOf(ShareArrays));
   }
@@ -143,7 +153,7 @@ InputsOfRanks::Inputs InputsOfRanks::gather(double maxCells)
   {
     return own;
   }
-  const std::vector<std::string> arrays = arraysOf(this->Self);
+  const std::vector<std::string> arrays = arraysOf(this->Maker->choice().settings);
   const auto hasArray = [this](const std::string& name)
   {
     return std::find(this->GatheredArrays.begin(), this->GatheredArrays.end(), name) !=
@@ -189,7 +199,8 @@ vtkDataObject* InputsOfRanks::gatheredOf(int port, vtkDataObject* own) const
   return gathered && own ? gathered : own;
 }
 
-const MadeOverRanks& InputsOfRanks::make(vtkDataObject* bodies, bool hasFields, int instant)
+std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
+  vtkDataObject* bodies, bool hasFields, int instant, std::string& warning)
 {
   std::vector<char> ofBodies;
   if (bodies)
@@ -205,11 +216,17 @@ const MadeOverRanks& InputsOfRanks::make(vtkDataObject* bodies, bool hasFields, 
   put(instant, request);
   putAll(ofBodies, request);
   this->requestOfAll(request);
-  if (this->Made.source)
+  const MediumSettings settings = this->Maker->choice().settings;
+  Source source;
+  source.model = modelFrom(settings);
+  source.noteOnGases = noteOnGases(settings);
+  if (!this->Made.hasGas)
   {
-    this->Made.source->use(&this->All);
+    throw std::runtime_error(noGas(this->Made.label));
   }
-  return this->Made;
+  this->Made.source->use(&this->All);
+  warning = this->Maker->warningOf(source, this->Made.tally, bodies && !this->Made.meetsBodies);
+  return this->Made.source;
 }
 
 bool InputsOfRanks::use(const schlieren::MediumSource* source)
@@ -260,7 +277,7 @@ void InputsOfRanks::answerArrays()
     Reader reader(bytes);
     addArrays(all, getArrays(reader));
   }
-  this->Self->GetKnownArrays()->SetOfRanks(std::move(all));
+  this->Maker->known().SetOfRanks(std::move(all));
 }
 
 std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
@@ -276,8 +293,8 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Gather:
     {
       const auto port = static_cast<std::size_t>(reader.Get<int>());
-      PartsOfRanks parts(
-        ranks, this->Own[port], port == 0 ? arraysOf(this->Self) : std::vector<std::string>());
+      PartsOfRanks parts(ranks, this->Own[port],
+        port == 0 ? arraysOf(this->Maker->choice().settings) : std::vector<std::string>());
       if (Reader(request).Get<std::uint32_t>() == Gather)
       {
         this->Gathered[port] = parts.gather();
@@ -300,7 +317,7 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
           bodies = gatheredData({ ofBodies });
           data = instant >= 0 && this->OwnAt ? this->OwnAt(instant) : data;
         });
-      this->Made = makeOverRanks(this->Self, ranks, data, bodies, hasFields, number, this->Kept);
+      this->Made = makeOverRanks(*this->Maker, ranks, data, bodies, hasFields, number, this->Kept);
       this->Held = this->Made.source;
       if (this->Held)
       {

@@ -17,7 +17,6 @@
 class vtkAlgorithm;
 class vtkDataObject;
 class vtkInformationVector;
-class vtkRefractiveIndex;
 
 namespace schlieren
 {
@@ -27,16 +26,12 @@ class MediumSource;
 namespace filters
 {
 
-/// The inputs of a filter on several ranks, as far as these know the properties of its vtkRefractiveIndex. Where nothing is said,
-/// functions are for rank 0 between begin() and end() of its ranks; the others follow by answer().
+class MediumMaker;
+
+/// The inputs of a filter on several ranks. Where nothing is said, functions are for rank 0 between begin() and end() of its ranks; the others follow by answer().
 class InputsOfRanks
 {
 public:
-  explicit InputsOfRanks(vtkRefractiveIndex* self)
-    : Self(self)
-  {
-  }
-
   FilterRanks& ranks() { return this->All; }
 
   /// On a rank where something upstream has failed, before begin().
@@ -46,12 +41,12 @@ public:
   bool begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
     const std::string& problem = "");
 
-  /// On all ranks, after begin(): what this one has. `dataAt`: what it has of the data at an instant between time steps; may be
+  /// On all ranks, after begin(): what this one has, and what makes a medium of it. `dataAt`: what it has of the data at an instant between time steps; may be
   /// empty, and throw std::runtime_error.
   using DataAt = std::function<vtkSmartPointer<vtkDataObject>(int instant)>;
-  void setOwn(vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt = {});
+  void setOwn(MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt = {});
   /// On all ranks, before end().
-  void forgetOwn() { this->setOwn(nullptr, nullptr); }
+  void forgetOwn();
 
   /// Where an array is to be chosen: all ranks learn of all arrays, so that all choose the same.
   void shareArrays();
@@ -69,8 +64,10 @@ public:
   /// At any time: all of an input of which this is what rank 0 has, after it has been gathered.
   vtkDataObject* gatheredOf(int port, vtkDataObject* own) const;
 
-  /// The source of data that have stayed. `instant`: see setOwn(); -1: none. Throws std::runtime_error.
-  const MadeOverRanks& make(vtkDataObject* bodies, bool hasFields, int instant = -1);
+  /// Makes the source of data that have stayed. `instant`: see setOwn(); -1: none. `warning`: see MediumMaker::makeSource().
+  /// Throws std::runtime_error.
+  std::shared_ptr<const schlieren::MediumSource> make(
+    vtkDataObject* bodies, bool hasFields, int instant, std::string& warning);
   /// Makes the ranks of this filter answer for a source, which may be another filter's. False where they cannot: then it has
   /// to be made anew. Sources that need no ranks always can.
   bool use(const schlieren::MediumSource* source);
@@ -84,7 +81,7 @@ private:
   void requestOfAll(const std::vector<char>& message);
   void answerArrays();
 
-  vtkRefractiveIndex* Self;
+  MediumMaker* Maker = nullptr; // between setOwn() and forgetOwn()
   FilterRanks All;
   bool LacksInput = false;
   std::array<vtkSmartPointer<vtkDataObject>, 2> Own;

@@ -169,7 +169,7 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
       this->DescribeInputs(inside.Ranks.gatheredOf(0, this->GetInputDataObject(0, 0)),
         inside.Ranks.gatheredOf(
           vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
-      this->Medium, this->ColorByField) &&
+      this->Medium->GetSettings(), this->ColorByField) &&
     this->UseOwnRanks();
 }
 
@@ -188,7 +188,7 @@ bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
     inside.holdsRefractivityOf(
-      this->DescribeInputs(input, bodies), this->Medium, this->ColorByField) &&
+      this->DescribeInputs(input, bodies), this->Medium->GetSettings(), this->ColorByField) &&
     this->UseOwnRanks();
 }
 
@@ -235,12 +235,13 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
   std::vector<double> medium, std::vector<double> rays)
 {
   const Internals& inside = *this->Inside;
-  medium.push_back(static_cast<double>(inside.settingsTimeOf(this->Medium)));
+  MediumSettings properties = this->Medium->GetSettings();
+  properties.DoublePrecision = false;
   return { inside.Time,
     { static_cast<double>(upstreamTime(this, 0)),
       static_cast<double>(upstreamTime(this, vtkRefractiveIndex::BODIES)) },
-    inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt, std::move(medium),
-    std::move(rays) };
+    inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt,
+    std::move(properties), std::move(medium), std::move(rays) };
 }
 
 //------------------------------------------------------------------------------
@@ -282,7 +283,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
     sceneFrom(facing(*this, inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
-  addObjects(scene, this->GradedFilter, this->Medium);
+  addObjects(scene, this->GradedFilter, this->Medium->GetMaker().choice().settings);
   addBackground(scene, *this, inside.Scene);
   if (inside.FirstInstant && choosesK(*this))
   {
@@ -294,7 +295,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   }
   if (this->ColorByField)
   {
-    const std::size_t fields = this->Medium->GetFields().size();
+    const std::size_t fields = this->Medium->GetSettings().Fields.size();
     scene.fieldColors = fieldColors(this->FieldColors, fields);
     field.gradients = { static_cast<int>(fields),
       inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
@@ -321,7 +322,7 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
   const AtTheEnd forgetInstants(
     [&]
     {
-      inside.MediumTime = 0; // the refractivity is that of no input
+      inside.MadeWith.reset(); // the refractivity is that of no input
       inside.FirstInstant.reset();
       inside.Instant = 0;
     });
@@ -336,7 +337,7 @@ bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkI
     }
     if (inside.Ranks.areInPieces())
     {
-      inside.MediumTime = 0; // what is known of the input is the same for all instants
+      inside.MadeWith.reset(); // what is known of the input is the same for all instants
     }
     const auto input = steps.GetData(0, instant);
     const auto bodies = steps.GetData(vtkRefractiveIndex::BODIES, instant);

@@ -3,7 +3,8 @@
 #include "QualityPresets.h"
 
 #include "SchlierenSettings.h"
-#include "vtkSchlierenFilter.h"
+
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <string>
@@ -11,7 +12,27 @@
 namespace filters
 {
 
-using Filter = vtkSchlierenFilter;
+namespace
+{
+
+/// The number of a value of an enumeration of the tracer.
+template <class Value>
+constexpr double numberOf(Value value)
+{
+  return static_cast<double>(value);
+}
+
+constexpr double autoPath = numberOf(schlieren::PathModel::Auto);
+constexpr double refracted = numberOf(schlieren::PathModel::Refracted);
+constexpr double leapfrog = numberOf(schlieren::Integrator::Leapfrog);
+constexpr double adaptive = numberOf(schlieren::Integrator::Adaptive);
+constexpr double quadratic = numberOf(schlieren::Interpolation::Quadratic);
+constexpr double cubic = numberOf(schlieren::Interpolation::Cubic);
+constexpr double sheet = numberOf(schlieren::FilmEstimator::Sheet);
+constexpr double single = numberOf(schlieren::Precision::Single);
+constexpr double twofold = numberOf(schlieren::Precision::Double);
+
+} // namespace
 
 #define SETTING(name, ...)                                                                      \
   QualitySetting                                                                                \
@@ -27,14 +48,14 @@ using Filter = vtkSchlierenFilter;
 // clang-format off
 const std::array<QualitySetting, 11> qualitySettings{
   //                            Interactive        Draft              Publication        Reference
-  SETTING(PathModel,            Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::AUTO_PATH, Filter::REFRACTED),
-  SETTING(Integrator,           Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::LEAPFROG,  Filter::ADAPTIVE),
+  SETTING(PathModel,            autoPath,          autoPath,          autoPath,          refracted),
+  SETTING(Integrator,           leapfrog,          leapfrog,          leapfrog,          adaptive),
   SETTING(StepSize,             2,                 1,                 1,                 1),
   SETTING(HomogeneityTolerance, 1e-3,              1e-4,              0,                 0),
-  SETTING(Interpolation,        Filter::QUADRATIC, Filter::QUADRATIC, Filter::QUADRATIC, Filter::CUBIC),
+  SETTING(Interpolation,        quadratic,         quadratic,         quadratic,         cubic),
   SETTING(SamplesPerPixel,      1,                 1,                 16,                64),
-  SETTING(FilmEstimator,        Filter::SHEET,     Filter::SHEET,     Filter::SHEET,     Filter::SHEET),
-  SETTING(Precision,            Filter::SINGLE,    Filter::SINGLE,    Filter::SINGLE,    Filter::DOUBLE),
+  SETTING(FilmEstimator,        sheet,             sheet,             sheet,             sheet),
+  SETTING(Precision,            single,            single,            single,            twofold),
   SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
   SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
   SETTING(MediumTolerance,      0.02,              0.01,              0.003,             0.001),
@@ -46,7 +67,7 @@ double interactiveStepSize()
 {
   const auto* setting = std::find_if(qualitySettings.begin(), qualitySettings.end(),
     [](const QualitySetting& each) { return std::string(each.Property) == "StepSize"; });
-  return setting->Values[Filter::INTERACTIVE];
+  return setting->Values.front();
 }
 
 } // namespace filters

@@ -3,7 +3,6 @@
 #include "RealOptics.h"
 
 #include "SchlierenSettings.h"
-#include "vtkSchlierenFilter.h"
 
 #include "vtkMath.h"
 
@@ -148,7 +147,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
 schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame)
 {
   schlieren::LightSource source;
-  if (optics.LightSource == vtkSchlierenFilter::DIVERGING)
+  if (optics.LightSource == OpticsSettings::divergingLight)
   {
     const double distance = optics.SourceDistance;
     source.distance = distance == 0 ? depthsToSource * (frame.exit - frame.entry) : distance;

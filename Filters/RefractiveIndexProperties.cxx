@@ -4,105 +4,72 @@
 #include "vtkGasTable.h"
 #include "vtkRefractiveIndex.h"
 
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
 #include "vtkPiecewiseFunction.h"
 
+#include <cstddef>
+#include <sstream>
+#include <string>
+
 using namespace filters;
-
-namespace
-{
-
-void printList(
-  ostream& os, vtkIndent indent, const char* name, const std::vector<std::string>& texts)
-{
-  os << indent << name << ":";
-  for (const std::string& text : texts)
-  {
-    os << " '" << text << "'";
-  }
-  os << "\n";
-}
-
-void printList(ostream& os, vtkIndent indent, const char* name, const std::vector<double>& values)
-{
-  os << indent << name << ":";
-  for (const double value : values)
-  {
-    os << " " << value;
-  }
-  os << "\n";
-}
-
-void printFunction(ostream& os, vtkIndent indent, vtkPiecewiseFunction* function)
-{
-  os << indent << "TransferFunction:";
-  for (int i = 0; function && i < function->GetSize(); ++i)
-  {
-    double node[4]; // place, value, midpoint, sharpness
-    function->GetNodeValue(i, node);
-    os << " (" << node[0] << " " << node[1] << " " << node[2] << " " << node[3] << ")";
-  }
-  if (function)
-  {
-    os << " clamping " << function->GetClamping();
-  }
-  os << "\n";
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->PrintSettings(os, indent);
+  std::ostringstream settings;
+  print(settings, 0, this->GetSettings());
+  std::istringstream lines(settings.str());
+  for (std::string line; std::getline(lines, line);)
+  {
+    os << indent << line << "\n";
+  }
   os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
-  os << indent << "Grid: " << this->Grid << "\n";
+  os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractiveIndex::PrintSettings(ostream& os, vtkIndent indent)
+MediumSettings vtkRefractiveIndex::GetSettings()
 {
-  os << indent << "IndexModel: " << this->IndexModel << "\n";
-  os << indent << "Gas: " << this->Gas << "\n";
-  os << indent << "GladstoneDaleConstant: " << this->GladstoneDaleConstant << "\n";
-  os << indent << "DensityScale: " << this->DensityScale << "\n";
-  printList(os, indent, "MixtureArrays", this->MixtureArrays);
-  printList(os, indent, "MixtureGases", this->MixtureGases);
-  printList(os, indent, "MixtureConstants", this->MixtureConstants);
-  printList(os, indent, "MixtureMolarMasses", this->MixtureMolarMasses);
-  os << indent << "BackgroundGas: " << this->BackgroundGas << "\n";
-  os << indent << "BackgroundConstant: " << this->BackgroundConstant << "\n";
-  os << indent << "BackgroundMolarMass: " << this->BackgroundMolarMass << "\n";
-  os << indent << "FractionType: " << this->FractionType << "\n";
-  os << indent << "TemperatureScale: " << this->TemperatureScale << "\n";
-  os << indent << "PressureScale: " << this->PressureScale << "\n";
-  os << indent << "RelativeHumidity: " << this->RelativeHumidity << "\n";
-  os << indent << "CO2: " << this->CO2 << "\n";
-  os << indent << "Wavelength: " << this->Wavelength << "\n";
-  printList(os, indent, "Fields", this->Fields);
-  os << indent << "TransferFunctions: " << this->TransferFunctions.size() << "\n";
-  for (vtkPiecewiseFunction* function : this->TransferFunctions)
+  MediumSettings settings = *this;
+  for (int index = DENSITY; index <= MASK; ++index)
   {
-    printFunction(os, indent, function);
+    vtkInformation* info = this->GetInputArrayInformation(index);
+    ArraySelection& selection = settings.Arrays[static_cast<std::size_t>(index)];
+    if (const char* name = info->Get(vtkDataObject::FIELD_NAME()))
+    {
+      selection.name = name;
+    }
+    else if (info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+    {
+      selection.attribute = info->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+    }
+    selection.cellsFirst =
+      info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
   }
-  printList(os, indent, "FieldRanges", this->FieldRanges);
-  os << indent << "RefractivityScale: " << this->RefractivityScale << "\n";
-  os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
-     << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
-  printList(os, indent, "SamplingBounds",
-    std::vector<double>(this->SamplingBounds, this->SamplingBounds + 6));
-  os << indent << "MaskThreshold: " << this->MaskThreshold << "\n";
-  os << indent << "MaskedSide: " << this->MaskedSide << "\n";
-  os << indent << "Depth: " << this->Depth << "\n";
-  os << indent << "Symmetry: " << this->Symmetry << "\n";
-  os << indent << "SymmetryAxis: " << this->SymmetryAxis << "\n";
-  printList(os, indent, "SymmetryOrigin",
-    std::vector<double>(this->SymmetryOrigin, this->SymmetryOrigin + 3));
-  os << indent << "Outside: " << this->Outside << "\n";
-  os << indent << "Reconstruction: " << this->Reconstruction << "\n";
-  os << indent << "DoublePrecision: " << this->DoublePrecision << "\n";
+  for (vtkPiecewiseFunction* function : this->Functions)
+  {
+    TransferCurve& curve = settings.TransferFunctions.emplace_back();
+    for (int i = 0; function && i < function->GetSize(); ++i)
+    {
+      function->GetNodeValue(i, curve.nodes.emplace_back().data());
+    }
+    curve.isClamped = !function || function->GetClamping();
+    curve.isLogarithmic = function && function->GetUseLogScale();
+  }
+  return settings;
 }
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::HasHumidityArray()
+{
+  return this->GetSettings().Arrays[HumidityArray].isNamed();
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractiveIndex::HasMaskArray() { return this->GetSettings().Arrays[MaskArray].isNamed(); }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::AddMixtureArray(const char* name)
@@ -184,14 +151,14 @@ void vtkRefractiveIndex::ClearFields()
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::AddTransferFunction(vtkPiecewiseFunction* function)
 {
-  this->TransferFunctions.emplace_back(function);
+  this->Functions.emplace_back(function);
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::ClearTransferFunctions()
 {
-  this->TransferFunctions.clear();
+  this->Functions.clear();
   this->Modified();
 }
 

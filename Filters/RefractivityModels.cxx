@@ -2,13 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivityModels.h"
 
-#include "ArrayChoice.h"
 #include "GasChoices.h"
-
-#include "vtkDataObject.h"
-#include "vtkInformation.h"
-#include "vtkPiecewiseFunction.h"
-#include "vtkRefractiveIndex.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,41 +65,40 @@ void requireOneEach(const char* name, std::size_t count, std::size_t species)
   }
 }
 
-Linear gladstoneDale(vtkRefractiveIndex* self, const MediumChoice& choice)
+Linear gladstoneDale(const MediumSettings& settings)
 {
-  const schlieren::Gas* gas = gasFrom("Gas", self->GetGas());
+  const schlieren::Gas* gas = gasFrom("Gas", settings.Gas);
   const double constant =
-    gas ? gas->constantAt(wavelengthOfGases(self)) : self->GetGladstoneDaleConstant();
+    gas ? gas->constantAt(wavelengthOfGases(settings)) : settings.GladstoneDaleConstant;
   requireFinite("GladstoneDaleConstant", constant);
-  requireFinite("DensityScale", choice.densityScale);
-  return { constant * choice.densityScale, 0 };
+  requireFinite("DensityScale", settings.DensityScale);
+  return { constant * settings.DensityScale, 0 };
 }
 
 /// What the species and the background are made of where they were chosen by name, null elsewhere; the
 /// background is the last.
-std::vector<const schlieren::Gas*> gasesOfMixture(
-  vtkRefractiveIndex* self, const MediumChoice& choice)
+std::vector<const schlieren::Gas*> gasesOfMixture(const MediumSettings& settings)
 {
-  const std::size_t species = choice.mixtureArrays.size();
+  const std::size_t species = settings.MixtureArrays.size();
   std::vector<const schlieren::Gas*> gases;
-  if (!choice.mixtureGases.empty())
+  if (!settings.MixtureGases.empty())
   {
-    requireOneEach("MixtureGases", choice.mixtureGases.size(), species);
-    for (const std::string& name : choice.mixtureGases)
+    requireOneEach("MixtureGases", settings.MixtureGases.size(), species);
+    for (const std::string& name : settings.MixtureGases)
     {
       gases.push_back(gasFrom("MixtureGases", name));
     }
   }
   gases.resize(species);
-  gases.push_back(gasFrom("BackgroundGas", self->GetBackgroundGas()));
+  gases.push_back(gasFrom("BackgroundGas", settings.BackgroundGas));
   return gases;
 }
 
-GasMixture gasMixture(vtkRefractiveIndex* self, const MediumChoice& choice)
+GasMixture gasMixture(const MediumSettings& settings)
 {
-  const std::vector<double>& constants = self->GetMixtureConstants();
-  const std::vector<double>& molarMasses = self->GetMixtureMolarMasses();
-  const std::size_t species = choice.mixtureArrays.size();
+  const std::vector<double>& constants = settings.MixtureConstants;
+  const std::vector<double>& molarMasses = settings.MixtureMolarMasses;
+  const std::size_t species = settings.MixtureArrays.size();
   if (species == 0)
   {
     throw std::runtime_error(
@@ -113,13 +106,13 @@ GasMixture gasMixture(vtkRefractiveIndex* self, const MediumChoice& choice)
       "fraction of a gas. Name the arrays of "
       "the fractions, or set IndexModel to Gladstone-Dale for a single gas.");
   }
-  requireFinite("DensityScale", choice.densityScale);
-  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(self, choice);
+  requireFinite("DensityScale", settings.DensityScale);
+  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(settings);
   const bool allNamed = std::find(gases.begin(), gases.end() - 1, nullptr) == gases.end() - 1;
 
   GasMixture model;
-  model.densityScale = choice.densityScale;
-  model.ofVolumes = choice.fractionType == vtkRefractiveIndex::VOLUME;
+  model.densityScale = settings.DensityScale;
+  model.ofVolumes = settings.FractionType == 1;
   if (!allNamed)
   {
     requireOneEach("MixtureConstants", constants.size(), species);
@@ -139,16 +132,16 @@ GasMixture gasMixture(vtkRefractiveIndex* self, const MediumChoice& choice)
     schlieren::Component part;
     if (gases[i])
     {
-      part.constant = gases[i]->constantAt(wavelengthOfGases(self));
+      part.constant = gases[i]->constantAt(wavelengthOfGases(settings));
       part.molarMass = gases[i]->molarMass;
       return part;
     }
     const bool isBackground = i == species;
-    part.constant = isBackground ? self->GetBackgroundConstant() : constants[i];
+    part.constant = isBackground ? settings.BackgroundConstant : constants[i];
     requireConstant(isBackground ? "BackgroundConstant" : "MixtureConstants", part.constant);
     if (model.ofVolumes)
     {
-      part.molarMass = isBackground ? self->GetBackgroundMolarMass() : molarMasses[i];
+      part.molarMass = isBackground ? settings.BackgroundMolarMass : molarMasses[i];
       requireMolarMass(isBackground ? "BackgroundMolarMass" : "MixtureMolarMasses", part.molarMass);
     }
     return part;
@@ -161,30 +154,30 @@ GasMixture gasMixture(vtkRefractiveIndex* self, const MediumChoice& choice)
   return model;
 }
 
-CiddorAir ciddorAir(vtkRefractiveIndex* self, const MediumChoice& choice)
+CiddorAir ciddorAir(const MediumSettings& settings)
 {
-  requireFinite("TemperatureScale", choice.temperatureScale);
-  requireFinite("PressureScale", choice.pressureScale);
-  const bool hasHumidity = choice.hasHumidity();
-  const double humidity = self->GetRelativeHumidity();
+  requireFinite("TemperatureScale", settings.TemperatureScale);
+  requireFinite("PressureScale", settings.PressureScale);
+  const bool hasHumidity = settings.Arrays[MediumSettings::HumidityArray].isNamed();
+  const double humidity = settings.RelativeHumidity;
   if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
   {
     throw std::runtime_error("RelativeHumidity is " + textOf(humidity) +
       ", but it is a fraction of saturation. Set it between 0 and 1.");
   }
-  if (!(self->GetCO2() >= 0 && self->GetCO2() <= 1e6))
+  if (!(settings.CO2 >= 0 && settings.CO2 <= 1e6))
   {
-    throw std::runtime_error("CO2 is " + textOf(self->GetCO2()) +
+    throw std::runtime_error("CO2 is " + textOf(settings.CO2) +
       ", which is no number of parts per million. Set it between 0 and 1e6 (air: 450).");
   }
-  const double wavelength = 1e-9 * self->GetWavelength();
+  const double wavelength = 1e-9 * settings.Wavelength;
   if (!schlieren::isWithinCiddorWavelengths(wavelength))
   {
-    throw std::runtime_error("Wavelength is " + textOf(self->GetWavelength()) +
+    throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
-  return { schlieren::MoistAir::at(wavelength, self->GetCO2()), choice.temperatureScale,
-    choice.pressureScale, hasHumidity, humidity };
+  return { schlieren::MoistAir::at(wavelength, settings.CO2), settings.TemperatureScale,
+    settings.PressureScale, hasHumidity, humidity };
 }
 
 } // namespace
@@ -239,12 +232,12 @@ std::string CiddorAir::warning(const std::string& fraction) const
 }
 
 //------------------------------------------------------------------------------
-FieldMean fieldMeanFrom(vtkRefractiveIndex* self)
+FieldMean fieldMeanFrom(const MediumSettings& settings)
 {
-  const bool isModel = self->GetIndexModel() == vtkRefractiveIndex::TRANSFER_FUNCTIONS;
-  const auto& functions = self->GetTransferFunctions();
-  const std::vector<double>& ranges = self->GetFieldRanges();
-  const std::size_t fields = self->GetFields().size();
+  const bool isModel = settings.IndexModel == MediumSettings::Curves;
+  const auto& functions = settings.TransferFunctions;
+  const std::vector<double>& ranges = settings.FieldRanges;
+  const std::size_t fields = settings.Fields.size();
   if (isModel && !functions.empty() && functions.size() != fields)
   {
     throw std::runtime_error("Fields and TransferFunctions differ in length (" +
@@ -256,36 +249,36 @@ FieldMean fieldMeanFrom(vtkRefractiveIndex* self)
     throw std::runtime_error("FieldRanges holds " + std::to_string(ranges.size()) + " values for " +
       std::to_string(fields) + " fields. Give two for each, or none for the fields' own ranges.");
   }
-  requireFinite("RefractivityScale", self->GetRefractivityScale());
+  requireFinite("RefractivityScale", settings.RefractivityScale);
 
   FieldMean model;
-  model.scale = self->GetRefractivityScale();
+  model.scale = settings.RefractivityScale;
   for (std::size_t i = 0; i < fields; ++i)
   {
     const double low = ranges.empty() ? 0 : ranges[2 * i];
     const double high = ranges.empty() ? 0 : ranges[2 * i + 1];
     requireFinite("A value of FieldRanges", low);
     requireFinite("A value of FieldRanges", high);
-    model.curves.emplace_back(isModel && !functions.empty() ? functions[i] : nullptr, low, high);
+    model.curves.emplace_back(
+      isModel && !functions.empty() ? functions[i] : TransferCurve(), low, high);
   }
   return model;
 }
 
 //------------------------------------------------------------------------------
-Model modelFrom(vtkRefractiveIndex* self)
+Model modelFrom(const MediumSettings& settings)
 {
-  const MediumChoice choice = choiceOf(self);
-  switch (choice.indexModel)
+  switch (settings.IndexModel)
   {
-    case vtkRefractiveIndex::GLADSTONE_DALE:
-      return gladstoneDale(self, choice);
-    case vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE:
-      return gasMixture(self, choice);
-    case vtkRefractiveIndex::CIDDOR:
-      return ciddorAir(self, choice);
-    case vtkRefractiveIndex::TRANSFER_FUNCTIONS:
-      return fieldMeanFrom(self);
-    case vtkRefractiveIndex::REFRACTIVE_INDEX:
+    case MediumSettings::GladstoneDale:
+      return gladstoneDale(settings);
+    case MediumSettings::Mixture:
+      return gasMixture(settings);
+    case MediumSettings::Ciddor:
+      return ciddorAir(settings);
+    case MediumSettings::Curves:
+      return fieldMeanFrom(settings);
+    case MediumSettings::RefractiveIndex:
       return Linear{ 1, -1 };
     default:
       return Linear();
@@ -293,61 +286,48 @@ Model modelFrom(vtkRefractiveIndex* self)
 }
 
 //------------------------------------------------------------------------------
-Selection selectionFrom(vtkRefractiveIndex* self, int index, const char* property)
+Selection selectionOf(const MediumSettings& settings, std::size_t index)
 {
-  vtkInformation* info = self->GetInputArrayInformation(index);
-  Selection selection;
-  selection.property = property;
-  if (const char* name = info->Get(vtkDataObject::FIELD_NAME()))
-  {
-    selection.name = name;
-  }
-  else if (info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-  {
-    selection.attribute = info->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
-  }
-  selection.cellsFirst =
-    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-  return selection;
+  return { MediumSettings::arrayProperties[index], settings.Arrays[index] };
 }
 
 //------------------------------------------------------------------------------
-std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self)
+std::vector<Selection> selectionsFrom(const MediumSettings& settings)
 {
-  using Index = vtkRefractiveIndex;
-  const MediumChoice choice = choiceOf(self);
+  using S = MediumSettings;
   std::vector<Selection> selections;
-  switch (choice.indexModel)
+  switch (settings.IndexModel)
   {
-    case Index::GLADSTONE_DALE:
-      selections = { choice.arrays[Index::DENSITY] };
+    case S::GladstoneDale:
+      selections = { selectionOf(settings, S::DensityArray) };
       break;
-    case Index::GLADSTONE_DALE_MIXTURE:
-      selections = { choice.arrays[Index::DENSITY] };
-      for (const std::string& name : choice.mixtureArrays)
+    case S::Mixture:
+      selections = { selectionOf(settings, S::DensityArray) };
+      for (const std::string& name : settings.MixtureArrays)
       {
-        selections.push_back({ "MixtureArrays", name, -1, selections[0].cellsFirst });
+        selections.push_back({ "MixtureArrays", { name, -1, selections[0].cellsFirst } });
       }
       break;
-    case Index::CIDDOR:
-      selections = { choice.arrays[Index::TEMPERATURE], choice.arrays[Index::PRESSURE] };
-      if (choice.hasHumidity())
+    case S::Ciddor:
+      selections = { selectionOf(settings, S::TemperatureArray),
+        selectionOf(settings, S::PressureArray) };
+      if (settings.Arrays[S::HumidityArray].isNamed())
       {
-        selections.push_back(choice.arrays[Index::HUMIDITY]);
+        selections.push_back(selectionOf(settings, S::HumidityArray));
       }
       break;
-    case Index::TRANSFER_FUNCTIONS:
-      for (const std::string& name : self->GetFields())
+    case S::Curves:
+      for (const std::string& name : settings.Fields)
       {
-        selections.push_back({ "Fields", name });
+        selections.push_back({ "Fields", { name } });
       }
       if (selections.empty())
       {
-        selections.push_back({ "Fields", "" }); // for the message
+        selections.push_back({ "Fields", {} }); // for the message
       }
       break;
     default:
-      selections = { choice.arrays[Index::INDEX_ARRAY] };
+      selections = { selectionOf(settings, S::IndexArray) };
       break;
   }
   return selections;

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "MediumSettings.h"
 #include "TransferFunctions.h"
 
 #include "Schlieren.h"
 
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
-
-class vtkRefractiveIndex;
 
 /// What the refractivity is at one point or cell, given what the arrays hold there. But for Linear, a
 /// model says three things:
@@ -55,26 +56,30 @@ struct CiddorAir
 /// All models.
 using Model = std::variant<Linear, GasMixture, CiddorAir, FieldMean>;
 
-/// The curves of `self`'s fields, of straight lines unless its model is TRANSFER_FUNCTIONS. Throws
-/// std::runtime_error where its properties make no sense.
-FieldMean fieldMeanFrom(vtkRefractiveIndex* self);
+/// Makes the curves of Fields; straight lines unless the index model is Curves. Throws std::runtime_error where the settings make
+/// no sense.
+FieldMean fieldMeanFrom(const MediumSettings& settings);
 
-/// The model that was chosen. Throws std::runtime_error where its properties make no sense.
-Model modelFrom(vtkRefractiveIndex* self);
+/// Makes the model of settings that leave nothing open (MediumChoice::settings). Throws std::runtime_error where they make no
+/// sense.
+Model modelFrom(const MediumSettings& settings);
 
-/// What the user chose for one array.
-struct Selection
+/// An array that is looked for.
+struct Selection : ArraySelection
 {
-  std::string property; // that it was chosen with
-  std::string name;     // empty: by attribute, or not chosen
-  int attribute = -1;   // vtkDataSetAttributes::AttributeTypes
-  bool cellsFirst = false;
+  Selection(std::string ofProperty, ArraySelection chosen)
+    : ArraySelection(std::move(chosen))
+    , property(std::move(ofProperty))
+  {
+  }
+
+  std::string property; ///< that it was chosen with
 };
 
-Selection selectionFrom(vtkRefractiveIndex* self, int index, const char* property);
+Selection selectionOf(const MediumSettings& settings, std::size_t index);
 
 /// The arrays that the model takes, in its order; at least one.
-std::vector<Selection> selectionsFrom(vtkRefractiveIndex* self);
+std::vector<Selection> selectionsFrom(const MediumSettings& settings);
 
 /// How many of the points or cells that have values are doubtful.
 struct Tally

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractivitySource.h"
 
-#include "ArrayChoice.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
 #include "Mask.h"
 #include "OneLayer.h"
+#include "RefractivityValues.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -14,13 +14,14 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkPointData.h"
-#include "vtkRefractiveIndex.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -225,11 +226,10 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
 /// The refractivity that was computed before, if the image is to be used as it stands: IndexModel does
 /// not request an index or for fields by name, and its first array is missing, not chosen or the refractivity itself.
 vtkDataArray* computedBefore(
-  vtkRefractiveIndex* self, vtkImageData* image, const Selection& selection)
+  const MediumSettings& settings, vtkImageData* image, const Selection& selection)
 {
-  const int model = choiceOf(self).indexModel;
-  if (!image || model == vtkRefractiveIndex::REFRACTIVE_INDEX ||
-    (model == vtkRefractiveIndex::TRANSFER_FUNCTIONS && !self->GetFields().empty()))
+  if (!image || settings.IndexModel == MediumSettings::RefractiveIndex ||
+    (settings.IndexModel == MediumSettings::Curves && !settings.Fields.empty()))
   {
     return nullptr;
   }
@@ -239,14 +239,15 @@ vtkDataArray* computedBefore(
 }
 
 /// Hides what the mask says, if one is chosen. Data without the array have gas everywhere, unless all are.
-void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSets, Source& source)
+void applyMask(
+  const MediumSettings& settings, const std::vector<vtkDataSet*>& dataSets, Source& source)
 {
-  if (!self->HasMaskArray())
+  if (!settings.Arrays[MediumSettings::MaskArray].isNamed())
   {
     return;
   }
-  const Selection selection = selectionFrom(self, vtkRefractiveIndex::MASK, "Mask");
-  if (!std::isfinite(self->GetMaskThreshold()))
+  const Selection selection = selectionOf(settings, MediumSettings::MaskArray);
+  if (!std::isfinite(settings.MaskThreshold))
   {
     throw std::runtime_error(
       "MaskThreshold is not a finite number, so Mask hides nothing. Set it, for "
@@ -263,8 +264,7 @@ void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSet
     isFound = true;
     requireScalars(found[0], { selection }, dataSets);
     source.made.push_back(hideMasked(leaf,
-      { found[0].arrays[0], found[0].ofCells, self->GetMaskThreshold(),
-        self->GetMaskedSide() == vtkRefractiveIndex::MASKED_ABOVE }));
+      { found[0].arrays[0], found[0].ofCells, settings.MaskThreshold, settings.MaskedSide == 0 }));
     if (source.image == leaf.data)
     {
       source.image = vtkImageData::SafeDownCast(source.made.back());
@@ -278,14 +278,13 @@ void applyMask(vtkRefractiveIndex* self, const std::vector<vtkDataSet*>& dataSet
 }
 
 /// Makes flat data of what is one layer of cells.
-void flattenLayers(vtkRefractiveIndex* self, Source& source, const Source* like)
+void flattenLayers(const MediumSettings& settings, Source& source, const Source* like)
 {
-  source.depth = self->GetDepth();
+  source.depth = settings.Depth;
   source.isDepthGiven = source.depth > 0;
-  if (self->GetSymmetry() == vtkRefractiveIndex::AXISYMMETRIC)
+  if (settings.isAxisymmetric())
   {
-    std::array<double, 3> origin;
-    std::copy_n(self->GetSymmetryOrigin(), 3, origin.begin());
+    const std::array<double, 3> origin = settings.symmetryOrigin();
     if (const std::optional<Wedge> wedge = findWedge(source, origin))
     {
       flattenWedge(source, *wedge, origin);
@@ -312,7 +311,18 @@ std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
   return dataSets;
 }
 
-Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source* like)
+MediumChoice choiceFor(
+  const MediumSettings& settings, KnownArrays& known, const std::vector<vtkDataSet*>& dataSets)
+{
+  if (isOpen(settings) && !known.AreOfRanks())
+  {
+    known.Note(flowArraysOf(dataSets, false));
+  }
+  return choiceOf(settings, known.Get());
+}
+
+Source chooseSource(
+  const MediumSettings& given, KnownArrays& known, vtkDataObject* input, const Source* like)
 {
   const std::vector<vtkDataSet*> dataSets = dataSetsOf(input);
   if (dataSets.empty())
@@ -322,82 +332,96 @@ Source chooseSource(vtkRefractiveIndex* self, vtkDataObject* input, const Source
       "The input is empty: it has no points. Check that its source was read or "
       "updated and that no filter has removed everything.");
   }
-  noteArrays(self, dataSets);
-  std::vector<Selection> selections = selectionsFrom(self);
-
   Source source;
+  source.choice = choiceFor(given, known, dataSets);
+  const MediumSettings& settings = source.choice.settings;
+  std::vector<Selection> selections = selectionsFrom(settings);
   source.image = dataSets.size() == 1 ? vtkImageData::SafeDownCast(dataSets[0]) : nullptr;
-  if (vtkDataArray* computed = computedBefore(self, source.image, selections[0]))
+  if (vtkDataArray* computed = computedBefore(settings, source.image, selections[0]))
   {
-    selections.resize(1);
+    selections.erase(selections.begin() + 1, selections.end());
     source.isComputed = true;
     source.leaves = { { source.image, { computed }, false, source.image } };
   }
   else
   {
-    source.model = modelFrom(self);
-    source.noteOnGases = noteOnGases(self);
+    source.model = modelFrom(settings);
+    source.noteOnGases = noteOnGases(settings);
     source.leaves = leavesWith(selections, dataSets);
   }
 
   if (source.leaves.empty())
   {
-    throwNotFound(selections, dataSets, choiceOf(self).note);
+    throwNotFound(selections, dataSets, source.choice.note);
   }
   for (const Leaf& leaf : source.leaves)
   {
     requireScalars(leaf, selections, dataSets);
   }
   source.label = labelOf(source.leaves[0].arrays, selections);
-  applyMask(self, dataSets, source);
-  flattenLayers(self, source, like);
+  applyMask(settings, dataSets, source);
+  flattenLayers(settings, source, like);
   return source;
 }
 
-std::vector<std::string> arraysOf(vtkRefractiveIndex* self)
+std::vector<std::string> arraysOf(const MediumSettings& settings)
 {
-  std::vector<std::string> names = self->GetFields(); // they may tint, whatever the model
-  for (const Selection& selection : selectionsFrom(self))
+  std::vector<std::string> names = settings.Fields; // they may tint, whatever the model
+  for (const Selection& selection : selectionsFrom(settings))
   {
     names.push_back(selection.name);
   }
-  names.push_back(selectionFrom(self, vtkRefractiveIndex::MASK, "Mask").name);
+  names.push_back(settings.Arrays[MediumSettings::MaskArray].name);
   return names;
 }
 
-std::string choicesOfArrays(vtkRefractiveIndex* self)
+Implausible implausibleIn(const Source& source)
 {
-  std::vector<Selection> selections = selectionsFrom(self);
-  if (self->HasMaskArray())
+  const MediumSettings& settings = source.choice.settings;
+  if (source.isComputed || settings.IndexModel == MediumSettings::Curves)
   {
-    selections.push_back(selectionFrom(self, vtkRefractiveIndex::MASK, "Mask"));
+    return {};
   }
-  const MediumChoice choice = choiceOf(self);
-  std::string text = std::to_string(choice.indexModel) + " " + std::to_string(choice.densityScale) +
-    " " + std::to_string(choice.temperatureScale) + " " + std::to_string(choice.pressureScale) +
-    " " + std::to_string(choice.fractionType) + "\n";
-  for (const std::string& gas : choice.mixtureGases)
+  FlowInUse flow;
+  flow.indexModel = static_cast<MediumSettings::Models>(settings.IndexModel);
+  flow.isScaleGiven = source.choice.isScaleKnown;
+  const bool isIndex = settings.IndexModel == MediumSettings::RefractiveIndex ||
+    settings.IndexModel == MediumSettings::Refractivity;
+  flow.scales = settings.IndexModel == MediumSettings::Ciddor
+    ? std::vector<double>{ settings.TemperatureScale, settings.PressureScale }
+    : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
+  const bool isOfTable = !isCustom(settings.Gas);
+  flow.isGas = settings.IndexModel == MediumSettings::Mixture || isOfTable ||
+    settings.GladstoneDaleConstant == MediumSettings::defaultConstant;
+  if (isOfTable && settings.IndexModel == MediumSettings::GladstoneDale)
   {
-    text += gas + "\n";
+    flow.constant = gasFrom("Gas", settings.Gas)->constantAt(wavelengthOfGases(settings));
   }
-  for (const Selection& selection : selections)
+  const std::vector<std::size_t> indices = arraysOfModel(settings.IndexModel);
+  for (std::size_t i = 0; i < flow.scales.size(); ++i)
   {
-    text += selection.property + ": '" + selection.name + "' " +
-      std::to_string(selection.attribute) + (selection.cellsFirst ? " cells\n" : " points\n");
+    const ArraySelection& selection = settings.Arrays[indices[i]];
+    FlowArray array{ selection.name, selection.cellsFirst ? FlowArray::Cells : FlowArray::Points, 1,
+      { std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest() } };
+    for (const Leaf& leaf : source.leaves)
+    {
+      double range[2];
+      vtkUnsignedCharArray* ghosts =
+        leaf.ofCells ? leaf.data->GetCellGhostArray() : leaf.data->GetPointGhostArray();
+      ghosts ? leaf.arrays[i]->GetFiniteRange(range, 0, ghosts->GetPointer(0),
+                 leaf.ofCells ? hiddenCellBits
+                              : static_cast<unsigned char>(vtkDataSetAttributes::HIDDENPOINT))
+             : leaf.arrays[i]->GetFiniteRange(range, 0);
+      array.range[0] = std::min(array.range[0], range[0]);
+      array.range[1] = std::max(array.range[1], range[1]);
+      if (array.name.empty() && leaf.arrays[i]->GetName())
+      {
+        array.name = leaf.arrays[i]->GetName();
+      }
+    }
+    flow.arrays.push_back(std::move(array));
   }
-  return text;
-}
-
-bool willReadCells(vtkRefractiveIndex* self, vtkDataObject* image)
-{
-  try
-  {
-    return chooseSource(self, image).leaves[0].ofCells;
-  }
-  catch (const std::runtime_error&)
-  {
-    return selectionsFrom(self)[0].cellsFirst;
-  }
+  return implausible(flow);
 }
 
 } // namespace filters

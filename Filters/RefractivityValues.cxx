@@ -280,41 +280,6 @@ vtkSmartPointer<Array> convertWith(const Arrays& values, const Model& model,
 
 } // namespace
 
-vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
-{
-  auto mask = newUnsetMask(count);
-  vtkSMPTools::Fill(
-    mask->GetPointer(0), mask->GetPointer(0) + count, static_cast<unsigned char>(1));
-  return mask;
-}
-
-void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid)
-{
-  const vtkIdType count = data->GetNumberOfPoints();
-  if (vtkUnsignedCharArray* ghosts = data->GetPointGhostArray())
-  {
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      if (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT)
-      {
-        valid->SetValue(i, 0);
-      }
-    }
-  }
-  vtkDataArray* mask = data->GetPointData()->GetArray(maskName);
-  if (mask && mask->GetNumberOfComponents() == 1 && mask->GetNumberOfTuples() == count)
-  {
-    const auto values = vtk::DataArrayValueRange<1>(mask);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      if (values[i] == 0)
-      {
-        valid->SetValue(i, 0);
-      }
-    }
-  }
-}
-
 template <class Array>
 vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally)

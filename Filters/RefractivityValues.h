@@ -2,25 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "RefractivitySource.h"
+#include "Leaf.h"
+#include "RefractivityModels.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkSmartPointer.h"
 
+class vtkImageData;
 class vtkUnsignedCharArray;
 
 /// From arrays' values to refractivity and to the mask that says which of them are valid.
 namespace filters
 {
-
-constexpr unsigned char hiddenCellBits =
-  vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
-
-/// A mask that is 1 everywhere.
-vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count);
-
-/// Clears `valid` at points that are hidden or that an earlier mask among the data excludes.
-void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid);
 
 /// N as a new vtkFloatArray or vtkDoubleArray. Clears `valid` where N is not finite; N is `invalid`
 /// where `valid` is 0. Adds to the tally what was valid before and had finite values.

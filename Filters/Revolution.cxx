@@ -4,7 +4,6 @@
 
 #include "FlatData.h"
 #include "SamplingGrid.h"
-#include "vtkRefractiveIndex.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
@@ -445,11 +444,11 @@ schlieren::Box Revolution::box() const
   return result;
 }
 
-Revolution revolutionOf(vtkRefractiveIndex* self, const Source& source)
+Revolution revolutionOf(const Source& source)
 {
-  const int given = self->GetSymmetryAxis() - vtkRefractiveIndex::X_AXIS; // -1: none
-  std::array<double, 3> origin;
-  std::copy_n(self->GetSymmetryOrigin(), 3, origin.begin());
+  const MediumSettings& settings = source.choice.settings;
+  const int given = settings.SymmetryAxis - 1; // -1: none
+  const std::array<double, 3> origin = settings.symmetryOrigin();
   if (!std::all_of(origin.begin(), origin.end(), [](double x) { return std::isfinite(x); }))
   {
     throw std::runtime_error(

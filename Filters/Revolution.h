@@ -28,7 +28,7 @@ struct Revolution
 };
 
 /// What was chosen, or what suits the data. Throws where they are not flat, or lie on no side of an axis.
-Revolution revolutionOf(vtkRefractiveIndex* self, const Source& source);
+Revolution revolutionOf(const Source& source);
 
 /// Two points along each axis of its box; or so many as the cells of the plane suggest, unless they are given: see
 /// vtkRefractiveIndex::SetSamplingDimensions.

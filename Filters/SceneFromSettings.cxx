@@ -9,7 +9,6 @@
 #include "SchlierenSettings.h"
 
 #include "vtkPiecewiseFunction.h"
-#include "vtkSchlierenFilter.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -23,62 +22,13 @@ namespace filters
 namespace
 {
 
-/// Whether an enumeration of the filter has the same values as one of the tracer.
-template <class Core, class Enum>
-constexpr bool sameValue(Enum value, Core ofCore)
-{
-  return static_cast<Core>(value) == ofCore;
-}
-
-using Self = vtkSchlierenFilter;
-static_assert(sameValue(Self::AUTO_PATH, schlieren::PathModel::Auto) &&
-  sameValue(Self::STRAIGHT, schlieren::PathModel::Straight) &&
-  sameValue(Self::REFRACTED, schlieren::PathModel::Refracted));
-static_assert(sameValue(Self::LEAPFROG, schlieren::Integrator::Leapfrog) &&
-  sameValue(Self::RK4, schlieren::Integrator::Rk4) &&
-  sameValue(Self::ADAPTIVE, schlieren::Integrator::Adaptive) &&
-  sameValue(Self::EULER, schlieren::Integrator::Euler));
-static_assert(sameValue(Self::QUADRATIC, schlieren::Interpolation::Quadratic) &&
-  sameValue(Self::LINEAR, schlieren::Interpolation::Linear) &&
-  sameValue(Self::CENTRAL, schlieren::Interpolation::Central) &&
-  sameValue(Self::CUBIC, schlieren::Interpolation::Cubic));
-static_assert(sameValue(Self::SINGLE, schlieren::Precision::Single) &&
-  sameValue(Self::DOUBLE, schlieren::Precision::Double));
-static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
-  sameValue(Self::CPU, schlieren::Device::Cpu) && sameValue(Self::CUDA, schlieren::Device::Cuda));
-static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
-  sameValue(Self::SHADOWGRAPH, schlieren::Cutoff::Shadowgraph) &&
-  sameValue(Self::CIRCULAR, schlieren::Cutoff::Circular) &&
-  sameValue(Self::CIRCULAR_COMPLEMENT, schlieren::Cutoff::CircularComplement) &&
-  sameValue(Self::GRADED_FILTER, schlieren::Cutoff::GradedFilter) &&
-  sameValue(Self::COLOR_FILTER, schlieren::Cutoff::ColorFilter) &&
-  sameValue(Self::INTERFEROGRAM, schlieren::Cutoff::Interferogram) &&
-  sameValue(Self::BACKGROUND_ORIENTED, schlieren::Cutoff::Background) &&
-  sameValue(Self::NUMERICAL_SCHLIEREN, schlieren::Cutoff::NumericalSchlieren));
-static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
-  sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
-  sameValue(Self::DISC, schlieren::SourceShape::Disc));
-static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
-  sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
-  sameValue(Self::PICTURE, schlieren::PatternKind::Image));
-static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
-  sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
-  sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
-  sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
-static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
-  sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
-static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
-  sameValue(Self::GAUSSIAN, schlieren::NoiseFilter::Gaussian) &&
-  sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
-  sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
-
 /// Where a graded filter is read off.
 constexpr int gradedFilterSamples = 1025;
 
 schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
 {
   schlieren::Fringes fringes;
-  fringes.finite = settings.FringeMode == vtkSchlierenFilter::FINITE_FRINGES;
+  fringes.finite = settings.FringeMode == OpticsSettings::finiteFringes;
   if (fringes.finite)
   {
     fringes.spacing = fringeSpacingFrom(settings, frame);
@@ -91,7 +41,7 @@ schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schliere
 schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbImageReader& images)
 {
   schlieren::BackgroundPattern pattern;
-  if (settings.BackgroundPattern == vtkSchlierenFilter::SCENE)
+  if (settings.BackgroundPattern == OpticsSettings::scenePattern)
   {
     return pattern; // see addBackground
   }
@@ -241,7 +191,7 @@ schlieren::Scene sceneFrom(
   scene.memoryBudget = static_cast<std::size_t>(settings.MemoryBudget) << 20;
   scene.samplesPerPixel = settings.SamplesPerPixel;
   scene.seed = static_cast<std::uint32_t>(settings.Seed);
-  scene.pathModel = settings.PathModel == vtkSchlierenFilter::DIFFERENCE
+  scene.pathModel = settings.PathModel == AccuracySettings::differencePath
     ? schlieren::PathModel::Refracted
     : static_cast<schlieren::PathModel>(settings.PathModel);
   scene.integrator = static_cast<schlieren::Integrator>(settings.Integrator);
@@ -264,7 +214,7 @@ schlieren::Scene sceneFrom(
 
 //------------------------------------------------------------------------------
 void addObjects(
-  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, vtkRefractiveIndex* medium)
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumSettings& medium)
 {
   if (scene.cutoff == schlieren::Cutoff::GradedFilter)
   {
@@ -281,7 +231,7 @@ void addBackground(
   schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background)
 {
   if (!schlieren::isOfCamera(scene.cutoff) ||
-    settings.BackgroundPattern != vtkSchlierenFilter::SCENE)
+    settings.BackgroundPattern != OpticsSettings::scenePattern)
   {
     return;
   }

@@ -7,7 +7,7 @@
 #include <memory>
 
 class vtkPiecewiseFunction;
-class vtkRefractiveIndex;
+struct MediumSettings;
 struct ResourceSettings;
 struct SchlierenSettings;
 
@@ -33,7 +33,7 @@ schlieren::Scene sceneFrom(
 /// What comes from objects, where the scene needs it: the graded filter (null: a straight line), and the dispersion of
 /// white light. The colours of fields are apart.
 void addObjects(
-  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, vtkRefractiveIndex* medium);
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumSettings& medium);
 
 /// What is behind the flow, where the settings want it.
 void addBackground(

@@ -5,6 +5,7 @@
 #include "ExposureSteps.h"
 #include "InputsOfRanks.h"
 #include "LastImage.h"
+#include "MediumMaker.h"
 #include "RequestGuard.h"
 #include "RgbImages.h"
 #include "SceneFromSettings.h"
@@ -31,11 +32,6 @@
 /// What vtkSchlierenFilter keeps between updates.
 struct vtkSchlierenFilter::Internals
 {
-  explicit Internals(vtkRefractiveIndex* medium)
-    : Ranks(medium)
-  {
-  }
-
   /// The other ranks work for rank 0 while this is there.
   class WithRanks
   {
@@ -82,15 +78,15 @@ struct vtkSchlierenFilter::Internals
     return field;
   }
 
-  // What Refractivity was made from: the input, and Medium at that time (0: nothing yet).
+  // What Refractivity was made from: the input, and the settings of Medium (unset: nothing yet).
   std::vector<double> Input;
-  vtkMTimeType MediumTime = 0;
+  std::optional<MediumSettings> MadeWith;
 
   // A source has fields only where it needs them: its voxels are as fine as these need.
   bool holdsRefractivityOf(
-    const std::vector<double>& input, vtkRefractiveIndex* medium, bool needsFields) const
+    const std::vector<double>& input, const MediumSettings& medium, bool needsFields) const
   {
-    return this->MediumTime == medium->GetMTime() && this->Input == input &&
+    return this->MadeWith == medium && this->Input == input &&
       (!this->Refractivity->Source || (this->Refractivity->Source->fields() > 0) == needsFields);
   }
 
@@ -116,17 +112,6 @@ struct vtkSchlierenFilter::Internals
   std::size_t Instant = 0;        // of these, the one that is being made
   // The image of its first instant, whose k and surroundings, and place, are those of all others.
   std::optional<schlieren::Image> FirstInstant;
-
-  // Of Medium, the last time that Precision changed it, and before that.
-  vtkMTimeType PrecisionTime = 0;
-  vtkMTimeType TimeBeforePrecision = 0;
-
-  /// When anything but Precision has last changed Medium.
-  vtkMTimeType settingsTimeOf(vtkRefractiveIndex* medium) const
-  {
-    const vtkMTimeType time = medium->GetMTime();
-    return time == this->PrecisionTime ? this->TimeBeforePrecision : time;
-  }
 
   vtkMTimeType StoppedOf = 0; // the one that Stop(), or an abort within a limit, has left; 0: none
   double Done = 0;            // of the image that was begun last: 0 to 1

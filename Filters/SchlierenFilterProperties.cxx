@@ -279,9 +279,7 @@ void vtkSchlierenFilter::SetPrecision(int precision)
   if (this->Precision != precision)
   {
     this->Precision = precision;
-    this->Inside->TimeBeforePrecision = this->Inside->settingsTimeOf(this->Medium);
     this->Medium->SetDoublePrecision(precision == DOUBLE);
-    this->Inside->PrecisionTime = this->Medium->GetMTime();
     this->Modified();
   }
 }

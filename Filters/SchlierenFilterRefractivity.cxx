@@ -6,7 +6,7 @@
 #include "FieldTints.h"
 #include "GasChoices.h"
 #include "InputDescription.h"
-#include "RefractiveIndexInternals.h"
+#include "MediumMaker.h"
 #include "RefractivitySource.h"
 #include "SceneFromSettings.h"
 
@@ -14,6 +14,7 @@
 #include "vtkInformation.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 using namespace filters;
@@ -93,8 +94,9 @@ std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtk
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::PassToMedium()
 {
+  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   // Otherwise another wavelength would make the same refractivity once more.
-  if (filters::usesWavelength(this->Medium))
+  if (usesWavelength(this->Medium->GetMaker().choice().settings))
   {
     this->Medium->SetWavelength(this->Wavelength);
   }
@@ -114,15 +116,14 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   Internals& inside = *this->Inside;
   this->PassToMedium();
   std::vector<double> description = this->DescribeInputs(input, bodies);
-  if (inside.holdsRefractivityOf(description, this->Medium, this->ColorByField) &&
+  if (inside.holdsRefractivityOf(description, this->Medium->GetSettings(), this->ColorByField) &&
     this->UseOwnRanks())
   {
     return true;
   }
-  inside.MediumTime = 0;
+  inside.MadeWith.reset();
   inside.FieldGradients.clear();
   this->Medium->AbortExecuteOff();
-  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
   const auto made = this->FindOrMakeRefractivity(input, bodies, description);
@@ -136,7 +137,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
     vtkWarningMacro(<< made->Warning << noteOnView(*this, made->FlatAxis));
   }
   inside.Input = std::move(description);
-  inside.MediumTime = this->Medium->GetMTime();
+  inside.MadeWith = this->Medium->GetSettings();
   return true;
 }
 
@@ -156,8 +157,9 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   {
     return this->MakeRefractivity(input, bodies);
   }
-  RefractivityKey key = keyOf(this->Medium, input, bodies,
-    arePieces ? this->DescribePieces(input, bodies) : description, this->ColorByField);
+  MediumMaker& maker = this->Medium->GetMaker();
+  RefractivityKey key{ input, bodies, arePieces ? this->DescribePieces(input, bodies) : description,
+    maker.choiceFor(input).settings, this->ColorByField };
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
   if (found && this->Inside->Ranks.use(found->Source.get()))
   {
@@ -165,7 +167,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
     {
       this->Inside->Ranks.release();
     }
-    this->Medium->SetMesh(found->Mesh);
+    maker.setMesh(found->Mesh);
     return found;
   }
   std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
@@ -181,47 +183,51 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
+  MediumMaker& maker = this->Medium->GetMaker();
   auto made = std::make_shared<MadeRefractivity>();
-  const auto contents =
-    this->ColorByField ? vtkRefractiveIndex::WITH_FIELDS : vtkRefractiveIndex::REFRACTIVITY_ALONE;
-  if (inside.Ranks.areInPieces())
+  try
   {
-    made->Source = this->Medium->MakeSourceOfPieces(inside.Ranks, bodies, made->Warning, contents,
-      inside.IsExposing ? static_cast<int>(inside.Instant) : -1);
-  }
-  else
-  {
-    inside.Ranks.release();
-    if (this->Medium->CanMakeSource(input, bodies, this->IsLargeImage(input)))
+    const bool isLarge = this->IsLargeImage(input);
+    if (inside.Ranks.areInPieces())
     {
-      made->Source = this->Medium->MakeSource(input, bodies, made->Warning, contents);
-      if (this->IsLargeImage(input) && !bodies)
+      maker.forgetLast();
+      made->Source = inside.Ranks.make(bodies, this->ColorByField,
+        inside.IsExposing ? static_cast<int>(inside.Instant) : -1, made->Warning);
+    }
+    else if (inside.Ranks.release(); maker.canMakeSource(input, bodies, isLarge))
+    {
+      made->Source = maker.makeSource(input, bodies, made->Warning, this->ColorByField);
+      if (isLarge && !bodies)
       {
         addText(made->Warning,
           "The image's own grid would take more than MediumMemory, so its medium is a tree within "
           "MediumTolerance. Set MediumMemory higher for its own grid.");
       }
     }
-  }
-  if (!made->Source && !this->Medium->GetAbortExecute())
-  {
-    made->Warning =
-      this->Medium->Convert(input, made->Image, bodies, vtkRefractiveIndex::DIFFERENCES);
-    if (!this->Medium->GetAbortExecute())
+    else
     {
+      made->Warning = maker.convert(input, made->Image, bodies, Numbers::Differences);
       mergeMasks(made->Image);
     }
   }
-  if (this->Medium->GetAbortExecute())
+  catch (const Stopped&)
   {
     return nullptr;
+  }
+  catch (const std::runtime_error&)
+  {
+    if (this->Medium->GetAbortExecute()) // on all ranks
+    {
+      return nullptr;
+    }
+    throw;
   }
   vtkTimeStamp now;
   now.Modified();
   made->SourceTime = now.GetMTime();
-  made->Mesh = this->Medium->GetMesh();
-  made->Grid = this->Medium->GetGrid();
-  made->FlatAxis = this->Medium->GetFlatAxis();
+  made->Mesh = maker.mesh();
+  made->Grid = maker.grid();
+  made->FlatAxis = maker.flatAxis();
   return made;
 }
 
@@ -236,6 +242,6 @@ void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
   else if (inside.FieldGradients.empty())
   {
     inside.FieldGradients =
-      fieldGradients(this->Medium, input, inside.Refractivity->Image, threadsFrom(*this));
+      fieldGradients(this->Medium->GetMaker(), input, inside.Refractivity->Image);
   }
 }

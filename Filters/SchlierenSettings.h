@@ -10,8 +10,8 @@
 /// documentation says what each one means, and its setters check ranges. What is behind the filter gets these, never
 /// the filter. visit() calls what it is given with the name and the value of each.
 
-/// Apart from vtkRefractiveIndex.
-struct MediumSettings
+/// What is around the data. The medium's own properties are MediumSettings.
+struct SurroundingsSettings
 {
   double LengthScale = 1;
   bool AutoAmbientRefractivity = true;
@@ -62,6 +62,12 @@ struct ViewSettings
 /// The graded filter is apart from these: it is an object.
 struct OpticsSettings
 {
+  // Values that the tracer has no enumeration of.
+  static constexpr int lockOff = 0, lockOverTime = 1, lockAlways = 2; // LockK
+  static constexpr int finiteFringes = 1;                             // FringeMode
+  static constexpr int divergingLight = 1;                            // LightSource
+  static constexpr int scenePattern = 3;                              // BackgroundPattern
+
   int Cutoff = 0;
   double KnifeEdgeAngle = 0;
   double CutoffOffset = 0;
@@ -132,6 +138,8 @@ struct OpticsSettings
 /// What the presets of Quality set: see QualityPresets.h, which has their values.
 struct AccuracySettings
 {
+  static constexpr int differencePath = 3; // of PathModel, beside those of the tracer
+
   int PathModel = 0;
   int Integrator = 0;
   double StepSize = 0;
@@ -206,7 +214,7 @@ struct ResourceSettings
   }
 };
 
-struct SchlierenSettings : MediumSettings,
+struct SchlierenSettings : SurroundingsSettings,
                            ViewSettings,
                            OpticsSettings,
                            AccuracySettings,
@@ -216,7 +224,7 @@ struct SchlierenSettings : MediumSettings,
   template <class Visit>
   void visit(const Visit& use) const
   {
-    this->MediumSettings::visit(use);
+    this->SurroundingsSettings::visit(use);
     this->ViewSettings::visit(use);
     this->OpticsSettings::visit(use);
     this->AccuracySettings::visit(use);

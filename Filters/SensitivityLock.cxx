@@ -3,7 +3,8 @@
 #include "SensitivityLock.h"
 
 #include "SchlierenSettings.h"
-#include "vtkSchlierenFilter.h"
+
+#include "Schlieren.h"
 
 #include <iterator>
 #include <tuple>
@@ -14,8 +15,6 @@ namespace filters
 
 namespace
 {
-
-using Filter = vtkSchlierenFilter;
 
 bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
 {
@@ -32,7 +31,7 @@ bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
 bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 {
   return a.data.has_value() == b.data.has_value() && haveSameData(a, b) &&
-    std::tie(a.medium, a.rays) == std::tie(b.medium, b.rays);
+    std::tie(a.properties, a.medium, a.rays) == std::tie(b.properties, b.medium, b.rays);
 }
 
 } // namespace
@@ -57,7 +56,7 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
   values.insert(values.end(),
     { double(settings.LightSource), settings.SourceDistance, double(settings.SourceShape),
       double(settings.ColorByField), double(settings.Device) });
-  if (settings.SourceShape != Filter::POINT)
+  if (static_cast<schlieren::SourceShape>(settings.SourceShape) != schlieren::SourceShape::Point)
   {
     values.insert(values.end(),
       { settings.SourceWidth, settings.SourceLength, settings.FocalLength,
@@ -71,11 +70,12 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
 {
   // A series differs from time to time, and an animation moves the camera before or after the first image of a time
   // is made: only at the time that k is of does the camera make another one. One that was given is of another time.
-  const bool holds = this->Last && this->Last->medium == now.medium &&
+  const bool holds = this->Last && this->Last->properties == now.properties &&
+    this->Last->medium == now.medium &&
     (haveSameData(*this->Last, now) || isAtOtherTime(*this->Last, now)) &&
     (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
-      mode == Filter::LOCK_ALWAYS);
-  if (mode == Filter::LOCK_OFF || (this->Last && !holds))
+      mode == OpticsSettings::lockAlways);
+  if (mode == OpticsSettings::lockOff || (this->Last && !holds))
   {
     this->Drop();
   }

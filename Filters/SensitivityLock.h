@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "MediumSettings.h"
+
 #include <optional>
 #include <vector>
 
@@ -17,7 +19,8 @@ struct ImageCircumstances
   std::vector<double> upstream; ///< times of what makes the data
   std::optional<std::vector<double>>
     data;                     ///< vtkSchlierenFilter::DescribeInputs(); unset: of several times
-  std::vector<double> medium; ///< and, of k, the kind of cutoff: its settings
+  MediumSettings properties;  ///< of the medium, in single precision
+  std::vector<double> medium; ///< what else there is of it, and, of k, of the kind of cutoff
   std::vector<double> rays;   ///< of k: camera, quality, light
 };
 

@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedRefractivity.h"
 
-#include "RefractivitySource.h"
-#include "vtkRefractiveIndex.h"
-
 #include "vtkImageData.h"
 
 #include "Schlieren.h"
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
-#include <sstream>
 #include <utility>
 
 namespace
@@ -44,17 +39,6 @@ MadeRefractivity::MadeRefractivity() = default;
 
 //------------------------------------------------------------------------------
 MadeRefractivity::~MadeRefractivity() = default;
-
-//------------------------------------------------------------------------------
-RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataObject* bodies,
-  std::vector<double> inputs, bool hasFields)
-{
-  std::ostringstream settings;
-  settings.precision(std::numeric_limits<double>::max_digits10);
-  medium->PrintSettings(settings, vtkIndent());
-  settings << filters::choicesOfArrays(medium);
-  return { data, bodies, std::move(inputs), settings.str(), hasFields };
-}
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "MediumSettings.h"
+
 #include "vtkNew.h"
 #include "vtkType.h"
 
@@ -13,7 +15,6 @@
 
 class vtkDataObject;
 class vtkImageData;
-class vtkRefractiveIndex;
 
 namespace schlieren
 {
@@ -35,7 +36,7 @@ struct MadeRefractivity
   vtkMTimeType SourceTime = 0;
   std::shared_ptr<filters::KeptMesh> Mesh; ///< of Source
   std::string Grid;                        ///< of Image, in words
-  int FlatAxis = -1;                       ///< see vtkRefractiveIndex::GetFlatAxis()
+  int FlatAxis = -1;                       ///< see MediumMaker::flatAxis()
   std::string Warning;                     ///< for whoever uses it
 };
 
@@ -45,7 +46,7 @@ struct RefractivityKey
   const vtkDataObject* Data = nullptr;
   const vtkDataObject* Bodies = nullptr;
   std::vector<double> Inputs; ///< see describeInput
-  std::string Settings;       ///< see vtkRefractiveIndex::PrintSettings, and the choice of arrays
+  MediumSettings Settings;    ///< with nothing left open: see MediumChoice
   bool HasFields = false;     ///< Source has them
 
   bool operator==(const RefractivityKey& other) const
@@ -55,9 +56,6 @@ struct RefractivityKey
       this->HasFields == other.HasFields;
   }
 };
-
-RefractivityKey keyOf(vtkRefractiveIndex* medium, vtkDataObject* data, vtkDataObject* bodies,
-  std::vector<double> inputs, bool hasFields);
 
 /// The refractivities of this process that a filter uses.
 /// Another filter of the same data, in whatever view, takes the one that is there; null: there is none.

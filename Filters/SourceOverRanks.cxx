@@ -1,25 +1,24 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The medium that vtkRefractiveIndex makes of data that stay on several ranks. All of them run this.
+// The medium of data that stay on several ranks. All of them run this.
 #include "SourceOverRanks.h"
 
 #include "AmrFaces.h"
 #include "FieldFromImage.h"
 #include "FieldTints.h"
 #include "FlatData.h"
+#include "MediumMaker.h"
 #include "MeshKey.h"
 #include "MeshPiece.h"
 #include "PartsOfRanks.h"
 #include "PieceBoundaries.h"
 #include "PreparedLeaves.h"
-#include "RefractiveIndexInternals.h"
 #include "RefractivityOfImage.h"
 #include "RefractivitySource.h"
 
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
-#include "vtkRefractiveIndex.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -45,8 +44,8 @@ const Source asTheyAre;
 class Maker
 {
 public:
-  Maker(vtkRefractiveIndex* self, const Ranks& ranks, bool hasFields, KeptOverRanks& kept)
-    : Self(self)
+  Maker(MediumMaker& maker, const Ranks& ranks, bool hasFields, KeptOverRanks& kept)
+    : Of(maker)
     , All(ranks)
     , HasFields(hasFields)
     , Kept(kept)
@@ -67,7 +66,7 @@ private:
   void makeBoundary(BoundaryOfImage of, vtkDataObject* bodies);
   std::vector<unsigned char> hold(const std::vector<Point>& places) const;
 
-  vtkRefractiveIndex* Self;
+  MediumMaker& Of;
   const Ranks& All;
   const bool HasFields;
   KeptOverRanks& Kept;
@@ -119,8 +118,7 @@ void Maker::reach(double done)
     {
       if (this->All.rank() == 0)
       {
-        this->Self->UpdateProgress(done);
-        if (this->Self->GetAbortExecute())
+        if (this->Of.progress() && !this->Of.progress()(done))
         {
           throw std::runtime_error("It was stopped."); // which nobody reports
         }
@@ -154,7 +152,7 @@ void Maker::chooseArrays()
         }
         try
         {
-          this->Chosen = chooseSource(this->Self, this->Data, &asTheyAre);
+          this->Chosen = chooseSource(this->Of.settings, this->Of.known(), this->Data, &asTheyAre);
         }
         catch (const ArraysMissing& problem) // other ranks may have them
         {
@@ -167,7 +165,7 @@ void Maker::chooseArrays()
         }
         if (this->Data && this->HasFields)
         {
-          for (const RangeOfField& field : rangesOfFields(this->Self, this->Data))
+          for (const RangeOfField& field : rangesOfFields(this->Of.settings, this->Data))
           {
             lacks = lacks.empty() ? field.lacks : lacks;
             ofFields.push_back(field.range);
@@ -204,7 +202,7 @@ void Maker::makePieceOfMeshes()
   std::vector<vtkSmartPointer<vtkDataSet>> leaves;
   std::vector<std::uint32_t> datasets;
   std::vector<std::vector<vtkSmartPointer<vtkDataSet>>> leavesOfFields(this->OfFields.size());
-  const bool isSmooth = this->Self->GetReconstruction() != vtkRefractiveIndex::LINEAR_IN_CELLS;
+  const bool isSmooth = this->Of.settings.isSmooth();
   if (this->Data)
   {
     Source& source = this->Chosen;
@@ -214,7 +212,7 @@ void Maker::makePieceOfMeshes()
     const CellValues cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
     const std::vector<FieldValues> fields = this->OfFields.empty() || source.leaves.empty()
       ? std::vector<FieldValues>()
-      : fieldValues(this->Self, this->Data, source, this->OfFields);
+      : fieldValues(this->Of.settings, this->Data, source, this->OfFields);
     if (!source.leaves.empty())
     {
       std::shared_ptr<const SharedPoints> shared;
@@ -254,7 +252,7 @@ void Maker::makePieceOfImage(vtkDataObject* bodies)
   auto* image = vtkImageData::SafeDownCast(this->Data);
   vtkNew<vtkImageData> refractivity;
   this->Made.tally = convertImage(this->Chosen,
-    this->Self->GetDoublePrecision() ? Numbers::Doubles : Numbers::Differences, refractivity);
+    this->Of.settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, refractivity);
   mergeMasks(refractivity);
   ImagePiece::Extents extents{ this->Parts[0].whole, this->Parts[0].own };
   for (const std::size_t high : { 1, 3, 5 })
@@ -265,13 +263,13 @@ void Maker::makePieceOfImage(vtkDataObject* bodies)
       --extents.own[high];
     }
   }
-  const int threads = threadsOf(this->Self);
+  const int threads = this->Of.threads();
   auto piece = std::make_unique<ImagePiece>(
     refractivity, extents, turnedBack(bodies, gridFrom(refractivity).direction), threads);
   if (!this->OfFields.empty())
   {
     forFieldImages(
-      this->Self, image, refractivity, threads,
+      this->Of, image, refractivity, threads,
       [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, this->OfFields);
   }
   this->Piece = std::move(piece);
@@ -373,7 +371,7 @@ void Maker::makeBoundary(
     [&](const CutFaces& cuts) { return valuesOf(cuts.contributions, values); });
   this->Kept.contributions = boundary.contributions;
   this->Boundary = std::make_shared<GasBoundary>(
-    std::move(boundary), bodies, static_cast<filters::Outside>(this->Self->GetOutside()));
+    std::move(boundary), bodies, static_cast<filters::Outside>(this->Of.settings.Outside));
   this->Kept.boundary = this->Boundary;
   this->Kept.keys = this->Keys;
   this->Kept.lattices = nullptr;
@@ -393,7 +391,7 @@ void Maker::makeBoundary(BoundaryOfImage of, vtkDataObject* bodies)
 void Maker::findBoundary(vtkDataObject* bodies)
 {
   Hash ofBodies;
-  ofBodies.add(static_cast<std::uint64_t>(this->Self->GetOutside()));
+  ofBodies.add(static_cast<std::uint64_t>(this->Of.settings.Outside));
   addBodies(ofBodies, bodies);
   this->Keys.push_back(ofBodies.value());
   const bool isKept = this->Kept.boundary && this->Kept.keys == this->Keys && !this->IsImage;
@@ -462,7 +460,7 @@ void Maker::findBoundary(vtkDataObject* bodies)
 MadeOverRanks Maker::make(vtkDataObject* data, vtkDataObject* bodies, std::uint64_t number)
 {
   {
-    PartsOfRanks parts(this->All, data, arraysOf(this->Self));
+    PartsOfRanks parts(this->All, data, arraysOf(this->Of.choice().settings));
     this->IsImage = parts.kind() == PartsOfRanks::Kind::Image;
     this->Parts = parts.withGhostCells();
   }
@@ -483,18 +481,17 @@ MadeOverRanks Maker::make(vtkDataObject* data, vtkDataObject* bodies, std::uint6
   this->Made.meetsBodies = this->Boundary->hasBodiesIn(this->Facts.bounds);
   this->Made.source = std::make_shared<SamplesOverRanks>(this->All, number, std::move(this->Facts),
     std::move(this->Piece), this->Boundary, this->IsImage ? nullptr : this->Kept.lattices,
-    threadsOf(this->Self));
+    this->Of.threads());
   return std::move(this->Made);
 }
 
 } // namespace
 
-MadeOverRanks filters::makeOverRanks(vtkRefractiveIndex* self, const Ranks& ranks,
-  vtkDataObject* data, vtkDataObject* bodies, bool hasFields, std::uint64_t number,
-  KeptOverRanks& kept)
+MadeOverRanks filters::makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
+  vtkDataObject* bodies, bool hasFields, std::uint64_t number, KeptOverRanks& kept)
 {
   MadeOverRanks made;
-  vtkSMPTools::LocalScope(loopsWith(threadsOf(self)),
-    [&] { made = Maker(self, ranks, hasFields, kept).make(data, bodies, number); });
+  vtkSMPTools::LocalScope(loopsWith(maker.threads()),
+    [&] { made = Maker(maker, ranks, hasFields, kept).make(data, bodies, number); });
   return made;
 }

@@ -13,10 +13,11 @@
 #include <vector>
 
 class vtkDataObject;
-class vtkRefractiveIndex;
 
 namespace filters
 {
+
+class MediumMaker;
 
 /// What of a source depends on the meshes alone, and not on their values: each rank keeps it from one time step to the next.
 struct KeptOverRanks
@@ -39,9 +40,9 @@ struct MadeOverRanks
   std::string label; ///< of the arrays; see Source::label
 };
 
-/// Makes the source of data of which each rank has some; see PartsOfRanks. All ranks call it, with the same properties of
-/// `self`, the same bodies (may be null) and the same number. Throws std::runtime_error, on all ranks.
-MadeOverRanks makeOverRanks(vtkRefractiveIndex* self, const Ranks& ranks, vtkDataObject* data,
+/// Makes the source of data of which each rank has some; see PartsOfRanks. All ranks call it, with the same settings
+/// of `maker`, the same bodies (may be null) and the same number. Throws std::runtime_error, on all ranks.
+MadeOverRanks makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
   vtkDataObject* bodies, bool hasFields, std::uint64_t number, KeptOverRanks& kept);
 
 } // namespace filters

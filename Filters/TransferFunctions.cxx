@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TransferFunctions.h"
 
-#include "RefractivityValues.h"
+#include "Leaf.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -90,12 +90,20 @@ std::array<double, 2> rangeOf(vtkDataArray* array, vtkUnsignedCharArray* used)
 } // namespace
 
 //------------------------------------------------------------------------------
-FieldCurve::FieldCurve(vtkPiecewiseFunction* function, double low, double high)
+FieldCurve::FieldCurve(const TransferCurve& curve, double low, double high)
   : Low(low)
   , High(high)
 {
-  if (function && function->GetSize() > 0)
+  if (!curve.nodes.empty())
   {
+    vtkNew<vtkPiecewiseFunction> function;
+    function->SetClamping(curve.isClamped);
+    function->SetUseLogScale(curve.isLogarithmic);
+    function->AllowDuplicateScalarsOn();
+    for (const std::array<double, 4>& node : curve.nodes)
+    {
+      function->AddPoint(node[0], node[1], node[2], node[3]);
+    }
     this->Table.resize(intervals + 1);
     function->GetTable(0, 1, intervals + 1, this->Table.data());
     if (!std::all_of(

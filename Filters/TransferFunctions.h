@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "MediumSettings.h"
+
 #include <array>
 #include <string>
 #include <vector>
-
-class vtkPiecewiseFunction;
 
 /// Several fields, each through its range and a curve, to one refractivity (Brownlee et al. 2011, sec. 8).
 namespace filters
@@ -18,9 +18,9 @@ struct Leaf;
 class FieldCurve
 {
 public:
-  /// A straight line from 0 to 1 where `function` is null or has no points. The range is found later if
-  /// `low` and `high` are equal. Throws std::runtime_error where the function has no finite values.
-  FieldCurve(vtkPiecewiseFunction* function, double low, double high);
+  /// The range is found later if `low` and `high` are equal. Throws std::runtime_error where the curve has values that are not
+  /// finite.
+  FieldCurve(const TransferCurve& curve, double low, double high);
 
   bool hasRange() const { return this->Low != this->High; }
   void setRange(double low, double high);

@@ -17,7 +17,7 @@
  * warning. Blocks of images that hold
  * cell arrays (AMR, overlapping or not) become such a grid, of the finest level's cells; around finer
  * blocks coarser ones are interpolated by their cells' means, without a seam. All other input is
- * sampled on a grid (see SamplingDimensions): each of its points takes what MakeSource() says of it. Only cells with a volume
+ * sampled on a grid (see SamplingDimensions): each of its points takes what the tracer would find there. Only cells with a volume
  * count: surfaces in a composite are left out, and so are blocks that lack an array. Where several
  * arrays are needed, all of them belong to points or all to cells; the refractivity is formed there,
  * before anything is resampled.
@@ -45,33 +45,26 @@
 #ifndef vtkRefractiveIndex_h
 #define vtkRefractiveIndex_h
 
+#include "MediumSettings.h" // for the values of the properties
 #include "vtkImageAlgorithm.h"
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for TransferFunctions
 
-#include <memory> // for Plan, Mesh, Search, Ranks
+#include <memory> // for Maker, Guard, Ranks
 #include <string> // for std::string
 #include <vector> // for std::vector
 
 class vtkPiecewiseFunction;
 
-namespace schlieren
-{
-class MediumSource;
-} // namespace schlieren
-
 namespace filters
 {
 class InputsOfRanks;
+class MediumMaker;
 class RequestGuard;
-class KnownArrays;
-struct GridPlan;
-struct KeptMesh;
-struct Source;
-enum class Numbers;
 } // namespace filters
 
-class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm
+class VTKSCHLIERENFILTERS_EXPORT vtkRefractiveIndex : public vtkImageAlgorithm,
+                                                      private MediumSettings
 {
 public:
   static vtkRefractiveIndex* New();
@@ -138,7 +131,7 @@ public:
    * Gladstone-Dale constant K in m^3/kg. Default: DefaultGladstoneDaleConstant (air, visible light).
    * Gladstone & Dale 1863, Phil. Trans. R. Soc. 153, 317.
    */
-  static constexpr double DefaultGladstoneDaleConstant = 2.26e-4;
+  static constexpr double DefaultGladstoneDaleConstant = MediumSettings::defaultConstant;
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
   ///@}
@@ -174,10 +167,6 @@ public:
    */
   virtual void AddMixtureArray(const char* name);
   virtual void ClearMixtureArrays();
-  VTK_WRAPEXCLUDE const std::vector<std::string>& GetMixtureArrays() const
-  {
-    return this->MixtureArrays;
-  }
   ///@}
 
   ///@{
@@ -186,10 +175,6 @@ public:
    */
   virtual void AddMixtureConstant(double constant);
   virtual void ClearMixtureConstants();
-  VTK_WRAPEXCLUDE const std::vector<double>& GetMixtureConstants() const
-  {
-    return this->MixtureConstants;
-  }
   ///@}
 
   ///@{
@@ -200,10 +185,6 @@ public:
    */
   virtual void AddMixtureGas(const char* name);
   virtual void ClearMixtureGases();
-  VTK_WRAPEXCLUDE const std::vector<std::string>& GetMixtureGases() const
-  {
-    return this->MixtureGases;
-  }
   ///@}
 
   ///@{
@@ -213,10 +194,6 @@ public:
    */
   virtual void AddMixtureMolarMass(double molarMass);
   virtual void ClearMixtureMolarMasses();
-  VTK_WRAPEXCLUDE const std::vector<double>& GetMixtureMolarMasses() const
-  {
-    return this->MixtureMolarMasses;
-  }
   ///@}
 
   ///@{
@@ -285,7 +262,6 @@ public:
    */
   virtual void AddField(const char* name);
   virtual void ClearFields();
-  VTK_WRAPEXCLUDE const std::vector<std::string>& GetFields() const { return this->Fields; }
   ///@}
 
   ///@{
@@ -296,11 +272,6 @@ public:
    */
   virtual void AddTransferFunction(vtkPiecewiseFunction* function);
   virtual void ClearTransferFunctions();
-  VTK_WRAPEXCLUDE const std::vector<vtkSmartPointer<vtkPiecewiseFunction>>& GetTransferFunctions()
-    const
-  {
-    return this->TransferFunctions;
-  }
   ///@}
 
   ///@{
@@ -311,7 +282,6 @@ public:
    */
   virtual void AddFieldRange(double value);
   virtual void ClearFieldRanges();
-  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldRanges() const { return this->FieldRanges; }
   ///@}
 
   ///@{
@@ -325,7 +295,7 @@ public:
   /**
    * Whether an array is chosen for the humidity.
    */
-  bool HasHumidityArray() { return this->HasArray(HUMIDITY); }
+  bool HasHumidityArray();
 
   ///@{
   /**
@@ -359,20 +329,12 @@ public:
    * The grid of the last conversion in words, with how it was chosen, for example "65 x 65 x 65 points:
    * chosen from the sizes of the cells". Empty before the first and after a failed one.
    */
-  const char* GetGrid() const { return this->Grid.c_str(); }
+  const char* GetGrid() const;
 
   /**
    * The arrays that are used, with the factors of their units, and the fractions of a mixture: for example "Density: 'rho'.".
    */
   const char* GetArraysUsed();
-
-  /**
-   * The arrays of the last input, of which those are chosen that are not given.
-   */
-  VTK_WRAPEXCLUDE std::shared_ptr<filters::KnownArrays> GetKnownArrays() const
-  {
-    return this->Known;
-  }
 
   /// What becomes of light at places that no cell covers.
   enum OutsideModes
@@ -487,7 +449,7 @@ public:
    */
   vtkSetClampMacro(MaskedSide, int, MASKED_ABOVE, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
-  bool HasMaskArray() { return this->HasArray(MASK); }
+  bool HasMaskArray();
   ///@}
 
   ///@{
@@ -535,88 +497,21 @@ public:
   ///@}
 
   /**
-   * Makes `structure` the grid (extent, origin, spacing, direction; no arrays) that Convert() would
-   * fill for `input`. Throws std::runtime_error where there is none.
+   * How often the mesh of the data was another one than before: where it is the same, as other time steps and fields have it,
+   * only what depends on the values is made.
    */
-  VTK_WRAPEXCLUDE void ComputeGrid(vtkDataObject* input, vtkImageData* structure);
-
-  /**
-   * The same with two points along each axis, for meshes that CanMakeSource(): their box.
-   */
-  VTK_WRAPEXCLUDE void ComputeBox(vtkDataObject* input, vtkImageData* structure);
-
-  /**
-   * The coordinate axis across the plane of the data that the last of these functions was given; -1: they are in no plane.
-   */
-  VTK_WRAPEXCLUDE int GetFlatAxis() const { return this->FlatAxis; }
-
-  /**
-   * What the filter does, without a pipeline: fills `output` from `input` and, where not null, `bodies`. Returns what the user
-   * should be warned of, mostly nothing. Throws std::runtime_error with a message for the user, and
-   * std::bad_alloc; `output` is then undefined. If AbortExecute is set meanwhile, it returns early
-   * with an empty output. Without DoublePrecision, DIFFERENCES keep the digits of a weak flow: Refractivity then is N less
-   * RefractivityOffset of the field data, a value near that of the surroundings.
-   */
-  enum ConvertedValues
-  {
-    PLAIN,
-    DIFFERENCES
-  };
-  VTK_WRAPEXCLUDE std::string Convert(vtkDataObject* input, vtkImageData* output,
-    vtkDataObject* bodies = nullptr, ConvertedValues values = PLAIN);
-
-  /**
-   * The refractivity of a mesh for the tracer, which queries it box by box as finely as a view needs. `warning`: what
-   * the user should be warned of. Throws as Convert() does. CanMakeSource() says whether the input is for that;
-   * what else there is is to be made a grid by Convert(): images without bodies (unless `imagesToo`), flat ones, and where
-   * SamplingDimensions or SamplingBounds are given. If AbortExecute is set meanwhile, the result is null.
-   *
-   * What depends on the mesh alone is kept until the next conversion: the order of its cells, the points around each
-   * point, where the gas ends. Where the next input has the same mesh, as other time steps and fields have, only
-   * what depends on the values is made. A mesh is the same if its points, its cells, what hides them, which values are
-   * valid, the bodies, Outside and Reconstruction are; that is found from the data themselves, not from their times.
-   * GetMeshBuilds() counts how often it was another one.
-   */
-  enum SourceContents
-  {
-    REFRACTIVITY_ALONE,
-    WITH_FIELDS // the source has Fields, too: see FieldTints.h
-  };
-  VTK_WRAPEXCLUDE bool CanMakeSource(
-    vtkDataObject* input, vtkDataObject* bodies = nullptr, bool imagesToo = false);
-  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSource(vtkDataObject* input,
-    vtkDataObject* bodies, std::string& warning, SourceContents contents = REFRACTIVITY_ALONE);
-  /// The same of data whose grid is not kept, whatever grid is wanted.
-  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfCells(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning,
-    SourceContents contents = REFRACTIVITY_ALONE);
   vtkTypeInt64 GetMeshBuilds();
-
-  /**
-   * What the last MakeSource() keeps of its mesh for the next one. Filters of the same data can have one together;
-   * GetMeshBuilds() then counts for all of them.
-   */
-  VTK_WRAPEXCLUDE std::shared_ptr<filters::KeptMesh> GetMesh() const { return this->Mesh; }
-  VTK_WRAPEXCLUDE void SetMesh(std::shared_ptr<filters::KeptMesh> mesh);
-
-  /**
-   * Prints all properties that decide what is made of an input, the choice of arrays apart.
-   */
-  VTK_WRAPEXCLUDE void PrintSettings(ostream& os, vtkIndent indent);
-
-  /**
-   * The same of data that stay on several ranks, on rank 0, whose `inputs` they are. CanUsePieces(): whether the properties are
-   * for that. `instant`: of data between time steps; -1: those of one step.
-   */
-  VTK_WRAPEXCLUDE bool CanUsePieces();
-  VTK_WRAPEXCLUDE std::shared_ptr<const schlieren::MediumSource> MakeSourceOfPieces(
-    filters::InputsOfRanks& inputs, vtkDataObject* bodies, std::string& warning,
-    SourceContents contents = REFRACTIVITY_ALONE, int instant = -1);
 
   /**
    * How often a grid was chosen for the input, images apart: once for each input and set of properties.
    */
   vtkTypeInt64 GetGridPlans();
+
+  /// All of these properties.
+  VTK_WRAPEXCLUDE MediumSettings GetSettings();
+
+  /// What makes the medium, with the settings of now.
+  VTK_WRAPEXCLUDE filters::MediumMaker& GetMaker();
 
   vtkMTimeType GetMTime() override;
 
@@ -641,8 +536,6 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
-  /// Whether an array is chosen for one of InputArrays.
-  bool HasArray(int index);
   vtkRefractiveIndex(const vtkRefractiveIndex&) = delete;
   void operator=(const vtkRefractiveIndex&) = delete;
 
@@ -653,75 +546,12 @@ private:
   void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
   double RequestedTime = 0;
 
-  /// The grid for the arrays of an input that is not one image, chosen anew only where something has changed.
-  const filters::GridPlan& PlanGrid(const filters::Source& source, vtkDataObject* input);
-
-  /// Convert() of one image, which keeps its own grid, and of all else. Throw filters::Stopped where they are aborted.
-  void FillFromImage(const filters::Source& source, filters::Numbers numbers, vtkDataObject* bodies,
-    vtkImageData* output, std::string& warning);
-  void FillFromSource(const filters::Source& source, vtkDataObject* input, filters::Numbers numbers,
-    vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note);
-
-  /// Whether SamplingDimensions or SamplingBounds are given.
-  bool WantsGrid() const;
-
-  /// Of a grid that is kept or wanted: three-dimensional, with bodies.
-  std::shared_ptr<const schlieren::MediumSource> MakeSourceOfImage(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, SourceContents contents);
-
-  std::shared_ptr<filters::GridPlan> Plan;
-  std::shared_ptr<filters::KeptMesh> Mesh;
-  /// Frees it, or leaves it to other filters that have it.
-  void LeaveMesh();
-
-  /// The last note on gases: it is not repeated for every time step.
-  std::string ToldOfGases;
-  std::string NewNoteOnGases(const filters::Source& source);
-
+  std::shared_ptr<filters::MediumMaker> Maker;
   std::shared_ptr<filters::RequestGuard> Guard;
-  /// What is implausible, once for all time steps for which the same is.
-  std::string ToldOfValues;
-  std::string NewNoteOnValues(const filters::Source& source);
-
-  std::shared_ptr<filters::KnownArrays> Known;
+  std::shared_ptr<filters::InputsOfRanks> Ranks;
   std::string ArraysUsed;
 
-  std::shared_ptr<filters::InputsOfRanks> Ranks;
-
-  int IndexModel = AUTO;
-  std::string Gas = "Custom";
-  double GladstoneDaleConstant = DefaultGladstoneDaleConstant;
-  double DensityScale = 0;
-  std::vector<std::string> MixtureArrays;
-  std::vector<std::string> MixtureGases;
-  std::vector<double> MixtureConstants;
-  std::vector<double> MixtureMolarMasses;
-  std::string BackgroundGas = "Custom";
-  double BackgroundConstant = 2.26e-4;
-  double BackgroundMolarMass = 0.0289647;
-  int FractionType = MASS;
-  double TemperatureScale = 0;
-  double PressureScale = 0;
-  double RelativeHumidity = 0;
-  double MaskThreshold = 0.5;
-  int MaskedSide = MASKED_ABOVE;
-  double CO2 = 450;
-  double Wavelength = 632.8;
-  std::vector<std::string> Fields;
-  std::vector<vtkSmartPointer<vtkPiecewiseFunction>> TransferFunctions;
-  std::vector<double> FieldRanges;
-  double RefractivityScale = 3e-4;
-  int SamplingDimensions[3] = { 0, 0, 0 };
-  double SamplingBounds[6] = { 0, 0, 0, 0, 0, 0 };
-  double Depth = 0;
-  int Symmetry = NO_SYMMETRY;
-  int SymmetryAxis = AUTO_AXIS;
-  double SymmetryOrigin[3] = { 0, 0, 0 };
-  int FlatAxis = -1;
-  int Outside = OUTSIDE_AUTO;
-  int Reconstruction = SMOOTH;
-  std::string Grid;
-  bool DoublePrecision = false;
+  std::vector<vtkSmartPointer<vtkPiecewiseFunction>> Functions; // of TransferFunctions
   int NumberOfThreads = 0;
 };
 

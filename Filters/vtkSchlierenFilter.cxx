@@ -32,6 +32,62 @@ vtkStandardNewMacro(vtkSchlierenFilter);
 namespace
 {
 
+/// Whether an enumeration of the filter has the same values as one of the tracer.
+template <class Core, class Enum>
+constexpr bool sameValue(Enum value, Core ofCore)
+{
+  return static_cast<Core>(value) == ofCore;
+}
+
+using Self = vtkSchlierenFilter;
+static_assert(sameValue(Self::AUTO_PATH, schlieren::PathModel::Auto) &&
+  sameValue(Self::STRAIGHT, schlieren::PathModel::Straight) &&
+  sameValue(Self::REFRACTED, schlieren::PathModel::Refracted));
+static_assert(sameValue(Self::LEAPFROG, schlieren::Integrator::Leapfrog) &&
+  sameValue(Self::RK4, schlieren::Integrator::Rk4) &&
+  sameValue(Self::ADAPTIVE, schlieren::Integrator::Adaptive) &&
+  sameValue(Self::EULER, schlieren::Integrator::Euler));
+static_assert(sameValue(Self::QUADRATIC, schlieren::Interpolation::Quadratic) &&
+  sameValue(Self::LINEAR, schlieren::Interpolation::Linear) &&
+  sameValue(Self::CENTRAL, schlieren::Interpolation::Central) &&
+  sameValue(Self::CUBIC, schlieren::Interpolation::Cubic));
+static_assert(sameValue(Self::SINGLE, schlieren::Precision::Single) &&
+  sameValue(Self::DOUBLE, schlieren::Precision::Double));
+static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
+  sameValue(Self::CPU, schlieren::Device::Cpu) && sameValue(Self::CUDA, schlieren::Device::Cuda));
+static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
+  sameValue(Self::SHADOWGRAPH, schlieren::Cutoff::Shadowgraph) &&
+  sameValue(Self::CIRCULAR, schlieren::Cutoff::Circular) &&
+  sameValue(Self::CIRCULAR_COMPLEMENT, schlieren::Cutoff::CircularComplement) &&
+  sameValue(Self::GRADED_FILTER, schlieren::Cutoff::GradedFilter) &&
+  sameValue(Self::COLOR_FILTER, schlieren::Cutoff::ColorFilter) &&
+  sameValue(Self::INTERFEROGRAM, schlieren::Cutoff::Interferogram) &&
+  sameValue(Self::BACKGROUND_ORIENTED, schlieren::Cutoff::Background) &&
+  sameValue(Self::NUMERICAL_SCHLIEREN, schlieren::Cutoff::NumericalSchlieren));
+static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
+  sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
+  sameValue(Self::DISC, schlieren::SourceShape::Disc));
+static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
+  sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
+  sameValue(Self::PICTURE, schlieren::PatternKind::Image));
+static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
+  sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
+  sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
+  sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
+static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
+  sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
+static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
+  sameValue(Self::GAUSSIAN, schlieren::NoiseFilter::Gaussian) &&
+  sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
+  sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
+static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
+  Self::LOCK_OVER_TIME == OpticsSettings::lockOverTime &&
+  Self::LOCK_ALWAYS == OpticsSettings::lockAlways &&
+  Self::FINITE_FRINGES == OpticsSettings::finiteFringes &&
+  Self::DIVERGING == OpticsSettings::divergingLight &&
+  Self::SCENE == OpticsSettings::scenePattern &&
+  Self::DIFFERENCE == AccuracySettings::differencePath);
+
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
@@ -91,7 +147,7 @@ void tellPlaces(vtkInformationVector* outputs)
 
 //------------------------------------------------------------------------------
 vtkSchlierenFilter::vtkSchlierenFilter()
-  : Inside(new Internals(this->Medium))
+  : Inside(new Internals)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -108,7 +164,8 @@ vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 //------------------------------------------------------------------------------
 double vtkSchlierenFilter::MostGathered()
 {
-  return this->Medium->CanUsePieces() ? this->GatherLimit : std::numeric_limits<double>::infinity();
+  return this->Medium->GetMaker().canUsePieces() ? this->GatherLimit
+                                                 : std::numeric_limits<double>::infinity();
 }
 
 //------------------------------------------------------------------------------
@@ -195,7 +252,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       vtkDataObject* bodies = ranks.gatheredOf(vtkRefractiveIndex::BODIES,
         vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
       if (this->Inside->holdsRefractivityOf(
-            this->DescribeInputs(input, bodies), this->Medium, this->ColorByField))
+            this->DescribeInputs(input, bodies), this->Medium->GetSettings(), this->ColorByField))
       {
         grid = Internals::fieldOf(*this->Inside->Refractivity).grid;
         flatAxis = this->Inside->Refractivity->FlatAxis;
@@ -203,16 +260,17 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
       else
       {
         vtkNew<vtkImageData> planned;
-        if (this->Medium->CanMakeSource(input, nullptr, this->IsLargeImage(input)))
+        MediumMaker& maker = this->Medium->GetMaker();
+        if (maker.canMakeSource(input, nullptr, this->IsLargeImage(input)))
         {
-          this->Medium->ComputeBox(input, planned);
+          maker.computeBox(input, planned);
         }
         else
         {
-          this->Medium->ComputeGrid(input, planned);
+          maker.computeGrid(input, planned);
         }
         grid = gridFrom(planned);
-        flatAxis = this->Medium->GetFlatAxis();
+        flatAxis = maker.flatAxis();
       }
       const schlieren::Frame frame = frameFrom(facing(*this, flatAxis), grid);
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
@@ -313,10 +371,10 @@ int vtkSchlierenFilter::RequestData(
   {
     withRanks.emplace(inside);
   }
-  ExposureSteps steps(this, inside.Ranks, inputVector, outputVector, inside.Exposure, maxCells);
+  ExposureSteps steps(this, this->Medium->GetMaker(), inside.Ranks, inputVector, outputVector,
+    inside.Exposure, maxCells);
   if (!isRank0())
   {
-    this->Medium->SetNumberOfThreads(this->NumberOfThreads);
     do
     {
       if (!steps.IsThere())

@@ -26,10 +26,10 @@ FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArra
   }
   if (property != "IndexArray")
   {
-    return flowDefaults(arrays, FlowDefaults::Ciddor);
+    return flowDefaults(arrays, MediumSettings::Ciddor);
   }
-  const FlowDefaults index = flowDefaults(arrays, FlowDefaults::RefractiveIndex);
-  return index.arrays.empty() ? flowDefaults(arrays, FlowDefaults::Refractivity) : index;
+  const FlowDefaults index = flowDefaults(arrays, MediumSettings::RefractiveIndex);
+  return index.arrays.empty() ? flowDefaults(arrays, MediumSettings::Refractivity) : index;
 }
 
 } // namespace

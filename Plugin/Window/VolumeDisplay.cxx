@@ -46,7 +46,7 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
     const double byUnit = scaleByUnit("Density", defaults.arrayOf("Density"));
     switch (given < 0 ? defaults.indexModel : given)
     {
-      case FlowDefaults::GladstoneDale:
+      case MediumSettings::GladstoneDale:
         if (!gas || !*gas || std::strcmp(gas, "Custom") == 0)
         {
           return ambient[0] /
@@ -56,9 +56,9 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
                                 : 1));
         }
         break;
-      case FlowDefaults::RefractiveIndex:
+      case MediumSettings::RefractiveIndex:
         return 1 + ambient[0];
-      case FlowDefaults::Refractivity:
+      case MediumSettings::Refractivity:
         return ambient[0];
       default:
         break;

@@ -6,6 +6,7 @@
 #include "CellSampler.h"
 #include "CellTree.h"
 
+#include "MediumMaker.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"
@@ -149,7 +150,7 @@ void sample(benchmark::State& state, const std::function<Mesh()>& make)
       vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
     filter->SetSamplingDimensions(n, n, n);
     filter->SetDoublePrecision(true);
-    filter->Convert(mesh, output);
+    filter->GetMaker().convert(mesh, output, nullptr, filters::Numbers::Singles);
   };
   vtkNew<vtkRefractiveIndex> kept;
   vtkNew<vtkImageData> output;
@@ -249,7 +250,9 @@ void amr(benchmark::State& state)
   double seconds = 1e30;
   for (auto _ : state)
   {
-    seconds = std::min(seconds, secondsOf([&] { filter->Convert(blocks, output); }));
+    seconds = std::min(seconds,
+      secondsOf(
+        [&] { filter->GetMaker().convert(blocks, output, nullptr, filters::Numbers::Singles); }));
   }
   double sum = 0;
   vtkDataArray* values = output->GetPointData()->GetArray("Refractivity");

@@ -4,6 +4,7 @@
 // Adaptive meshes whose cells hold the values, as the codes that make them write them.
 #include "BallOnLevels.h"
 #include "Medium/MediumSource.h"
+#include "MediumMaker.h"
 
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNonOverlappingAMR.h"
@@ -121,9 +122,9 @@ TEST(Amr, DeepLevelsHaveTheValuesOfTheBall)
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
   const auto amr = deepBall(ball);
-  ASSERT_TRUE(filter->CanMakeSource(amr));
+  ASSERT_TRUE(filter->GetMaker().canMakeSource(amr, nullptr, false));
   std::string warning;
-  const auto source = filter->MakeSource(amr, nullptr, warning);
+  const auto source = filter->GetMaker().makeSource(amr, nullptr, warning);
   ASSERT_TRUE(source);
   EXPECT_EQ(warning, "");
   EXPECT_LT(std::abs(source->ambient()), 1e-12);
@@ -170,7 +171,7 @@ TEST(Amr, ShocksDoNotOvershoot)
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
   std::string warning;
-  const auto source = filter->MakeSource(amr, nullptr, warning);
+  const auto source = filter->GetMaker().makeSource(amr, nullptr, warning);
   const schlieren::Lattice lattice{ { -0.4, -0.4, -0.4 }, { 0.013, 0.013, 0.013 }, { 61, 61, 61 } };
   std::vector<double> values(static_cast<std::size_t>(lattice.size()));
   std::vector<schlieren::Place> places(values.size());

@@ -3,6 +3,7 @@
 //
 // Two-dimensional data are extruded across their plane, by Depth.
 #include "Fixtures.h"
+#include "MediumMaker.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSetTriangleFilter.h"
@@ -130,7 +131,7 @@ TEST(Flat, ImageIsAColumnFromTheSide)
   medium->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
   medium->SetDepth(1);
-  medium->ComputeGrid(filter->GetInputDataObject(0, 0), grid);
+  medium->GetMaker().computeGrid(filter->GetInputDataObject(0, 0), grid);
   EXPECT_EQ(grid->GetBounds()[2], height - 0.5);
   EXPECT_EQ(grid->GetBounds()[3], height + 0.5);
 }

@@ -4,6 +4,7 @@
 // What a mesh becomes on a grid. Isoparametric cells interpolate linear fields exactly, however their points
 // are moved: that is the truth here.
 #include "CellMeshes.h"
+#include "MediumMaker.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"
@@ -35,7 +36,7 @@ struct Sampled
 Sampled sampled(vtkRefractiveIndex* filter, vtkDataObject* mesh)
 {
   Sampled result;
-  filter->Convert(mesh, result.image);
+  filter->GetMaker().convert(mesh, result.image, nullptr, filters::Numbers::Singles);
   for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
   {
     vtkPointData* arrays = result.image->GetPointData();
@@ -378,7 +379,7 @@ TEST(Extremes, BadCellsHarmNoOthers)
       vtkNew<vtkImageData> output; // either an image or a message
       try
       {
-        reader()->Convert(mesh, output);
+        reader()->GetMaker().convert(mesh, output, nullptr, filters::Numbers::Singles);
       }
       catch (const std::runtime_error& problem)
       {

@@ -5,6 +5,7 @@
 // no step before: the last bit of every number.
 #include "CellMeshes.h"
 #include "CutMesh.h"
+#include "MediumMaker.h"
 #include "Surfaces.h"
 
 #include "InputDescription.h"
@@ -131,7 +132,7 @@ vtkSmartPointer<vtkRefractiveIndex> reader()
 Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject* bodies = nullptr)
 {
   std::string warning;
-  return filter->MakeSource(input, bodies, warning);
+  return filter->GetMaker().makeSource(input, bodies, warning);
 }
 
 /// Values may differ in curved cells, where places are found by an iteration.

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef MediumSettings_h
+#define MediumSettings_h
+
+#include <array>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+/// Which array of the data a property takes.
+struct ArraySelection
+{
+  std::string name;        ///< empty: by attribute, or none is chosen
+  int attribute = -1;      ///< one of vtkDataSetAttributes::AttributeTypes; -1: by name
+  bool cellsFirst = false; ///< whether arrays of cells are looked at before those of points
+
+  /// Whether the user has chosen one.
+  bool isChosen() const { return !this->name.empty() || this->attribute >= 0; }
+  /// Whether an array is named that is not the entry None of a list.
+  bool isNamed() const { return !this->name.empty() && this->name != "None"; }
+
+  bool operator==(const ArraySelection& other) const
+  {
+    return this->name == other.name && this->attribute == other.attribute &&
+      this->cellsFirst == other.cellsFirst;
+  }
+};
+
+/// The points of a vtkPiecewiseFunction; without any, a straight line from 0 to 1.
+struct TransferCurve
+{
+  std::vector<std::array<double, 4>> nodes; ///< x, value, midpoint and sharpness
+  bool isClamped = true;
+  bool isLogarithmic = false;
+
+  bool operator==(const TransferCurve& other) const
+  {
+    return this->nodes == other.nodes && this->isClamped == other.isClamped &&
+      this->isLogarithmic == other.isLogarithmic;
+  }
+};
+
+/// What the properties of vtkRefractiveIndex hold, under their names: numbers, texts and lists of them. The filter's
+/// documentation says what each one means, and its setters check ranges. Equal settings make the same medium of equal data.
+struct MediumSettings
+{
+  /// Values of IndexModel; see vtkRefractiveIndex::IndexModels.
+  enum Models
+  {
+    Auto = -1,
+    GladstoneDale = 0,
+    RefractiveIndex = 1,
+    Refractivity = 2,
+    Mixture = 3,
+    Ciddor = 4,
+    Curves = 5
+  };
+
+  /// Indices of Arrays; see vtkRefractiveIndex::InputArrays.
+  enum ArrayIndex
+  {
+    DensityArray = 0,
+    IndexArray = 1,
+    TemperatureArray = 2,
+    PressureArray = 3,
+    HumidityArray = 4,
+    MaskArray = 5
+  };
+
+  /// The names of the properties that choose Arrays.
+  static constexpr const char* arrayProperties[] = { "Density", "IndexArray", "Temperature",
+    "Pressure", "Humidity", "Mask" };
+
+  /// Air in visible light, m^3/kg.
+  static constexpr double defaultConstant = 2.26e-4;
+
+  std::array<ArraySelection, 6> Arrays;
+  int IndexModel = Auto;
+  std::string Gas = "Custom";
+  double GladstoneDaleConstant = defaultConstant;
+  double DensityScale = 0;
+  std::vector<std::string> MixtureArrays;
+  std::vector<std::string> MixtureGases;
+  std::vector<double> MixtureConstants;
+  std::vector<double> MixtureMolarMasses;
+  std::string BackgroundGas = "Custom";
+  double BackgroundConstant = defaultConstant;
+  double BackgroundMolarMass = 0.0289647;
+  int FractionType = 0; ///< 0: of the mass, 1: of the volume
+  double TemperatureScale = 0;
+  double PressureScale = 0;
+  double RelativeHumidity = 0;
+  double CO2 = 450;
+  double Wavelength = 632.8;
+  std::vector<std::string> Fields;
+  std::vector<TransferCurve> TransferFunctions;
+  std::vector<double> FieldRanges;
+  double RefractivityScale = 3e-4;
+  int SamplingDimensions[3] = { 0, 0, 0 };
+  double SamplingBounds[6] = { 0, 0, 0, 0, 0, 0 };
+  double MaskThreshold = 0.5;
+  int MaskedSide = 0; ///< 0: above the threshold, 1: below
+  double Depth = 0;
+  int Symmetry = 0;     ///< 0: none, 1: axisymmetric
+  int SymmetryAxis = 0; ///< 0: chosen; 1 to 3: x, y, z
+  double SymmetryOrigin[3] = { 0, 0, 0 };
+  int Outside = 0;
+  int Reconstruction = 0; ///< 0: smooth, 1: linear in cells
+  bool DoublePrecision = false;
+
+  bool isAxisymmetric() const { return this->Symmetry == 1; }
+  bool isSmooth() const { return this->Reconstruction == 0; }
+  std::array<double, 3> symmetryOrigin() const
+  {
+    return { this->SymmetryOrigin[0], this->SymmetryOrigin[1], this->SymmetryOrigin[2] };
+  }
+
+  /// Calls use(name, member) for each property, its member as a pointer.
+  template <class Use>
+  static void visit(const Use& use)
+  {
+    using S = MediumSettings;
+    use("Arrays", &S::Arrays);
+    use("IndexModel", &S::IndexModel);
+    use("Gas", &S::Gas);
+    use("GladstoneDaleConstant", &S::GladstoneDaleConstant);
+    use("DensityScale", &S::DensityScale);
+    use("MixtureArrays", &S::MixtureArrays);
+    use("MixtureGases", &S::MixtureGases);
+    use("MixtureConstants", &S::MixtureConstants);
+    use("MixtureMolarMasses", &S::MixtureMolarMasses);
+    use("BackgroundGas", &S::BackgroundGas);
+    use("BackgroundConstant", &S::BackgroundConstant);
+    use("BackgroundMolarMass", &S::BackgroundMolarMass);
+    use("FractionType", &S::FractionType);
+    use("TemperatureScale", &S::TemperatureScale);
+    use("PressureScale", &S::PressureScale);
+    use("RelativeHumidity", &S::RelativeHumidity);
+    use("CO2", &S::CO2);
+    use("Wavelength", &S::Wavelength);
+    use("Fields", &S::Fields);
+    use("TransferFunctions", &S::TransferFunctions);
+    use("FieldRanges", &S::FieldRanges);
+    use("RefractivityScale", &S::RefractivityScale);
+    use("SamplingDimensions", &S::SamplingDimensions);
+    use("SamplingBounds", &S::SamplingBounds);
+    use("MaskThreshold", &S::MaskThreshold);
+    use("MaskedSide", &S::MaskedSide);
+    use("Depth", &S::Depth);
+    use("Symmetry", &S::Symmetry);
+    use("SymmetryAxis", &S::SymmetryAxis);
+    use("SymmetryOrigin", &S::SymmetryOrigin);
+    use("Outside", &S::Outside);
+    use("Reconstruction", &S::Reconstruction);
+    use("DoublePrecision", &S::DoublePrecision);
+  }
+
+  bool operator==(const MediumSettings& other) const;
+  bool operator!=(const MediumSettings& other) const { return !(*this == other); }
+};
+
+/// Prints "name: value" of each property in a line of its own, after `indent` spaces.
+void print(std::ostream& out, int indent, const MediumSettings& settings);
+
+#endif
