@@ -9,11 +9,11 @@
 // viewDirection, all of unit length. A point x lands at the image coordinates (x.u, x.v).
 #pragma once
 
-#include "Medium/IndexModels.h"
-#include "Medium/MediumSource.h"
+#include "Film/PixelArray.h"
+#include "Medium/Index/IndexModels.h"
+#include "Medium/Samples/MediumSource.h"
 #include "Optics/Techniques.h"
-#include "PixelArray.h"
-#include "Rays/Processes.h"
+#include "Rays/Ranks/Processes.h"
 
 #include <array>
 #include <cstdint>

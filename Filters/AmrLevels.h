@@ -4,7 +4,7 @@
 
 #include "RefractivitySource.h"
 
-#include "Medium/MediumSource.h"
+#include "Medium/Samples/MediumSource.h"
 
 #include <algorithm>
 #include <array>

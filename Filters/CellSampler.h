@@ -4,7 +4,7 @@
 
 #include "CellTree.h"
 
-#include "Medium/MediumSource.h"
+#include "Medium/Samples/MediumSource.h"
 
 #include <cstddef>
 #include <cstdint>

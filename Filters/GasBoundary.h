@@ -4,7 +4,7 @@
 
 #include "BodySurfaces.h"
 #include "BoundaryFaces.h"
-#include "Medium/MediumSource.h"
+#include "Medium/Samples/MediumSource.h"
 #include "Triangles.h"
 
 #include <array>

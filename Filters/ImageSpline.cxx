@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageSpline.h"
 
-#include "Medium/Prefilter.h"
-#include "Medium/Solids.h"
+#include "Medium/Samples/Prefilter.h"
+#include "Medium/Samples/Solids.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "AmrLevels.h"
-#include "Medium/MediumSource.h"
-#include "Medium/Prefilter.h"
+#include "Medium/Samples/MediumSource.h"
+#include "Medium/Samples/Prefilter.h"
 #include "Schlieren.h"
 
 #include <array>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Processes.h"
-#include "Rays/RayWorker.h"
+#include "Rays/Ranks/Processes.h"
+#include "Rays/Ranks/RayWorker.h"
 
 #include <cstdint>
 #include <functional>

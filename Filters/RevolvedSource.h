@@ -4,7 +4,7 @@
 
 #include "Revolution.h"
 
-#include "Medium/MediumSource.h"
+#include "Medium/Samples/MediumSource.h"
 
 #include <array>
 #include <cstddef>

@@ -7,8 +7,8 @@
 #include "LatticesOfMesh.h"
 #include "Ranks.h"
 
-#include "Medium/BrickMakers.h"
-#include "Medium/MediumSource.h"
+#include "Medium/Samples/MediumSource.h"
+#include "Medium/Tree/BrickMakers.h"
 
 #include <array>
 #include <cstdint>

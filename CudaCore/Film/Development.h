@@ -3,9 +3,9 @@
 #pragma once
 
 #include "Film/Exposure.h"
+#include "Film/PixelArray.h"
 #include "Optics/Cutoffs.h"
 #include "Optics/Tint.h"
-#include "PixelArray.h"
 #include "Rays/RayExit.h"
 #include "Schlieren.h"
 

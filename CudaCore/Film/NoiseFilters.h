@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PixelArray.h"
+#include "Film/PixelArray.h"
 #include "Schlieren.h"
 
 namespace schlieren

@@ -6,7 +6,7 @@
 #include "Film/CudaFilm.h"
 #include "Film/Development.h"
 #include "Film/Exposure.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/Tracer.h"
 #include "Schlieren.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "Medium/Medium.h"
 
 #include "Device/Parallel.h"
-#include "Medium/Solids.h"
+#include "Medium/Samples/Solids.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Medium/FieldGradients.h"
-#include "Medium/Interpolation.h"
-#include "Medium/MediumTree.h"
-#include "Medium/Prefilter.h"
-#include "Medium/SlopeBlocks.h"
+#include "Medium/Samples/FieldGradients.h"
+#include "Medium/Samples/Interpolation.h"
+#include "Medium/Samples/Prefilter.h"
+#include "Medium/Samples/SlopeBlocks.h"
+#include "Medium/Tree/MediumTree.h"
 #include "Schlieren.h"
 
 #include <cstdint>

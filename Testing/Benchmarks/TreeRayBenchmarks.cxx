@@ -7,7 +7,7 @@
 //
 //   SchlierenTreeRayBenchmarks [turns [simd ...]]      simd: 1 SSE2, 2 AVX2, 3 AVX-512 by gathers, 4 by rows
 #include "MeasuredTrees.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/Tracer.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 // Rays side by side do what a ray does alone.
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/Tracer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "AnalyticSources.h"
 #include "Fields.h"
 #include "Medium/Medium.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/Tracer.h"
 #include "TreeRays.h"
 
 #include <algorithm>

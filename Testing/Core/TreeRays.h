@@ -6,7 +6,7 @@
 
 #include "Fields.h"
 #include "Medium/Medium.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/Tracer.h"
 
 #include <gtest/gtest.h>
 
