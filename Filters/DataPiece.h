@@ -5,7 +5,7 @@
 #include "CellTree.h"
 #include "Vectors.h"
 
-#include "Medium/Samples/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstddef>

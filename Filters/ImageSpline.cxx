@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageSpline.h"
 
-#include "Medium/Samples/Prefilter.h"
-#include "Medium/Samples/Solids.h"
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <cmath>

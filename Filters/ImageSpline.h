@@ -3,8 +3,6 @@
 #pragma once
 
 #include "AmrLevels.h"
-#include "Medium/Samples/MediumSource.h"
-#include "Medium/Samples/Prefilter.h"
 #include "Schlieren.h"
 
 #include <array>

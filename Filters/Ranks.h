@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Ranks/Processes.h"
-#include "Rays/Ranks/RayWorker.h"
+#include "Schlieren.h"
 
 #include <cstdint>
 #include <functional>

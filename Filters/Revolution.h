@@ -5,7 +5,7 @@
 #include "RefractivitySource.h"
 #include "SamplingBox.h"
 
-#include "Medium/Samples/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <string>

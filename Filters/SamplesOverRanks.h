@@ -7,8 +7,7 @@
 #include "LatticesOfMesh.h"
 #include "Ranks.h"
 
-#include "Medium/Samples/MediumSource.h"
-#include "Medium/Tree/BrickMakers.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstdint>

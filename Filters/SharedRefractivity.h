@@ -5,7 +5,7 @@
 #include "vtkNew.h"
 #include "vtkType.h"
 
-#include "Medium/Samples/MediumSource.h"
+#include "Schlieren.h"
 
 #include <memory>
 #include <string>

@@ -12,7 +12,7 @@
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
-#include "Rays/Cpu/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/ProcessTracer.h"
 
@@ -219,7 +219,7 @@ struct Bench::Unfinished
   Unfinished(const Field& ofField, const Scene& ofScene)
     : field(ofField)
     , scene(ofScene)
-    , image(std::in_place, ofScene)
+    , image(std::in_place, filmSettingsOf(ofScene))
   {
   }
 
@@ -240,7 +240,7 @@ struct Bench::Unfinished
   /// Where the medium has changed under the image.
   void beginAnew()
   {
-    image.emplace(scene);
+    image.emplace(filmSettingsOf(scene));
     bound.reset();
     shown = 0;
   }

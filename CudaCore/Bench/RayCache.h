@@ -6,7 +6,7 @@
 #include "Optics/AutomaticK.h"
 #include "Optics/DeflectionHistogram.h"
 #include "Optics/Tint.h"
-#include "Rays/Cpu/Tracer.h"
+#include "Rays/TracedPass.h"
 #include "Rays/TracedRays.h"
 #include "Schlieren.h"
 

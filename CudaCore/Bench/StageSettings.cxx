@@ -234,6 +234,13 @@ Projection projectionOf(
   return projection;
 }
 
+FilmSettings filmSettingsOf(const Scene& scene)
+{
+  return { scene.view.width, scene.view.height, scene.samplesPerPixel, scene.seed,
+    scene.filmEstimator, scene.noiseFilter, scene.noiseFilterRadius, isOfCamera(scene.cutoff),
+    scene.threads };
+}
+
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
 {
   pass.offset = pixelOffset(number, scene.seed);

@@ -3,10 +3,12 @@
 // What a scene needs of each stage, and what cached results depend on.
 #pragma once
 
+#include "Film/Development.h"
 #include "Film/Shading.h"
 #include "Medium/Medium.h"
-#include "Rays/Cpu/Tracer.h"
 #include "Rays/Light.h"
+#include "Rays/March/DisplacementBound.h"
+#include "Rays/March/MakeTask.h"
 #include "Schlieren.h"
 
 #include <array>
@@ -150,6 +152,8 @@ Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const Ex
 
 /// The part of a source's medium that a view looks at, with the margin around the image.
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
+
+FilmSettings filmSettingsOf(const Scene& scene);
 
 /// Where a pass's rays start in their pixels and at their source.
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light);

@@ -8,7 +8,7 @@
 #include "Optics/Cutoffs.h"
 #include "Optics/Tint.h"
 #include "Rays/TracedRays.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <memory>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Film/PixelArray.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 namespace schlieren
 {

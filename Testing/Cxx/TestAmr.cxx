@@ -3,7 +3,7 @@
 //
 // Adaptive meshes whose cells hold the values, as the codes that make them write them.
 #include "BallOnLevels.h"
-#include "Medium/Samples/MediumSource.h"
+#include "Schlieren.h"
 
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNonOverlappingAMR.h"

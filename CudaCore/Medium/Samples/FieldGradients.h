@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Math/Vec3.h"
-#include "Schlieren.h"
+#include "Medium/Samples/Field.h"
 
 #include <cstdint>
 
@@ -70,5 +70,11 @@ SCHLIEREN_HD void gatherGradients(const FieldGradientsView& view, std::int32_t l
     }
   }
 }
+
+/// Writes the gradient of one of `count` fields into what will be FieldGradients::values: its length at
+/// each point from central differences, or one-sided ones next to the grid's faces and to points where
+/// `valid` (may be null) is 0 or the value is not finite; 0 at such points.
+void gradientMagnitudes(const Grid& grid, const float* values, const unsigned char* valid,
+  int threads, int count, int field, float* gradients);
 
 } // namespace schlieren

@@ -4,7 +4,7 @@
 
 #include "Math/Vec3.h"
 #include "Medium/Samples/Leaves.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cmath>
 #include <cstdint>

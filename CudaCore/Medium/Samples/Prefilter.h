@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Device/UninitialisedAllocator.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <algorithm>
 #include <array>

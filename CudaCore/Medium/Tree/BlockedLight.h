@@ -4,7 +4,7 @@
 
 #include "Medium/Samples/MediumSource.h"
 #include "Medium/Tree/BrickRays.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <array>
 #include <cstdint>

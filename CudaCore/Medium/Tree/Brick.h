@@ -8,7 +8,7 @@
 #include "Medium/Samples/Leaves.h"
 #include "Medium/Samples/MediumSource.h"
 #include "Medium/Tree/FieldBrick.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <array>
 #include <cstdint>

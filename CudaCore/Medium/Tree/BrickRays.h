@@ -7,7 +7,7 @@
 
 #include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/Leaves.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <algorithm>
 #include <cstdint>

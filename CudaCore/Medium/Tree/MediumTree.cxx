@@ -4,8 +4,10 @@
 // The nodes of a tree, and what rays see of them.
 #include "Medium/Tree/MediumTree.h"
 
-#include "Medium/Medium.h"
+#include "Medium/Samples/Field.h"
+#include "Medium/Samples/Prefilter.h"
 #include "Medium/Tree/NodesInView.h"
+#include "Medium/Tree/RootCells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,89 +20,6 @@ namespace schlieren
 
 namespace
 {
-
-/// Root cells along the longest axis. More where the data are that much longer than wide.
-constexpr double fewestRoots = 4;
-constexpr double maxRoots = 16;
-
-/// So that neither cells nor levels are too many for numbers of 32 bits.
-constexpr int mostCoarserLevels = 13;
-
-/// The boxes of level 0, which the domain is made of.
-struct Division
-{
-  std::array<std::int32_t, 3> cells; ///< one along z where nothing depends on it
-  int coarserLevels; ///< of roots, each of which has 2^coarserLevels of them along each axis
-};
-
-/// Of data much longer than wide most may be empty (blocks far from each other), which larger boxes hold.
-Division divisionOf(const MediumSource& source)
-{
-  const Box box = source.bounds();
-  const std::array<double, 3> voxelShape = source.voxelShape();
-  std::array<double, 3> length{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double edge = box.high[axis] - box.low[axis];
-    if (!(edge > 0) || !std::isfinite(edge))
-    {
-      throw Error("The data have no extent along their " + std::string(1, "xyz"[axis]) +
-        " axis, or none that is finite, so there is no depth for light to cross and no gradient to "
-        "bend it. Check the points' coordinates (for 2-D data: extrude it).");
-    }
-    length[axis] =
-      voxelShape[axis] > 0 && std::isfinite(voxelShape[axis]) ? edge / voxelShape[axis] : edge;
-  }
-  if (source.isFlat())
-  {
-    length[2] = std::min(length[0], length[1]);
-  }
-  std::array<double, 3> sorted = length;
-  std::sort(sorted.begin(), sorted.end());
-  const auto [shortest, middle, longest] = sorted;
-  Division division{};
-  while (division.coarserLevels < mostCoarserLevels &&
-    longest > std::ldexp(maxRoots, division.coarserLevels) * middle)
-  {
-    ++division.coarserLevels;
-  }
-  const double most = std::clamp(
-    std::round(longest / shortest), fewestRoots, std::ldexp(maxRoots, division.coarserLevels));
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    division.cells[axis] = std::max<std::int32_t>(
-      1, static_cast<std::int32_t>(std::lround(most * length[axis] / longest)));
-  }
-  division.cells[2] = source.isFlat() ? 1 : division.cells[2];
-  return division;
-}
-
-std::array<std::int32_t, 3> rootCellsOf(const Division& division)
-{
-  std::array<std::int32_t, 3> roots{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    roots[axis] = ((division.cells[axis] - 1) >> division.coarserLevels) + 1;
-  }
-  return roots;
-}
-
-/// Where nothing depends on z, two points, the depth apart, represent it.
-Grid gridOf(const MediumSource& source, std::int64_t brickEdge)
-{
-  const Box box = source.bounds();
-  const std::array<std::int32_t, 3> cells = divisionOf(source).cells;
-  Grid grid;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::int64_t voxels = axis == 2 && source.isFlat() ? 1 : brickEdge * cells[axis];
-    grid.dimensions[axis] = voxels + 1;
-    grid.spacing[axis] = (box.high[axis] - box.low[axis]) / static_cast<double>(voxels);
-    grid.origin[axis] = box.low[axis];
-  }
-  validate(grid);
-  return grid;
-}
 
 MediumSource::Content contentOfAll(const MediumSource& source, double ambient)
 {
@@ -127,7 +46,7 @@ MediumTree<Real>::MediumTree(
   std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings)
   : source_(std::move(source))
   , settings_(settings)
-  , grid_(gridOf(*source_, brickEdge))
+  , grid_(gridOf(*source_))
   , coarserLevels_(divisionOf(*source_).coarserLevels)
   , rootCells_(rootCellsOf(divisionOf(*source_)))
   , maker_(*source_,
@@ -199,19 +118,6 @@ template <class Real>
 typename MediumTree<Real>::NodeFields MediumTree<Real>::fieldsOf(std::int32_t node) const
 {
   return nodeFields_.empty() ? NodeFields{} : nodeFields_[static_cast<std::size_t>(node)];
-}
-
-Grid coarsestGrid(const MediumSource& source)
-{
-  Grid grid = gridOf(source, MediumTree<float>::brickEdge);
-  const std::array<double, 3> origin = grid.origin;
-  grid.direction = source.direction();
-  for (std::size_t row = 0; row < 3; ++row)
-  {
-    const double* toData = grid.direction.data() + 3 * row;
-    grid.origin[row] = toData[0] * origin[0] + toData[1] * origin[1] + toData[2] * origin[2];
-  }
-  return grid;
 }
 
 template <class Real>

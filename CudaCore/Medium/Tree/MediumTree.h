@@ -10,7 +10,7 @@
 #include "Medium/Tree/Brick.h"
 #include "Medium/Tree/BrickRays.h"
 #include "Medium/Tree/BrickStore.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <limits>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "Medium/Tree/BrickRays.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 namespace schlieren
 {

@@ -7,9 +7,9 @@
 #define SCHLIEREN_INLINE_ALL
 #endif
 #include "Medium/Samples/SimdInterpolation.h"
-#include "Rays/March/Kernels.h"
 #include "Rays/Cpu/MarchOfPacks.h"
 #include "Rays/Cpu/SimdMarch.h"
+#include "Rays/March/Kernels.h"
 
 namespace schlieren
 {

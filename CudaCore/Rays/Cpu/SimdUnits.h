@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Cpu/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
 
 namespace schlieren
 {

@@ -6,7 +6,7 @@
 
 #include "Device/CudaLaunch.h"
 #include "Rays/March/Kernels.h"
-#include "Rays/Cpu/Tracer.h"
+#include "Rays/March/OneRay.h"
 
 #include <type_traits>
 

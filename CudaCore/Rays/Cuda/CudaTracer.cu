@@ -41,38 +41,6 @@ void addTotals(const MarchTotals& totals, TracedPass& traced)
 
 } // namespace
 
-bool cudaAvailable(std::string* reason)
-{
-  int devices = 0;
-  const cudaError_t status = cudaGetDeviceCount(&devices);
-  if (status == cudaSuccess && devices > 0)
-  {
-    checkCuda(cudaSetDevice(chosenCudaDevice(devices)), "Choosing a device");
-    return true;
-  }
-  cudaGetLastError();
-  if (reason != nullptr)
-  {
-    *reason = status == cudaSuccess ? "no CUDA device was found" : cudaGetErrorString(status);
-  }
-  return false;
-}
-
-int cudaCapability()
-{
-  int device = 0, first = 0, second = 0;
-  if (!cudaAvailable(nullptr))
-  {
-    return 0;
-  }
-  checkCuda(cudaGetDevice(&device), "Asking for the device");
-  checkCuda(cudaDeviceGetAttribute(&first, cudaDevAttrComputeCapabilityMajor, device),
-    "Asking for the device");
-  checkCuda(cudaDeviceGetAttribute(&second, cudaDevAttrComputeCapabilityMinor, device),
-    "Asking for the device");
-  return 10 * first + second;
-}
-
 template <class Real>
 MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
 {

@@ -4,7 +4,9 @@
 
 #include "Device/DeviceError.h"
 #include "Medium/Medium.h"
-#include "Rays/Cpu/Tracer.h"
+#include "Rays/March/MakeTask.h"
+#include "Rays/Tiles.h"
+#include "Rays/TracedPass.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +15,6 @@
 
 namespace schlieren
 {
-
-/// The compute capability of the device that cudaAvailable chooses, 10 times the first number and the second one: the
-/// same kernels give the same rays on devices of the same one. 0: there is no device.
-int cudaCapability();
 
 /// Rows of a pass that are always traced by the same device: a band.
 constexpr std::int64_t bandRows = 8;

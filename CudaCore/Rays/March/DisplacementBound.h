@@ -4,7 +4,7 @@
 
 #include "Medium/Medium.h"
 #include "Rays/Light.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 namespace schlieren
 {

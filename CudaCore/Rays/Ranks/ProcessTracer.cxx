@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Ranks/ProcessTracer.h"
 
+#include "Device/CudaDevice.h"
 #include "Device/Parallel.h"
 #include "Rays/Ranks/RayMessages.h"
 

@@ -7,7 +7,6 @@
 #pragma once
 
 #include "Medium/Medium.h"
-#include "Rays/Cpu/Tracer.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/Processes.h"
 

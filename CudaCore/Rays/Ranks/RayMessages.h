@@ -4,7 +4,7 @@
 // What a ProcessTracer and the RayWorkers of other processes send each other.
 #pragma once
 
-#include "Rays/Cpu/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/RayWorker.h"
 #include "Rays/Tiles.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Ranks/RayWorker.h"
 
+#include "Device/CudaDevice.h"
 #include "Rays/Ranks/TaskArrays.h"
 
 #include <array>

@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Medium/Medium.h"
-#include "Rays/CudaPass.h"
-#include "Rays/March/DisplacementBound.h"
 #include "Rays/March/Marcher.h"
-#include "Rays/Tiles.h"
 
-#include <memory>
-#include <vector>
+#include <cmath>
+#include <cstdint>
 
 namespace schlieren
 {
-
-/// A ray that has taken this many times the steps of a straight one is trapped.
-constexpr int trappedFactor = 8;
-
-/// An adaptive ray may take this many times more: where the gradient has kinks its steps are short.
-constexpr int adaptiveFactor = 64;
 
 /// The piece of the line start + s * along, s >= 0, inside the box [0, last]; empty if from > to.
 struct Chord
@@ -210,103 +200,5 @@ SCHLIEREN_HD RayExit traceRay(
   drift = batch.drift[0];
   return leaveGrid(task, batch, 0, entry);
 }
-
-/// What of a scene matters to rays.
-struct RaySettings
-{
-  KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
-  double stepVoxels = 1;
-  double adaptiveTolerance = 1e-5;
-  double lengthScale = 1; ///< metres per data unit
-};
-
-/// `map`: null where nothing is to be skipped. Both stay the caller's.
-template <class Real>
-RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
-  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
-
-/// What of a task is sent elsewhere again only when this changes; the medium apart.
-struct TaskVersions
-{
-  std::uint64_t gradients;     ///< of FieldGradients
-  double homogeneityTolerance; ///< that the map was made for
-};
-
-/// Squares of pixels that a thread takes at once: their rays share what they read of the medium. Row by row.
-constexpr std::int64_t tileEdge = 16;
-inline std::int64_t tilesAlong(const Pass& pass)
-{
-  return (pass.columns + tileEdge - 1) / tileEdge;
-}
-inline std::int64_t tilesOf(const Pass& pass)
-{
-  return tilesAlong(pass) * ((pass.rows + tileEdge - 1) / tileEdge);
-}
-
-/// The rays of a pass, row by row, and what each has gathered of each field's gradient: its integral
-/// over the ray, a number without unit. Nothing where the view has no fields.
-struct TracedPass
-{
-  RayExits exits;
-  std::vector<float> gathered;
-  std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
-  std::int64_t crossed = 0;           ///< rays that met the grid
-  double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
-  std::int64_t tilesDone = 0;         ///< where a pause has interrupted tracing on the CPU; else 0
-
-  /// Before tracing on the CPU begins or resumes.
-  void begin()
-  {
-    crossed = tilesDone == 0 ? 0 : crossed;
-    worstDrift = tilesDone == 0 ? 0 : worstDrift;
-  }
-
-  /// Makes room on the host.
-  void resize(const Pass& pass, int fields)
-  {
-    onDevice.reset();
-    tilesDone = 0;
-    const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-    exits.resize(rays);
-    gathered.assign(rays * static_cast<std::size_t>(fields), 0);
-  }
-  std::size_t bytes() const
-  {
-    const std::size_t rays = exits.size() + (onDevice ? onDevice->size() : 0);
-    return rays * sizeof(RayExit) + gathered.size() * sizeof(float);
-  }
-};
-
-/// Which instructions trace rays side by side.
-enum class Simd
-{
-  None, ///< one ray at a time
-  Four, ///< what every processor of the architecture has (x86-64: SSE2)
-  Avx2,
-  Avx512,    ///< whose samples are gathered
-  Avx512Rows ///< whose samples are read by rows, for processors with slow gathers
-};
-
-/// Whether this processor has them, and the program was compiled for them (SCHLIEREN_SIMD).
-bool hasSimd(Simd simd);
-
-/// The best ones that it has.
-Simd bestSimd();
-
-/// Of these instructions, those that a kernel has packs for. The paper's methods, with which its images can be
-/// reproduced, have packs of four alone: wider ones would take a quarter of the tracer's compile time.
-Simd packsFor(const KernelChoice& kernel, Simd simd);
-
-/// Traces a pass on the CPU into `traced`, which has its size, or resumes it. Returns false if aborted or
-/// paused; the same call then does the rest. `simd` must be one that the processor has.
-template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
-  const Monitor& monitor, Simd simd = bestSimd());
-
-/// Traces tiles of a pass until the monitor stops it. Adds to what `traced` counts. Returns how many are done: the first
-/// ones.
-template <class Real>
-std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles& tiles,
-  TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
 
 } // namespace schlieren
