@@ -9,7 +9,7 @@
 #include "WeightedMedian.h"
 #include "WorkProgress.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include "RefractivitySource.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <array>

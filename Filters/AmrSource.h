@@ -5,7 +5,7 @@
 #include "AmrField.h"
 #include "FlatData.h"
 #include "GasBoundary.h"
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 #include "WorkProgress.h"
 
 #include <memory>

@@ -4,7 +4,7 @@
 
 #include "CellTree.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "CellTree.h"
 #include "Vectors.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstddef>

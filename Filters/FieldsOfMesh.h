@@ -6,7 +6,7 @@
 #include "CellTree.h"
 #include "WorkProgress.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include "vtkSmartPointer.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Device/Parallel.h"
+#include "Schlieren.h"
 
 #include <cstddef>
 #include <cstdint>

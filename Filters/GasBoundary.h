@@ -4,7 +4,7 @@
 
 #include "BodySurfaces.h"
 #include "BoundaryFaces.h"
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 #include "Triangles.h"
 
 #include <array>

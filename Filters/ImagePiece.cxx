@@ -7,7 +7,7 @@
 #include "DataParts.h"
 #include "FieldFromImage.h"
 #include "FlatData.h"
-#include "Medium/Solids.h"
+#include "Schlieren.h"
 #include "WeightedMedian.h"
 
 #include "vtkImageData.h"

@@ -6,7 +6,6 @@
 #include "BoundaryFaces.h"
 #include "DataPiece.h"
 #include "ImageSpline.h"
-#include "Medium/MediumSource.h"
 #include "Schlieren.h"
 
 #include "vtkSmartPointer.h"

@@ -4,7 +4,7 @@
 
 #include "GasBoundary.h"
 #include "ImagePiece.h"
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 #include "WorkProgress.h"
 
 #include "vtkSmartPointer.h"

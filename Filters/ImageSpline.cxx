@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageSpline.h"
 
-#include "Medium/Prefilter.h"
-#include "Medium/Solids.h"
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,6 @@
 #pragma once
 
 #include "AmrLevels.h"
-#include "Medium/MediumSource.h"
-#include "Medium/Prefilter.h"
 #include "Schlieren.h"
 
 #include <array>

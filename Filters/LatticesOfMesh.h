@@ -4,7 +4,7 @@
 
 #include "CellSampler.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstddef>

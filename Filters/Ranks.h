@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Rays/Processes.h"
-#include "Rays/RayWorker.h"
+#include "Schlieren.h"
 
 #include <cstdint>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "RefractivitySource.h"
 #include "SamplingBox.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <string>

@@ -4,7 +4,7 @@
 
 #include "Revolution.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstddef>

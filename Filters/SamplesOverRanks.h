@@ -7,8 +7,7 @@
 #include "LatticesOfMesh.h"
 #include "Ranks.h"
 
-#include "Medium/BrickMakers.h"
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstdint>

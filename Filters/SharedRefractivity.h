@@ -7,7 +7,7 @@
 #include "vtkNew.h"
 #include "vtkType.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <memory>
 #include <string>

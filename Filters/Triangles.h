@@ -4,7 +4,7 @@
 
 #include "Vectors.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include <array>
 #include <cstdint>

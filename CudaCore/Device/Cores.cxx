@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Device/Cores.h"
 
-#include "Schlieren.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>

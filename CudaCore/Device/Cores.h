@@ -12,4 +12,8 @@ namespace schlieren
 /// no limit.
 double coresOfQuota(const std::string& quotaAndPeriod);
 
+/// The cores that this process may use: not the whole machine's where it is bound to some (taskset, a batch system)
+/// or has a quota (a container).
+int coresOfProcess();
+
 } // namespace schlieren

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <charconv>
 #include <cstdlib>
@@ -58,5 +58,14 @@ inline int chosenCudaDevice(int devices)
   }
   return chosen.value_or(localRank() % devices);
 }
+
+/// Whether a CUDA device answers, which images are then made on in this thread: the one that SCHLIEREN_CUDA_DEVICE in the
+/// environment numbers, else one for each rank of a machine in turn. When none does, `reason` (if given) says why. Throws
+/// Error where there is no device of that number.
+bool cudaAvailable(std::string* reason = nullptr);
+
+/// The compute capability of the device that cudaAvailable chooses, 10 times the first number and the second one: the
+/// same kernels give the same rays on devices of the same one. 0: there is no device.
+int cudaCapability();
 
 } // namespace schlieren

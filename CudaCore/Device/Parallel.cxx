@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Device/Parallel.h"
 
+#include "Device/Cores.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <functional>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Film/Image.h"
 #include "Rays/TracedRays.h"
-#include "Schlieren.h"
 
 #include <cstdint>
 #include <utility>

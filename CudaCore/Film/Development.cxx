@@ -15,15 +15,14 @@
 namespace schlieren
 {
 
-Films filmsOf(
-  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t maxRays)
+Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::optional<Tint> tint,
+  std::int64_t maxRays)
 {
-  const View& view = scene.view;
-  Films films(channelsOf(cutoff), std::move(tint), view.width, view.height, maxRays);
-  if (countsSamples(scene.noiseFilter, scene.noiseFilterRadius))
+  Films films(channelsOf(cutoff), std::move(tint), settings.width, settings.height, maxRays);
+  if (countsSamples(settings.noiseFilter, settings.noiseFilterRadius))
   {
     films.samples = std::make_unique<Films>(
-      Shadowgraph::channels, std::nullopt, view.width, view.height, maxRays);
+      Shadowgraph::channels, std::nullopt, settings.width, settings.height, maxRays);
   }
   return films;
 }
@@ -40,28 +39,28 @@ PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, 
   return films.samples ? films.samples->developIntensity(1, threads) : PixelArray<float>();
 }
 
-void filterNoise(const PixelArray<float>& samples, const Scene& scene, Image& image)
+void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image)
 {
   for (PixelArray<float>* pixels : { &image.intensity, &image.color })
   {
-    *pixels = filtered(std::move(*pixels), scene.view.width, scene.view.height, scene.noiseFilter,
-      scene.noiseFilterRadius, samples, scene.threads);
+    *pixels = filtered(std::move(*pixels), settings.width, settings.height, settings.noiseFilter,
+      settings.noiseFilterRadius, samples, settings.threads);
   }
 }
 
 bool UndisturbedImage::addPass(const Monitor& monitor)
 {
   const std::int64_t margin = exposure_.margin;
-  Pass pass{ -margin, -margin, scene_.view.width + 2 * margin, scene_.view.height + 2 * margin,
+  Pass pass{ -margin, -margin, settings_.width + 2 * margin, settings_.height + 2 * margin,
     { 0, 0 } };
   if (!films_)
   {
     exits_.resize(static_cast<std::size_t>(pass.columns * pass.rows));
-    films_ = filmsOf(scene_, exposure_.cutoff, {}, exposure_.maxRays);
+    films_ = filmsOf(settings_, exposure_.cutoff, {}, exposure_.maxRays);
   }
-  pass.offset = pixelOffset(passes_, scene_.seed);
+  pass.offset = pixelOffset(passes_, settings_.seed);
   exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff, exposure_.projection,
-    margin, scene_.filmEstimator, scene_.threads, *films_, monitor);
+    margin, settings_.estimator, settings_.threads, *films_, monitor);
   passes_ += nextRow_ == 0 ? 1 : 0;
   return nextRow_ == 0;
 }
@@ -69,7 +68,7 @@ bool UndisturbedImage::addPass(const Monitor& monitor)
 PixelArray<float> UndisturbedImage::develop() const
 {
   Image image;
-  filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);
+  filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
   return std::move(image.intensity);
 }
 

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "Film/Exposure.h"
+#include "Film/Image.h"
 #include "Optics/Cutoffs.h"
 #include "Optics/Tint.h"
-#include "PixelArray.h"
 #include "Rays/RayExit.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <optional>
@@ -16,16 +16,29 @@
 namespace schlieren
 {
 
-/// The films that a scene needs, one of samples among them where its noise filter counts these.
-Films filmsOf(
-  const Scene& scene, const Cutoffs& cutoff, std::optional<Tint> tint, std::int64_t maxRays);
+/// What of a scene matters to its films.
+struct FilmSettings
+{
+  int width, height; ///< pixels
+  int samplesPerPixel;
+  std::uint32_t seed;
+  FilmEstimator estimator;
+  NoiseFilter noiseFilter;
+  double noiseFilterRadius; ///< pixels
+  bool isOfCamera;          ///< there is an image without the flow, too
+  int threads;
+};
+
+/// The films that an image needs, one of samples among them where its noise filter counts these.
+Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::optional<Tint> tint,
+  std::int64_t maxRays);
 
 /// Makes of the films of some passes the image: its light, intensity and colour. Returns what filterNoise wants
 /// to know: the samples of each pixel, where they are counted.
 PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, Image& image);
 
 /// Takes the noise out of intensity and colour.
-void filterNoise(const PixelArray<float>& samples, const Scene& scene, Image& image);
+void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image);
 
 /// How rays come onto films; the same for all passes of an image.
 struct Exposure
@@ -41,9 +54,9 @@ struct Exposure
 class UndisturbedImage
 {
 public:
-  /// The scene's stay with their owner.
-  UndisturbedImage(const Scene& scene, const Exposure& exposure)
-    : scene_(scene)
+  /// Both stay with their owner.
+  UndisturbedImage(const FilmSettings& settings, const Exposure& exposure)
+    : settings_(settings)
     , exposure_(exposure)
   {
   }
@@ -56,7 +69,7 @@ public:
   PixelArray<float> develop() const;
 
 private:
-  const Scene& scene_;
+  const FilmSettings& settings_;
   const Exposure& exposure_;
   std::vector<RayExit> exits_; ///< empty until the first pass, as the next
   std::optional<Films> films_;

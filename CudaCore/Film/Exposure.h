@@ -3,12 +3,12 @@
 #pragma once
 
 #include "Film/Film.h"
+#include "Film/PixelArray.h"
 #include "Film/Shading.h"
 #include "Optics/Cutoffs.h"
 #include "Optics/Tint.h"
-#include "PixelArray.h"
 #include "Rays/TracedRays.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <memory>

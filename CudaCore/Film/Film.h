@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Film/PixelArray.h"
 #include "Film/Splat.h"
-#include "PixelArray.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PixelArray.h"
-#include "Schlieren.h"
+#include "Film/PixelArray.h"
+#include "Types.h"
 
 namespace schlieren
 {

@@ -7,19 +7,19 @@
 namespace schlieren
 {
 
-ProgressiveImage::ProgressiveImage(const Scene& scene)
-  : scene_(scene)
-  , centres_(scene.view.width, scene.view.height, scene.threads)
+ProgressiveImage::ProgressiveImage(const FilmSettings& settings)
+  : settings_(settings)
+  , centres_(settings.width, settings.height, settings.threads)
 {
 }
 
 void ProgressiveImage::begin(const Exposure& exposure, std::optional<Tint> tint)
 {
   exposure_ = exposure;
-  films_ = filmsOf(scene_, exposure.cutoff, std::move(tint), exposure.maxRays);
-  if (isOfCamera(scene_.cutoff))
+  films_ = filmsOf(settings_, exposure.cutoff, std::move(tint), exposure.maxRays);
+  if (settings_.isOfCamera)
   {
-    undisturbed_.emplace(scene_, exposure_);
+    undisturbed_.emplace(settings_, exposure_);
   }
 }
 
@@ -33,16 +33,16 @@ bool ProgressiveImage::add(
       filmOnDevice_ = std::make_unique<CudaFilm>(*films_);
     }
     filmOnDevice_->expose(*traced.onDevice, pass, exposure_.cutoff, exposure_.projection,
-      exposure_.margin, scene_.filmEstimator);
+      exposure_.margin, settings_.estimator);
     ++passes_;
     return true;
   }
   waiting_.push_back({ pass, traced.exits.data(), traced.gathered.data() });
-  const bool isLast = passes_ + 1 == scene_.samplesPerPixel;
+  const bool isLast = passes_ + 1 == settings_.samplesPerPixel;
   if (rays == Rays::Go || isLast || monitor.paused || nextRow_ > 0)
   {
     counts_.add(exposeFrom(nextRow_, waiting_, exposure_.cutoff, exposure_.projection,
-      exposure_.margin, scene_.filmEstimator, scene_.threads, *films_, monitor));
+      exposure_.margin, settings_.estimator, settings_.threads, *films_, monitor));
     if (nextRow_ > 0)
     {
       waiting_.pop_back();
@@ -93,7 +93,7 @@ void ProgressiveImage::developCounts(Image& image)
 void ProgressiveImage::develop(Image& image)
 {
   developCounts(image);
-  filterNoise(schlieren::develop(*films_, passes_, scene_.threads, image), scene_, image);
+  filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
   centres_.develop(waiting_, image);
   if (undisturbed_)
   {
@@ -106,9 +106,9 @@ bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
 {
   developCounts(image);
   filmOnDevice_.reset();
-  const PixelArray<float> samples = schlieren::develop(*films_, passes_, scene_.threads, image);
+  const PixelArray<float> samples = schlieren::develop(*films_, passes_, settings_.threads, image);
   films_.reset(); // all that follows wants memory, too
-  filterNoise(samples, scene_, image);
+  filterNoise(samples, settings_, image);
   centres_.develop(waiting_, image);
   if (!completeUndisturbed(monitor))
   {

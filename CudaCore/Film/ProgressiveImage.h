@@ -6,8 +6,7 @@
 #include "Film/CudaFilm.h"
 #include "Film/Development.h"
 #include "Film/Exposure.h"
-#include "Rays/Tracer.h"
-#include "Schlieren.h"
+#include "Rays/TracedPass.h"
 
 #include <cstdint>
 #include <memory>
@@ -30,7 +29,7 @@ enum class Rays
 class ProgressiveImage
 {
 public:
-  explicit ProgressiveImage(const Scene& scene);
+  explicit ProgressiveImage(const FilmSettings& settings);
   ProgressiveImage(const ProgressiveImage&) = delete;
   ProgressiveImage& operator=(const ProgressiveImage&) = delete;
 
@@ -63,7 +62,7 @@ public:
 private:
   void developCounts(Image& image);
 
-  Scene scene_;
+  FilmSettings settings_;
   Exposure exposure_;
   std::optional<Films> films_;
   std::unique_ptr<CudaFilm> filmOnDevice_; ///< of passes that lie there

@@ -3,7 +3,7 @@
 #include "Medium/Medium.h"
 
 #include "Device/Parallel.h"
-#include "Medium/Solids.h"
+#include "Medium/Samples/Solids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,6 @@ namespace schlieren
 
 namespace
 {
-
-/// No transparent matter has an index near this; a larger |N| is a wrong array, unit or model.
-constexpr double largestPlausibleN = 10;
 
 template <class Value>
 struct Samples
@@ -426,78 +423,6 @@ Medium<Real> build(
 }
 
 } // namespace
-
-void validateAmbient(double ambient)
-{
-  if (!(ambient > -1 && ambient <= largestPlausibleN))
-  {
-    throw Error("The ambient refractivity " + std::to_string(ambient) +
-      " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
-      "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
-  }
-}
-
-void validateRange(double lowest, double highest)
-{
-  if (!(lowest <= highest))
-  {
-    throw Error(
-      "The refractivity is invalid everywhere (NaN, infinite or masked), so there is no gas "
-      "for light to cross. Choose another array or check the data.");
-  }
-  if (std::max(std::abs(lowest), std::abs(highest)) > largestPlausibleN || lowest <= -1)
-  {
-    throw Error("The refractivity n - 1 reaches from " + std::to_string(lowest) + " to " +
-      std::to_string(highest) +
-      ", which no transparent medium has (-1 < n - 1 <= 10 is accepted). Check the index model, "
-      "the "
-      "chosen array and its unit (density in kg/m^3; use the density scale to convert).");
-  }
-}
-
-void validate(const Grid& grid)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::string name(1, "xyz"[axis]);
-    if (grid.dimensions[axis] < 2)
-    {
-      throw Error("The grid has " + std::to_string(grid.dimensions[axis]) + " point(s) along its " +
-        name +
-        " axis, so there is no depth for light to cross and no gradient to bend it. Give it at "
-        "least 2 points (for 2-D data: extrude it).");
-    }
-    if (grid.dimensions[axis] > std::numeric_limits<std::int32_t>::max() / 2)
-    {
-      throw Error("The grid has more than 2^30 points along its " + name +
-        " axis. Resample it to a coarser grid.");
-    }
-    if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis]))
-    {
-      throw Error("The grid's spacing along its " + name + " axis is " +
-        std::to_string(grid.spacing[axis]) +
-        "; it must be positive and finite. Check the data's spacing.");
-    }
-    if (!std::isfinite(grid.origin[axis]))
-    {
-      throw Error("The grid's origin is not finite. Check the data's origin.");
-    }
-  }
-  const std::array<double, 9>& d = grid.direction;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    for (std::size_t b = a; b < 3; ++b)
-    {
-      const double product = d[a] * d[b] + d[3 + a] * d[3 + b] + d[6 + a] * d[6 + b];
-      if (!(std::abs(product - (a == b ? 1 : 0)) < 1e-6))
-      {
-        throw Error(
-          "The grid's direction matrix is no rotation: its columns must be unit vectors at "
-          "right angles. Resample the data to a grid whose axes are.");
-      }
-    }
-  }
-}
 
 template <class Real>
 Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads)

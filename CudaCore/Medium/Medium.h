@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Medium/FieldGradients.h"
-#include "Medium/Interpolation.h"
-#include "Medium/MediumTree.h"
-#include "Medium/Prefilter.h"
-#include "Medium/SlopeBlocks.h"
-#include "Schlieren.h"
+#include "Medium/Samples/Field.h"
+#include "Medium/Samples/FieldGradients.h"
+#include "Medium/Samples/Interpolation.h"
+#include "Medium/Samples/Prefilter.h"
+#include "Medium/Samples/SlopeBlocks.h"
+#include "Medium/Tree/MediumTree.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <memory>
@@ -35,13 +36,6 @@ struct Medium
   MediumView<Real> view() const;
   FieldGradientsView gradientsOf(const Field& field) const; ///< that rays gather
 };
-
-/// Checks the grid of `field`. Throws Error.
-void validate(const Grid& grid);
-
-/// Refuse a refractivity that no transparent medium has, or none at all (`lowest` > `highest`). Throw Error.
-void validateAmbient(double ambient);
-void validateRange(double lowest, double highest);
 
 /// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they, and transparent
 /// places, take values spread from the gas around them, so that they pull at no gradient next to them.

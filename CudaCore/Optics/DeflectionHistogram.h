@@ -5,7 +5,7 @@
 #include "Rays/CudaPass.h"
 #include "Rays/DeflectionBins.h"
 #include "Rays/TracedRays.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cstdint>
 #include <vector>

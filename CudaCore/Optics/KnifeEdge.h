@@ -8,7 +8,7 @@
 #include "Optics/Color.h"
 #include "Optics/RayAtFilm.h"
 #include "Optics/Table.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optics/WhiteLight.h"
 
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <algorithm>
 #include <array>

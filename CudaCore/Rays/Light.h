@@ -4,7 +4,7 @@
 
 #include "Math/Vec3.h"
 #include "Rays/RayExit.h"
-#include "Schlieren.h"
+#include "Types.h"
 
 #include <array>
 #include <cmath>
@@ -83,6 +83,9 @@ struct Light
   double fastest() const { return fastest(indexScale); }
   double fastest(const Vec3<double>& scale) const;
 };
+
+/// The image plane of a view of a grid. Throws Error where the view is degenerate.
+Frame frameOf(const Grid& grid, const View& view);
 
 /// The light of the image `frame` of `grid`, all of it along w.
 Light collimatedLight(const Grid& grid, const Frame& frame);

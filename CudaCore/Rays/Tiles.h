@@ -2,11 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rays/RayExit.h"
+
 #include <algorithm>
 #include <cstdint>
 
 namespace schlieren
 {
+
+/// Squares of pixels that a thread takes at once: their rays share what they read of the medium. Row by row.
+constexpr std::int64_t tileEdge = 16;
+inline std::int64_t tilesAlong(const Pass& pass)
+{
+  return (pass.columns + tileEdge - 1) / tileEdge;
+}
+inline std::int64_t tilesOf(const Pass& pass)
+{
+  return tilesAlong(pass) * ((pass.rows + tileEdge - 1) / tileEdge);
+}
 
 /// Tiles of a pass, or bands of it on a GPU: first, first + step, and so on, up to the end.
 struct Tiles

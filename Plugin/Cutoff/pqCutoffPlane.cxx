@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCutoffPlane.h"
 
-#include "Optics/Circular.h"
-#include "Optics/KnifeEdge.h"
-#include "Optics/NumericalSchlieren.h"
+#include "Schlieren.h"
 
 #include <QtMath>
 

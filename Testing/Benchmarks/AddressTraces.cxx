@@ -6,7 +6,8 @@
 // the medium really has and for others. Quadratic; 512^2 rays. And the error of deflections if samples had 16 bits,
 // scaled to the range of each brick. Prints tables.
 #include "MeasuredTrees.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
 
 #include <algorithm>
 #include <array>

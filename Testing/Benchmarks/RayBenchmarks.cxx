@@ -5,7 +5,8 @@
 // instructions, threads and direction of view, deflection and optical path difference both summed.
 // 512^2 rays that fit the grid into the image; all figures by the clock.
 #include "Medium/HomogeneityMap.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
 
 #include <benchmark/benchmark.h>
 

@@ -7,7 +7,8 @@
 //
 //   SchlierenTreeRayBenchmarks [turns [simd ...]]      simd: 1 SSE2, 2 AVX2, 3 AVX-512 by gathers, 4 by rows
 #include "MeasuredTrees.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
 
 #include <cstdio>
 #include <cstdlib>

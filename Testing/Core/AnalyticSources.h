@@ -4,7 +4,7 @@
 // Sources of a medium that are formulas, and straight rays through what is made of them.
 #pragma once
 
-#include "Medium/MediumTree.h"
+#include "Medium/Tree/MediumTree.h"
 
 #include <algorithm>
 #include <atomic>

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "AnalyticSources.h"
-#include "Rays/Processes.h"
-#include "Rays/RayMessages.h"
-#include "Rays/RayWorker.h"
+#include "Rays/Ranks/Processes.h"
+#include "Rays/Ranks/RayMessages.h"
+#include "Rays/Ranks/RayWorker.h"
 
 #include <cstddef>
 #include <exception>

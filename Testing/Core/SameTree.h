@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Medium/MediumTree.h"
+#include "Medium/Tree/MediumTree.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Volumes of more than 2^31 samples, of which the memory exists only where a ray looks.
 #include "ClosedForms.h"
+#include "Rays/Cpu/CpuTracer.h"
 #include "Rays/Light.h"
-#include "Rays/Tracer.h"
+#include "Rays/March/MakeTask.h"
 
 #include <sys/mman.h>
 

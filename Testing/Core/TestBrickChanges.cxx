@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticSources.h"
-#include "Medium/BrickChanges.h"
+#include "Medium/Tree/BrickChanges.h"
 
 #include <gtest/gtest.h>
 

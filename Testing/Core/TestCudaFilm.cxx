@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // The same rays make the same image on host and device.
+#include "Bench/CutoffMaker.h"
 #include "Fields.h"
 #include "Film/CudaFilm.h"
 #include "Optics/AutomaticK.h"
-#include "Optics/CutoffMaker.h"
 
 #include <algorithm>
 #include <array>

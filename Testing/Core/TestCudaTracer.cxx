@@ -5,7 +5,7 @@
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
 #include "Optics/DeflectionHistogram.h"
-#include "Rays/CudaTracer.h"
+#include "Rays/Cuda/CudaTracer.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Each cutoff against its formula, on deflections that are known.
+#include "Bench/CutoffMaker.h"
 #include "Fields.h"
-#include "Optics/CutoffMaker.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,8 @@
 #include "AnalyticSources.h"
 #include "Fields.h"
 #include "Medium/Medium.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
 #include "TreeRays.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // From the state of a gas to its refractivity, against published values.
-#include "Medium/IndexModels.h"
+#include "Medium/Index/IndexModels.h"
 
 #include <gtest/gtest.h>
 

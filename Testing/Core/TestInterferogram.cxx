@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Fringes against their formulas, of one wavelength and of white light.
+#include "Bench/CutoffMaker.h"
 #include "Fields.h"
-#include "Optics/CutoffMaker.h"
 
 #include <algorithm>
 #include <array>

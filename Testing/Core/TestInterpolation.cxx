@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Fields.h"
-#include "Medium/Interpolation.h"
 #include "Medium/Medium.h"
+#include "Medium/Samples/Interpolation.h"
 
 #include <algorithm>
 #include <cmath>

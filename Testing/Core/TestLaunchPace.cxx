@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Rays/LaunchPace.h"
+#include "Rays/Cuda/LaunchPace.h"
 
 #include <gtest/gtest.h>
 

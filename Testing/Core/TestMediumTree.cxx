@@ -4,7 +4,7 @@
 #include "Fields.h"
 #include "SameTree.h"
 
-#include "Medium/BrickMakers.h"
+#include "Medium/Tree/BrickMakers.h"
 
 #include <gtest/gtest.h>
 

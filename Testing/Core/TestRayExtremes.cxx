@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays in media, in grids and at places at the ends of the possible.
 #include "ClosedForms.h"
-#include "Rays/Marcher.h"
+#include "Rays/March/Marcher.h"
 
 #include <limits>
 #include <random>

@@ -4,7 +4,8 @@
 // Rays side by side do what a ray does alone.
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies in the gas: they block light and bend none.
 #include "Fields.h"
-#include "Medium/Solids.h"
+#include "Medium/Samples/Solids.h"
 
 #include <algorithm>
 #include <limits>

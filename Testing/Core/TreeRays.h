@@ -6,7 +6,8 @@
 
 #include "Fields.h"
 #include "Medium/Medium.h"
-#include "Rays/Tracer.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
 
 #include <gtest/gtest.h>
 

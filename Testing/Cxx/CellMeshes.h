@@ -6,7 +6,7 @@
 
 #include "Fixtures.h"
 
-#include "Medium/MediumSource.h"
+#include "Schlieren.h"
 
 #include "vtkCellType.h"
 #include "vtkGenericCell.h"

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/StageSettings.h"
+
+#include "Medium/Samples/Interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace schlieren
+{
+
+RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
+  const Frame& frame, double steepest)
+{
+  RaySettings settings;
+  const bool straightWillDo = scene.pathModel == PathModel::Auto &&
+    bound.withinMedium <= scene.pathTolerance * frame.pixelSize;
+  settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
+    ? PathModel::Straight
+    : PathModel::Refracted;
+  settings.kernel.interpolation = scene.interpolation;
+  if (settings.kernel.path == PathModel::Refracted)
+  {
+    const bool isTooSteep = steepest * std::min(scene.stepSize, 1.) > largestChangeInStep;
+    settings.kernel.integrator =
+      isTooSteep && scene.integrator != Integrator::Euler ? Integrator::Adaptive : scene.integrator;
+  }
+  if (settings.kernel.integrator == Integrator::Adaptive)
+  {
+    settings.adaptiveTolerance = scene.adaptiveTolerance;
+  }
+  settings.stepVoxels = scene.stepSize;
+  settings.lengthScale = lengthScale;
+  return settings;
+}
+
+double steepestOf(Interpolation interpolation)
+{
+  return visitScheme(
+    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
+}
+
+template <class Real>
+double skippingBound(
+  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
+{
+  const double steepest = steepestOf(interpolation);
+  const double pathLength = light.depth / light.smallestCosine();
+  return 2 * steepest * tolerance * length(light.indexScale) * pathLength * (1 + medium.largestNu);
+}
+
+template <class Real>
+double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light)
+{
+  constexpr double margin = 16;
+  const bool rounded = field.singles != nullptr || std::is_same_v<Real, float>;
+  const double rounding = rounded ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                  : std::numeric_limits<double>::epsilon();
+  const double voxels = std::max(1., light.depth * light.fastest());
+  return margin * medium.largestN * rounding * std::sqrt(voxels);
+}
+
+namespace
+{
+
+/// See filmDistance.
+double focusDistance(const Frame& frame, double offset)
+{
+  return frame.pupil > 0 ? frame.entry - frame.focus - offset
+                         : -0.5 * (frame.exit - frame.entry) + offset;
+}
+
+/// Where a place at a distance from the plane where rays leave the data, less than 0 within them, seems to be from
+/// outside. So what is in focus there lies where it does in the data.
+double apparentDistance(double distance, const Frame& frame, double exitRatio)
+{
+  // Behind the data of a camera's view there is the same as in them: see Light.
+  const double within =
+    std::min(0., frame.pupil > 0 ? distance : std::max(distance, frame.entry - frame.exit));
+  return within / exitRatio + (distance - within);
+}
+
+/// How much larger the image is on a film at such a distance from where rays leave the data.
+double magnificationAt(const Scene& scene, const Frame& frame, double film, double exitRatio)
+{
+  const double inData = exitRatio * film;
+  if (frame.pupil > 0)
+  {
+    return 1 + (inData + frame.focus - frame.entry) / frame.pupil;
+  }
+  const double depth = frame.exit - frame.entry;
+  return scene.source.distance
+    ? 1 + (inData + 0.5 * depth) / distanceInData(*scene.source.distance, frame, exitRatio)
+    : 1;
+}
+
+/// See DisplacementBound::slope: the same of rays where they have left the data.
+double slopeOutside(const DisplacementBound& bound, const Light& light)
+{
+  const double ratio = light.faces.ratio;
+  if (ratio == 1)
+  {
+    return bound.slope;
+  }
+  // The sine of undisturbed light and that of what bends it add up at the most; the slope's derivative by the sine is
+  // 1 / cosine^3. Light that hardly gets out is dim, and no image is wider for it.
+  constexpr double grazing = 0.95;
+  const double cosine = light.smallestCosine();
+  const double sine = std::min(grazing, ratio * (std::sqrt(1 - cosine * cosine) + bound.bend));
+  return ratio * bound.bend / std::pow(1 - sine * sine, 1.5);
+}
+
+} // namespace
+
+double exitRefractivityOf(const Scene& scene, double ambient)
+{
+  switch (scene.exitInto)
+  {
+    case ExitInto::Auto:
+      return ambient > leastOfLiquids ? airRefractivity : ambient;
+    case ExitInto::Air:
+      return airRefractivity;
+    case ExitInto::Custom:
+      return scene.exitRefractivity;
+    case ExitInto::Surroundings:
+      break;
+  }
+  return ambient;
+}
+
+ExitFaces exitFacesOf(const Scene& scene, double ambient, double largestN)
+{
+  if (scene.exitInto == ExitInto::Surroundings ||
+    (scene.exitInto == ExitInto::Auto && !(std::max(ambient, largestN) > leastOfLiquids)))
+  {
+    return noFaces;
+  }
+  return { true, (1 + ambient) / (1 + exitRefractivityOf(scene, ambient)) };
+}
+
+double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& faces)
+{
+  const double depth = frame.exit - frame.entry;
+  switch (techniqueOf(scene.cutoff).plane)
+  {
+    case RecordedPlane::Screen:
+      return scene.screenDistance.value_or(depth);
+    case RecordedPlane::Background:
+      return scene.background.distance.value_or(depth);
+    case RecordedPlane::Focus:
+      break;
+  }
+  return apparentDistance(focusDistance(frame, scene.focusOffset), frame, faces.ratio);
+}
+
+std::int64_t marginFor(
+  const DisplacementBound& bound, const Scene& scene, const Frame& frame, const Light& light)
+{
+  if (isOfCamera(scene.cutoff))
+  {
+    return 1;
+  }
+  const double depth = frame.exit - frame.entry;
+  const double slope = slopeOutside(bound, light);
+  double largest = 0; // data units of the image
+  for (const double distance : { scene.screenDistance.value_or(depth),
+         focusDistance(frame, scene.focusOffset), focusDistance(frame, 0) })
+  {
+    const double film = apparentDistance(distance, frame, light.faces.ratio);
+    const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
+    const double moved = bound.displacement + std::abs(film) * slope;
+    largest = std::max(largest, magnification > 0 ? moved / magnification : 0);
+  }
+  const double pixels = std::ceil(largest / frame.pixelSize) + 1;
+  const auto most = static_cast<double>(maxMargin(scene.view));
+  return static_cast<std::int64_t>(pixels < most ? pixels : most);
+}
+
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces)
+{
+  const double film = filmDistance(scene, frame, faces);
+  if (!isOfCamera(scene.cutoff))
+  {
+    return lightFrom(scene.source, film, grid, scene.view, frame, faces);
+  }
+  return frame.pupil > 0 ? lightFrom(LightSource{}, film, grid, scene.view, frame, faces)
+                         : reversedLight(grid, frame, faces);
+}
+
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
+{
+  Column column{};
+  column.u = light.u;
+  column.v = light.v;
+  const double size[2] = { static_cast<double>(scene.view.width),
+    static_cast<double>(scene.view.height) };
+  const auto margin = static_cast<double>(maxMargin(scene.view));
+  for (int i = 0; i < 2; ++i)
+  {
+    column.middle[i] =
+      frame.origin[static_cast<std::size_t>(i)] + 0.5 * (size[i] - 1) * frame.pixelSize;
+    column.halfWidth[i] = (0.5 * size[i] + margin) * frame.pixelSize;
+    if (!(frame.pupil > 0))
+    {
+      column.halfWidth[i] += 0.5 * light.steepest[i] * (frame.exit - frame.entry);
+    }
+  }
+  column.finest = frame.pixelSize;
+  column.steepest = frame.pupil > 0 ? 0 : std::hypot(light.steepest[0], light.steepest[1]);
+  column.pupil = frame.pupil;
+  column.plane = frame.focus;
+  return column;
+}
+
+Projection projectionOf(
+  const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit)
+{
+  Projection projection{ filmDistance(scene, frame, light.faces),
+    1 / (frame.pixelSize * light.magnification), pathPerDataUnit, light.inclination };
+  projection.exitRatio = light.faces.ratio;
+  projection.isOfCamera = isOfCamera(scene.cutoff);
+  if (frame.pupil > 0)
+  {
+    projection.perSourceDistance = light.faces.ratio / (frame.pupil * light.magnification);
+  }
+  else if (!projection.isOfCamera && scene.source.distance)
+  {
+    projection.perSourceDistance = light.faces.ratio /
+      (distanceInData(*scene.source.distance, frame, light.faces.ratio) * light.magnification);
+  }
+  return projection;
+}
+
+FilmSettings filmSettingsOf(const Scene& scene)
+{
+  return { scene.view.width, scene.view.height, scene.samplesPerPixel, scene.seed,
+    scene.filmEstimator, scene.noiseFilter, scene.noiseFilterRadius, isOfCamera(scene.cutoff),
+    scene.threads };
+}
+
+void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
+{
+  pass.offset = pixelOffset(number, scene.seed);
+  if (!isOfCamera(scene.cutoff))
+  {
+    const std::array<double, 2> place =
+      sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      pass.tilt[axis] = place[axis] / (light.magnification * light.faces.ratio);
+    }
+  }
+}
+
+template double skippingBound(const Medium<float>&, const Light&, double, Interpolation);
+template double skippingBound(const Medium<double>&, const Light&, double, Interpolation);
+template double noiseFloor(const Medium<float>&, const Field&, const Light&);
+template double noiseFloor(const Medium<double>&, const Field&, const Light&);
+
+} // namespace schlieren

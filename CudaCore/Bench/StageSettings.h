@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene needs of each stage, and what cached results depend on.
+#pragma once
+
+#include "Film/Development.h"
+#include "Film/Shading.h"
+#include "Medium/Medium.h"
+#include "Rays/Light.h"
+#include "Rays/March/DisplacementBound.h"
+#include "Rays/March/MakeTask.h"
+#include "Schlieren.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+namespace schlieren
+{
+
+/// What a cached medium was built from.
+struct MediumKey
+{
+  std::array<std::int64_t, 3> dimensions;
+  Vector origin;
+  Vector spacing;
+  std::array<double, 9> direction;
+  std::uint64_t version;
+  const void* samples;
+  double offset;
+  std::optional<double> ambient;
+  Interpolation interpolation;
+  Precision precision;
+  double tolerance; ///< of a source, as the next; else 0
+  std::size_t memory;
+
+  auto tie() const
+  {
+    return std::tie(dimensions, origin, spacing, direction, version, samples, offset, ambient,
+      interpolation, precision, tolerance, memory);
+  }
+};
+
+/// Where the light of cached rays came from. What does not matter to it has its default.
+struct LightKey
+{
+  bool isOfCamera = false;
+  std::optional<double> distance;
+  SourceShape shape = SourceShape::Point;
+  double width = 0, length = 0; ///< of an extended source, as the next two
+  double angle = 0;
+  double film = 0;
+  ExitFaces faces = noFaces;
+
+  auto tie() const
+  {
+    return std::tie(
+      isOfCamera, distance, shape, width, length, angle, film, faces.refract, faces.ratio);
+  }
+
+  static LightKey of(const Scene& scene, const Frame& frame, double film, const ExitFaces& faces)
+  {
+    LightKey key;
+    key.faces = faces;
+    key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
+    if (key.isOfCamera)
+    {
+      return key;
+    }
+    key.distance = frame.pupil > 0 ? std::nullopt : scene.source.distance;
+    key.shape = scene.source.shape;
+    if (key.shape != SourceShape::Point)
+    {
+      key.width = scene.source.width;
+      key.film = film;
+    }
+    if (key.shape == SourceShape::Slit)
+    {
+      key.length = scene.source.length;
+      key.angle = scene.knifeEdgeAngle;
+    }
+    return key;
+  }
+};
+
+/// What cached rays were traced with, the medium apart.
+struct RaysKey
+{
+  Frame frame;
+  int width, height;
+  RaySettings settings;
+  double homogeneityTolerance;
+  std::uint32_t seed;
+  Device device;
+  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
+  LightKey light;
+
+  auto tie() const
+  {
+    return std::tuple_cat(light.tie(),
+      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
+        frame.pupil, frame.focus, width, height, settings.kernel.path, settings.kernel.integrator,
+        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
+        seed, device, gradients));
+  }
+};
+
+/// The most that nu may change in a step of Integrator::Leapfrog or Rk4 of one voxel or less, which keep |p| = 1 + nu to a
+/// few thousandths then.
+constexpr double largestChangeInStep = 0.05;
+
+/// How a scene's rays are to be traced where no ray is displaced further than `bound`, and nu changes by no more than
+/// `steepest` from voxel to voxel: where that is too much for a step, as at faces of glass, steps are adaptive. What does
+/// not matter to them has its default, so that changing it needs no re-tracing.
+RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
+  const Frame& frame, double steepest);
+
+/// The largest |d nu / d index| in a cube in which nu varies by 1: see NuRange.
+double steepestOf(Interpolation interpolation);
+
+/// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
+/// each: see NuRange, with the whole path through the grid as the path through cubes.
+template <class Real>
+double skippingBound(
+  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation);
+
+/// A deflection that the rounding of the samples alone can make: each step's gradient is wrong by one
+/// rounding of N per voxel, and over a ray these errors add up like a random walk. With a margin of 16.
+template <class Real>
+double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light);
+
+/// n - 1 of what light leaves the data into, where that of the surroundings is `ambient`.
+double exitRefractivityOf(const Scene& scene, double ambient);
+
+/// Where it does. With ExitInto::Auto the faces refract light if there is a liquid or a solid in it, N being `largestN`
+/// at most: of gases, which mostly have no faces where the data end, that would change a deflection by its nu there.
+ExitFaces exitFacesOf(const Scene& scene, double ambient, double largestN);
+
+/// How far past the plane where rays leave the data they meet what the film shows: a screen; the background
+/// that a camera sees; or (going back) the plane in focus of the other cutoffs' camera, where it seems to be from
+/// outside. Data units. With a perspective rays leave the data at their far end, behind which a screen is, too.
+double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& faces);
+
+/// Pixels around the image from which light may be bent into it, at most an eighth of its longer
+/// side (or 16). At least one, because the film distributes a ray over four pixels. The same for all
+/// cutoffs, so that changing the cutoff needs no re-tracing, but for a camera's rays, which stay in their pixel.
+std::int64_t marginFor(
+  const DisplacementBound& bound, const Scene& scene, const Frame& frame, const Light& light);
+
+Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
+
+/// The part of a source's medium that a view looks at, with the margin around the image.
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
+
+FilmSettings filmSettingsOf(const Scene& scene);
+
+/// Where a pass's rays start in their pixels and at their source.
+void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light);
+
+/// `pathPerDataUnit`: see Projection.
+Projection projectionOf(
+  const Scene& scene, const Frame& frame, const Light& light, double pathPerDataUnit);
+
+} // namespace schlieren

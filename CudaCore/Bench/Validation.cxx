@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/Validation.h"
+
+#include "Film/NoiseFilters.h"
+#include "Math/Units.h"
+#include "Medium/Medium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr double shortestStep = 0.001;
+constexpr double longestStep = 16;
+
+void validateTolerances(const Scene& scene)
+{
+  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      text << name << " is " << value << ". Set it " << remedy;
+      throw Error(text.str());
+    }
+  };
+  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "AdaptiveTolerance",
+    scene.adaptiveTolerance,
+    "between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
+    "StepSize).");
+  require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
+    "HomogeneityTolerance", scene.homogeneityTolerance,
+    "between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the "
+    "refractivity's "
+    "range.");
+  require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance",
+    scene.mediumTolerance,
+    "between 0 (voxels are as fine as the data) and 1, as a fraction of the largest deflection.");
+  require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
+    scene.pathTolerance, "to zero or more, in pixels.");
+}
+
+void validateSource(const LightSource& source)
+{
+  if (!(source.width >= 0 && std::isfinite(source.width)) ||
+    !(source.length >= 0 && std::isfinite(source.length)))
+  {
+    std::ostringstream text;
+    text << "The light source is " << source.width << " by " << source.length
+         << " radians. Set SourceWidth and SourceLength to zero or more.";
+    throw Error(text.str());
+  }
+}
+
+void validateImage(const RgbImage& image, const char* name)
+{
+  const auto width = static_cast<std::size_t>(std::max(image.width, 0));
+  const auto height = static_cast<std::size_t>(std::max(image.height, 0));
+  if (width == 0 || height == 0 || image.rgb.size() != 3 * width * height)
+  {
+    std::ostringstream text;
+    text << name << " is " << image.width << " by " << image.height << " pixels with "
+         << image.rgb.size()
+         << " values. Give it at least one pixel, and red, green and blue for each.";
+    throw Error(text.str());
+  }
+}
+
+/// What the kind of cutoff looks at; the rest may be anything.
+void validateCutoff(const Scene& scene)
+{
+  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      text << name << " is " << value << remedy;
+      throw Error(text.str());
+    }
+  };
+  require(std::isfinite(scene.cutoffOffset), "CutoffOffset", scene.cutoffOffset,
+    ". Set it to a finite fraction of the source's image: 0 cuts half of it, 1/2 all.");
+  if (scene.cutoff == Cutoff::GradedFilter)
+  {
+    const std::vector<double>& filter = scene.gradedFilter;
+    require(filter.size() >= 2, "The number of GradedFilter's values",
+      static_cast<double>(filter.size()), ". Give it two or more, from one side to the other.");
+    const auto bad = std::find_if(
+      filter.begin(), filter.end(), [](double value) { return !(value >= 0 && value <= 1); });
+    if (bad != filter.end())
+    {
+      require(false, "A value of GradedFilter", *bad,
+        ", but a filter lets a fraction of the light pass. "
+        "Set it between 0 and 1.");
+    }
+  }
+  if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
+  {
+    validateImage(*scene.colorFilter, "ColorFilterImage");
+  }
+  if (techniqueOf(scene.cutoff).hasFringes)
+  {
+    require(scene.wavelength > 0 && std::isfinite(1 / scene.wavelength) &&
+        std::isfinite(scene.wavelength),
+      "Wavelength", scene.wavelength, " metres. Set it to a positive number.");
+    if (scene.fringes.finite)
+    {
+      require(scene.fringes.spacing > 0 && std::isfinite(scene.fringes.spacing), "FringeSpacing",
+        scene.fringes.spacing,
+        ", but finite fringes have a spacing. Set it to a positive number of data units, or "
+        "FringeMode to Infinite.");
+      require(std::isfinite(scene.fringes.angle), "FringeAngle", scene.fringes.angle,
+        ". Set it to an angle in degrees.");
+    }
+  }
+  constexpr int maxBins = 2048;
+  require(scene.histogramSize >= 0 && scene.histogramSize <= maxBins, "HistogramSize",
+    scene.histogramSize, ". Set it between 0 (no histogram) and 2048.");
+}
+
+void validateScene(const Scene& scene)
+{
+  if (scene.samplesPerPixel < 1)
+  {
+    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
+      ", so no light is traced. Set it to 1 or more.");
+  }
+  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
+  {
+    throw Error("StepSize is " + std::to_string(scene.stepSize) +
+      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
+      "flow).");
+  }
+  validateTolerances(scene);
+  if (!std::isfinite(scene.knifeEdgeAngle))
+  {
+    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
+  }
+  validateCutoff(scene);
+  validateSource(scene.source);
+  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
+  {
+    throw Error("KScale is " + std::to_string(*scene.kScale) +
+      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
+      "bright "
+      "and dark use InvertCutoff.");
+  }
+  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
+  {
+    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
+      ". Set it to zero or more, in data units.");
+  }
+  if (scene.exitInto == ExitInto::Custom &&
+    !(scene.exitRefractivity > -1 && std::isfinite(scene.exitRefractivity)))
+  {
+    throw Error("ExitRefractivity is " + std::to_string(scene.exitRefractivity) +
+      ", but it is n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Set it "
+      "to more than -1, or ExitInto to Air or Surroundings.");
+  }
+  if (!(scene.noiseFilterRadius >= 0 && scene.noiseFilterRadius <= largestFilterRadius))
+  {
+    std::ostringstream text;
+    text << "NoiseFilterRadius is " << scene.noiseFilterRadius << " pixels. Set it between 0 and "
+         << largestFilterRadius << "; to blur more, make a smaller image.";
+    throw Error(text.str());
+  }
+  if (scene.threads < 0)
+  {
+    throw Error("The number of threads is " + std::to_string(scene.threads) +
+      ". Set it to 1 or more, or to 0 for all cores.");
+  }
+}
+
+/// How light travels: from where, and to what film. `frame`: of the image.
+void validateLight(const Scene& scene, const Frame& frame)
+{
+  const auto require = [](bool isGood, const auto&... message)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      (text << ... << message);
+      throw Error(text.str());
+    }
+  };
+  const double depth = frame.exit - frame.entry;
+  require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
+    ". Set it to a finite number of data units, 0 for the middle of the data.");
+  if (isOfCamera(scene.cutoff))
+  {
+    const double distance = scene.background.distance.value_or(depth);
+    constexpr double largest = 1e30; // displacements are floats
+    require(distance >= 0 && distance <= largest, "The background is at a distance of ", distance,
+      " from the data. Set BackgroundDistance to zero or more, up to 1e30 data units.");
+    require(scene.background.period >= 0 && std::isfinite(scene.background.period),
+      "BackgroundPeriod is ", scene.background.period,
+      ". Set it to a positive number of data units, or to 0 for eight pixels.");
+    require(std::isfinite(scene.background.angle), "BackgroundAngle is ", scene.background.angle,
+      ". Set it to an angle in degrees.");
+    if (scene.background.kind == PatternKind::Image)
+    {
+      require(scene.background.image != nullptr,
+        "There is no image behind the flow. Set BackgroundImage, or another BackgroundPattern.");
+      validateImage(*scene.background.image, "BackgroundImage");
+    }
+    return; // light comes from the pattern
+  }
+  const LightSource& source = scene.source;
+  double slope = 0;
+  double magnification = 1;
+  const bool isFocused = techniqueOf(scene.cutoff).plane == RecordedPlane::Focus;
+  if (frame.pupil > 0)
+  {
+    magnification = isFocused ? 1 - scene.focusOffset / frame.pupil : 1;
+    require(magnification > 0, "FocusOffset is ", scene.focusOffset,
+      ", so the plane in focus is not in front of the camera, ", frame.pupil,
+      " from its focal point. Set it to less than that.");
+  }
+  else if (source.distance)
+  {
+    const double distance = *source.distance;
+    require(distance > 0.5 * depth, "The point source is ", distance,
+      " data units from the middle of the data, but these reach ", 0.5 * depth,
+      " towards it, so it is not in front of them. Set SourceDistance to more than that, or choose "
+      "collimated light.");
+    const double middleToFilm =
+      isFocused ? scene.focusOffset : 0.5 * depth + scene.screenDistance.value_or(depth);
+    magnification = 1 + middleToFilm / distance;
+    require(magnification > 0, "FocusOffset is ", scene.focusOffset,
+      ", so the plane in focus is behind the light source, ", distance,
+      " before the middle of the data. Set it to more than ", -distance, ".");
+    slope = 0.5 * frame.pixelSize * std::hypot(scene.view.width, scene.view.height) / distance;
+  }
+  if (source.shape != SourceShape::Point)
+  {
+    slope += 0.5 * std::hypot(source.width, source.shape == SourceShape::Slit ? source.length : 0) /
+      magnification;
+  }
+  require(slope <= 1, "Light would be inclined to the view by ",
+    std::atan(slope) / radiansPerDegree,
+    " degrees at the image's corners. Increase SourceDistance or decrease SourceWidth, "
+    "SourceLength "
+    "or ParallelScale, so that it is no more than 45.");
+}
+
+void validateColors(const Field& field, const Scene& scene)
+{
+  const FieldGradients& gradients = field.gradients;
+  if (gradients.count == 0)
+  {
+    return;
+  }
+  if (field.source ? gradients.count != field.source->fields()
+                   : gradients.count < 0 || gradients.values == nullptr)
+  {
+    throw Error("Field gradients need values, or a source with as many fields.");
+  }
+  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
+  {
+    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
+      std::to_string(gradients.count) + " fields. Give each field one.");
+  }
+  for (const std::array<float, 3>& color : scene.fieldColors)
+  {
+    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
+    {
+      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
+                  "as contributions of 1.");
+    }
+  }
+}
+
+void validateLengthScale(double lengthScale)
+{
+  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
+  {
+    throw Error("LengthScale is " + std::to_string(lengthScale) +
+      ", but it is the length of one data unit in metres. Set it to a positive number.");
+  }
+}
+
+} // namespace
+
+void validate(const Field& field, const Scene& scene)
+{
+  validate(field.grid);
+  validateLengthScale(field.lengthScale);
+  validateScene(scene);
+  validateColors(field, scene);
+  validateLight(scene, frameOf(field.grid, scene.view)); // which throws where the view is bad
+}
+
+} // namespace schlieren

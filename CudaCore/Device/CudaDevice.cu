@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Device/CudaDevice.h"
+
+#include "Device/CudaBuffer.h"
+
+namespace schlieren
+{
+
+bool cudaAvailable(std::string* reason)
+{
+  int devices = 0;
+  const cudaError_t status = cudaGetDeviceCount(&devices);
+  if (status == cudaSuccess && devices > 0)
+  {
+    checkCuda(cudaSetDevice(chosenCudaDevice(devices)), "Choosing a device");
+    return true;
+  }
+  cudaGetLastError();
+  if (reason != nullptr)
+  {
+    *reason = status == cudaSuccess ? "no CUDA device was found" : cudaGetErrorString(status);
+  }
+  return false;
+}
+
+int cudaCapability()
+{
+  int device = 0, first = 0, second = 0;
+  if (!cudaAvailable(nullptr))
+  {
+    return 0;
+  }
+  checkCuda(cudaGetDevice(&device), "Asking for the device");
+  checkCuda(cudaDeviceGetAttribute(&first, cudaDevAttrComputeCapabilityMajor, device),
+    "Asking for the device");
+  checkCuda(cudaDeviceGetAttribute(&second, cudaDevAttrComputeCapabilityMinor, device),
+    "Asking for the device");
+  return 10 * first + second;
+}
+
+} // namespace schlieren

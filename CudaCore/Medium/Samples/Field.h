@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Types.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace schlieren
+{
+
+class MediumSource;
+
+/// The gradients of the fields by whose colours an image is to be tinted; nothing by default. The array
+/// belongs to the caller, as those of Field do. Where Field has a source, it is the source that knows the fields:
+/// `count` of them, and `values` is null.
+struct FieldGradients
+{
+  int count = 0; ///< fields
+  /// |grad f| of each field, `count` values for each point of the grid, in units of 1 / smallest spacing
+  /// (see gradientMagnitudes).
+  const float* values = nullptr;
+  std::uint64_t version = 0; ///< the same version, the same data
+};
+
+/// Of Field::valid: light passes a place that has no data.
+constexpr unsigned char transparent = 2;
+
+/// Refractivity N = n - 1. On a grid, x fastest: the arrays belong to the caller and are read during Bench::render
+/// only; exactly one of the two sample pointers is set. Or of a source, which is queried as finely as the view and
+/// Scene::mediumTolerance want it: then `grid` is coarsestGrid() of the source, and there are no arrays.
+struct Field
+{
+  Grid grid;
+  std::shared_ptr<const MediumSource> source;
+  const float* singles = nullptr;
+  const double* doubles = nullptr;
+  /// Of the samples, which hold N less this. Near the surroundings' N it leaves single precision the digits of a weak
+  /// flow. Not of a source.
+  double offset = 0;
+  /// 0: solid, blocks light. 1: gas (solid where the sample is not finite). 2 (transparent): no data, but
+  /// light passes; the sample is not read, the gas around is continued. Null: 1 everywhere.
+  const unsigned char* valid = nullptr;
+  std::optional<double> ambient; ///< N outside; unset: the median over the domain's boundary
+  double lengthScale = 1;        ///< metres per data unit
+  FieldGradients gradients;      ///< of the fields that Scene::fieldColors belong to
+  /// Changes whenever anything that the arrays hold has changed: the same version, the same data.
+  std::uint64_t version = 0;
+};
+
+/// Refuses a grid that no light can cross. Throws Error.
+void validate(const Grid& grid);
+
+/// Refuses a refractivity that no transparent medium has, or none at all (`lowest` > `highest`). Throws Error.
+void validateAmbient(double ambient);
+void validateRange(double lowest, double highest);
+
+} // namespace schlieren

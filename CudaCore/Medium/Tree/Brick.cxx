@@ -1,0 +1,534 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Medium/Tree/Brick.h"
+
+#include "Medium/Tree/BrickCoefficients.h"
+#include "Medium/Tree/BrickErrors.h"
+#include "Medium/Tree/BrickOutline.h"
+#include "Medium/Tree/BrickSamples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// The gradient of a quadratic spline through samples is wrong by about a twelfth of their third difference, a
+/// voxel.
+constexpr double errorByThirdDifference = 1. / 12;
+
+/// Edges are linear in their distances: finer voxels than this part of a cell show nothing new.
+constexpr double edgeVoxelByCell = 0.5;
+
+/// Layers around the samples of a brick with edges that continued values may depend on.
+constexpr int marginOfEdges = 2;
+
+constexpr double distanceUnits = 8192;
+
+/// What coefficients may be beyond samples anyway, of the range of all.
+constexpr double overshootByRange = 1e-3;
+
+int apronOf(Interpolation interpolation)
+{
+  return interpolation == Interpolation::Quadratic || interpolation == Interpolation::Linear ? 1
+                                                                                             : 2;
+}
+
+} // namespace
+
+template <class Real>
+BrickMaker<Real>::BrickMaker(const MediumSource& source, const BrickRules& rules)
+  : source_(source)
+  , rules_(rules)
+  , bounds_(source.bounds())
+  , smallest_(1e-20 * rules.largestNu)
+  , shape_(source.isFlat() ? BrickShape::Layer : BrickShape::Cube)
+  , apron_(apronOf(rules.interpolation))
+  , support_(
+      rules.interpolation == Interpolation::Quadratic || rules.interpolation == Interpolation::Cubic
+        ? 1
+        : 0)
+{
+  rules_.bytesOfReal = sizeof(Real);
+  const MediumSource::Content content = source.contentOf(bounds_);
+  overshoot_ = content.lowest <= content.highest
+    ? overshootByRange * (nuOf(content.highest) - nuOf(content.lowest))
+    : 0;
+}
+
+template <class Real>
+std::int64_t BrickMaker<Real>::samplesPerBrick() const
+{
+  const int n = edge + 2 * apron_;
+  return std::int64_t{ n } * n * layersOf(n);
+}
+
+template <class Real>
+std::array<double, 3> BrickMaker<Real>::voxelOf(int level) const
+{
+  return { std::ldexp(rules_.grid.spacing[0], -level), std::ldexp(rules_.grid.spacing[1], -level),
+    std::ldexp(rules_.grid.spacing[2], shape_ == BrickShape::Layer ? 0 : -level) };
+}
+
+template <class Real>
+Box BrickMaker<Real>::boxOf(const NodePlace& place) const
+{
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  Box box = bounds_;
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    box.low[axis] = rules_.grid.origin[axis] + edge * voxel[axis] * place.at[axis];
+    box.high[axis] = rules_.grid.origin[axis] + edge * voxel[axis] * (place.at[axis] + 1);
+  }
+  return box;
+}
+
+template <class Real>
+Box BrickMaker<Real>::boxWithApron(const NodePlace& place) const
+{
+  Box box = boxOf(place);
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    box.low[axis] = std::max(box.low[axis] - apron_ * voxel[axis], bounds_.low[axis]);
+    box.high[axis] = std::min(box.high[axis] + apron_ * voxel[axis], bounds_.high[axis]);
+  }
+  return box;
+}
+
+/// Points beyond the box.
+template <class Real>
+int BrickMaker<Real>::marginOf(bool hasEdges, bool hasFields) const
+{
+  const int marginOfFields = hasFields ? 1 : 0; // for central differences
+  return apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
+}
+
+/// What of a source with makers is prepared: also what fronts may need.
+template <class Real>
+int BrickMaker<Real>::preparedMarginOf(bool hasEdges, bool hasFields) const
+{
+  return marginOf(hasEdges, hasFields) + (support_ > 0 ? supportOfFronts - support_ : 0);
+}
+
+template <class Real>
+Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
+{
+  const int n = edge + 2 * margin;
+  Lattice lattice{ {}, voxelOf(place.level), { n, n, layersOf(n) } };
+  if (shape_ == BrickShape::Layer)
+  {
+    lattice.first[2] = 0.5 * (bounds_.low[2] + bounds_.high[2]);
+    lattice.spacing[2] = std::max(lattice.spacing[0], lattice.spacing[1]);
+  }
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    const std::int64_t first = std::int64_t{ edge } * place.at[axis] - margin;
+    lattice.first[axis] =
+      rules_.grid.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
+  }
+  return lattice;
+}
+
+/// With values for all points.
+template <class Real>
+BrickSamples BrickMaker<Real>::sample(
+  const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
+{
+  const int prepared = source_.dependsOnLattice() ? preparedMarginOf(hasEdges, hasFields) : margin;
+  BrickSamples samples = valuesAt(place, prepared, hasEdges, hasFields);
+  for (int layers = margin; layers < prepared; ++layers)
+  {
+    samples.takeOffLayer();
+  }
+  samples.findGas();
+  samples.continueGas();
+  return samples;
+}
+
+/// What the source says of a lattice.
+template <class Real>
+BrickSamples BrickMaker<Real>::valuesAt(
+  const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
+{
+  BrickSamples samples;
+  samples.margin = margin;
+  const Lattice lattice = latticeOf(place, samples.margin);
+  samples.n = lattice.points[0];
+  samples.layers = lattice.points[2];
+  samples.begin[2] = 0;
+  samples.end[2] = 1;
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    const std::int64_t first = std::int64_t{ edge } * place.at[axis] - samples.margin;
+    const std::int64_t all = (rules_.grid.dimensions[axis] - 1) << place.level;
+    samples.begin[axis] = static_cast<int>(std::max<std::int64_t>(0, -first));
+    samples.end[axis] = static_cast<int>(std::min<std::int64_t>(samples.n, all - first));
+  }
+  const auto points = static_cast<std::size_t>(lattice.size());
+  samples.nu.resize(points);
+  samples.places.resize(points);
+  samples.distances.resize(hasEdges ? points : 0);
+  float* const distances = hasEdges ? samples.distances.data() : nullptr;
+  if (hasFields)
+  {
+    samples.fields.voxel = lattice.spacing;
+    samples.fields.n = samples.n;
+    samples.fields.shape = shape_;
+    samples.fields.margin = samples.margin;
+    samples.fields.values.resize(static_cast<std::size_t>(source_.fields()) * points);
+    source_.sampleWithFields(
+      lattice, samples.nu.data(), samples.places.data(), distances, samples.fields.values.data());
+  }
+  else
+  {
+    source_.sample(lattice, samples.nu.data(), samples.places.data(), distances);
+  }
+  for (double& value : samples.nu)
+  {
+    value = nuOf(value);
+  }
+  return samples;
+}
+
+/// The kind of a leaf that may have walls or windows, its map and what it needs to be finer. Returns whether gas
+/// or a window ends in it.
+template <class Real>
+bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Content& content,
+  BrickSamples& samples, double negligible, Brick<Real>& brick) const
+{
+  bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
+  double besideEdge = 0;
+  float bend = 0; // of distances, in the middle of a voxel
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::array<std::array<float, 2>, 3> normals;
+  normals.fill({ infinity, -infinity });
+  const int first = samples.margin - 1;
+  const int last = samples.margin + edge;
+  const bool isLayer = shape_ == BrickShape::Layer;
+  for (int k = isLayer ? 0 : first; k <= (isLayer ? 0 : last); ++k)
+  {
+    for (int j = first; j <= last; ++j)
+    {
+      for (int i = first; i <= last; ++i)
+      {
+        if (!samples.isWithin(i, j, k))
+        {
+          continue;
+        }
+        const std::size_t at = samples.index(i, j, k);
+        hasGas = hasGas || samples.places[at] == Place::Gas;
+        hasWall = hasWall || samples.places[at] == Place::Wall;
+        hasWindow = hasWindow || samples.places[at] == Place::Window;
+        // Where gas ends with the domain there is no edge: rays end there, too.
+        const bool isLast =
+          !samples.isWithin(i - 1, j - 1, k - 1) || !samples.isWithin(i + 1, j + 1, k + 1);
+        const bool isNear =
+          samples.distances[at] > -1 && samples.distances[at] < (isLast ? 0.45f : 1.f);
+        hasEdge = hasEdge || isNear;
+        if (isNear && !isLast)
+        {
+          bend = std::max(bend, samples.bendAt(i, j, k));
+          samples.addNormal(i, j, k, normals);
+        }
+        const bool isGas = samples.places[at] == Place::Gas;
+        if (isGas && (isNear || (isLast && samples.isBesideWindow(i, j, k))))
+        {
+          besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
+        }
+      }
+    }
+  }
+  hasEdge = hasEdge || (hasGas ? hasWall || hasWindow : hasWall && hasWindow);
+  if (!hasEdge)
+  {
+    brick.kind = hasGas ? Leaf<Real>::Samples : hasWall ? Leaf<Real>::Solid : Leaf<Real>::Constant;
+    return false;
+  }
+  BrickFacts& facts = brick.facts;
+  facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
+  facts.areWallsFlat = content.areWallsFlat;
+  facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  facts.normals = bend > 0 ? normals : facts.normals;
+  facts.edgeError =
+    static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    facts.areEdgesFine =
+      facts.areEdgesFine && !(voxel[axis] > edgeVoxelByCell * content.cellSize[axis]);
+  }
+  if (!facts.hasWallEdge && facts.besideWindow <= negligible && samples.fields.n == 0)
+  {
+    facts.neglected = std::max(facts.neglected, facts.besideWindow);
+    brick.kind = hasGas ? Leaf<Real>::Samples : Leaf<Real>::Constant;
+    return true; // but nothing of it can be seen
+  }
+  brick.kind = Leaf<Real>::Mixed;
+  const int stored = edge + 2 * apron_;
+  const int skipped = samples.margin - apron_;
+  brick.gasDistances.reserve(static_cast<std::size_t>(samplesPerBrick()));
+  for (int k = 0; k < layersOf(stored); ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      for (int i = 0; i < stored; ++i)
+      {
+        // Where gas ends with the domain there is no edge: rounding would decide where rays that end there are.
+        const std::array<int, 3> nearest =
+          samples.nearestWithin({ i + skipped, j + skipped, isLayer ? 0 : k + skipped });
+        const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
+        // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
+        bool isWindow = samples.places[at] == Place::Window;
+        if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
+        {
+          bool isBesideWall = false;
+          for (int neighbour = 0; neighbour < (isLayer ? 9 : 27); ++neighbour)
+          {
+            const Place there = samples.places[samples.index(nearest[0] + neighbour % 3 - 1,
+              nearest[1] + neighbour / 3 % 3 - 1, isLayer ? 0 : nearest[2] + neighbour / 9 - 1)];
+            isWindow = isWindow || there == Place::Window;
+            isBesideWall = isBesideWall || there == Place::Wall;
+          }
+          isWindow = isWindow && !isBesideWall;
+        }
+        const double limited = std::clamp(static_cast<double>(samples.distances[at]),
+          -static_cast<double>(MediumSource::reach), static_cast<double>(MediumSource::reach));
+        const int even = 2 * static_cast<int>(std::lround(limited * distanceUnits / 2));
+        brick.gasDistances.push_back(static_cast<std::int16_t>(even + (isWindow ? 1 : 0)));
+      }
+    }
+  }
+  return true;
+}
+
+/// The errors that finer samples would lessen.
+template <class Real>
+void BrickMaker<Real>::findErrors(const NodePlace& place, const MediumSource::Content& content,
+  const BrickSamples& samples, BrickFacts& facts) const
+{
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    if (!(voxel[axis] > voxelByCell * content.cellSize[axis]))
+    {
+      continue;
+    }
+    facts.canImprove[axis] = true;
+    const double largest = largestThirdDifference(
+      samples.nu.data(), samples.isGas, { samples.n, samples.margin - 1, edge + 2, shape_ }, axis);
+    // Along the ray the box may be longer than along this axis.
+    double longest = 0;
+    for (std::size_t other = 0; other < axes(); ++other)
+    {
+      longest = other == axis ? longest : std::max(longest, voxel[other]);
+    }
+    facts.error[axis] = errorByThirdDifference * largest * edge * longest / voxel[axis];
+  }
+  const double missed = std::max(0., nuOf(content.highest) - samples.highest) +
+    std::max(0., samples.lowest - nuOf(content.lowest));
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    if (voxel[axis] > coarseByCell * content.cellSize[axis] &&
+      missed > missedByRange * (samples.highest - samples.lowest))
+    {
+      facts.hidden[axis] = deflectionByRange * missed;
+    }
+  }
+}
+
+/// Relative to the brick's offset.
+template <class Real>
+void BrickMaker<Real>::storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const
+{
+  const int stored = edge + 2 * apron_;
+  const int skipped = samples.margin - apron_;
+  brick.samples.resize(static_cast<std::size_t>(samplesPerBrick()));
+  Real* to = brick.samples.data();
+  for (int k = 0; k < layersOf(stored); ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      const double* row = samples.nu.data() +
+        samples.index(skipped, j + skipped, shape_ == BrickShape::Layer ? 0 : k + skipped);
+      for (int i = 0; i < stored; ++i)
+      {
+        const double relative = row[i] - static_cast<double>(brick.offset);
+        *to++ = static_cast<Real>(std::abs(relative) < smallest_ ? 0 : relative);
+      }
+    }
+  }
+}
+
+template <class Real>
+void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) const
+{
+  const int stored = edge + 2 * apron_;
+  const std::array<int, 3> strides{ 1, stored, stored * stored };
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  BrickFacts& facts = brick.facts;
+  const auto [lowest, highest] = std::minmax_element(brick.samples.begin(), brick.samples.end());
+  const auto offset = static_cast<double>(brick.offset);
+  facts.largestNu = std::max(std::abs(offset + static_cast<double>(*lowest)),
+    std::abs(offset + static_cast<double>(*highest)));
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    std::array<int, 3> to{ stored, stored, layersOf(stored) };
+    to[axis] -= 1;
+    const auto rowAt = [&](int j, int k)
+    { return brick.samples.data() + k * strides[2] + j * strides[1]; };
+    const std::ptrdiff_t toNext = strides[axis];
+    Real largest = 0;
+    int steepestPlane = 0;
+    for (int k = 0; k < to[2]; ++k)
+    {
+      std::array<Real, edge + 4> most{};
+      for (int j = 0; j < to[1]; ++j)
+      {
+        const Real* row = rowAt(j, k);
+        for (int i = 0; i < to[0]; ++i)
+        {
+          const Real difference = std::abs(row[i + toNext] - row[i]);
+          most[static_cast<std::size_t>(i)] = most[static_cast<std::size_t>(i)] < difference
+            ? difference
+            : most[static_cast<std::size_t>(i)];
+        }
+      }
+      const Real ofPlane = *std::max_element(most.begin(), most.end());
+      steepestPlane = ofPlane > largest ? k : steepestPlane;
+      largest = ofPlane > largest ? ofPlane : largest;
+    }
+    facts.slope[axis] = static_cast<double>(largest);
+    if (facts.slope[axis] / voxel[axis] <= facts.steepest)
+    {
+      continue;
+    }
+    facts.steepest = facts.slope[axis] / voxel[axis];
+    std::array<int, 3> at{ 0, 0, steepestPlane };
+    while (std::abs(rowAt(at[1], at[2])[at[0] + toNext] - rowAt(at[1], at[2])[at[0]]) < largest)
+    {
+      at[1] += at[0] + 1 == to[0] ? 1 : 0;
+      at[0] = at[0] + 1 == to[0] ? 0 : at[0] + 1;
+    }
+    facts.steepestAt[2] = 0.5 * static_cast<double>(rules_.grid.dimensions[2] - 1);
+    for (std::size_t other = 0; other < axes(); ++other)
+    {
+      const double local =
+        std::clamp(at[other] - apron_ + (other == axis ? 0.5 : 0), -0.49, edge - 0.51);
+      facts.steepestAt[other] =
+        std::ldexp(edge * static_cast<double>(place.at[other]) + 0.5 + local, -place.level);
+    }
+  }
+}
+
+/// Of the octants: each from all coefficients that are looked at there.
+template <class Real>
+void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
+{
+  const int stored = edge + 2 * apron_;
+  const int strides[3] = { 1, stored, stored * stored };
+  const int count = edge / 2 + 2 * apron_;                 // of an octant, along an axis
+  for (int octant = 0; octant < layersOf(2) * 4; ++octant) // of one layer: quarters
+  {
+    Vec3<float>& slope = brick.facts.slopeOf[static_cast<std::size_t>(octant)];
+    float* const of[3] = { &slope.x, &slope.y, &slope.z };
+    const Real* corner = brick.samples.data() +
+      edge / 2 *
+        ((octant & 1) * strides[0] + (octant >> 1 & 1) * strides[1] + (octant >> 2) * strides[2]);
+    for (std::size_t axis = 0; axis < axes(); ++axis)
+    {
+      std::array<Real, edge / 2 + 4> most{};
+      int to[3] = { count, count, layersOf(count) };
+      to[axis] -= 1;
+      for (int k = 0; k < to[2]; ++k)
+      {
+        for (int j = 0; j < to[1]; ++j)
+        {
+          const Real* row = corner + k * strides[2] + j * strides[1];
+          for (int i = 0; i < to[0]; ++i)
+          {
+            const Real difference = std::abs(row[i + strides[axis]] - row[i]);
+            Real& largest = most[static_cast<std::size_t>(i)];
+            largest = largest < difference ? difference : largest;
+          }
+        }
+      }
+      *of[axis] = static_cast<float>(*std::max_element(most.begin(), most.end()));
+    }
+  }
+}
+
+template <class Real>
+Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& negligible) const
+{
+  Outline outline = outlineOf(place, negligible);
+  Brick<Real> brick = std::move(outline.brick);
+  if (!outline.isSampled)
+  {
+    return brick;
+  }
+  const MediumSource::Content& content = outline.content;
+  const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
+  BrickSamples samples = sample(place, marginOf(hasEdges, hasFields), hasEdges, hasFields);
+  brick.kind = Leaf<Real>::Samples;
+  const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
+  BrickFacts& facts = brick.facts;
+  if (!samples.hasGas())
+  {
+    if (hasEdge && !facts.hasWallEdge)
+    {
+      // The cells know of gas that no sample has met.
+      facts.besideWindow =
+        deflectionByRange * std::max(std::abs(outline.lowest), std::abs(outline.highest));
+    }
+    brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
+    return brick;
+  }
+  if (hasFields)
+  {
+    const auto& spacing = rules_.grid.spacing;
+    brick.fields =
+      fieldBrickOf(source_, outline.box, samples.fields, samples.isGas, content.cellSize, apron_,
+        *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
+  }
+  findErrors(place, content, samples, facts);
+  facts.difference = samples.highest - samples.lowest;
+  facts.range = deflectionByRange * facts.difference;
+  if (facts.range <= negligible.deflection)
+  {
+    facts.neglected = std::max(facts.neglected, facts.range);
+    facts.largestNu = std::max(std::abs(samples.lowest), std::abs(samples.highest));
+    brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
+    brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
+    return brick;
+  }
+  if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
+  {
+    brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
+    const CoefficientRule rule{ rules_.interpolation == Interpolation::Cubic ? 1. / 6 : 1. / 8,
+      apron_, axes(), overshoot_ };
+    if (support_ > 0 && !makeCoefficients(samples, rule))
+    {
+      samples = sample(place, preparedMarginOf(hasEdges, hasFields), hasEdges, hasFields);
+      makeCoefficients(samples, rule);
+    }
+    storeCoefficients(samples, brick);
+    findBounds(place, brick);
+    findSlopes(brick);
+  }
+  else
+  {
+    facts.difference = 0; // of gas beside it
+  }
+  return brick;
+}
+
+template class BrickMaker<float>;
+template class BrickMaker<double>;
+
+} // namespace schlieren

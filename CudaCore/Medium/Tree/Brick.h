@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One box of the medium's tree: what is in it, and its samples.
+#pragma once
+
+#include "Medium/Samples/Interpolation.h"
+#include "Medium/Samples/Leaves.h"
+#include "Medium/Samples/MediumSource.h"
+#include "Medium/Tree/FieldBrick.h"
+#include "Types.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// A box of the tree, see Leaves.h.
+struct NodePlace
+{
+  int level;                      ///< below 0: larger than the domain is wide
+  std::array<std::int32_t, 3> at; ///< in boxes of that level
+};
+
+/// One of its eight parts, counted x fastest.
+inline NodePlace childOf(const NodePlace& place, std::int32_t child)
+{
+  return { place.level + 1,
+    { 2 * place.at[0] + (child & 1), 2 * place.at[1] + (child >> 1 & 1),
+      2 * place.at[2] + (child >> 2) } };
+}
+
+/// Which part of the box that it is a part of.
+inline std::int32_t partOf(const NodePlace& place, BrickShape shape)
+{
+  const std::int32_t ofLayer = (place.at[0] & 1) | (place.at[1] & 1) << 1;
+  return shape == BrickShape::Layer ? ofLayer : ofLayer | (place.at[2] & 1) << 2;
+}
+
+/// What a box needs to become finer. All of nu or of a deflection, which have the same size.
+struct BrickFacts
+{
+  /// Of a ray's deflection over the box, because the samples are as far apart as they are; 0 along an axis on
+  /// which the cells are no finer than the samples.
+  std::array<double, 3> error{ 0, 0, 0 };
+  /// Whether the cells are finer than the samples along an axis, so that the error can be less.
+  std::array<bool, 3> canImprove{ false, false, false };
+  /// The same, because of what lies between samples that are further apart than cells along this axis.
+  std::array<double, 3> hidden{ 0, 0, 0 };
+  double range = 0;          ///< of its samples, as the deflection that it may make
+  double difference = 0;     ///< largest one of nu in it
+  double besideWindow = 0;   ///< the same, because a window's edge is not where it should be
+  double neglected = 0;      ///< the larger of both, where nothing was made of them
+  bool hasWallEdge = false;  ///< gas, or a window, ends at a wall in it
+  bool isTooLarge = false;   ///< for samples, of which it needs some
+  double edgeError = 0;      ///< how far an edge is from where it should be; data units
+  bool areWallsFlat = false; ///< see MediumSource::Content
+  bool areEdgesFine = true;  ///< with voxels much finer than cells, edges show nothing new
+  /// Lowest and highest components of the edges' normals, by voxel.
+  std::array<std::array<float, 2>, 3> normals{};
+  double largestNu = 0; ///< |nu| of its coefficients
+  std::array<double, 3> slope{ 0, 0,
+    0 }; ///< largest difference of neighbouring coefficients, a voxel
+  std::array<Vec3<float>, 8> slopeOf{};        ///< the same of its octants, x fastest
+  double steepest = 0;                         ///< largest gradient, about; nu by data unit
+  std::array<double, 3> steepestAt{ 0, 0, 0 }; ///< index coordinates
+};
+
+template <class Real>
+struct Brick
+{
+  typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
+  Real offset = 0;
+  std::vector<Real> samples;              ///< empty: all are 0
+  std::vector<std::int16_t> gasDistances; ///< of Leaf::Mixed, laid out like samples
+  BrickFacts facts;
+  FieldBrick fields;
+
+  /// For another process of the same program on the same kind of processor.
+  std::vector<char> toBytes() const;
+  /// Throws Error where they are not those of a brick with so many samples and fields.
+  static Brick fromBytes(
+    const std::vector<char>& bytes, std::size_t samplesPerBrick, std::size_t fieldCount);
+};
+
+struct BrickSamples;
+
+/// What needs no samples.
+struct Negligible
+{
+  double deflection;
+  double gathered = 0; ///< of the fields' gradients, by a ray
+};
+
+/// A brick that is to be made.
+struct BrickRequest
+{
+  NodePlace place;
+  Negligible negligible;
+};
+
+/// What bricks depend on besides their source.
+struct BrickRules
+{
+  Grid grid; ///< the tree's
+  double ambient;
+  double largestNu; ///< what is far below it is set to 0
+  Interpolation interpolation;
+  std::uint32_t bytesOfReal = 0; ///< where processes share the work
+};
+
+/// Makes bricks of a source, each without knowledge of any other.
+template <class Real>
+class BrickMaker
+{
+public:
+  static constexpr int edge = 16; ///< samples
+
+  BrickMaker(const MediumSource& source, const BrickRules& rules);
+
+  Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
+
+  /// Where the source has makers, the bricks that they make; otherwise none.
+  std::vector<Brick<Real>> makeTogether(const std::vector<BrickRequest>& requests) const;
+  /// In each of `processes` that have the source's data together, at the same time: those bricks that it makes of them, each as
+  /// Brick::toBytes(). Empty where another one does.
+  std::vector<std::vector<char>> makeShare(const std::vector<BrickRequest>& requests,
+    std::size_t process, std::size_t processes, int threads) const;
+
+  int apron() const { return apron_; }
+  BrickShape shape() const { return shape_; }
+  /// The axes along which there is more than one sample.
+  std::size_t axes() const { return shape_ == BrickShape::Layer ? 2 : 3; }
+  std::int64_t samplesPerBrick() const;
+  Box boxOf(const NodePlace& place) const;        ///< without apron; data units
+  std::array<double, 3> voxelOf(int level) const; ///< of one layer: as deep as the domain
+
+private:
+  struct Outline;
+
+  Box boxWithApron(const NodePlace& place) const;
+  Outline outlineOf(const NodePlace& place, const Negligible& negligible) const;
+  Lattice latticeOf(const NodePlace& place, int margin) const;
+  int marginOf(bool hasEdges, bool hasFields) const;
+  int preparedMarginOf(bool hasEdges, bool hasFields) const;
+  BrickSamples sample(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
+  BrickSamples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
+  bool findEdges(const NodePlace& place, const MediumSource::Content& content,
+    BrickSamples& samples, double negligible, Brick<Real>& brick) const;
+  void findErrors(const NodePlace& place, const MediumSource::Content& content,
+    const BrickSamples& samples, BrickFacts& facts) const;
+  void storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const;
+  void findBounds(const NodePlace& place, Brick<Real>& brick) const;
+  void findSlopes(Brick<Real>& brick) const;
+  double nuOf(double refractivity) const
+  {
+    return (refractivity - rules_.ambient) / (1 + rules_.ambient);
+  }
+  /// Of points along z, where there are so many along the other axes.
+  int layersOf(int points) const { return shape_ == BrickShape::Layer ? 1 : points; }
+
+  const MediumSource& source_;
+  BrickRules rules_;
+  Box bounds_;
+  double smallest_;  ///< |nu| of a coefficient that is not 0
+  double overshoot_; ///< of a coefficient beyond the samples beside it, that is none: nu
+  BrickShape shape_;
+  int apron_;
+  int support_; ///< samples beyond a coefficient's place that it is made of
+};
+
+/// Value and gradient, by local coordinates, of a brick whose first stored sample is at `samples`. The place is
+/// taken to the nearest one in the leaf.
+template <class Scheme, class Real>
+Sample<Real> interpolateBrick(
+  const Real* samples, int apron, BrickShape shape, const Vec3<Real>& place)
+{
+  const MediumView<Real> view = viewOfBricks(samples, BrickMaker<Real>::edge, apron, shape);
+  return interpolate<Scheme>(view, clampTo(place, view.leafLow, view.leafHigh));
+}
+
+} // namespace schlieren

@@ -1,0 +1,383 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Medium/Tree/BrickRays.h"
+
+#include "Device/Parallel.h"
+#include "Medium/Tree/Brick.h"
+#include "Medium/Tree/StraightRays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr int latticeEdge = 48;
+
+/// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
+constexpr double maxOfSums = 2;
+
+constexpr int brickEdge = BrickMaker<float>::edge;
+
+/// What a leaf with one value for all may add to a ray's deflection, to its optical path and to what it gathers, at
+/// most.
+struct Neglected
+{
+  std::int32_t leaf;
+  float deflection, opticalPath, gathered;
+};
+
+/// The error of a leaf with samples, of a ray's deflection.
+struct Wrong
+{
+  std::int32_t leaf;
+  float deflection;
+};
+
+struct Bend
+{
+  double deflection = 0;
+  double opticalPath = 0; // nu times data units
+  double gathered = 0;
+  double error = 0, errorOfGathered = 0; // sums of squares
+  bool isBlocked = false;
+  std::vector<Neglected> neglected;
+  std::vector<Wrong> wrong;
+};
+
+/// What a straight ray crosses of a leaf with samples.
+struct LeafSegment
+{
+  double local[3], along[3]; ///< from where, local coordinates; and these by data unit
+  double pathLength;         ///< data units
+  double perIndex;           ///< of the leaf
+  std::int32_t steps;
+  std::int32_t leaf;
+  std::int32_t brick, map; ///< map -1: it has none
+};
+
+/// What the samples along it add up to.
+struct LeafSums
+{
+  double gradient[3] = { 0, 0, 0 }; ///< nu by index times data units
+  double opticalPath = 0;           ///< nu times data units
+  bool isBlocked = false;
+};
+
+/// Of the nearest sample.
+std::int16_t gasDistanceAt(
+  const BrickLayout& layout, const std::int16_t* distances, const double (&local)[3])
+{
+  const int stride = 16 + 2 * layout.apron;
+  std::int64_t at = 0;
+  for (int axis = layout.axes() - 1; axis >= 0; --axis)
+  {
+    const int i = static_cast<int>(std::lround(std::clamp(local[axis], 0., 15.)));
+    at = at * stride + i + layout.apron;
+  }
+  return distances[at];
+}
+
+/// Adds to `gathered`, of each field, what a ray gathers.
+template <class Scheme, class Real>
+LeafSums sumUp(
+  const LeavesView<Real>& medium, const LeafSegment& segment, std::vector<float>& gathered)
+{
+  const BrickLayout& layout = medium.layout;
+  LeafSums sums;
+  const double step = segment.pathLength / segment.steps;
+  const Real* brick = medium.samples + segment.brick * layout.samplesPerBrick;
+  for (int n = 0; n < segment.steps; ++n)
+  {
+    const double middle = (n + 0.5) * step;
+    const double place[3] = { segment.local[0] + middle * segment.along[0],
+      segment.local[1] + middle * segment.along[1], segment.local[2] + middle * segment.along[2] };
+    if (segment.map >= 0)
+    {
+      const std::int16_t distance =
+        gasDistanceAt(layout, medium.gasDistances + segment.map * layout.samplesPerBrick, place);
+      if (distance < 0)
+      {
+        sums.isBlocked = sums.isBlocked || (distance & 1) == 0;
+        continue;
+      }
+    }
+    const Vec3<Real> here{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
+      static_cast<Real>(place[2]) };
+    if (!gathered.empty())
+    {
+      gatherGradients(medium.gradients, segment.leaf, here, static_cast<Real>(step / layout.unit),
+        gathered.data());
+    }
+    const Sample<Real> sample = interpolateBrick<Scheme>(brick, layout.apron, layout.shape, here);
+    sums.opticalPath += static_cast<double>(sample.value) * step;
+    sums.gradient[0] += static_cast<double>(sample.gradient.x) * segment.perIndex * step;
+    sums.gradient[1] += static_cast<double>(sample.gradient.y) * segment.perIndex * step;
+    sums.gradient[2] += static_cast<double>(sample.gradient.z) * segment.perIndex * step;
+  }
+  return sums;
+}
+
+template <class Scheme, class Real>
+Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray)
+{
+  double gradient[3] = { 0, 0, 0 }; // summed up, nu by index times data units
+  Bend bend;
+  std::vector<float> sums(static_cast<std::size_t>(medium.gradients.count), 0.f);
+  const auto& spacing = medium.grid.spacing;
+  double s = ray.entry;
+  const auto at = [&](double where, int axis)
+  { return ray.start[axis] + where * ray.direction[axis]; };
+  while (s < ray.exit)
+  {
+    const std::int32_t found = medium.finder.at({ at(s, 0), at(s, 1), at(s, 2) });
+    const Leaf<Real>& leaf = medium.leaves[found];
+    double local[3], along[3], pathLength = ray.exit - s, fastest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      local[axis] = (at(s, axis) - leaf.first[axis]) * leaf.perIndex;
+      along[axis] = ray.direction[axis] * leaf.perIndex; // samples by data unit
+      if (axis == medium.layout.axes())
+      {
+        continue;
+      }
+      fastest = std::max(fastest, std::abs(along[axis]));
+      if (along[axis] != 0)
+      {
+        const double side = along[axis] > 0 ? 15.5 : -0.5;
+        pathLength = std::min(pathLength, std::max(0., (side - local[axis]) / along[axis]));
+      }
+    }
+    // Into the next leaf, whatever rounding does.
+    const double beyond =
+      fastest > 0 ? std::max(1e-4 / fastest, 1e-12 * std::abs(ray.exit)) : ray.exit - s;
+    if (leaf.kind == Leaf<Real>::Solid)
+    {
+      bend.isBlocked = true;
+      break;
+    }
+    bend.opticalPath += static_cast<double>(leaf.offset) * pathLength;
+    const auto difference = static_cast<double>(medium.differences[found]);
+    const auto edgeOf = [&](double voxel) { return voxel * brickEdge / leaf.perIndex; };
+    const auto [shortest, longest] =
+      std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
+    const auto squared = [](double x) { return x * x; };
+    const double edges = pathLength / edgeOf(*longest);
+    const double error = edges * static_cast<double>(medium.errors[found]);
+    bend.error += squared(error);
+    if (error > 0)
+    {
+      bend.wrong.push_back({ found, static_cast<float>(error) });
+    }
+    if (medium.fieldErrors != nullptr)
+    {
+      bend.errorOfGathered += squared(edges * static_cast<double>(medium.fieldErrors[found]));
+    }
+    const double ofFields =
+      medium.fieldDifferences != nullptr ? static_cast<double>(medium.fieldDifferences[found]) : 0;
+    if ((difference > 0 || ofFields > 0) && pathLength > 0)
+    {
+      // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
+      const double edge = edgeOf(*shortest);
+      bend.neglected.push_back({ found, static_cast<float>(difference * pathLength / edge),
+        static_cast<float>(0.5 * difference * pathLength),
+        static_cast<float>(ofFields * pathLength / edge) });
+      bend.error += squared(difference * pathLength / edge);
+      bend.errorOfGathered += squared(ofFields * pathLength / edge);
+    }
+    if (leaf.kind != Leaf<Real>::Constant && pathLength > 0)
+    {
+      const LeafSums ofLeaf = sumUp<Scheme>(medium,
+        LeafSegment{ { local[0], local[1], local[2] }, { along[0], along[1], along[2] }, pathLength,
+          leaf.perIndex, std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), found,
+          leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
+        sums);
+      bend.opticalPath += ofLeaf.opticalPath;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        gradient[axis] += ofLeaf.gradient[axis];
+      }
+      bend.isBlocked = ofLeaf.isBlocked;
+      if (bend.isBlocked)
+      {
+        break;
+      }
+    }
+    s += pathLength + beyond;
+  }
+  const Grid& grid = medium.grid;
+  const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
+    gradient[2] / grid.spacing[2] };
+  bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
+  bend.gathered = std::accumulate(sums.begin(), sums.end(), 0.);
+  return bend;
+}
+
+/// Of errors along a ray that add up to more than is allowed: the largest ones, until what is left is half of it.
+template <auto part, class Error>
+void addLargest(std::vector<Error> errors, double allowed, std::vector<std::int32_t>& leaves)
+{
+  double sum = 0;
+  for (const Error& one : errors)
+  {
+    sum += static_cast<double>(one.*part);
+  }
+  if (!(sum > allowed))
+  {
+    return;
+  }
+  std::sort(
+    errors.begin(), errors.end(), [](const Error& a, const Error& b) { return a.*part > b.*part; });
+  for (const Error& one : errors)
+  {
+    if (!(sum > 0.5 * allowed))
+    {
+      break;
+    }
+    leaves.push_back(one.leaf);
+    sum -= static_cast<double>(one.*part);
+  }
+}
+
+void makeUnique(std::vector<std::int32_t>& numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// As tintReference() finds it, but no less than a hundredth of the most: where a view of a far field shows hardly any
+/// flow, its noise is not to be resolved.
+double fullColorOf(std::vector<double> gathered)
+{
+  constexpr double fraction = 0.99;
+  if (gathered.empty())
+  {
+    return 0;
+  }
+  std::sort(gathered.begin(), gathered.end());
+  const double percentile =
+    gathered[static_cast<std::size_t>(fraction * static_cast<double>(gathered.size() - 1))];
+  const double most = gathered.back();
+  return percentile > 0 ? std::max(percentile, 0.01 * most) : most;
+}
+
+} // namespace
+
+FieldGradientsView gradientsIn(
+  const BrickLayout& layout, const float* gradients, const std::int32_t* bricks)
+{
+  const std::int64_t row = std::int64_t{ brickEdge } + 2 * layout.apron;
+  const bool isLayer = layout.shape == BrickShape::Layer;
+  const std::int64_t plane = isLayer ? 0 : row * row;
+  constexpr std::int64_t last = brickEdge - 1;
+  const std::int64_t first = layout.fields * layout.apron * (plane + row + 1);
+  return { layout.fields > 0 ? gradients + first : nullptr, layout.fields, row, plane,
+    { last, last, isLayer ? depthOfLayers : last }, bricks, layout.samplesPerBrick };
+}
+
+template <class Real>
+RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads)
+{
+  const Grid& grid = medium.grid;
+  double low[2], high[2];
+  for (int side = 0; side < 2; ++side)
+  {
+    const ImageRange ofBox = rangeOfBox(grid, column, side);
+    low[side] = std::max(ofBox.low, column.middle[side] - column.halfWidth[side]);
+    high[side] = std::min(ofBox.high, column.middle[side] + column.halfWidth[side]);
+    if (!(low[side] < high[side]))
+    {
+      return least;
+    }
+  }
+  constexpr int ofLattice = latticeEdge * latticeEdge;
+  const std::int64_t rays = ofLattice + static_cast<std::int64_t>(places.size());
+  std::vector<Bend> bends(static_cast<std::size_t>(rays));
+  const auto rayOf = [&](std::int64_t n) -> std::optional<StraightRay>
+  {
+    if (n < ofLattice)
+    {
+      return rayAt(grid, column,
+        low[0] + (high[0] - low[0]) * (static_cast<double>(n % latticeEdge) + 0.5) / latticeEdge,
+        low[1] + (high[1] - low[1]) * (static_cast<double>(n / latticeEdge) + 0.5) / latticeEdge);
+    }
+    const Vec3<double>& index = places[static_cast<std::size_t>(n - ofLattice)];
+    const Vec3<double> x{ grid.origin[0] + index.x * grid.spacing[0],
+      grid.origin[1] + index.y * grid.spacing[1], grid.origin[2] + index.z * grid.spacing[2] };
+    const double width = column.widthAt(dot(x, cross(column.u, column.v)));
+    const double u = imageCoordinate(column, 0, dot(x, column.u), width);
+    const double v = imageCoordinate(column, 1, dot(x, column.v), width);
+    const bool isIn = width > 0 && u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1];
+    return isIn ? std::optional(rayAt(grid, column, u, v)) : std::nullopt;
+  };
+  visitScheme(medium.layout.interpolation,
+    [&](auto scheme)
+    {
+      parallelFor(rays, 16, threads,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t n = begin; n < end; ++n)
+          {
+            if (const std::optional<StraightRay> ray = rayOf(n))
+            {
+              bends[static_cast<std::size_t>(n)] = trace<decltype(scheme)>(medium, column, *ray);
+            }
+          }
+        });
+    });
+  const bool areAllBlocked =
+    std::all_of(bends.begin(), bends.end(), [](const Bend& bend) { return bend.isBlocked; });
+  RayFindings findings;
+  findings.deflection = least.deflection;
+  findings.opticalPath = least.opticalPath;
+  std::vector<double> gathered;
+  for (std::size_t n = 0; n < bends.size(); ++n)
+  {
+    const Bend& bend = bends[n];
+    if (bend.isBlocked == areAllBlocked)
+    {
+      findings.deflection = std::max(findings.deflection, bend.deflection);
+      findings.opticalPath = std::max(findings.opticalPath, std::abs(bend.opticalPath));
+      if (n < ofLattice)
+      {
+        gathered.push_back(bend.gathered);
+      }
+      findings.error = std::max(findings.error, std::sqrt(bend.error));
+      findings.errorOfGathered =
+        std::max(findings.errorOfGathered, std::sqrt(bend.errorOfGathered));
+    }
+  }
+  findings.gathered = std::max(least.gathered, fullColorOf(std::move(gathered)));
+  for (const Bend& bend : bends)
+  {
+    if (bend.isBlocked == areAllBlocked)
+    {
+      const double allowed = tolerance * findings.deflection;
+      addLargest<&Neglected::deflection>(bend.neglected, allowed, findings.coarse);
+      addLargest<&Neglected::opticalPath>(
+        bend.neglected, tolerance * findings.opticalPath, findings.coarse);
+      addLargest<&Neglected::gathered>(
+        bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
+      addLargest<&Wrong::deflection>(bend.wrong, maxOfSums * allowed, findings.wrong);
+    }
+  }
+  makeUnique(findings.coarse);
+  makeUnique(findings.coarseInFields);
+  makeUnique(findings.wrong);
+  return findings;
+}
+
+template RayFindings lookAlongRays(const LeavesView<float>&, const Column&,
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
+template RayFindings lookAlongRays(const LeavesView<double>&, const Column&,
+  const std::vector<Vec3<double>>&, double, const RayFindings&, int);
+
+} // namespace schlieren

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Straight rays through the leaves of a tree: how much light may be bent, and what it may gather of fields, before any
+// image is made.
+#pragma once
+
+#include "Medium/Samples/FieldGradients.h"
+#include "Medium/Samples/Leaves.h"
+#include "Types.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// What a view looks at: a column through the data, or with a perspective what is in front of the pupil, where all lines
+/// of sight meet. Unbounded where the half widths are infinite.
+struct Column
+{
+  Vec3<double> u, v;   ///< of the image, unit vectors, along the source's axes
+  double middle[2];    ///< image coordinates, data units
+  double halfWidth[2]; ///< along u and v, data units
+  double finest; ///< no voxel needs to be smaller: data units, the pixel's size or a part of it
+  double pupil =
+    0; ///< from the image's plane, along w = u x v, data units; 0: all lines are along w
+  double plane =
+    0; ///< x.w of the image's plane, where there is a pupil; half widths and pixels are those there
+
+  /// It is refined this much wider than it is, so that small turns need nothing new.
+  static constexpr double widening = 1.1;
+  double steepest = 0; ///< no slope of its light to the lines of sight is larger
+
+  /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.
+  double widthAt(double place) const { return pupil > 0 ? 1 - (place - plane) / pupil : 1; }
+};
+
+/// How bricks are laid out.
+struct BrickLayout
+{
+  std::int64_t samplesPerBrick;
+  std::int32_t apron;
+  BrickShape shape;
+  Interpolation interpolation;
+  std::int32_t fields = 0; ///< whose gradients are in bricks of their own
+  double unit = 1;         ///< of length, of these; data units
+
+  /// The axes along which there is more than one sample.
+  int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
+};
+
+/// `gradients`: bricks of such a layout; `bricks`: of each leaf.
+FieldGradientsView gradientsIn(
+  const BrickLayout& layout, const float* gradients, const std::int32_t* bricks);
+
+/// All that rays see of a tree.
+template <class Real>
+struct LeavesView
+{
+  const Grid& grid;
+  LeafFinder finder;
+  const Leaf<Real>* leaves;
+  const float*
+    differences; ///< of each leaf: by how much nu differs there, where one value stands for all; else 0
+  const float*
+    errors; ///< of each leaf: of a ray's deflection over its longest edge, from its samples
+  const Real* samples;
+  const std::int16_t* gasDistances;
+  FieldGradientsView gradients;
+  const float*
+    fieldDifferences;       ///< of each leaf, as `differences`, of all fields; null: there are none
+  const float* fieldErrors; ///< of each leaf, as `errors`, of all fields; null: there are none
+  BrickLayout layout;
+};
+
+/// What straight rays find: those on a lattice over the column, and those through some places (index coordinates)
+/// as far as they are in it. Of rays that no wall stops; where walls stop all, of these.
+struct RayFindings
+{
+  double deflection = 0;  ///< the largest
+  double opticalPath = 0; ///< the largest; nu times data units
+  /// Of all fields, by the rays of the lattice: what 99 % do not exceed; or, where less have gathered anything, the most.
+  double gathered = 0;
+  /// The largest errors of a deflection and of what is gathered: along a ray, those of the leaves and what leaves with one
+  /// value neglect, each with any sign, add up by their squares.
+  double error = 0, errorOfGathered = 0;
+  /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
+  /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
+  std::vector<std::int32_t> coarse;
+  std::vector<std::int32_t>
+    coarseInFields; ///< the same of leaves without gradients, and of `gathered`
+  /// Leaves whose samples are too far apart, as errors along a ray add up. Those that contribute most.
+  std::vector<std::int32_t> wrong;
+};
+/// `least`: what is known of the largest ones, e.g. from samples that are no longer there.
+template <class Real>
+RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
+  const std::vector<Vec3<double>>& places, double tolerance, const RayFindings& least, int threads);
+
+} // namespace schlieren

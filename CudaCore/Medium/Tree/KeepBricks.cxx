@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the nodes of a tree have: bricks that are kept and forgotten.
+#include "Medium/Tree/NodesInView.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+template <class Real>
+void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick)
+{
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  node.isKnown = true;
+  node.kind = brick.kind;
+  node.offset = brick.offset;
+  node.facts = brick.facts;
+  const std::vector<float>& gradients = brick.fields.gradients;
+  node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
+  node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
+  if (!nodeFields_.empty())
+  {
+    nodeFields_[static_cast<std::size_t>(at)] = { gradients.empty() ? 0 : gradients_.add(gradients),
+      false, brick.fields.facts };
+  }
+}
+
+template <class Real>
+void MediumTree<Real>::removeSamples(std::int32_t at)
+{
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  if (node.brick > 0)
+  {
+    samples_.remove(node.brick);
+    node.brick = 0;
+  }
+}
+
+template <class Real>
+void MediumTree<Real>::removeMap(std::int32_t at)
+{
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  if (node.map >= 0)
+  {
+    maps_.remove(node.map);
+    node.map = -1;
+  }
+}
+
+template <class Real>
+void MediumTree<Real>::removeGradients(std::int32_t at)
+{
+  if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
+  {
+    gradients_.remove(brick);
+    nodeFields_[static_cast<std::size_t>(at)].brick = 0;
+  }
+}
+
+/// Takes a node's samples from it.
+template <class Real>
+void MediumTree<Real>::forget(std::int32_t at)
+{
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  removeSamples(at);
+  removeMap(at);
+  removeGradients(at);
+  if (!nodeFields_.empty())
+  {
+    nodeFields_[static_cast<std::size_t>(at)] = {};
+  }
+  const NodePlace place = node.place;
+  const std::int32_t children = node.children;
+  node = { place, children };
+}
+
+/// Nothing is negligible to those nodes that are made first: what is, now that more is known, goes.
+template <class Real>
+void MediumTree<Real>::forgetNegligible(const View& view)
+{
+  for (const std::int32_t at : leafNodes_)
+  {
+    Node& node = nodes_[static_cast<std::size_t>(at)];
+    BrickFacts& facts = node.facts;
+    const Negligible negligible = view.negligible(node.place.level);
+    if (const NodeFields fields = fieldsOf(at);
+        fields.brick > 0 && fields.facts.range <= negligible.gathered)
+    {
+      nodeFields_[static_cast<std::size_t>(at)].facts.neglected =
+        std::max(fields.facts.neglected, fields.facts.range);
+      removeGradients(at);
+    }
+    if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= negligible.deflection &&
+      fieldsOf(at).brick == 0)
+    {
+      facts.neglected = std::max(facts.neglected, facts.besideWindow);
+      removeMap(at);
+      node.kind = Leaf<Real>::Samples;
+    }
+    if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= negligible.deflection)
+    {
+      facts.neglected = std::max(facts.neglected, facts.range);
+      removeSamples(at);
+      node.kind = Leaf<Real>::Constant;
+    }
+  }
+}
+
+template <class Real>
+void MediumTree<Real>::forgetBelow(std::int32_t at)
+{
+  std::int32_t& children = nodes_[static_cast<std::size_t>(at)].children;
+  for (std::int32_t child = 0; children >= 0 && child < parts(); ++child)
+  {
+    forgetBelow(children + child);
+  }
+  forget(at);
+  children = -1;
+}
+
+/// Makes unknown what is outside of the view or finer than it needs.
+template <class Real>
+bool MediumTree<Real>::forgetUnneeded(const View& view)
+{
+  bool hasChanged = false;
+  for (std::int32_t root = 0; root < rootCells_[0] * rootCells_[1] * rootCells_[2]; ++root)
+  {
+    hasChanged = forgetUnneeded(root, view) || hasChanged;
+  }
+  return hasChanged;
+}
+
+template <class Real>
+bool MediumTree<Real>::isNeeded(const Node& node, const View& view) const
+{
+  return view.sees(node.place) && (node.children < 0 || view.allows(node.place));
+}
+
+template <class Real>
+bool MediumTree<Real>::hasUnneeded(const View& view) const
+{
+  return std::any_of(nodes_.begin(), nodes_.end(),
+    [&](const Node& node)
+    { return (node.children >= 0 || node.isKnown) && !isNeeded(node, view); });
+}
+
+template <class Real>
+bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
+{
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  const bool isInner = node.children >= 0;
+  if (!isNeeded(node, view))
+  {
+    const bool hasAny = isInner || node.isKnown;
+    forgetBelow(at);
+    return hasAny;
+  }
+  bool hasChanged = false;
+  for (std::int32_t child = 0; isInner && child < parts(); ++child)
+  {
+    hasChanged = forgetUnneeded(node.children + child, view) || hasChanged;
+  }
+  return hasChanged;
+}
+
+template void MediumTree<float>::keep(std::int32_t, const Brick<float>&);
+template void MediumTree<float>::forget(std::int32_t);
+template void MediumTree<float>::forgetNegligible(const View&);
+template bool MediumTree<float>::forgetUnneeded(const View&);
+template bool MediumTree<float>::hasUnneeded(const View&) const;
+template void MediumTree<double>::keep(std::int32_t, const Brick<double>&);
+template void MediumTree<double>::forget(std::int32_t);
+template void MediumTree<double>::forgetNegligible(const View&);
+template bool MediumTree<double>::forgetUnneeded(const View&);
+template bool MediumTree<double>::hasUnneeded(const View&) const;
+
+} // namespace schlieren

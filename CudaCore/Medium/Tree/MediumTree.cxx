@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The nodes of a tree, and what rays see of them.
+#include "Medium/Tree/MediumTree.h"
+
+#include "Medium/Samples/Field.h"
+#include "Medium/Samples/Prefilter.h"
+#include "Medium/Tree/NodesInView.h"
+#include "Medium/Tree/RootCells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace schlieren
+{
+
+namespace
+{
+
+MediumSource::Content contentOfAll(const MediumSource& source, double ambient)
+{
+  validateAmbient(ambient);
+  const MediumSource::Content content = source.contentOf(source.bounds());
+  if (!content.hasGas)
+  {
+    validateRange(1, 0);
+  }
+  validateRange(content.lowest, content.highest);
+  return content;
+}
+
+double largestNuOf(const MediumSource::Content& content, double ambient)
+{
+  return std::max(std::abs(content.lowest - ambient), std::abs(content.highest - ambient)) /
+    (1 + ambient);
+}
+
+} // namespace
+
+template <class Real>
+MediumTree<Real>::MediumTree(
+  std::shared_ptr<const MediumSource> source, double ambient, const TreeSettings& settings)
+  : source_(std::move(source))
+  , settings_(settings)
+  , grid_(gridOf(*source_))
+  , coarserLevels_(divisionOf(*source_).coarserLevels)
+  , rootCells_(rootCellsOf(divisionOf(*source_)))
+  , maker_(*source_,
+      { grid_, ambient, largestNuOf(contentOfAll(*source_, ambient), ambient),
+        settings.interpolation })
+  , samples_({ static_cast<std::size_t>(maker_.samplesPerBrick()), 1,
+      PaddedVolume<Real>::readTogether, settings.memory })
+  , maps_({ static_cast<std::size_t>(maker_.samplesPerBrick()) })
+  , gradients_(
+      { static_cast<std::size_t>(maker_.samplesPerBrick() * std::max(1, source_->fields())),
+        source_->fields() > 0 ? std::size_t{ 1 } : 0 })
+{
+  static_assert(brickEdge == BrickMaker<Real>::edge);
+  const MediumSource::Content content = contentOfAll(*source_, ambient);
+  largestN_ = std::max(std::abs(content.lowest), std::abs(content.highest));
+  rangeOfNu_ = (content.highest - content.lowest) / (1 + ambient);
+  makeRoots();
+  arrange();
+}
+
+template <class Real>
+void MediumTree<Real>::makeRoots()
+{
+  nodes_.clear();
+  nodeFields_.clear();
+  for (std::int32_t k = 0; k < rootCells_[2]; ++k)
+  {
+    for (std::int32_t j = 0; j < rootCells_[1]; ++j)
+    {
+      for (std::int32_t i = 0; i < rootCells_[0]; ++i)
+      {
+        addNode({ -coarserLevels_, { i, j, k } });
+      }
+    }
+  }
+  samples_.clear();
+  maps_.clear();
+  gradients_.clear();
+  isMeasured_ = false;
+}
+
+template <class Real>
+void MediumTree<Real>::addNode(const NodePlace& place)
+{
+  nodes_.push_back({ place });
+  nodeFields_.resize(source_->fields() > 0 ? nodes_.size() : 0);
+}
+
+/// Without what of it is outside of the domain.
+template <class Real>
+Box MediumTree<Real>::indexBoxOf(const NodePlace& place) const
+{
+  Box box{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto last = static_cast<double>(grid_.dimensions[axis] - 1);
+    box.high[axis] = last;
+    if (axis < maker_.axes())
+    {
+      const double edge = std::ldexp(static_cast<double>(brickEdge), -place.level);
+      box.low[axis] = std::min(edge * place.at[axis], last);
+      box.high[axis] = std::min(edge * (place.at[axis] + 1.), last);
+    }
+  }
+  return box;
+}
+
+template <class Real>
+typename MediumTree<Real>::NodeFields MediumTree<Real>::fieldsOf(std::int32_t node) const
+{
+  return nodeFields_.empty() ? NodeFields{} : nodeFields_[static_cast<std::size_t>(node)];
+}
+
+template <class Real>
+LeafFinder MediumTree<Real>::finder() const
+{
+  const double perIndex = std::ldexp(1. / brickEdge, -coarserLevels_);
+  return { roots_.data(), children_.data(), { rootCells_[0], rootCells_[1], rootCells_[2] },
+    { perIndex, perIndex, shape() == BrickShape::Layer ? 0 : perIndex } };
+}
+
+template <class Real>
+FieldGradientsView MediumTree<Real>::gradients() const
+{
+  return gradientsIn(layout(), gradients_.values().data(), gradientBricks_.data());
+}
+
+template <class Real>
+std::size_t MediumTree<Real>::bytesUsed() const
+{
+  return samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
+    nodes_.size() * sizeof(Node) + nodeFields_.size() * sizeof(NodeFields) +
+    leaves_.size() * (sizeof(Leaf<Real>) + 2 * sizeof(std::int32_t));
+}
+
+template <class Real>
+BrickLayout MediumTree<Real>::layout() const
+{
+  return { samplesPerBrick(), apron(), shape(), settings_.interpolation, source_->fields(),
+    *std::min_element(grid_.spacing.begin(), grid_.spacing.end()) };
+}
+
+template <class Real>
+Leaf<Real> MediumTree<Real>::leafOf(std::int32_t at) const
+{
+  const Node& node = nodes_[static_cast<std::size_t>(at)];
+  const bool hasGradients = fieldsOf(at).brick > 0;
+  Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset, node.brick, node.map,
+    node.kind };
+  // In one step no gradients would be gathered.
+  leaf.kind = leaf.kind == Leaf<Real>::Constant && hasGradients ? Leaf<Real>::Samples : leaf.kind;
+  for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
+  {
+    leaf.first[axis] =
+      std::ldexp(brickEdge * static_cast<double>(node.place.at[axis]) + 0.5, -node.place.level);
+  }
+  return leaf;
+}
+
+/// Leaves, roots and children as rays see them, depth first: neighbours in space are near each other.
+template <class Real>
+void MediumTree<Real>::numberLeaves()
+{
+  leafNodes_.clear();
+  children_.clear();
+  roots_.resize(static_cast<std::size_t>(rootCells_[0]) *
+    static_cast<std::size_t>(rootCells_[1] * rootCells_[2]));
+  for (std::size_t root = 0; root < roots_.size(); ++root)
+  {
+    number(static_cast<std::int32_t>(root), roots_[root]);
+  }
+  // Of a tree that has not changed they stay where they are: rays have their addresses.
+  leaves_.resize(leafNodes_.size());
+  std::transform(leafNodes_.begin(), leafNodes_.end(), leaves_.begin(),
+    [this](std::int32_t at) { return leafOf(at); });
+  gradientBricks_.resize(nodeFields_.empty() ? 0 : leafNodes_.size());
+  for (std::size_t leaf = 0; leaf < gradientBricks_.size(); ++leaf)
+  {
+    gradientBricks_[leaf] = fieldsOf(leafNodes_[leaf]).brick;
+  }
+}
+
+template <class Real>
+void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
+{
+  const Node& node = nodes_[static_cast<std::size_t>(at)];
+  if (node.children < 0)
+  {
+    code = ~static_cast<std::int32_t>(leafNodes_.size());
+    leafNodes_.push_back(at);
+    return;
+  }
+  const std::size_t first = children_.size();
+  code = static_cast<std::int32_t>(first / 8);
+  children_.resize(first + 8, -1); // where nothing depends on z, rays take the lower four
+  for (std::int32_t child = 0; child < parts(); ++child)
+  {
+    std::int32_t ofChild = 0;
+    number(node.children + child, ofChild);
+    children_[first + static_cast<std::size_t>(child)] = ofChild;
+  }
+}
+
+/// Nodes and bricks in the order of leaves, without gaps.
+template <class Real>
+void MediumTree<Real>::arrange()
+{
+  const auto roots = std::ptrdiff_t{ rootCells_[0] } * rootCells_[1] * rootCells_[2];
+  const bool hasFields = !nodeFields_.empty();
+  std::vector<Node> arranged(nodes_.begin(), nodes_.begin() + roots);
+  std::vector<NodeFields> fields(
+    nodeFields_.begin(), nodeFields_.begin() + (hasFields ? roots : 0));
+  for (std::size_t n = 0; n < arranged.size(); ++n)
+  {
+    if (const std::int32_t children = arranged[n].children; children >= 0)
+    {
+      arranged[n].children = static_cast<std::int32_t>(arranged.size());
+      for (std::int32_t child = 0; child < parts(); ++child)
+      {
+        arranged.push_back(nodes_[static_cast<std::size_t>(children + child)]);
+        if (hasFields)
+        {
+          fields.push_back(nodeFields_[static_cast<std::size_t>(children + child)]);
+        }
+      }
+    }
+  }
+  nodes_ = std::move(arranged);
+  nodeFields_ = std::move(fields);
+  numberLeaves();
+
+  std::vector<std::int32_t> bricks{ 0 };
+  std::vector<std::int32_t> maps;
+  std::vector<std::int32_t> gradients(hasFields ? 1 : 0, 0);
+  for (const std::int32_t at : leafNodes_)
+  {
+    Node& node = nodes_[static_cast<std::size_t>(at)];
+    if (node.brick > 0)
+    {
+      bricks.push_back(node.brick);
+      node.brick = static_cast<std::int32_t>(bricks.size()) - 1;
+    }
+    if (node.map >= 0)
+    {
+      maps.push_back(node.map);
+      node.map = static_cast<std::int32_t>(maps.size()) - 1;
+    }
+    if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
+    {
+      gradients.push_back(brick);
+      nodeFields_[static_cast<std::size_t>(at)].brick =
+        static_cast<std::int32_t>(gradients.size()) - 1;
+    }
+  }
+  samples_.arrange(bricks);
+  maps_.arrange(maps);
+  gradients_.arrange(gradients);
+  isArranged_ = true;
+  numberLeaves();
+}
+
+template <class Real>
+void MediumTree<Real>::summarize(const View& view)
+{
+  statistics_ = {};
+  statistics_.coarsestLevel = View::finestLevelOfAll;
+  largestNu_ = 0;
+  slope_ = { 0, 0, 0 };
+  statistics_.smallestVoxel = std::numeric_limits<double>::infinity();
+  // Rays may miss the worst leaf.
+  double error = work_.error, errorOfFields = work_.errorOfGathered;
+  for (const std::int32_t at : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    const NodeFields fields = fieldsOf(at);
+    const int level = node.place.level;
+    const BrickFacts& facts = node.facts;
+    largestNu_ = std::max(largestNu_, facts.largestNu);
+    slope_.x = std::max(slope_.x, std::ldexp(facts.slope[0], level));
+    slope_.y = std::max(slope_.y, std::ldexp(facts.slope[1], level));
+    slope_.z = std::max(slope_.z, std::ldexp(facts.slope[2], level));
+    if (node.brick > 0 || fields.brick > 0)
+    {
+      ++statistics_.bricks;
+      statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, level);
+      statistics_.finestLevel = std::max(statistics_.finestLevel, level);
+    }
+    statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
+    if (view.sees(node.place) && !view.isDark(node.place))
+    {
+      error = std::max(error, view.errorOf(node.place, node.facts));
+      errorOfFields = std::max(errorOfFields, view.errorOf(node.place, fields.facts));
+    }
+  }
+  statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, statistics_.finestLevel);
+  const std::array<double, 3> voxel = maker_.voxelOf(statistics_.finestLevel);
+  statistics_.smallestVoxel = *std::min_element(voxel.begin(), voxel.begin() + maker_.axes());
+  statistics_.voxels =
+    statistics_.bricks * brickEdge * brickEdge * (shape() == BrickShape::Layer ? 1 : brickEdge);
+  statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
+  statistics_.isMemoryShort = work_.isMemoryShort;
+  const double deflection = work_.largest, gathered = work_.gathered;
+  statistics_.largestDeflection = deflection;
+  statistics_.deflectionError = error;
+  statistics_.estimatedError =
+    std::max(deflection > 0 ? error / deflection : 0, gathered > 0 ? errorOfFields / gathered : 0);
+}
+
+template <class Real>
+SlopeBlocks MediumTree<Real>::slopes() const
+{
+  SlopeBlocks blocks;
+  blocks.reserve(8 * static_cast<std::size_t>(statistics_.bricks));
+  for (const std::int32_t at : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    for (std::int32_t octant = 0; node.brick > 0 && octant < parts(); ++octant)
+    {
+      const Vec3<float>& slope = node.facts.slopeOf[static_cast<std::size_t>(octant)];
+      if (slope.x == 0 && slope.y == 0 && slope.z == 0)
+      {
+        continue;
+      }
+      const NodePlace place = childOf(node.place, octant);
+      const auto low = [&](std::size_t axis)
+      {
+        return static_cast<float>(
+          std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level));
+      };
+      const auto perIndex = static_cast<float>(std::ldexp(1., node.place.level));
+      static_assert(SlopeBlock::voxels == brickEdge / 2);
+      blocks.push_back(
+        { { low(0), low(1), low(2) }, SlopeBlock::voxels / perIndex, perIndex * slope });
+    }
+  }
+  return blocks;
+}
+
+template class MediumTree<float>;
+template class MediumTree<double>;
+
+} // namespace schlieren

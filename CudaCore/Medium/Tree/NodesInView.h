@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Medium/Tree/MediumTree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+namespace schlieren
+{
+
+/// A column, and what it needs of nodes.
+template <class Real>
+class MediumTree<Real>::View
+{
+  /// Layers between samples that are no further apart than this do not matter.
+  static constexpr double pixelsOfLayer = 4;
+
+  /// As many levels as most media have; for the progress that is reported.
+  static constexpr int usualLevels = 10;
+
+public:
+  /// 16 root cells of 16 samples, halved so often, count within 32 bits.
+  static constexpr int finestLevelOfAll = 20;
+
+  explicit View(const MediumTree& tree)
+    : tree_(tree)
+    , work_(tree.work_)
+    , column_(tree.work_.column)
+  {
+  }
+
+  bool sees(const NodePlace& place) const
+  {
+    for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
+    {
+      const double first =
+        std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level);
+      if (first >= static_cast<double>(tree_.grid_.dimensions[axis] - 1))
+      {
+        return false;
+      }
+    }
+    const Box box = tree_.maker_.boxOf(place);
+    return sees(column_.u, 0, box) && sees(column_.v, 1, box);
+  }
+
+  /// Whether voxels of the next level are wanted along an axis, which are no smaller than so many pixels.
+  bool allows(const NodePlace& place, std::size_t axis, double pixels = 1) const
+  {
+    return allows(place.level, axis, pixels * pixelAt(place));
+  }
+  bool allows(const NodePlace& place, double pixels = 1) const
+  {
+    return allows(place.level, pixels * pixelAt(place));
+  }
+
+  /// How long a ray is in a leaf, by the leaf's edge, as far as that is not about 1: in one as deep as the domain.
+  double lengthIn(int level) const
+  {
+    if (tree_.maker_.shape() == BrickShape::Cube)
+    {
+      return 1;
+    }
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(level);
+    const double edge = brickEdge * std::max(voxel[0], voxel[1]);
+    const double along = std::abs(cross(column_.u, column_.v).z);
+    const double aside = std::sqrt(std::max(0., 1 - along * along));
+    return aside * voxel[2] > along * edge ? 1 / aside : voxel[2] / (along * edge);
+  }
+
+  /// The error of a node, or of its fields, that the next level would lessen, without edges: of rays.
+  template <class Facts>
+  double errorOf(const NodePlace& place, const Facts& facts) const
+  {
+    return lengthIn(place.level) * errorOverEdge(place, facts);
+  }
+  /// The same of rays that are in it for as long as its edge.
+  template <class Facts>
+  double errorOverEdge(const NodePlace& place, const Facts& facts) const
+  {
+    const double pixel = pixelAt(place);
+    const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
+    const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
+    double error = 0;
+    for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
+    {
+      // Between samples there may be a layer, of which few pixels are to be seen. Light that crosses it is bent no more
+      // than by a layer as thick as a voxel.
+      const bool isBent = std::is_same_v<Facts, BrickFacts>;
+      const double across = isBent ? std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge) : 1;
+      const bool isSeen = voxel[axis] > pixelsOfLayer * pixel;
+      error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
+      error = allows(place.level, axis, pixel) ? std::max(error, facts.error[axis]) : error;
+    }
+    return error;
+  }
+
+  /// Whether nothing of a leaf can be seen, however fine it is: light is stopped before it or behind it.
+  bool isDark(const NodePlace& place) const
+  {
+    constexpr double ofEstimate = 2; // of the largest deflection
+    const double slope = column_.steepest + ofEstimate * work_.largest;
+    return work_.blocked.isDark(tree_.indexBoxOf(place), slope);
+  }
+
+  /// How badly a leaf needs to be divided; 0: not at all.
+  double urgencyOf(const Node& node, const FieldFacts& ofFields) const
+  {
+    if (node.facts.isTooLarge)
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    const double error = errorOf(node.place, node.facts);
+    const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
+    const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
+    // Silhouettes are where walls are, however large cells are. Faces have many small bends, of which few are seen.
+    const bool isSeen = node.facts.hasWallEdge &&
+      !showsWalls(node, node.facts.areEdgesFine ? 0.5 : 0.2) && isEdgeOn(node);
+    const bool isFine = (node.facts.areEdgesFine && !isSeen) || !allows(node.place);
+    // A sharp edge is rounded off by a quarter of a voxel.
+    const bool isSharp = isSeen && allows(node.place, 0.25);
+    const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
+    double urgency = node.isWrong || error > allowed().deflection ? error : 0;
+    if (const double gathered = errorOf(node.place, ofFields); gathered > allowed().gathered)
+    {
+      const double deflection = work_.largest;
+      const bool canCompare = deflection > 0 && work_.gathered > 0;
+      urgency = std::max(urgency, canCompare ? gathered * (deflection / work_.gathered) : gathered);
+    }
+    if (hasEdge)
+    {
+      // A shadow's edge that is wrong by a voxel is as wrong as can be.
+      urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
+    }
+    return urgency;
+  }
+
+  /// Whether walls are where they should be, but for such a part of a pixel. Voxels must not be much larger than
+  /// pixels for that to be known; between planes and distances from them there is only the rounding of these.
+  bool showsWalls(const Node& node, double pixels) const
+  {
+    constexpr double pixelsOfVoxel = 4, pixelsOfVoxelAtPlanes = 400; // at most
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    const double pixel = pixelAt(node.place);
+    const bool isFlat = node.facts.areWallsFlat;
+    return (isFlat || node.facts.edgeError <= pixels * pixel) &&
+      *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
+      (isFlat ? pixelsOfVoxelAtPlanes : pixelsOfVoxel) * pixel;
+  }
+
+  /// Whether walls are seen edge-on in a leaf, or would be after a small turn.
+  bool isEdgeOn(const Node& node) const
+  {
+    constexpr double margin = 0.2; // sine of the turn
+    const Vec3<double> along = lineOfSight(node.place);
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
+    const double d[3] = { along.x / voxel[0], along.y / voxel[1], along.z / voxel[2] };
+    double least = 0, most = 0, square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = node.facts.normals[axis];
+      least += d[axis] * (d[axis] > 0 ? low : high);
+      most += d[axis] * (d[axis] > 0 ? high : low);
+      square += d[axis] * d[axis];
+    }
+    const double limit = margin * std::sqrt(square);
+    return least <= limit && most >= -limit;
+  }
+
+  /// Of what a level's leaves have, by their facts.
+  Negligible negligible(int level) const
+  {
+    const double perLength = 1 / lengthIn(level);
+    return { perLength * allowed().deflection, perLength * allowed().gathered };
+  }
+
+  /// What is negligible to a leaf that is made, or made again, or to the parts of one that is divided: nothing where too much
+  /// has been neglected along rays; and what a leaf has, it keeps when it lacks something else.
+  Negligible negligibleTo(const Node& node, const NodeFields& fields, bool divides) const
+  {
+    const Negligible usual = negligible(node.place.level);
+    const bool isNeeded = node.isCoarse || (!divides && node.brick > 0);
+    const bool areFieldsNeeded = fields.isCoarse || (!divides && fields.brick > 0);
+    return { isNeeded ? 0 : usual.deflection, areFieldsNeeded ? 0 : usual.gathered };
+  }
+
+  /// Whether a leaf lacks something that is not negligible.
+  bool lacks(const Node& node, const NodeFields& fields) const
+  {
+    const Negligible usual = negligible(node.place.level);
+    return node.isCoarse || fields.isCoarse || node.facts.neglected > usual.deflection ||
+      fields.facts.neglected > usual.gathered;
+  }
+
+  /// How far refining has come, when so much of this round is done. Each level takes some four times as long as
+  /// the one before; there may be less of them than the view allows, and rounds that refine no level.
+  double progressAt(double ofRound) const
+  {
+    int levels = 1;
+    while (levels < usualLevels && allows(levels, column_.finest))
+    {
+      ++levels;
+    }
+    return std::pow(4, -std::max(0., levels - (work_.rounds - 1) - ofRound));
+  }
+
+private:
+  /// Errors of rays.
+  Negligible allowed() const
+  {
+    const double tolerance = tree_.settings_.tolerance;
+    return { tolerance * work_.largest, tolerance * work_.gathered };
+  }
+
+  bool allows(int level, std::size_t axis, double finest) const
+  {
+    constexpr double rounding = 1 - 1e-9;
+    return level < finestLevelOfAll - tree_.coarserLevels_ && axis < tree_.maker_.axes() &&
+      (level < 0 || tree_.maker_.voxelOf(level + 1)[axis] >= rounding * finest);
+  }
+  bool allows(int level, double finest) const
+  {
+    return allows(level, 0, finest) || allows(level, 1, finest) || allows(level, 2, finest);
+  }
+
+  /// The size of a pixel where a node is nearest to the pupil, or beside that a small part of it, data units.
+  double pixelAt(const NodePlace& place) const
+  {
+    if (!(column_.pupil > 0))
+    {
+      return column_.finest;
+    }
+    constexpr double least = 1e-2;
+    const Range depths = rangeOf(cross(column_.u, column_.v), tree_.maker_.boxOf(place));
+    return column_.finest * std::max(least, column_.widthAt(depths.middle + depths.half));
+  }
+
+  /// At the middle of a node, from it to the viewer; of any length.
+  Vec3<double> lineOfSight(const NodePlace& place) const
+  {
+    const Vec3<double> w = cross(column_.u, column_.v);
+    if (!(column_.pupil > 0))
+    {
+      return w;
+    }
+    const Box box = tree_.maker_.boxOf(place);
+    const auto toPupil = [&](const Vec3<double>& axis, double ofPupil)
+    { return (ofPupil - rangeOf(axis, box).middle) * axis; };
+    return toPupil(column_.u, column_.middle[0]) + toPupil(column_.v, column_.middle[1]) +
+      toPupil(w, column_.plane + column_.pupil);
+  }
+
+  struct Range
+  {
+    double middle, half;
+  };
+  /// Of the product of a vector with the places in a box.
+  static Range rangeOf(const Vec3<double>& vector, const Box& box)
+  {
+    const double a[3] = { vector.x, vector.y, vector.z };
+    Range range{ 0, 0 };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.middle += a[axis] * 0.5 * (box.low[axis] + box.high[axis]);
+      range.half += std::abs(a[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
+    }
+    return range;
+  }
+
+  bool sees(const Vec3<double>& direction, int side, const Box& box) const
+  {
+    const double widest = Column::widening * column_.halfWidth[side];
+    if (!(column_.pupil > 0))
+    {
+      const Range range = rangeOf(direction, box);
+      return !(std::abs(range.middle - column_.middle[side]) > widest + range.half);
+    }
+    if (!std::isfinite(widest))
+    {
+      return true;
+    }
+    // x . u - middle <= widest (1 - (x . w - plane) / pupil), and the same on the other side.
+    const Vec3<double> narrowing = (widest / column_.pupil) * cross(column_.u, column_.v);
+    const double limit = widest * (1 + column_.plane / column_.pupil);
+    for (const double sign : { -1., 1. })
+    {
+      const Range range = rangeOf(sign * direction + narrowing, box);
+      if (range.middle - range.half > sign * column_.middle[side] + limit)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const MediumTree& tree_;
+  const Work& work_;
+  const Column& column_;
+};
+
+} // namespace schlieren

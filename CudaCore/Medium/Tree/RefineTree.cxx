@@ -1,0 +1,452 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How a tree is refined for a view.
+#include "Medium/Tree/NodesInView.h"
+
+#include "Device/Parallel.h"
+#include "Medium/Tree/BrickChanges.h"
+#include "Medium/Tree/BrickErrors.h"
+#include "Medium/Tree/BrickMakers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Of the memory, for what turns out to be worse than what was divided before.
+constexpr std::size_t partsOfReserve = 16;
+
+/// Bricks that are made before they are put into the tree; of those that several processes make, by each one.
+constexpr std::size_t bricksAtOnce = 512;
+constexpr std::size_t bricksOfMaker = 64;
+
+/// Leaves whose steepest places rays are sent through.
+constexpr std::size_t steepestLeaves = 192;
+
+bool isSame(const Column& a, const Column& b)
+{
+  const auto isSameVector = [](const Vec3<double>& p, const Vec3<double>& q)
+  { return p.x == q.x && p.y == q.y && p.z == q.z; };
+  return isSameVector(a.u, b.u) && isSameVector(a.v, b.v) && a.finest == b.finest &&
+    a.pupil == b.pupil && a.plane == b.plane && a.steepest == b.steepest &&
+    std::equal(a.middle, a.middle + 2, b.middle) &&
+    std::equal(a.halfWidth, a.halfWidth + 2, b.halfWidth);
+}
+
+} // namespace
+
+template <class Real>
+bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unneeded unneeded)
+{
+  unneeded_ = unneeded;
+  lacksRoom_ = false;
+  if (work_.isFinished || !isSame(work_.column, column))
+  {
+    work_ = {};
+    work_.column = column;
+    work_.isFinished = false;
+  }
+  const View view(*this);
+  bool hasChanged = false;
+  bool continues = true;
+  while (continues)
+  {
+    if (work_.tasksDone == work_.tasks.size())
+    {
+      numberLeaves();
+      const RayFindings found = measure(view, {});
+      if (!isMeasured_ && (work_.largest > 0 || work_.gathered > 0))
+      {
+        forgetNegligible(view);
+        isMeasured_ = true;
+        numberLeaves();
+        measure(view, found); // what is negligible leaf by leaf may not be so along a ray
+      }
+      findBlockedLight();
+      hasChanged = plan(view) || hasChanged;
+      work_.isFinished = work_.tasks.empty();
+    }
+    const std::size_t before = work_.tasksDone;
+    continues = !work_.isFinished && doTasks(view, monitor);
+    hasChanged = hasChanged || work_.tasksDone != before;
+  }
+  isArranged_ = isArranged_ && !hasChanged;
+  if (!work_.isFinished)
+  {
+    numberLeaves();
+  }
+  else if (!isArranged_)
+  {
+    arrange();
+    hasChanged = true;
+  }
+  summarize(view);
+  return hasChanged;
+}
+
+/// Finds the largest deflection in the tree as it is and what rays gather, and leaves that are too coarse for it.
+template <class Real>
+RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least)
+{
+  std::vector<std::pair<double, std::int32_t>>
+    steepest; // sorts by the deflection over a leaf, about
+  for (const std::int32_t n : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(n)];
+    if (node.brick != 0 && view.sees(node.place))
+    {
+      steepest.push_back({ -std::ldexp(node.facts.steepest, -node.place.level), n });
+    }
+  }
+  const std::size_t count = std::min(steepest.size(), steepestLeaves);
+  std::partial_sort(
+    steepest.begin(), steepest.begin() + static_cast<std::ptrdiff_t>(count), steepest.end());
+  std::vector<Vec3<double>> places;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const auto& at = nodes_[static_cast<std::size_t>(steepest[n].second)].facts.steepestAt;
+    places.push_back({ at[0], at[1], at[2] });
+  }
+  std::vector<float> differences(leafNodes_.size(), 0.f);
+  std::vector<float> ofFields(nodeFields_.empty() ? 0 : leafNodes_.size(), 0.f);
+  std::vector<float> errors(leafNodes_.size(), 0.f), fieldErrors(ofFields);
+  for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
+  {
+    Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
+    node.isWrong = false;
+    differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
+    errors[leaf] =
+      node.brick == 0 ? 0.f : static_cast<float>(view.errorOverEdge(node.place, node.facts));
+    if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
+        fields.brick == 0 && !ofFields.empty())
+    {
+      ofFields[leaf] = static_cast<float>(fields.facts.neglected / deflectionByRange);
+    }
+    else if (!ofFields.empty())
+    {
+      fieldErrors[leaf] = static_cast<float>(view.errorOverEdge(node.place, fields.facts));
+    }
+  }
+  const RayFindings findings = lookAlongRays<Real>(
+    { grid_, finder(), leaves_.data(), differences.data(), errors.data(), samples().data(),
+      gasDistances().data(), gradients(), ofFields.empty() ? nullptr : ofFields.data(),
+      ofFields.empty() ? nullptr : fieldErrors.data(), layout() },
+    work_.column, places, settings_.tolerance, least, settings_.threads);
+  work_.largest = findings.deflection;
+  work_.gathered = findings.gathered;
+  work_.error = findings.error;
+  work_.errorOfGathered = findings.errorOfGathered;
+  const auto nodeOf = [this](std::int32_t leaf)
+  { return static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)]); };
+  for (const std::int32_t leaf : findings.coarse)
+  {
+    nodes_[nodeOf(leaf)].isCoarse = true;
+  }
+  for (const std::int32_t leaf : findings.wrong)
+  {
+    nodes_[nodeOf(leaf)].isWrong = true;
+  }
+  for (const std::int32_t leaf : findings.coarseInFields)
+  {
+    nodeFields_[nodeOf(leaf)].isCoarse = true;
+  }
+  return findings;
+}
+
+template <class Real>
+void MediumTree<Real>::findBlockedLight()
+{
+  work_.blocked = BlockedLight(grid_, work_.column);
+  for (const std::int32_t at : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    if (node.kind == Leaf<Real>::Solid)
+    {
+      work_.blocked.add(indexBoxOf(node.place));
+    }
+  }
+  work_.blocked.finish();
+}
+
+/// What there is to do: leaves to be made, and leaves to be divided.
+template <class Real>
+std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const View& view) const
+{
+  std::vector<Task> tasks;
+  for (const std::int32_t n : leafNodes_)
+  {
+    const Node& node = nodes_[static_cast<std::size_t>(n)];
+    if (!view.sees(node.place) || (node.isKnown && view.isDark(node.place)))
+    {
+      continue;
+    }
+    const NodeFields fields = fieldsOf(n);
+    if (!node.isKnown || view.lacks(node, fields))
+    {
+      tasks.push_back({ n, false, std::numeric_limits<double>::infinity() });
+    }
+    else if (const double urgency = view.urgencyOf(node, fields.facts); urgency > 0)
+    {
+      tasks.push_back({ n, true, urgency });
+    }
+  }
+  return tasks;
+}
+
+/// Bytes that a task takes at most.
+template <class Real>
+std::size_t MediumTree<Real>::costOf(const Task& task) const
+{
+  const Node& node = nodes_[static_cast<std::size_t>(task.node)];
+  const std::size_t ofOne = samples_.bytesOfBrick() +
+    (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0) +
+    (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
+  if (node.place.level < -1)
+  {
+    return parts() * (sizeof(Node) + sizeof(Leaf<Real>));
+  }
+  return task.divides ? parts() * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
+}
+
+/// Finds the tasks of the next round: those that memory suffices for. Returns whether it has thrown something away
+/// for them.
+template <class Real>
+bool MediumTree<Real>::plan(const View& view)
+{
+  bool hasThrownAway = false;
+  for (;;)
+  {
+    work_.tasks = tasksOf(view);
+    work_.tasksDone = 0;
+    ++work_.rounds;
+    const std::size_t used = bytesUsed();
+    const std::size_t available = settings_.memory > used ? settings_.memory - used : 0;
+    std::size_t cost = 0, costOfNew = 0;
+    for (const Task& task : work_.tasks)
+    {
+      cost += costOf(task);
+      costOfNew += task.divides ? 0 : costOf(task);
+    }
+    if (cost <= available)
+    {
+      return hasThrownAway;
+    }
+    const bool mayGo = unneeded_ == Unneeded::Goes;
+    const bool wouldBeginAnew = work_.hasForgotten && costOfNew > available && !work_.hasBegunAnew;
+    if (!mayGo && (wouldBeginAnew || (!work_.hasForgotten && hasUnneeded(view))))
+    {
+      lacksRoom_ = true;
+      work_.tasks.clear();
+      return hasThrownAway;
+    }
+    if (!work_.hasForgotten)
+    {
+      work_.hasForgotten = true;
+      hasThrownAway = forgetUnneeded(view) || hasThrownAway;
+    }
+    else if (wouldBeginAnew)
+    {
+      work_.hasBegunAnew = true;
+      hasThrownAway = true;
+      makeRoots();
+    }
+    else
+    {
+      chooseWhatFits(available);
+      return hasThrownAway;
+    }
+    numberLeaves();
+  }
+}
+
+/// Where memory is short: the worst leaves first, and only half of what fits, as what comes of them may be worse
+/// than the others. Of the reserve, which is left in the end, only what is.
+template <class Real>
+void MediumTree<Real>::chooseWhatFits(std::size_t available)
+{
+  work_.isMemoryShort = true;
+  std::vector<Task>& tasks = work_.tasks;
+  const auto levelOf = [&](const Task& task)
+  { return nodes_[static_cast<std::size_t>(task.node)].place.level; };
+  std::stable_sort(tasks.begin(), tasks.end(),
+    [&](const Task& a, const Task& b)
+    { return a.urgency != b.urgency ? a.urgency > b.urgency : levelOf(a) < levelOf(b); });
+  const std::size_t reserve = settings_.memory / partsOfReserve;
+  std::size_t fitting = 0, cost = 0;
+  for (bool fits = true; fits && fitting < tasks.size(); fitting += fits ? 1 : 0)
+  {
+    const Task& task = tasks[fitting];
+    cost += costOf(task);
+    if (!task.divides)
+    {
+      fits = cost <= available || levelOf(task) <= 0; // there must be something
+      continue;
+    }
+    const bool isWorse = task.urgency > 2 * work_.leastUrgent;
+    const std::size_t left = isWorse ? available : available - std::min(available, reserve);
+    fits = cost <= (fitting == 0 ? left : left / 2);
+    work_.leastUrgent = fits ? std::min(work_.leastUrgent, task.urgency) : work_.leastUrgent;
+  }
+  tasks.resize(fitting);
+}
+
+/// The bricks that the next tasks are about.
+template <class Real>
+void MediumTree<Real>::findBricks(const View& view)
+{
+  work_.bricksDone = 0;
+  work_.tasksBegun = work_.tasksDone;
+  std::vector<BrickRequest> requests;
+  work_.boxes.clear();
+  const BrickMakers* const makers = source_->makers();
+  const std::size_t atOnce = makers
+    ? std::min(bricksAtOnce, bricksOfMaker * static_cast<std::size_t>(makers->count()))
+    : bricksAtOnce;
+  while (work_.tasksBegun < work_.tasks.size() && requests.size() < atOnce)
+  {
+    const Task& task = work_.tasks[work_.tasksBegun++];
+    const Node& node = nodes_[static_cast<std::size_t>(task.node)];
+    const NodePlace& place = node.place;
+    const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node), task.divides);
+    for (std::int32_t child = 0; child < (task.divides ? parts() : 1); ++child)
+    {
+      const NodePlace ofOne = task.divides ? childOf(place, child) : place;
+      if (!task.divides || view.sees(ofOne))
+      {
+        requests.push_back({ ofOne, negligible });
+        work_.boxes.push_back(task.divides ? task.node : -1);
+      }
+    }
+  }
+  work_.bricks = maker_.makeTogether(requests);
+  work_.areMade = !work_.bricks.empty();
+  work_.bricks.resize(requests.size());
+  work_.requests = std::move(requests);
+}
+
+/// A brick with what is wrong with it, also what comparison with the box shows that it is a part of.
+template <class Real>
+void MediumTree<Real>::makeBrick(std::size_t request)
+{
+  const auto& [place, negligible] = work_.requests[request];
+  Brick<Real>& brick = work_.bricks[request];
+  if (!work_.areMade)
+  {
+    brick = maker_.make(place, negligible);
+  }
+  if (apron() != 1)
+  {
+    return;
+  }
+  std::array<double, 3> changes{};
+  const bool isPart = work_.boxes[request] >= 0;
+  if (isPart)
+  {
+    const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
+    const Real* samples = samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
+    changes = changesOf(
+      brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double& error = brick.facts.error[axis];
+    if (isPart && brick.facts.canImprove[axis])
+    {
+      error = std::max(error, errorByChange * changes[axis]);
+    }
+    else if (!isPart && place.level == 0)
+    {
+      error *= errorByCells;
+    }
+  }
+}
+
+/// Puts bricks that are made into the tree.
+template <class Real>
+void MediumTree<Real>::keepBricks(const View& view)
+{
+  auto next = work_.bricks.begin();
+  for (; work_.tasksDone < work_.tasksBegun; ++work_.tasksDone)
+  {
+    const Task& task = work_.tasks[work_.tasksDone];
+    forget(task.node);
+    if (!task.divides)
+    {
+      keep(task.node, *next++);
+      continue;
+    }
+    const auto firstChild = static_cast<std::int32_t>(nodes_.size());
+    const auto at = static_cast<std::size_t>(task.node);
+    nodes_[at].children = firstChild;
+    const NodePlace place = nodes_[at].place;
+    for (std::int32_t child = 0; child < parts(); ++child)
+    {
+      addNode(childOf(place, child));
+      if (view.sees(nodes_.back().place))
+      {
+        keep(firstChild + child, *next++);
+      }
+    }
+  }
+  work_.requests.clear();
+  work_.bricks.clear();
+}
+
+/// Works off the tasks of this round. Returns false where the monitor says stop.
+template <class Real>
+bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
+{
+  while (work_.tasksDone < work_.tasks.size())
+  {
+    if (work_.requests.empty())
+    {
+      findBricks(view);
+    }
+    const auto count = static_cast<std::int64_t>(work_.requests.size());
+    Monitor ofThese{ {}, monitor.aborted, monitor.paused };
+    if (monitor.progress)
+    {
+      ofThese.progress = [&](double fraction)
+      {
+        const double done = static_cast<double>(work_.tasksDone) +
+          fraction * static_cast<double>(work_.tasksBegun - work_.tasksDone);
+        work_.progress =
+          std::max(work_.progress, view.progressAt(done / static_cast<double>(work_.tasks.size())));
+        monitor.progress(work_.progress);
+      };
+    }
+    work_.bricksDone = parallelFrom(
+      work_.bricksDone, count, 1, settings_.threads,
+      [&](std::int64_t first, std::int64_t last)
+      {
+        for (std::int64_t n = first; n < last; ++n)
+        {
+          makeBrick(static_cast<std::size_t>(n));
+        }
+      },
+      ofThese);
+    if (work_.bricksDone < count)
+    {
+      return false;
+    }
+    keepBricks(view);
+    if ((monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused()))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template bool MediumTree<float>::refine(const Column&, const Monitor&, Unneeded);
+template bool MediumTree<double>::refine(const Column&, const Monitor&, Unneeded);
+
+} // namespace schlieren

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Rays/March/RayTask.h"
+#include "Rays/Tiles.h"
+#include "Rays/TracedPass.h"
+
+namespace schlieren
+{
+
+/// Which instructions trace rays side by side.
+enum class Simd
+{
+  None, ///< one ray at a time
+  Four, ///< what every processor of the architecture has (x86-64: SSE2)
+  Avx2,
+  Avx512,    ///< whose samples are gathered
+  Avx512Rows ///< whose samples are read by rows, for processors with slow gathers
+};
+
+/// Whether this processor has them, and the program was compiled for them (SCHLIEREN_SIMD).
+bool hasSimd(Simd simd);
+
+/// The best ones that it has.
+Simd bestSimd();
+
+/// Of these instructions, those that a kernel has packs for. The paper's methods, with which its images can be
+/// reproduced, have packs of four alone: wider ones would take a quarter of the tracer's compile time.
+Simd packsFor(const KernelChoice& kernel, Simd simd);
+
+/// Traces a pass on the CPU into `traced`, which has its size, or resumes it. Returns false if aborted or
+/// paused; the same call then does the rest. `simd` must be one that the processor has.
+template <class Real>
+bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
+  const Monitor& monitor, Simd simd = bestSimd());
+
+/// Traces tiles of a pass until the monitor stops it. Adds to what `traced` counts. Returns how many are done: the first
+/// ones.
+template <class Real>
+std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles& tiles,
+  TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
+
+} // namespace schlieren

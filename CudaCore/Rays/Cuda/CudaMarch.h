@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Rays/March/RayTask.h"
+
+#include <cuda_runtime.h>
+
+#include <cstdint>
+
+namespace schlieren
+{
+
+// A warp traces the rays of 8 x 4 pixels, a block those of 16 x 8: near each other, they look at the same
+// part of the medium.
+constexpr int warpColumns = 8, warpRows = 4;
+constexpr int warpsAlong = 2, warpsUp = 2;
+constexpr int blockColumns = warpsAlong * warpColumns;
+constexpr int blockRows = warpsUp * warpRows;
+constexpr int threadsPerWarp = 32;
+constexpr int threadsPerBlock = warpsAlong * warpsUp * threadsPerWarp;
+static_assert(warpColumns * warpRows == threadsPerWarp);
+
+/// Of all rays of a pass.
+struct MarchTotals
+{
+  long long worstDrift; ///< as the bits of a double, which grow with it
+  unsigned long long crossed;
+};
+
+/// Some rows of a pass, from `firstRow` on. `gathered`: the sums of each ray's fields; null where they are not wanted.
+/// All pointers are to the device's memory.
+struct MarchedRows
+{
+  Pass pass;
+  std::int64_t firstRow;
+  RayExit* exits;
+  float* gathered;
+  MarchTotals* totals;
+};
+
+/// Starts the kernel of the task, with all that it points to on the device. CudaMarch*.cu instantiate it for one scheme
+/// each, those that take longest for one precision, so that they can be compiled at the same time.
+template <class Scheme, class Real>
+void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedRows& rows,
+  const dim3& blocks, cudaStream_t stream);
+
+} // namespace schlieren

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Included by each of the CudaMarch*.cu.
+#include "Rays/Cuda/CudaMarch.h"
+
+#include "Device/CudaLaunch.h"
+#include "Rays/March/Kernels.h"
+#include "Rays/March/OneRay.h"
+
+#include <type_traits>
+
+namespace schlieren
+{
+
+/// So many blocks at the same time on a multiprocessor: in single precision their rays' state then takes 96 registers
+/// of a thread. Kernels that sample at several places in a step would have to keep it in memory.
+template <class Kernel, class Real>
+constexpr int blocksAtATime = sizeof(Real) == sizeof(float) && !Kernel::Integrator::samplesBeyond
+  ? 5
+  : 1;
+
+/// The pixel of a thread, of those from a row on.
+struct PixelOfThread
+{
+  std::int64_t column, row;
+
+  __device__ explicit PixelOfThread(std::int64_t firstRow)
+  {
+    const int warp = static_cast<int>(threadIdx.x) / threadsPerWarp;
+    const int lane = static_cast<int>(threadIdx.x) % threadsPerWarp;
+    column = std::int64_t{ blockIdx.x } * blockColumns + warp % warpsAlong * warpColumns +
+      lane % warpColumns;
+    row = firstRow + std::int64_t{ blockIdx.y } * blockRows + warp / warpsAlong * warpRows +
+      lane / warpColumns;
+  }
+};
+
+/// All threads of a block come here. Adds to a sum how many of them are counted.
+__device__ inline void addCount(bool isCounted, unsigned long long* sum)
+{
+  const int count = __syncthreads_count(isCounted ? 1 : 0);
+  if (threadIdx.x == 0 && count > 0)
+  {
+    atomicAdd(sum, static_cast<unsigned long long>(count));
+  }
+}
+
+/// All threads of a warp come here.
+__device__ inline void addDrift(double worstDrift, long long* worst)
+{
+  for (int lanes = threadsPerWarp / 2; lanes > 0; lanes /= 2)
+  {
+    constexpr unsigned all = 0xffffffff;
+    worstDrift = fmax(worstDrift, __shfl_down_sync(all, worstDrift, lanes));
+  }
+  if (threadIdx.x % threadsPerWarp == 0 && worstDrift > 0)
+  {
+    atomicMax(worst, __double_as_longlong(worstDrift));
+  }
+}
+
+/// All threads of a block come to its end. The task stays where parameters are: a copy would be in local memory.
+template <class Kernel, class May, class Real>
+__global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>)
+  traceKernel(const __grid_constant__ RayTask<Real> task, const __grid_constant__ MarchedRows rows)
+{
+  const PixelOfThread pixel(rows.firstRow);
+  bool hasCrossed = false;
+  double worstDrift = 0;
+  if (pixel.column < rows.pass.columns && pixel.row < rows.pass.rows)
+  {
+    const std::int64_t ray = pixel.row * rows.pass.columns + pixel.column;
+    float* sums = nullptr;
+    if constexpr (May::fieldsToGather)
+    {
+      sums = rows.gathered + ray * task.gradients.count;
+      for (int field = 0; field < task.gradients.count; ++field)
+      {
+        sums[field] = 0;
+      }
+    }
+    Real drift = 0;
+    const RayExit exit = traceRay<Kernel, May>(task, rows.pass, ray, sums, drift);
+    rows.exits[ray] = exit;
+    hasCrossed = exit.fate != RayFate::Missed;
+    worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN
+  }
+  addCount(hasCrossed, &rows.totals->crossed);
+  addDrift(worstDrift, &rows.totals->worstDrift);
+}
+
+template <class Scheme, class Real>
+void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedRows& rows,
+  const dim3& blocks, cudaStream_t stream)
+{
+  visitKernelOf<Scheme>(task.kernel,
+    [&](auto kind)
+    {
+      const auto start = [&](auto gathering)
+      {
+        using Kind = decltype(kind);
+        constexpr bool fields = decltype(gathering)::value;
+        launchKernel(task.medium.leaves != nullptr
+            ? traceKernel<Kind, MayMeet<false, true, fields>, Real>
+            : traceKernel<Kind, MayMeet<true, false, fields>, Real>,
+          blocks, threadsPerBlock, 0, stream, task, rows);
+      };
+      gathers ? start(std::true_type{}) : start(std::false_type{});
+    });
+}
+
+} // namespace schlieren

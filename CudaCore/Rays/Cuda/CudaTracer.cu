@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rays/Cuda/CudaTracer.h"
+
+#include "Device/CudaDevice.h"
+#include "Rays/Cuda/CudaMarch.h"
+#include "Rays/Cuda/CudaTracerMemory.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <type_traits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Blocks for so many rows of a pass.
+dim3 blocksOf(const Pass& pass, std::int64_t rows)
+{
+  return { static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
+    static_cast<unsigned>((rows + blockRows - 1) / blockRows) };
+}
+
+/// How many rows of blocks a launch should have.
+std::int64_t blockRowsOf(const Pass& pass, const LaunchPace& pace)
+{
+  constexpr std::int64_t most = 65535; // along a grid's second axis
+  return std::clamp<std::int64_t>(pace.rays() / pass.columns / blockRows, 1, most);
+}
+
+void addTotals(const MarchTotals& totals, TracedPass& traced)
+{
+  double worstDrift = 0;
+  std::memcpy(&worstDrift, &totals.worstDrift, sizeof(worstDrift));
+  traced.crossed += static_cast<std::int64_t>(totals.crossed);
+  traced.worstDrift = std::max(traced.worstDrift, worstDrift);
+}
+
+} // namespace
+
+template <class Real>
+MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
+{
+  const auto arrayOf = [](const auto& values)
+  {
+    using T = std::decay_t<decltype(values[0])>;
+    return Array<T>{ values.data(), values.size() };
+  };
+  MediumArrays arrays;
+  arrays.view = medium.view();
+  arrays.solid = arrayOf(medium.solid);
+  if (!medium.tree)
+  {
+    arrays.samples = arrayOf(medium.volume.samples);
+    return arrays;
+  }
+  const MediumTree<Real>& tree = *medium.tree;
+  arrays.samples = arrayOf(tree.samples());
+  arrays.leaves = arrayOf(tree.leaves());
+  arrays.roots = arrayOf(tree.roots());
+  arrays.children = arrayOf(tree.children());
+  arrays.gasDistances = arrayOf(tree.gasDistances());
+  if (const FieldGradientsView ofFields = tree.gradients(); ofFields.count > 0)
+  {
+    arrays.gradients = arrayOf(tree.gradientValues());
+    arrays.gradientBricks = arrayOf(tree.gradientBricks());
+    arrays.firstGradient = ofFields.values - arrays.gradients.first;
+  }
+  return arrays;
+}
+
+template <class Real>
+CudaTracer<Real>::CudaTracer(const Medium<Real>& medium)
+  : CudaTracer(MediumArrays<Real>::of(medium))
+{
+}
+
+template <class Real>
+CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium)
+  : memory_(std::make_unique<DeviceMemory>(medium))
+{
+}
+
+template <class Real>
+CudaTracer<Real>::~CudaTracer() = default;
+
+template <class Real>
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
+  const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
+{
+  begin(task, pass, exits, traced);
+  const bool isTraced =
+    traceBands(task, pass, versions, exits, { 0, bandsOf(pass) }, traced, monitor);
+  if (exits == Exits::OnHost)
+  {
+    traced.onDevice.reset();
+  }
+  return isTraced;
+}
+
+template <class Real>
+void CudaTracer<Real>::begin(
+  const RayTask<Real>& task, const Pass& pass, Exits exits, TracedPass& traced) const
+{
+  checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again
+  if (!there || there->size() != rays)
+  {
+    there.reset();
+    there = std::make_unique<CudaPass>(rays);
+  }
+  if (exits == Exits::OnHost)
+  {
+    traced.resize(pass, task.gradients.count);
+    traced.crossed = 0;
+    traced.worstDrift = 0;
+  }
+  else
+  {
+    traced = {};
+  }
+  traced.onDevice = std::move(there);
+}
+
+template <class Real>
+bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
+  const TaskVersions& versions, Exits exits, const Tiles& bands, TracedPass& traced,
+  const Monitor& monitor)
+{
+  static_assert(bandRows == blockRows);
+  const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
+  const RayTask<Real> onDevice = memory_->upload(task, versions);
+  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  const CudaPass* there = traced.onDevice.get();
+  const std::size_t sums = rays * static_cast<std::size_t>(fields);
+  const std::unique_ptr<CudaBuffer<float>> gathered =
+    fields > 0 ? std::make_unique<CudaBuffer<float>>(sums) : nullptr;
+  memory_->clearTotals();
+  memory_->findPace(task, fields);
+
+  /// Some rows, traced in a lane.
+  struct Launch
+  {
+    typename DeviceMemory::Lane* lane;
+    std::int64_t firstRow, rows;
+  };
+  std::int64_t nextBand = bands.first;
+  /// Of the next bands, if there are any.
+  const auto launch = [&](std::int64_t number) -> std::optional<Launch>
+  {
+    if (nextBand >= bands.end)
+    {
+      return {};
+    }
+    const std::int64_t firstRow = nextBand * bandRows;
+    nextBand = std::min(bands.end, nextBand + blockRowsOf(pass, *memory_->pace));
+    const std::int64_t rows = std::min(pass.rows, nextBand * bandRows) - firstRow;
+    auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
+    lane.begin.record(lane.stream);
+    visitScheme(task.kernel.interpolation,
+      [&](auto scheme)
+      {
+        launchMarch<decltype(scheme)>(onDevice, fields > 0,
+          { pass, firstRow, there->exits(), gathered ? gathered->data() : nullptr,
+            lane.totals.data() },
+          blocksOf(pass, rows), lane.stream.get());
+      });
+    checkCuda(cudaGetLastError(), "Starting the ray kernel");
+    lane.end.record(lane.stream);
+    return { { &lane, firstRow, rows } };
+  };
+  /// Waits for the launch.
+  const auto fetch = [&](const Launch& launched)
+  {
+    auto& lane = *launched.lane;
+    const auto count = static_cast<std::size_t>(launched.rows * pass.columns);
+    if (exits == Exits::OnHost)
+    {
+      const auto first = static_cast<std::size_t>(launched.firstRow * pass.columns);
+      copyRays(traced.exits.data() + first, there->exits() + first, count, lane.stream);
+      if (fields > 0)
+      {
+        const auto perRay = static_cast<std::size_t>(fields);
+        copyRays(traced.gathered.data() + first * perRay, gathered->data() + first * perRay,
+          count * perRay, lane.stream);
+      }
+    }
+    const auto crossed = static_cast<std::int64_t>(lane.fetchTotals().crossed);
+    memory_->pace->add(static_cast<std::int64_t>(count), crossed - lane.crossed,
+      CudaEvent::secondsBetween(lane.begin, lane.end));
+    lane.crossed = crossed;
+  };
+
+  std::int64_t launches = 0;
+  std::optional<Launch> current = launch(launches++);
+  while (current)
+  {
+    const std::optional<Launch> next = launch(launches++); // runs while this one's rays are copied
+    fetch(*current);
+    if (monitor.progress)
+    {
+      const std::int64_t toCome =
+        std::min(pass.rows, bands.end * bandRows) - current->firstRow - current->rows;
+      monitor.progress(1 - static_cast<double>(toCome) / static_cast<double>(pass.rows));
+    }
+    if (monitor.aborted && monitor.aborted())
+    {
+      for (const auto& lane : memory_->lanes)
+      {
+        lane.stream.wait("Tracing rays"); // which would write to what comes next
+      }
+      return false;
+    }
+    current = next;
+  }
+  for (const auto& lane : memory_->lanes)
+  {
+    addTotals(lane.fetchTotals(), traced);
+  }
+  return true;
+}
+
+template class CudaTracer<float>;
+template class CudaTracer<double>;
+
+} // namespace schlieren

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rays/March/MakeTask.h"
+
+#include "Rays/March/DisplacementBound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Index coordinates that steps are to be measured in, by the light's unit of length. Where nothing depends on z, only
+/// the bending of rays needs steps along it: by one of d, leapfrog takes a ray's deflection wrong by
+/// d^2 |nu''| / 6, which shall be a thousandth. |nu''| is no more than twice the steepest gradient by a smallest voxel.
+template <class Real>
+Vec3<double> scaleOfSteps(const Medium<Real>& medium, const Light& light, PathModel path)
+{
+  Vec3<double> scale = light.indexScale;
+  if (medium.tree == nullptr || medium.tree->shape() == BrickShape::Cube)
+  {
+    return scale;
+  }
+  const double perVoxel = std::max(scale.x, scale.y);
+  const double finest = std::exp2(medium.tree->statistics().finestLevel);
+  constexpr double allowed = 1e-3;
+  const double steepest = std::max(medium.slope.x, medium.slope.y) / finest; // nu by voxel
+  const double voxelsAlong = std::sqrt(6 * allowed / (2 * steepest));
+  scale.z = path == PathModel::Straight ? 0 : perVoxel / std::max(1., voxelsAlong);
+  return scale;
+}
+
+} // namespace
+
+template <class Real>
+RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
+  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings)
+{
+  RayTask<Real> task{};
+  task.medium = medium.view();
+  if (map != nullptr)
+  {
+    task.map = map->view();
+  }
+  if (gradients.count > 0)
+  {
+    task.gradients = gradients;
+  }
+  task.light = light;
+  task.indexScale = static_cast<Vec3<Real>>(light.indexScale);
+  // Beside solids no longer than a voxel, or rays would step through thin ones.
+  const double voxels =
+    task.medium.solid == nullptr ? settings.stepVoxels : std::min(settings.stepVoxels, 1.);
+  const double finest = medium.tree ? std::exp2(medium.tree->statistics().finestLevel) : 1;
+  // No longer than it takes to be through all of it with one step, whatever rounding does.
+  const double fastest = std::max(light.fastest(scaleOfSteps(medium, light, settings.kernel.path)),
+    std::min(settings.stepVoxels, 1.) / (2 * finest * light.depth));
+  const double step = voxels / fastest;
+  task.step = static_cast<Real>(step);
+  task.stepAtEdge = static_cast<Real>(std::min(settings.stepVoxels, 1.) / fastest);
+  constexpr double stepsAhead = 4;
+  const auto ahead = [&](double along, double scale)
+  { return std::llround(stepsAhead * step * along * scale); };
+  task.medium.ahead = ahead(light.w.z, light.indexScale.z) * task.medium.planeStride +
+    ahead(light.w.y, light.indexScale.y) * task.medium.rowStride +
+    ahead(light.w.x, light.indexScale.x);
+  const double bend = boundBySteepest(medium, light).bend;
+  const double largestQ =
+    largestKickAtEntry(medium.largestNu, light) + (std::isfinite(bend) ? bend : 2);
+  constexpr double margin = 1.01; // for the integrator's error
+  task.largestQ = static_cast<Real>(margin * largestQ);
+  const double straightSteps =
+    std::ceil(light.depth / light.smallestCosine() / task.stepAtEdge * finest) + 1;
+  constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();
+  // Where n is small, a step leads less far; and an adaptive one may have to be much shorter.
+  constexpr double smallestIndex = 1e-3;
+  const double slow = medium.largestNu < 1 ? 1 / std::max(1 - medium.largestNu, smallestIndex) : 1;
+  const double shorter = settings.kernel.integrator == Integrator::Adaptive ? adaptiveFactor : 1;
+  task.stepLimit = static_cast<std::int32_t>(
+    std::min(trappedFactor * straightSteps * slow * shorter, largestLimit));
+  task.metresPerUnit = (1 + medium.ambient) * settings.lengthScale * light.unit;
+  task.kernel = settings.kernel;
+  // By what the steepest gradient would bend a ray over the same length, and no less than what rounding makes.
+  const double steepest = length(scaled(medium.slope, light.indexScale));
+  const double rounding =
+    16 * medium.largestNu * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  const double allowed =
+    std::max(settings.adaptiveTolerance * (steepest > 0 ? steepest : 1), rounding);
+  task.allowedBend = static_cast<Real>(allowed);
+  task.allowedOffset = static_cast<Real>(allowed * light.depth);
+  return task;
+}
+
+template RayTask<float> makeTask(const Medium<float>&, const HomogeneityMap<float>*,
+  const FieldGradientsView&, const Light&, const RaySettings&);
+template RayTask<double> makeTask(const Medium<double>&, const HomogeneityMap<double>*,
+  const FieldGradientsView&, const Light&, const RaySettings&);
+
+} // namespace schlieren

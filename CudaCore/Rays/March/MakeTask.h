@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Medium/Medium.h"
+#include "Rays/March/RayTask.h"
+
+#include <cstdint>
+
+namespace schlieren
+{
+
+/// A ray that has taken this many times the steps of a straight one is trapped.
+constexpr int trappedFactor = 8;
+
+/// An adaptive ray may take this many times more: where the gradient has kinks its steps are short.
+constexpr int adaptiveFactor = 64;
+
+/// What of a scene matters to rays.
+struct RaySettings
+{
+  KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
+  double stepVoxels = 1;
+  double adaptiveTolerance = 1e-5;
+  double lengthScale = 1; ///< metres per data unit
+};
+
+/// `map`: null where nothing is to be skipped. Both stay the caller's.
+template <class Real>
+RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
+  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
+
+/// What of a task is sent elsewhere again only when this changes; the medium apart.
+struct TaskVersions
+{
+  std::uint64_t gradients;     ///< of FieldGradients
+  double homogeneityTolerance; ///< that the map was made for
+};
+
+} // namespace schlieren

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rays/Ranks/ProcessTracer.h"
+
+#include "Device/CudaDevice.h"
+#include "Device/Parallel.h"
+#include "Rays/Ranks/RayMessages.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// For how long processes trace before the first one looks whether it is to stop.
+constexpr double secondsAtOnce = 0.05;
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool isToStop(const Monitor& monitor)
+{
+  return (monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused());
+}
+
+/// Adds what an answer counts. Throws Error where the answer has not that many rays.
+RaysHead headOf(const std::vector<char>& answer, std::size_t rays, TracedPass& traced)
+{
+  RaysHead head;
+  if (!read(answer, head) ||
+    answer.size() != sizeof(head) + rays * (sizeof(RayExit) + head.fields * sizeof(float)))
+  {
+    throw Error("A process has sent other rays than were requested.");
+  }
+  traced.crossed += head.crossed;
+  traced.worstDrift = std::max(traced.worstDrift, head.worstDrift);
+  return head;
+}
+
+/// Puts the rays of a process's tiles into their places.
+void putTiles(
+  const std::vector<char>& answer, const Pass& pass, const Tiles& tiles, TracedPass& traced)
+{
+  const std::size_t rays = raysOf(pass, tiles);
+  const RaysHead head = headOf(answer, rays, traced);
+  const char* exits = answer.data() + sizeof(head);
+  const char* gathered = exits + rays * sizeof(RayExit);
+  forRowsOf(pass, tiles,
+    [&](std::size_t first, std::size_t count)
+    {
+      std::memcpy(traced.exits.data() + first, exits, count * sizeof(RayExit));
+      exits += count * sizeof(RayExit);
+      if (head.fields > 0)
+      {
+        const std::size_t bytes = count * head.fields * sizeof(float);
+        std::memcpy(traced.gathered.data() + first * head.fields, gathered, bytes);
+        gathered += bytes;
+      }
+    });
+}
+
+/// The same of bands, whose rays are consecutive.
+void putBands(const std::vector<char>& answer, const Pass& pass, const Tiles& bands,
+  bool isWantedOnHost, TracedPass& traced)
+{
+  const Pass ofBands = passOfBands(pass, bands);
+  const std::size_t rays = raysOf(ofBands);
+  if (rays == 0)
+  {
+    return;
+  }
+  const RaysHead head = headOf(answer, rays, traced);
+  const char* exits = answer.data() + sizeof(head);
+  const auto first = static_cast<std::size_t>(bands.first * bandRows * pass.columns);
+  if (!isWantedOnHost)
+  {
+    traced.onDevice->put(first, exits, rays);
+    return;
+  }
+  std::memcpy(traced.exits.data() + first, exits, rays * sizeof(RayExit));
+  if (head.fields > 0)
+  {
+    std::memcpy(traced.gathered.data() + first * head.fields, exits + rays * sizeof(RayExit),
+      rays * head.fields * sizeof(float));
+  }
+}
+
+} // namespace
+
+template <class Real>
+struct ProcessTracer<Real>::State
+{
+  /// What a task's pointers point into.
+  struct ArrayOfTask
+  {
+    const void* first = nullptr;
+    std::size_t bytes = 0;
+    std::uint64_t version = 0;
+  };
+  std::array<ArrayOfTask, arraysOfTask> arrays;
+  TaskVersions versions{ 0, -1 };
+  bool hasFieldsOfTree = false;
+
+  static std::uint64_t newVersion()
+  {
+    static std::atomic<std::uint64_t> last{ 0 };
+    return ++last;
+  }
+
+  template <class Value>
+  void set(std::size_t number, const Value* first, std::size_t count)
+  {
+    ArrayOfTask& array = arrays[number];
+    array = { first, count * sizeof(Value), array.version > 0 ? array.version : newVersion() };
+  }
+  template <class Values>
+  void set(std::size_t number, const Values& values)
+  {
+    set(number, values.data(), values.size());
+  }
+
+  /// Finds the arrays of the medium, which has not changed, but where they are may have.
+  void locate(const Medium<Real>& medium)
+  {
+    if (!medium.tree)
+    {
+      set(0, medium.volume.samples);
+      set(1, medium.solid);
+    }
+    else
+    {
+      set(0, medium.tree->samples());
+      set(2, medium.tree->leaves());
+      set(3, medium.tree->roots());
+      set(4, medium.tree->children());
+      set(5, medium.tree->gasDistances());
+      set(7, medium.tree->gradientValues());
+      set(8, medium.tree->gradientBricks());
+    }
+    hasFieldsOfTree = medium.tree != nullptr;
+  }
+
+  /// Finds the arrays of a task that are not the medium's: each bench that uses the medium has its own gradients.
+  void update(const RayTask<Real>& task, const TaskVersions& now)
+  {
+    if (task.map.levels != nullptr && versions.homogeneityTolerance != now.homogeneityTolerance)
+    {
+      const std::int64_t* bricks = task.map.bricks;
+      arrays[6].version = 0;
+      set(6, task.map.levels, static_cast<std::size_t>(bricks[0] * bricks[1] * bricks[2]));
+      versions.homogeneityTolerance = now.homogeneityTolerance;
+    }
+    const FieldGradientsView& fields = task.gradients;
+    if (!hasFieldsOfTree && fields.count > 0 &&
+      (arrays[7].first != fields.values || versions.gradients != now.gradients))
+    {
+      arrays[7].version = 0;
+      set(7, fields.values,
+        static_cast<std::size_t>(fields.count * fields.planeStride * (fields.lastCell[2] + 2)));
+      versions.gradients = now.gradients;
+    }
+  }
+
+  /// What processes are to do, but for the tiles.
+  TraceMessage<Real> requestFor(const Medium<Real>& medium, const RayTask<Real>& task,
+    const Pass& pass, const TaskVersions& now, Device device)
+  {
+    locate(medium);
+    update(task, now);
+    TraceMessage<Real> message;
+    message.device = device;
+    message.simd = bestSimd();
+    message.pass = pass;
+    message.task = task;
+    forArrays(message.task,
+      [&](std::size_t n, auto*& pointer)
+      {
+        using Value = std::remove_reference_t<decltype(*pointer)>;
+        message.offsets[n] =
+          pointer != nullptr ? pointer - static_cast<Value*>(arrays[n].first) : nowhere;
+        message.versions[n] = arrays[n].version;
+        pointer = nullptr;
+      });
+    return message;
+  }
+
+  /// Sends the arrays of the request's task that the others have not got.
+  void sendArrays(Processes& processes, const TraceMessage<Real>& request)
+  {
+    for (std::size_t n = 0; n < arraysOfTask; ++n)
+    {
+      const ArrayOfTask& array = arrays[n];
+      std::uint64_t& sent = processes.ofRays().arrays[n];
+      if (request.offsets[n] != nowhere && sent != array.version)
+      {
+        sent = 0; // where sending fails
+        sendPieces({ RayWorker::Array, static_cast<std::uint32_t>(n), array.version }, array.first,
+          array.bytes, [&](const std::vector<char>& piece) { processes.request(piece, {}); });
+        sent = array.version;
+      }
+    }
+  }
+};
+
+template <class Real>
+ProcessTracer<Real>::ProcessTracer(const Medium<Real>& medium)
+  : medium_(medium)
+  , state_(std::make_unique<State>())
+{
+}
+
+template <class Real>
+ProcessTracer<Real>::~ProcessTracer() = default;
+
+template <class Real>
+bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
+  const TaskVersions& versions, Processes& others, TracedPass& traced, int threads,
+  const Monitor& monitor)
+{
+  TraceMessage<Real> request = state_->requestFor(medium_, task, pass, versions, Device::Cpu);
+  state_->sendArrays(others, request);
+  const std::int64_t all = tilesOf(pass), processes = others.others() + 1;
+  const std::int64_t least = 4 * threadCount(threads) * processes;
+  double& secondsPerTile = others.ofRays().secondsPerTile;
+  traced.begin();
+  while (traced.tilesDone < all)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    const double wanted =
+      secondsPerTile > 0 ? std::min(static_cast<double>(all), secondsAtOnce / secondsPerTile) : 0;
+    request.first = traced.tilesDone;
+    request.end = std::min(all, request.first + std::max(least, static_cast<std::int64_t>(wanted)));
+    const auto tilesOf = [&](std::int64_t process)
+    { return tilesOfProcess(request.first, request.end, process, processes); };
+    const auto answers = others.request(messageOf(request),
+      [&] { traceTiles(task, pass, tilesOf(0), traced, threads, {}, request.simd); });
+    for (std::size_t n = 0; n < answers.size(); ++n)
+    {
+      putTiles(answers[n], pass, tilesOf(static_cast<std::int64_t>(n) + 1), traced);
+    }
+    traced.tilesDone = request.end;
+    secondsPerTile = secondsSince(start) / static_cast<double>(request.end - request.first);
+    if (monitor.progress)
+    {
+      monitor.progress(static_cast<double>(traced.tilesDone) / static_cast<double>(all));
+    }
+    if (traced.tilesDone < all && isToStop(monitor))
+    {
+      return false;
+    }
+  }
+  traced.tilesDone = 0;
+  return true;
+}
+
+template <class Real>
+bool ProcessTracer<Real>::haveCuda(Processes& processes)
+{
+  std::optional<bool>& haveCuda = processes.ofRays().hasCuda;
+  if (!haveCuda)
+  {
+    const int own = cudaCapability();
+    const auto answers = processes.request(messageOf(std::uint32_t{ RayWorker::AskDevice }), {});
+    haveCuda = std::all_of(answers.begin(), answers.end(),
+      [own](const std::vector<char>& answer)
+      {
+        int other = 0;
+        return read(answer, other) && other == own;
+      });
+  }
+  return *haveCuda;
+}
+
+template <class Real>
+bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
+  const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Processes& others,
+  TracedPass& traced, const Monitor& monitor)
+{
+  constexpr std::int64_t raysAtOnce = std::int64_t{ 1 } << 21; // of each process
+  constexpr auto onHost = CudaTracer<Real>::Exits::OnHost;
+  TraceMessage<Real> request = state_->requestFor(medium_, task, pass, versions, Device::Cuda);
+  state_->sendArrays(others, request);
+  own.begin(task, pass, exits, traced);
+  const std::int64_t all = bandsOf(pass), processes = others.others() + 1;
+  const std::int64_t atOnce =
+    std::max<std::int64_t>(1, raysAtOnce * processes / (bandRows * pass.columns));
+  bool isTraced = true;
+  for (request.first = 0; request.first < all && isTraced; request.first = request.end)
+  {
+    request.end = std::min(all, request.first + atOnce);
+    const auto bandsOf = [&](std::int64_t process)
+    { return bandsOfProcess(request.first, request.end, process, processes); };
+    const auto answers = others.request(messageOf(request),
+      [&] { own.traceBands(task, pass, versions, exits, bandsOf(0), traced, {}); });
+    for (std::size_t n = 0; n < answers.size(); ++n)
+    {
+      putBands(
+        answers[n], pass, bandsOf(static_cast<std::int64_t>(n) + 1), exits == onHost, traced);
+    }
+    if (monitor.progress)
+    {
+      monitor.progress(static_cast<double>(request.end) / static_cast<double>(all));
+    }
+    isTraced = request.end == all || !(monitor.aborted && monitor.aborted());
+  }
+  if (exits == onHost)
+  {
+    traced.onDevice.reset();
+  }
+  return isTraced;
+}
+
+template class ProcessTracer<float>;
+template class ProcessTracer<double>;
+
+} // namespace schlieren

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Rays of one image traced by several processes: one has the medium and the image (ProcessTracer), the others have
+// RayWorkers. These get what rays need of the medium, as a GPU does, and send back what rays hand on: 40 bytes a ray, and
+// 4 for each field that it gathers. Whoever traces a tile, its rays are the same to the last bit.
+#pragma once
+
+#include "Medium/Medium.h"
+#include "Rays/Cuda/CudaTracer.h"
+#include "Rays/Ranks/Processes.h"
+
+#include <memory>
+
+namespace schlieren
+{
+
+/// Traces rays with the CPUs or the CUDA devices of this process and of others, never with both: they round differently.
+template <class Real>
+class ProcessTracer
+{
+public:
+  /// The medium must outlive it, and not change.
+  explicit ProcessTracer(const Medium<Real>& medium);
+  ~ProcessTracer();
+
+  /// As traceOnCpu().
+  bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
+    Processes& processes, TracedPass& traced, int threads, const Monitor& monitor);
+
+  /// Whether all processes have CUDA devices, of the same compute capability. Asks them once.
+  static bool haveCuda(Processes& processes);
+  /// Then: the same on these. `own` is this process's, with the medium.
+  bool traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
+    const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Processes& processes,
+    TracedPass& traced, const Monitor& monitor);
+
+private:
+  struct State;
+  const Medium<Real>& medium_;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace schlieren

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a ProcessTracer and the RayWorkers of other processes send each other.
+#pragma once
+
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/Cuda/CudaTracer.h"
+#include "Rays/Ranks/RayWorker.h"
+#include "Rays/Tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace schlieren
+{
+
+/// The arrays that a task points to.
+constexpr std::size_t arraysOfTask = 9;
+constexpr std::size_t samplesOfTask = 0;
+
+/// Calls visit(number of the array, pointer to where the task needs it).
+template <class Real, class Visit>
+void forArrays(RayTask<Real>& task, const Visit& visit)
+{
+  visit(0, task.medium.samples);
+  visit(1, task.medium.solid);
+  visit(2, task.medium.leaves);
+  visit(3, task.medium.finder.roots);
+  visit(4, task.medium.finder.children);
+  visit(5, task.medium.gasDistances);
+  visit(6, task.map.levels);
+  visit(7, task.gradients.values);
+  visit(8, task.gradients.bricks);
+}
+
+/// The beginning of a message with a piece of an array, which follows. Pieces come in their order; so neither side has a
+/// large array twice.
+struct ArrayMessage
+{
+  std::uint32_t kind = RayWorker::Array;
+  std::uint32_t array = 0;
+  std::uint64_t version = 0;
+  std::uint64_t first = 0; ///< byte of the array
+  std::uint64_t bytes = 0; ///< of the array
+};
+constexpr std::size_t bytesOfArrayPiece = std::size_t{ 16 } << 20;
+
+/// Calls send(message) for the pieces of an array, at least one. `head`: its number and version.
+template <class Send>
+void sendPieces(ArrayMessage head, const void* array, std::size_t bytes, const Send& send)
+{
+  head.bytes = bytes;
+  do
+  {
+    const std::size_t count =
+      std::min(bytes - static_cast<std::size_t>(head.first), bytesOfArrayPiece);
+    std::vector<char> message(sizeof(head) + count);
+    std::memcpy(message.data(), &head, sizeof(head));
+    if (count > 0)
+    {
+      std::memcpy(
+        message.data() + sizeof(head), static_cast<const char*>(array) + head.first, count);
+    }
+    send(std::move(message));
+    head.first += count;
+  } while (head.first < bytes);
+}
+
+/// What the first bytes of a request to trace say.
+struct TraceHead
+{
+  std::uint32_t kind = RayWorker::Trace;
+  std::uint32_t bytesOfReal = 0;
+};
+
+/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it traces bands in place of tiles.
+template <class Real>
+struct TraceMessage
+{
+  TraceHead head{ RayWorker::Trace, sizeof(Real) };
+  std::int64_t first = 0, end = 0; ///< tiles of all processes
+  Device device = Device::Cpu;
+  Simd simd = Simd::None; ///< of the CPU
+  Pass pass{};
+  RayTask<Real> task{}; ///< its pointers mean nothing
+  /// Of the arrays: their versions, and from their beginnings to where the task's pointers point, in values.
+  std::array<std::uint64_t, arraysOfTask> versions{};
+  std::array<std::int64_t, arraysOfTask> offsets{};
+};
+constexpr std::int64_t nowhere =
+  std::numeric_limits<std::int64_t>::min(); // the offset of a null pointer
+
+/// The beginning of an answer with rays: of those of each tile, or of all bands, row by row, then of all that they have
+/// gathered.
+struct RaysHead
+{
+  std::uint64_t fields = 0;
+  std::int64_t crossed = 0;
+  double worstDrift = 0;
+};
+
+static_assert(std::is_trivially_copyable_v<TraceMessage<float>>);
+static_assert(std::is_trivially_copyable_v<TraceMessage<double>>);
+static_assert(std::is_trivially_copyable_v<RayExit>);
+
+template <class Head>
+std::vector<char> messageOf(const Head& head, std::size_t bytesBehind = 0)
+{
+  std::vector<char> message(sizeof(Head) + bytesBehind);
+  std::memcpy(message.data(), &head, sizeof(Head));
+  return message;
+}
+
+/// False where the message is too short for it.
+template <class Head>
+bool read(const std::vector<char>& message, Head& head)
+{
+  if (message.size() < sizeof(Head))
+  {
+    return false;
+  }
+  std::memcpy(&head, message.data(), sizeof(Head));
+  return true;
+}
+
+/// A tile as a pass of its own, with the same rays.
+inline Pass passOfTile(const Pass& pass, std::int64_t tile)
+{
+  const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
+  const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
+  Pass ofTile = pass;
+  ofTile.firstColumn += left;
+  ofTile.firstRow += low;
+  ofTile.columns = std::min(tileEdge, pass.columns - left);
+  ofTile.rows = std::min(tileEdge, pass.rows - low);
+  return ofTile;
+}
+
+/// Consecutive bands as a pass of their own, with the same rays.
+inline Pass passOfBands(const Pass& pass, const Tiles& bands)
+{
+  Pass ofBands = pass;
+  ofBands.firstRow += bands.first * bandRows;
+  ofBands.rows =
+    std::max<std::int64_t>(0, std::min(pass.rows, bands.end * bandRows) - bands.first * bandRows);
+  return ofBands;
+}
+/// What of so many bands one process traces: a device is busiest with consecutive ones.
+inline Tiles bandsOfProcess(
+  std::int64_t first, std::int64_t end, std::int64_t process, std::int64_t processes)
+{
+  const std::int64_t count = end - first;
+  return { first + count * process / processes, first + count * (process + 1) / processes };
+}
+
+inline std::size_t raysOf(const Pass& pass)
+{
+  return static_cast<std::size_t>(pass.columns * pass.rows);
+}
+
+inline std::size_t raysOf(const Pass& pass, const Tiles& tiles)
+{
+  std::size_t rays = 0;
+  for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step)
+  {
+    rays += raysOf(passOfTile(pass, tile));
+  }
+  return rays;
+}
+
+/// Calls visit(first ray of the pass, how many) for the rows of tiles.
+template <class Visit>
+void forRowsOf(const Pass& pass, const Tiles& tiles, const Visit& visit)
+{
+  for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step)
+  {
+    const Pass ofTile = passOfTile(pass, tile);
+    for (std::int64_t row = 0; row < ofTile.rows; ++row)
+    {
+      visit(static_cast<std::size_t>((ofTile.firstRow - pass.firstRow + row) * pass.columns +
+              ofTile.firstColumn - pass.firstColumn),
+        static_cast<std::size_t>(ofTile.columns));
+    }
+  }
+}
+
+} // namespace schlieren

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Rays/CudaPass.h"
+#include "Rays/RayExit.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace schlieren
+{
+
+/// The rays of a pass, row by row, and what each has gathered of each field's gradient: its integral
+/// over the ray, a number without unit. Nothing where the view has no fields.
+struct TracedPass
+{
+  RayExits exits;
+  std::vector<float> gathered;
+  std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
+  std::int64_t crossed = 0;           ///< rays that met the grid
+  double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
+  std::int64_t tilesDone = 0;         ///< where a pause has interrupted tracing on the CPU; else 0
+
+  /// Before tracing on the CPU begins or resumes.
+  void begin()
+  {
+    crossed = tilesDone == 0 ? 0 : crossed;
+    worstDrift = tilesDone == 0 ? 0 : worstDrift;
+  }
+
+  /// Makes room on the host.
+  void resize(const Pass& pass, int fields)
+  {
+    onDevice.reset();
+    tilesDone = 0;
+    const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+    exits.resize(rays);
+    gathered.assign(rays * static_cast<std::size_t>(fields), 0);
+  }
+  std::size_t bytes() const
+  {
+    const std::size_t rays = exits.size() + (onDevice ? onDevice->size() : 0);
+    return rays * sizeof(RayExit) + gathered.size() * sizeof(float);
+  }
+};
+
+} // namespace schlieren
